@@ -1,0 +1,18 @@
+# The libraries vpm stands on, all packages of Debian 12; tools/setup installs them.
+
+find_package(TBB CONFIG REQUIRED)
+find_package(embree 3.13 CONFIG REQUIRED)
+find_package(OpenEXR 3.1 CONFIG REQUIRED)
+find_package(PNG REQUIRED)
+find_package(fmt 9 CONFIG REQUIRED)
+find_package(nlohmann_json 3.11 CONFIG REQUIRED)
+find_package(glm CONFIG REQUIRED)
+find_package(tomlplusplus CONFIG REQUIRED)
+find_package(tinyobjloader CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+
+# OpenVDB ships a find module only, in a folder that also shadows the good FindTBB: it is on the path for this one call, and after
+# TBB, whose targets it would otherwise make by halves.
+list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
+find_package(OpenVDB 10 MODULE REQUIRED COMPONENTS openvdb)
+list(POP_BACK CMAKE_MODULE_PATH)

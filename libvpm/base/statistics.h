@@ -1,0 +1,108 @@
+// Sums that keep their digits, running moments, and the tails of the distributions that tests need.
+#pragma once
+
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace vpm {
+
+/// A sum of doubles with a second double for the digits that rounding would lose [Neumaier1974]. An infinity
+/// or a NaN among the terms shows in value().
+class Sum {
+ public:
+  void add(double x) {
+    const double t = sum_ + x;
+    rest_ += std::fabs(sum_) >= std::fabs(x) ? (sum_ - t) + x : (x - t) + sum_;
+    sum_ = t;
+  }
+  void merge(const Sum& other) {
+    add(other.sum_);
+    rest_ += other.rest_;
+  }
+  double value() const { return std::isfinite(sum_) ? sum_ + rest_ : sum_; }
+
+ private:
+  double sum_ = 0.0, rest_ = 0.0;
+};
+
+/// Count, mean and variance of samples seen one by one [Welford1962] or in groups [Chan1983].
+class Moments {
+ public:
+  void add(double x) {
+    ++count_;
+    const double step = x - mean_;
+    mean_ += step / static_cast<double>(count_);
+    m2_ += step * (x - mean_);
+  }
+  void merge(const Moments& other) {
+    if (other.count_ == 0) return;
+    const auto n = static_cast<double>(count_), m = static_cast<double>(other.count_);
+    const double step = other.mean_ - mean_;
+    mean_ += step * (m / (n + m));
+    m2_ += other.m2_ + step * step * (n * m / (n + m));
+    count_ += other.count_;
+  }
+
+  uint64_t count() const { return count_; }
+  /// 0 of no samples.
+  double mean() const { return mean_; }
+  /// Unbiased variance of one sample; NaN below two samples, where it is unknown.
+  double variance() const {
+    if (count_ < 2) return std::numeric_limits<double>::quiet_NaN();
+    return m2_ / static_cast<double>(count_ - 1);
+  }
+  /// Variance of mean() over independent samples: the square of its standard error.
+  double variance_of_mean() const { return variance() / static_cast<double>(count_); }
+
+ private:
+  uint64_t count_ = 0;
+  double mean_ = 0.0;
+  double m2_ = 0.0;  // sum of squared deviations from the mean
+};
+
+/// Probability that a standard normal variable lies further from 0 than `z` (either side): the p-value of a z-test.
+inline double normal_tail(double z) { return std::erfc(std::fabs(z) * 0.70710678118654752440); }
+
+/// The z >= 0 with normal_tail(z) = p, for 0 < p <= 1: the threshold of a z-test with false-alarm rate p.
+inline double normal_quantile(double p) {
+  assert(p > 0.0 && p <= 1.0);
+  double lo = 0.0, hi = 39.0;  // normal_tail(39) underflows to 0
+  while (true) {
+    const double middle = 0.5 * (lo + hi);
+    if (middle == lo || middle == hi) return middle;
+    (normal_tail(middle) >= p ? lo : hi) = middle;
+  }
+}
+
+/// Gamma(a, x) / Gamma(a), a > 0, x >= 0: below a + 1 by the power series of its complement [Olver2010, eq. 8.7.1],
+/// else by the even part of its continued fraction [Olver2010, eq. 8.9.2], evaluated forwards by Lentz's method.
+inline double upper_gamma_fraction(double a, double x) {
+  if (x == 0.0) return 1.0;
+  if (std::isinf(x)) return 0.0;
+  const double factor = std::exp(a * std::log(x) - x - std::lgamma(a));
+  if (x < a + 1.0) {
+    double term = 1.0 / a, sum = term;
+    for (double n = a + 1.0; term > 1e-17 * sum; n += 1.0) sum += term *= x / n;
+    return 1.0 - factor * sum;
+  }
+  double b = x + 1.0 - a, c = std::numeric_limits<double>::infinity(), d = 1.0 / b, value = d, change = 0.0;
+  for (double n = 1.0; std::fabs(change - 1.0) > 1e-15; n += 1.0) {
+    const double an = n * (a - n);
+    b += 2.0;
+    c = b + an / c;
+    d = 1.0 / (b + an * d);
+    value *= change = c * d;
+  }
+  return factor * value;
+}
+
+/// Probability that a chi-square variable with `dof` > 0 degrees of freedom exceeds `statistic` >= 0: the p-value of a
+/// chi-square test. NaN of NaN, so test for p > rate, never for p <= rate.
+inline double chi2_tail(double statistic, double dof) {
+  assert(dof > 0.0 && !(statistic < 0.0));
+  return std::isnan(statistic) ? statistic : upper_gamma_fraction(0.5 * dof, 0.5 * statistic);
+}
+
+}  // namespace vpm

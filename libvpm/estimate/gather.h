@@ -1,0 +1,20 @@
+// How photons are gathered: by radius or by count, with which kernel.
+#pragma once
+
+#include <cstdint>
+
+#include "photon/kernel.h"
+#include "photon/photon.h"
+
+namespace vpm {
+
+enum class GatherMode { radius, nearest };
+
+struct GatherSettings {
+  GatherMode mode = GatherMode::radius;
+  float radius = 0.0f;   // m, > 0: of the first pass (radius mode), or the largest allowed (nearest mode); 0: chosen by the scene's size
+  uint32_t count = 50;   // nearest mode: k >= 2
+  KernelKind kernel = KernelKind::epanechnikov;
+};
+
+}  // namespace vpm

@@ -1,0 +1,33 @@
+// The volumetric radiance estimate [Jarosz2008, eq. 7.10, corrected], for any photon map.
+#pragma once
+
+#include "estimate/kernel_sum.h"
+#include "phase/phase.h"
+
+namespace vpm {
+
+/// sum_p p(travel_p . towards) Phi_p K_r(x - x_p), K_r over 3D balls, W/(m^3 sr). `towards` is the direction the scattered light leaves
+/// to (unit; towards the eye). `Photons` are a PhotonMap, or a plain list for the brute-force twin.
+///
+/// With the photons' powers as their VolumeForm says, the source of radiance at x is
+///   density at the photon:  j = albedo sum                   (Phi_p is the flux that collided)
+///   density at the query:   j = albedo density(x) sum        (Phi_p is the flux that collided over the density at x_p)
+template <class... Photons>
+Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const Photons&... photons) {
+  const auto all = [](const Vec3&, const Vec3&) { return true; };
+  return std::visit(
+      [&](const auto& p) {
+        const auto value = [&](const Vec3& travel, const Rgb& power) { return power * p.value(glm::dot(travel, towards)); };
+        return kernel_sum<3>(photons..., point, all, value);
+      },
+      phase);
+}
+
+/// The fluence over density, sum_p Phi_p K_r / sigma_t for photons stored for the density at the query: W/m^2 in a medium of density 1.
+template <class... Photons>
+Rgb fluence(const Rgb& sigma_t, const Vec3& point, const Photons&... photons) {
+  const auto all = [](const Vec3&, const Vec3&) { return true; };
+  return kernel_sum<3>(photons..., point, all, [](const Vec3&, const Rgb& power) { return power; }) / sigma_t;
+}
+
+}  // namespace vpm

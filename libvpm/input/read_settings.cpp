@@ -1,0 +1,131 @@
+// The sections about how to render: [camera], [film], [render], [photons], [distance], [transmittance], [volume], [surface].
+#include "input/sections.h"
+
+namespace vpm {
+namespace {
+
+constexpr uint64_t kMaxInteger = std::numeric_limits<int64_t>::max();  // of TOML
+
+int small_integer(TableReader& table, const std::string& key, uint64_t hi, int fallback) {
+  return static_cast<int>(table.integer(key, 1, hi, static_cast<uint64_t>(fallback)));
+}
+
+Filter read_filter(TableReader& film) {
+  Filter filter;
+  filter.kind = film.choice<FilterKind>(
+      "filter", {{"box", FilterKind::box}, {"tent", FilterKind::tent}, {"gaussian", FilterKind::gaussian}}, FilterKind::box);
+  const float usual = filter.kind == FilterKind::box ? 0.5f : filter.kind == FilterKind::tent ? 1.0f : 1.5f;
+  filter.radius = film.number("filter_radius", {0.0, 32.0, true, false}, usual);
+  return filter;
+}
+
+void read_gather(TableReader& table, GatherSettings& gather) {
+  gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}}, gather.mode);
+  gather.radius = table.number("radius", kNotNegative, gather.radius);
+  gather.count = static_cast<uint32_t>(table.integer("count", 2, 1'000'000, gather.count));
+  gather.kernel = table.choice<KernelKind>("kernel",
+                                           {{"constant", KernelKind::constant},
+                                            {"epanechnikov", KernelKind::epanechnikov},
+                                            {"biweight", KernelKind::biweight}},
+                                           gather.kernel);
+}
+
+DirectLight read_direct(TableReader& table, DirectLight fallback) {
+  return table.choice<DirectLight>("direct", {{"photons", DirectLight::photons}, {"shadow-rays", DirectLight::shadow_rays}}, fallback);
+}
+
+/// A name out of a list of strategies or estimators.
+template <class Info>
+std::string read_listed(TableReader& table, const std::string& key, std::span<const Info> infos, const std::string& fallback) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const Info& info : infos) names.emplace_back(info.name, info.name);
+  return table.choice<std::string>(key, names, fallback);
+}
+
+void read_render(TableReader& table, RenderSettings& s) {
+  s.integrator = table.choice<std::string>("integrator", {{"photon", "photon"}}, s.integrator);
+  s.passes = small_integer(table, "passes", 1'000'000'000, s.passes);
+  s.seconds = table.number("seconds", kNotNegative, static_cast<float>(s.seconds));
+  s.seed = table.integer("seed", 0, kMaxInteger, s.seed);
+  s.samples_per_pixel = small_integer(table, "samples_per_pixel", 1'000'000, s.samples_per_pixel);
+  s.max_events = small_integer(table, "max_events", 1'000'000'000, s.max_events);
+  s.shrink_radii = table.flag("shrink_radii", s.shrink_radii);
+  s.max_optical_step = table.number("max_optical_step", kPositive, s.max_optical_step);
+}
+
+void read_photons(TableReader& table, RenderSettings& s) {
+  s.photons_stored = table.integer("stored", 0, kMaxInteger, s.photons_stored);
+  s.photons_emitted = table.integer("emitted", 0, kMaxInteger, s.photons_stored > 0 ? 0 : s.photons_emitted);
+  if (s.photons_emitted == 0 && s.photons_stored == 0)
+    table.fail("emitted", "no photon would be emitted: 'emitted' and 'stored' are both 0", "make one of them positive");
+}
+
+void read_distance(TableReader& table, DistanceSettings& distance, bool has_grid) {
+  distance.strategy = read_listed(table, "strategy", distance_strategies(), distance.strategy);
+  distance.step = table.number("step", kPositive, distance.step);
+  distance.extinction_floor = table.number("extinction_floor", kPositive, distance.extinction_floor);
+  Names others;
+  bool refused = false;
+  for (const StrategyInfo& info : distance_strategies()) {
+    if (info.heterogeneous) others.emplace_back(info.name);
+    else refused = refused || (has_grid && info.name == distance.strategy);
+  }
+  if (refused)
+    table.fail("strategy", "the strategy '" + distance.strategy + "' is wrong in a grid medium, and the scene has one",
+               suggest(distance.strategy, others, "right in grids"));
+}
+
+/// Reads a section if the file has it.
+template <class Read>
+void read_section(TableReader& root, const std::string& key, Read read) {
+  std::optional<TableReader> table = root.table(key, "[" + key + "]");
+  if (!table) return;
+  read(*table);
+  table->finish();
+}
+
+}  // namespace
+
+Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
+  const Vec3 position = camera.vector("position");
+  const Vec3 target = camera.vector("target");
+  const Vec3 up = camera.direction("up", Vec3(0.0f, 1.0f, 0.0f));
+  const float fov = camera.number("fov", {0.0, 180.0, true, true}, 40.0f);
+  const Vec3d forward = Vec3d(target) - Vec3d(position);
+  if (glm::length(forward) == 0.0) camera.fail("target", "the camera's target is its position");
+  if (!(glm::length(glm::cross(glm::normalize(forward), Vec3d(up))) > 1e-6))
+    camera.fail(camera.has("up") ? "up" : "target", "the camera looks along its 'up' vector", "give it an 'up' that points elsewhere");
+  int width = 512, height = 512;
+  Filter filter;
+  if (film) {
+    width = small_integer(*film, "width", 32768, width);
+    height = small_integer(*film, "height", 32768, height);
+    filter = read_filter(*film);
+    film->finish();
+  }
+  return make_camera(position, target, up, fov, width, height, filter);
+}
+
+RenderSettings read_settings(TableReader& root, bool has_grid) {
+  RenderSettings s;
+  read_section(root, "render", [&](TableReader& table) { read_render(table, s); });
+  read_section(root, "photons", [&](TableReader& table) { read_photons(table, s); });
+  read_section(root, "distance", [&](TableReader& table) { read_distance(table, s.distance, has_grid); });
+  read_section(root, "transmittance", [&](TableReader& table) {
+    s.transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), s.transmittance.estimator);
+    s.transmittance.step = table.number("step", kPositive, s.transmittance.step);
+  });
+  read_section(root, "volume", [&](TableReader& table) {
+    read_gather(table, s.volume);
+    s.volume_form = table.choice<VolumeForm>(
+        "form", {{"density-at-query", VolumeForm::density_at_query}, {"density-at-photon", VolumeForm::density_at_photon}}, s.volume_form);
+    s.volume_direct = read_direct(table, s.volume_direct);
+  });
+  read_section(root, "surface", [&](TableReader& table) {
+    read_gather(table, s.surface);
+    s.surface_direct = read_direct(table, s.surface_direct);
+  });
+  return s;
+}
+
+}  // namespace vpm

@@ -1,0 +1,152 @@
+// The sections [materials.*] and [[shapes]].
+#include <algorithm>
+
+#include "base/error.h"
+#include "input/mesh_file.h"
+#include "input/sections.h"
+
+namespace vpm {
+namespace {
+
+Material read_material(TableReader& table) {
+  enum class Kind { lambertian, mirror, dielectric, boundary };
+  const Kind kind = table.choice<Kind>("type", {{"lambertian", Kind::lambertian},
+                                                {"mirror", Kind::mirror},
+                                                {"dielectric", Kind::dielectric},
+                                                {"boundary", Kind::boundary}});
+  Material material = Boundary{};
+  if (kind == Kind::lambertian) material = Lambertian{table.rgb("reflectance", kFraction)};
+  if (kind == Kind::mirror) material = Mirror{table.rgb("reflectance", kFraction, Rgb(1.0f))};
+  if (kind == Kind::dielectric) material = Dielectric{table.number("ior", kPositive)};
+  table.finish();
+  return material;
+}
+
+/// The number of the shape's material, which it names or defines in place.
+uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<Material>& materials) {
+  if (table.require("material").table()) {
+    TableReader inline_table(table.require("material"), "'material' of " + table.title());
+    materials.push_back(read_material(inline_table));
+    return static_cast<uint32_t>(materials.size() - 1);
+  }
+  const std::string name = table.string("material");
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) table.fail("material", "there is no material '" + name + "'", suggest(name, names, "there are"));
+  return static_cast<uint32_t>(found - names.begin());
+}
+
+SphereShape read_sphere(TableReader& table) { return {table.vector("center"), table.number("radius", kPositive)}; }
+
+/// Corner, corner + u, corner + u + v, corner + v.
+TriangleMesh read_quad(TableReader& table) {
+  const Vec3d corner(table.vector("corner")), u(table.vector("edge_u")), v(table.vector("edge_v"));
+  if (!(glm::length(glm::cross(u, v)) > 1e-6 * glm::length(u) * glm::length(v)))
+    table.fail("edge_v", "the edges of " + table.title() + " are parallel, or one is zero");
+  TriangleMesh mesh;
+  mesh.positions = {Vec3(corner), Vec3(corner + u), Vec3(corner + u + v), Vec3(corner + v)};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+TriangleMesh read_box(TableReader& table) {
+  const Vec3 lo = table.vector("min"), hi = table.vector("max");
+  if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z))
+    table.fail("max", "'max' of " + table.title() + " must be larger than 'min' in every coordinate");
+  return box_mesh(Vec3d(lo), Vec3d(hi));
+}
+
+TriangleMesh read_mesh(TableReader& table, ShapePlan& plan) {
+  const std::string path = read_path(table, "path");
+  try {
+    LoadedMesh loaded = load_mesh(path);
+    plan.degenerate_triangles = loaded.degenerate_triangles;
+    return std::move(loaded.mesh);
+  } catch (const InputError& error) {
+    table.fail("path", error.what());
+  }
+}
+
+/// The quad's light: its corner and edges, in the order that keeps the normal.
+QuadLight quad_light(const TriangleMesh& mesh, const Rgb& radiance) {
+  const auto& p = mesh.positions;
+  const bool mirrored = mesh.triangles[0].y == 2;
+  const Vec3 u = p[1] - p[0], v = p[3] - p[0];
+  return mirrored ? QuadLight{p[0], v, u, radiance} : QuadLight{p[0], u, v, radiance};
+}
+
+void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::vector<Material>& materials) {
+  if (!table.has("emission")) return;
+  const Rgb radiance = table.rgb("emission", kNotNegative);
+  if (is_black(radiance)) table.fail("emission", "the emission of " + table.title() + " is black", "remove the key");
+  if (is_boundary(materials[plan.shape.material]))
+    table.fail("emission", "a boundary has no surface that could emit", "give " + table.title() + " another material");
+  if (quad) {
+    plan.light = quad_light(std::get<TriangleMesh>(plan.surface), radiance);
+  } else {
+    const auto& sphere = std::get<SphereShape>(plan.surface);
+    plan.light = SphereLight{sphere.centre, sphere.radius, radiance};
+  }
+}
+
+ShapePlan read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
+                     std::vector<Material>& materials) {
+  enum class Kind { sphere, quad, box, mesh };
+  ShapePlan plan;
+  plan.shape.name = table.string("name", "");
+  const Kind kind = table.choice<Kind>("type", {{"sphere", Kind::sphere}, {"quad", Kind::quad}, {"box", Kind::box}, {"mesh", Kind::mesh}});
+  plan.shape.material = read_shape_material(table, material_names, materials);
+  plan.shape.separates_media = table.has("inside") || table.has("outside");
+  plan.shape.media.inside = read_medium_name(table, "inside", media, world);
+  plan.shape.media.outside = read_medium_name(table, "outside", media, world);
+  if (kind == Kind::sphere) {
+    plan.surface = read_sphere(table);
+  } else {
+    TriangleMesh mesh = kind == Kind::quad ? read_quad(table) : kind == Kind::box ? read_box(table) : read_mesh(table, plan);
+    transform_mesh(read_transform(table, "transform"), mesh);
+    for (const Vec3& p : mesh.positions)
+      if (!is_finite(p)) table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
+    plan.surface = std::move(mesh);
+  }
+  if (kind == Kind::sphere || kind == Kind::quad) read_emission(table, plan, kind == Kind::quad, materials);
+  table.finish();
+  return plan;
+}
+
+}  // namespace
+
+void transform_mesh(const Mat4d& transform, TriangleMesh& mesh) {
+  for (Vec3& p : mesh.positions) p = Vec3(transform * glm::dvec4(Vec3d(p), 1.0));
+  if (glm::determinant(Mat3d(transform)) > 0.0) return;
+  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // a mirror turns triangles round: outward stays outward
+}
+
+TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
+  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+  return mesh;
+}
+
+std::vector<Material> read_materials(TableReader& section) {
+  std::vector<Material> materials;
+  for (auto& [name, table] : section.named_tables("materials")) materials.push_back(read_material(table));
+  return materials;
+}
+
+std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names, MediumId world,
+                                   std::vector<Material>& materials) {
+  std::vector<ShapePlan> plans;
+  for (TableReader& table : tables) {
+    ShapePlan plan = read_shape(table, media, material_names, world, materials);
+    const bool named = !plan.shape.name.empty();
+    if (!named) plan.shape.name = "shape " + std::to_string(plans.size());
+    for (const ShapePlan& other : plans)
+      if (other.shape.name == plan.shape.name)
+        table.fail("name", "two shapes are named '" + plan.shape.name + "'", "give each shape a name of its own");
+    plans.push_back(std::move(plan));
+  }
+  return plans;
+}
+
+}  // namespace vpm

@@ -1,0 +1,207 @@
+// From a scene file to a Scene: reads the sections, then the grids, then puts the parts together.
+#include "input/scene_file.h"
+
+#include <cstdio>
+
+#include "base/error.h"
+#include "input/sections.h"
+
+namespace vpm {
+namespace {
+
+/// The file's sections with names resolved, grids not read yet.
+struct ScenePlan {
+  MediumId world = kVacuum;
+  std::vector<MediumPlan> media;
+  std::vector<Material> materials;
+  std::vector<ShapePlan> shapes;
+  std::vector<Light> lights;
+  Camera camera;
+  std::optional<MediumId> camera_medium;
+  Place world_place, lights_place;
+};
+
+/// FNV-1a of the text and the options.
+std::string hash_of(const std::string& text, const std::vector<std::string>& overrides) {
+  uint64_t hash = 0xcbf29ce484222325ull;
+  const auto add = [&hash](const std::string& part) {
+    for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+    hash = (hash ^ 0xffu) * 0x100000001b3ull;  // no byte of UTF-8: keeps parts apart
+  };
+  add(text);
+  for (const std::string& option : overrides) add(option);
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
+
+Names keys_of(const TableReader* section) { return section ? section->keys() : Names{}; }
+
+void read_media_and_world(TableReader& root, ScenePlan& plan, Names& names) {
+  std::optional<TableReader> media = root.table("media", "[media]");
+  names = keys_of(media ? &*media : nullptr);
+  if (std::optional<TableReader> world = root.table("world", "[world]")) {
+    plan.world = read_medium_name(*world, "medium", names, kVacuum);
+    plan.world_place = world->place_of("medium");
+    world->finish();
+  }
+  if (media) plan.media = read_media(*media, names, plan.world);
+}
+
+void read_all_lights(TableReader& root, ScenePlan& plan) {
+  std::vector<TableReader> tables = root.tables("lights", "[[lights]]");
+  plan.lights = read_lights(tables);
+  plan.lights_place = root.place_of("lights");
+  for (const Light& light : plan.lights)
+    if (is_infinite(light) && plan.world != kVacuum)
+      fail_at(plan.world_place, "a medium fills the world, but a light comes from infinity: it would never arrive",
+              "remove [world], or the directional and environment lights");
+  for (ShapePlan& shape : plan.shapes) {
+    if (!shape.light) continue;
+    shape.shape.light = static_cast<int>(plan.lights.size());
+    plan.lights.push_back(*shape.light);
+  }
+  if (plan.lights.empty()) root.fail_here("the scene has no light", "add [[lights]], or a shape with emission");
+}
+
+void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan) {
+  root.require("camera");
+  TableReader camera = *root.table("camera", "[camera]");
+  std::optional<TableReader> film = root.table("film", "[film]");
+  plan.camera = read_camera(camera, film);
+  if (camera.has("medium")) plan.camera_medium = read_medium_name(camera, "medium", media, kVacuum);
+  camera.finish();
+}
+
+ScenePlan read_plan(TableReader& root, RenderSettings& settings) {
+  ScenePlan plan;
+  Names media;
+  read_media_and_world(root, plan, media);
+  std::optional<TableReader> materials = root.table("materials", "[materials]");
+  if (materials) plan.materials = read_materials(*materials);
+  std::vector<TableReader> shapes = root.tables("shapes", "[[shapes]]");
+  plan.shapes = read_shapes(shapes, media, keys_of(materials ? &*materials : nullptr), plan.world, plan.materials);
+  read_all_lights(root, plan);
+  read_camera_section(root, media, plan);
+  bool has_grid = false;
+  for (const MediumPlan& medium : plan.media) has_grid = has_grid || medium.grid;
+  settings = read_settings(root, has_grid);
+  root.finish();
+  return plan;
+}
+
+/// Is the grid medium met within a box of its own, rather than within the scene's shapes?
+bool needs_box(const ScenePlan& plan, MediumId id) {
+  const MediumPlan& medium = plan.media[static_cast<size_t>(id)];
+  const std::string title = "the grid medium '" + medium.medium.name + "'";
+  bool inside = false, outside = false;
+  for (const ShapePlan& shape : plan.shapes) {
+    inside = inside || (shape.shape.separates_media && shape.shape.media.inside == id);
+    outside = outside || (shape.shape.separates_media && shape.shape.media.outside == id);
+  }
+  if (plan.world == id) {
+    if (medium.boundary == GridBoundary::box) fail_at(medium.place, title + " fills the world and cannot have a box");
+    return false;
+  }
+  if (medium.boundary == GridBoundary::shapes && !inside && !outside)
+    fail_at(medium.place, "no shape names " + title + ", which asks for shapes as its boundary", "name it as a shape's 'inside'");
+  if (medium.boundary == GridBoundary::automatic && outside && !inside)
+    fail_at(medium.place, title + " lies outside of shapes only: say where it ends",
+            "give it boundary = \"box\" (its grid's own box, around those shapes) or \"shapes\" (they enclose it)");
+  return medium.boundary == GridBoundary::box || (medium.boundary == GridBoundary::automatic && !inside);
+}
+
+/// The box around a grid's support, as a boundary with the medium inside.
+TriangleMesh support_box(const DensityGrid& grid) {
+  TriangleMesh mesh = box_mesh(grid.support_lo(), grid.support_hi());
+  transform_mesh(grid.frame().index_to_world, mesh);
+  return mesh;
+}
+
+void add_box(ScenePlan& plan, MediumId id) {
+  const MediumPlan& medium = plan.media[static_cast<size_t>(id)];
+  plan.materials.push_back(Boundary{});
+  ShapePlan shape;
+  shape.shape.name = "box of " + medium.medium.name;
+  shape.shape.material = static_cast<uint32_t>(plan.materials.size() - 1);
+  shape.shape.separates_media = true;
+  shape.shape.media = {id, medium.outside};
+  shape.surface = support_box(*medium.medium.grid);
+  plan.shapes.push_back(std::move(shape));
+}
+
+void load_medium_grid(ScenePlan& plan, MediumId id, LoadedScene& loaded) {
+  MediumPlan& medium = plan.media[static_cast<size_t>(id)];
+  try {
+    LoadedGrid grid = load_grid(*medium.grid);
+    medium.medium.grid = std::move(grid.grid);
+    loaded.clamped_density_values += grid.clamped_values;
+    if (grid.clamped_values > 0)
+      loaded.notes.push_back("medium '" + medium.medium.name + "': " + std::to_string(grid.clamped_values) +
+                             " negative densities set to 0, as clamp_negative asks");
+  } catch (const InputError& error) {
+    fail_at(medium.path_place, error.what());
+  }
+  const DensityGrid& grid = *medium.medium.grid;
+  if (plan.world == id && grid.frame().background == 0.0f)
+    fail_at(plan.world_place, "the grid of '" + medium.medium.name + "' has background 0: it cannot fill the world", "remove [world]");
+}
+
+/// Reads the grids, and adds the boxes of those that no shape bounds.
+void load_grids(ScenePlan& plan, LoadedScene& loaded) {
+  std::vector<MediumId> boxed;
+  for (size_t i = 0; i < plan.media.size(); ++i) {
+    if (!plan.media[i].grid) continue;
+    const auto id = static_cast<MediumId>(i);
+    const bool box = needs_box(plan, id);
+    plan.media[i].grid->has_bounding_shape = !box;
+    if (box) boxed.push_back(id);
+    load_medium_grid(plan, id, loaded);
+  }
+  for (const MediumId id : boxed) add_box(plan, id);
+}
+
+void add_shapes(ScenePlan& plan, LoadedScene& loaded) {
+  Scene& scene = loaded.scene;
+  for (ShapePlan& shape : plan.shapes) {
+    if (shape.degenerate_triangles > 0)
+      loaded.notes.push_back("shape '" + shape.shape.name + "': " + std::to_string(shape.degenerate_triangles) +
+                             " triangles without area dropped");
+    std::visit([&](auto& surface) { scene.geometry.add(std::move(surface)); }, shape.surface);
+    scene.shapes.push_back(std::move(shape.shape));
+  }
+  scene.geometry.commit();
+  bool infinite = false;
+  for (const Light& light : plan.lights) infinite = infinite || is_infinite(light);
+  if (infinite && scene.geometry.bounds().empty())
+    fail_at(plan.lights_place, "a light at infinity has nothing to shine on: the scene has no shapes");
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  Document document = read_toml(path);
+  for (const std::string& option : overrides) apply_override(document, option);
+  LoadedScene loaded;
+  loaded.hash = hash_of(document.text, overrides);
+  TableReader root(document.root, "the scene file");
+  ScenePlan plan = read_plan(root, loaded.settings);
+  load_grids(plan, loaded);
+
+  Scene& scene = loaded.scene;
+  add_shapes(plan, loaded);
+  for (MediumPlan& medium : plan.media) scene.media.push_back(std::move(medium.medium));
+  scene.materials = std::move(plan.materials);
+  scene.lights = std::move(plan.lights);
+  scene.world_medium = plan.world;
+  scene.camera = plan.camera;
+  scene.camera_medium = plan.camera_medium ? *plan.camera_medium : medium_at(scene, scene.camera.position);
+  try {
+    finish(scene);
+  } catch (const InputError& error) {
+    fail_at(plan.lights_place, error.what());
+  }
+  return loaded;
+}
+
+}  // namespace vpm

@@ -1,0 +1,69 @@
+// The readers of a scene file's sections, one file each. They check everything that can be checked without reading a grid.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "input/grid_file.h"
+#include "input/table_reader.h"
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace vpm {
+
+/// Names that other sections refer to, with the number of each: its place in the list.
+using Names = std::vector<std::string>;
+
+/// The number of the medium named by `key`, kVacuum for "vacuum"; `fallback` where the key is missing.
+MediumId read_medium_name(TableReader& table, const std::string& key, const Names& media, MediumId fallback);
+/// The path under `key`, relative to the scene file's folder, or to the current one where a --set option gave it.
+std::string read_path(TableReader& table, const std::string& key);
+
+/// Who draws the surface within which a grid medium is met.
+enum class GridBoundary { automatic, box, shapes };
+
+/// A medium as the file describes it, its grid not read yet.
+struct MediumPlan {
+  Medium medium;
+  std::optional<GridRequest> grid;
+  GridBoundary boundary = GridBoundary::automatic;
+  MediumId outside = kVacuum;  // of the automatic box
+  Place place, path_place;     // of the table and of the grid's path, for errors
+};
+/// Reads [media.*]. `world` is what [world] names.
+std::vector<MediumPlan> read_media(TableReader& section, const Names& names, MediumId world);
+
+/// Reads [materials.*], in the file's order.
+std::vector<Material> read_materials(TableReader& section);
+
+/// A shape as the file describes it.
+struct ShapePlan {
+  Shape shape;
+  std::variant<TriangleMesh, SphereShape> surface;
+  std::optional<Light> light;
+  uint64_t degenerate_triangles = 0;  // dropped from a mesh
+};
+/// Reads [[shapes]]; appends materials that shapes define in place to `materials`.
+std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names, MediumId world,
+                                   std::vector<Material>& materials);
+
+/// The box [lo, hi] as triangles with normals outward.
+TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi);
+/// Moves a mesh by an affine map. Its normals stay outward under mirrors too.
+void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);
+
+/// The affine map of a list of steps, applied in the list's order; the identity where `key` is missing. Refuses singular ones.
+Mat4d read_transform(TableReader& table, const std::string& key);
+
+/// Reads [[lights]].
+std::vector<Light> read_lights(std::vector<TableReader>& tables);
+
+/// Reads [camera] and [film].
+Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
+
+/// Reads [render], [photons], [distance], [transmittance], [volume] and [surface]. `has_grid`: does the scene hold a grid medium?
+RenderSettings read_settings(TableReader& root, bool has_grid);
+
+}  // namespace vpm

@@ -1,0 +1,114 @@
+// Light from all directions at infinity: constant, or an equirectangular picture.
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+#include "base/error.h"
+#include "base/warp.h"
+#include "light/kinds.h"
+
+namespace vpm {
+
+namespace {
+
+double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }  // Rec. 709 primaries
+
+/// The solid angle of one texel of a row, sr: the azimuth's share times the difference of the cosines of its edges,
+/// which is 2 sin(middle) sin(half) and so does not cancel.
+double texel_solid_angle(int row, int width, int height) {
+  const double step = kPiD / height;
+  return 2.0 * kPiD / width * 2.0 * std::sin((row + 0.5) * step) * std::sin(0.5 * step);
+}
+
+void check_texels(int width, int height, const std::vector<Rgb>& texels) {
+  if (width < 1 || height < 1 || texels.size() != static_cast<size_t>(width) * static_cast<size_t>(height)) {
+    throw InputError("environment: " + std::to_string(texels.size()) + " texels for a picture of " +
+                     std::to_string(width) + " x " + std::to_string(height));
+  }
+  for (size_t i = 0; i < texels.size(); ++i) {
+    const Rgb& c = texels[i];
+    if (is_finite(c) && c.r >= 0.0f && c.g >= 0.0f && c.b >= 0.0f) continue;
+    const size_t w = static_cast<size_t>(width);
+    throw InputError("environment: the pixel in column " + std::to_string(i % w) + ", row " + std::to_string(i / w) +
+                     " is negative or not finite, radiance must be finite and at least 0");
+  }
+}
+
+}  // namespace
+
+ImageEnvironment::ImageEnvironment(int width, int height, std::vector<Rgb> texels)
+    : width_(width), height_(height), texels_(std::move(texels)) {
+  check_texels(width, height, texels_);
+  cumulative_.reserve(texels_.size() + 1);
+  cumulative_.push_back(0.0);
+  for (size_t i = 0; i < texels_.size(); ++i) {
+    const double solid_angle = texel_solid_angle(static_cast<int>(i / static_cast<size_t>(width)), width, height);
+    cumulative_.push_back(cumulative_.back() + luminance(texels_[i]) * solid_angle);
+    integral_ += Rgbd(texels_[i]) * solid_angle;
+  }
+  grey_ = std::all_of(texels_.begin(), texels_.end(), [](const Rgb& c) { return is_grey(c); });
+  if (!(cumulative_.back() > 0.0))
+    throw InputError("environment: the picture is all black, some pixel must emit light");
+}
+
+size_t ImageEnvironment::texel_at(const Vec3& d) const {
+  const double azimuth = std::atan2(d.x, d.z);
+  const double turn = (azimuth < 0.0 ? azimuth + 2.0 * kPiD : azimuth) / (2.0 * kPiD);
+  const double fall = std::atan2(std::hypot(d.x, d.z), d.y) / kPiD;  // 0 up, 1 down; exact at the poles, unlike acos
+  const int column = std::min(static_cast<int>(turn * width_), width_ - 1);
+  const int row = std::min(static_cast<int>(fall * height_), height_ - 1);
+  return static_cast<size_t>(row) * static_cast<size_t>(width_) + static_cast<size_t>(column);
+}
+
+Rgb ImageEnvironment::radiance(const Vec3& d) const { return texels_[texel_at(d)]; }
+
+float ImageEnvironment::pdf(const Vec3& d) const {
+  return static_cast<float>(luminance(texels_[texel_at(d)]) / cumulative_.back());
+}
+
+ImageEnvironment::Sample ImageEnvironment::sample(Rng& rng) const {
+  const double target = rng.uniform_double() * cumulative_.back();
+  const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end(), target);
+  assert(above != cumulative_.end());
+  const auto texel = static_cast<size_t>(above - cumulative_.begin() - 1);
+  const double column = static_cast<double>(texel % static_cast<size_t>(width_));
+  const double row = static_cast<double>(texel / static_cast<size_t>(width_));
+  // Uniform in solid angle: uniform in azimuth and in the cosine between the row's edges.
+  const double step = kPiD / height_;
+  const double azimuth = 2.0 * kPiD * (column + rng.uniform_double()) / width_;
+  const double top = std::cos(row * step), bottom = std::cos((row + 1.0) * step);
+  const double y = top + (bottom - top) * rng.uniform_double();
+  const double across = std::sqrt(std::max(0.0, (1.0 - y) * (1.0 + y)));
+  const Vec3 direction(Vec3d(across * std::sin(azimuth), y, across * std::cos(azimuth)));
+  return {direction, static_cast<float>(luminance(texels_[texel]) / cumulative_.back()), texels_[texel]};
+}
+
+Rgb power_of(const ConstantEnvironment& light, const SceneSphere& scene) {
+  return 4.0f * kPi * kPi * scene.radius * scene.radius * light.radiance;
+}
+
+Emission emit_from(const ConstantEnvironment& light, const SceneSphere& scene, Rng& rng) {
+  const Vec3 direction = uniform_sphere(rng.uniform2());
+  return {ray_from_infinity(direction, scene, rng.uniform2()), power_of(light, scene)};
+}
+
+std::optional<Incident> incident_from(const ConstantEnvironment& light, const Vec3&, Rng& rng) {
+  return Incident{uniform_sphere(rng.uniform2()), kInfinity, 4.0f * kPi * light.radiance, 1.0f / (4.0f * kPi)};
+}
+
+Rgb power_of(const EnvironmentMap& light, const SceneSphere& scene) {
+  return kPi * scene.radius * scene.radius * Rgb(light.image->integral());
+}
+
+Emission emit_from(const EnvironmentMap& light, const SceneSphere& scene, Rng& rng) {
+  const ImageEnvironment::Sample s = light.image->sample(rng);
+  const float area = kPi * scene.radius * scene.radius;
+  return {ray_from_infinity(-s.direction, scene, rng.uniform2()), area / s.pdf * s.radiance};
+}
+
+std::optional<Incident> incident_from(const EnvironmentMap& light, const Vec3&, Rng& rng) {
+  const ImageEnvironment::Sample s = light.image->sample(rng);
+  return Incident{s.direction, kInfinity, s.radiance / s.pdf, s.pdf};
+}
+
+}  // namespace vpm

@@ -1,0 +1,44 @@
+// Parallel light: a beam from a disc, and light from infinity.
+#include "base/warp.h"
+#include "light/kinds.h"
+
+namespace vpm {
+
+Vec3 point_on_disc(const Vec3& centre, const Vec3& axis, float radius, const Vec2& u) {
+  const Vec2 d = radius * uniform_disc(u);
+  Vec3 s, t;
+  make_frame(axis, s, t);
+  return centre + d.x * s + d.y * t;
+}
+
+Ray ray_from_infinity(const Vec3& direction, const SceneSphere& scene, const Vec2& u) {
+  return {point_on_disc(scene.centre - scene.radius * direction, direction, scene.radius, u), direction};
+}
+
+Rgb power_of(const BeamLight& light, const SceneSphere&) { return light.power; }
+
+Emission emit_from(const BeamLight& light, const SceneSphere&, Rng& rng) {
+  return {Ray{point_on_disc(light.position, light.direction, light.radius, rng.uniform2()), light.direction},
+          light.power};
+}
+
+std::optional<Incident> incident_from(const BeamLight& light, const Vec3& point, Rng&) {
+  const Vec3 from_disc = point - light.position;
+  const float ahead = glm::dot(from_disc, light.direction);
+  if (!(ahead > 0.0f) || glm::length(from_disc - ahead * light.direction) > light.radius) return std::nullopt;
+  return Incident{-light.direction, ahead, light.power / (kPi * light.radius * light.radius), 0.0f};
+}
+
+Rgb power_of(const DirectionalLight& light, const SceneSphere& scene) {
+  return kPi * scene.radius * scene.radius * light.irradiance;
+}
+
+Emission emit_from(const DirectionalLight& light, const SceneSphere& scene, Rng& rng) {
+  return {ray_from_infinity(light.direction, scene, rng.uniform2()), power_of(light, scene)};
+}
+
+std::optional<Incident> incident_from(const DirectionalLight& light, const Vec3&, Rng&) {
+  return Incident{-light.direction, kInfinity, light.irradiance, 0.0f};
+}
+
+}  // namespace vpm

@@ -1,0 +1,150 @@
+// Building density grids and looking them up at points.
+#include "medium/density_grid.h"
+
+#include <algorithm>
+#include <cassert>
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace vpm {
+namespace {
+
+int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+/// The most bricks a table may hold: 1 GiB of them.
+constexpr double kMaxBricks = double(1u << 30) / 12.0;
+
+/// The sum over the voxels that belong to the brick alone (not to its upper neighbours).
+double owned_sum(const float* values) {
+  double sum = 0.0;
+  for (int z = 0; z < DensityGrid::kCells; ++z)
+    for (int y = 0; y < DensityGrid::kCells; ++y)
+      for (int x = 0; x < DensityGrid::kCells; ++x) sum += values[(z * DensityGrid::kValues + y) * DensityGrid::kValues + x];
+  return sum;
+}
+
+}  // namespace
+
+DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
+    : frame_(frame), world_to_index_(glm::inverse(frame.index_to_world)) {
+  assert(glm::all(glm::lessThanEqual(frame.lo, frame.hi)) && frame.background >= 0.0f);
+  for (int a = 0; a < 3; ++a) {
+    brick_lo_[a] = floor_div(frame.lo[a] - 1, kCells);
+    brick_count_[a] = floor_div(frame.hi[a], kCells) - brick_lo_[a] + 1;
+  }
+  const double count = double(brick_count_.x) * brick_count_.y * brick_count_.z;
+  if (count > kMaxBricks)
+    throw InputError(fmt::format("a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 1 GiB",
+                                 brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
+  bricks_.resize(static_cast<size_t>(count));
+  double sum = 0.0;
+  float values[kBrickValues];
+  size_t i = 0;
+  for (int z = 0; z < brick_count_.z; ++z)
+    for (int y = 0; y < brick_count_.y; ++y)
+      for (int x = 0; x < brick_count_.x; ++x, ++i) {
+        fill((brick_lo_ + Vec3i(x, y, z)) * kCells, values);
+        const auto [min, max] = std::minmax_element(values, values + kBrickValues);
+        assert(*min >= 0.0f && std::isfinite(*max));
+        bricks_[i] = {*min, *max, static_cast<uint32_t>(values_.size() / kBrickValues)};
+        if (!bricks_[i].uniform()) values_.insert(values_.end(), values, values + kBrickValues);
+        max_density_ = std::max(max_density_, *max);
+        sum += owned_sum(values);
+      }
+  values_.shrink_to_fit();
+  const Vec3d support = support_hi() - support_lo();
+  const Vec3d bricks_extent = Vec3d(brick_count_ * kCells);
+  const double surplus = bricks_extent.x * bricks_extent.y * bricks_extent.z - support.x * support.y * support.z;
+  mean_density_ = std::max(0.0, sum - surplus * frame.background) / (support.x * support.y * support.z);
+  const Mat3d axes(frame.index_to_world);
+  voxel_size_ = static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
+}
+
+float DensityGrid::density(const Vec3& world) const {
+  const Vec3d p = Vec3d(world_to_index_ * glm::dvec4(Vec3d(world), 1.0)) + lattice_shift();
+  const Vec3d floored = glm::floor(p);
+  if (glm::any(glm::lessThan(floored, Vec3d(brick_lo_ * kCells))) ||
+      glm::any(glm::greaterThanEqual(floored, Vec3d((brick_lo_ + brick_count_) * kCells))))
+    return frame_.background;
+  const Vec3i cell = Vec3i(floored) - brick_lo_ * kCells;
+  const Brick& b = brick(cell / kCells);
+  if (b.uniform()) return b.min;
+  const Vec3i c = cell % kCells;
+  const float* v = values_.data() + static_cast<size_t>(b.first) * kBrickValues + (c.z * kValues + c.y) * kValues + c.x;
+  if (frame_.interpolation == Interpolation::nearest) return *v;
+  const Vec3 f(p - floored);
+  const auto along_x = [&](const float* row) { return row[0] + f.x * (row[1] - row[0]); };
+  const auto along_y = [&](const float* slice) {
+    const float a = along_x(slice);
+    return a + f.y * (along_x(slice + kValues) - a);
+  };
+  const float a = along_y(v);
+  return std::max(0.0f, a + f.z * (along_y(v + kValues * kValues) - a));
+}
+
+Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {
+  if (frame_.background > 0.0f) return interval;
+  const Vec3d origin(world_to_index_ * glm::dvec4(Vec3d(ray.origin), 1.0));
+  const Vec3d direction(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0));
+  double t0 = interval.t0, t1 = interval.t1;
+  clip_to_box(origin, direction, support_lo(), support_hi(), t0, t1);
+  return t1 > t0 ? Interval{static_cast<float>(t0), static_cast<float>(t1)} : Interval{interval.t0, interval.t0};
+}
+
+void DensityGrid::cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step, DensityPiece& piece) const {
+  const float* v = values + (cell.z * kValues + cell.y) * kValues + cell.x;
+  if (frame_.interpolation == Interpolation::nearest) {
+    piece.c0 = *v;
+    return;
+  }
+  // The trilinear polynomial in (x, y, z), each linear in the distance s: x = local.x + s step.x, ... Multiplied out one axis at a time.
+  constexpr int kY = kValues;
+  constexpr int kZ = kValues * kValues;
+  const double x = local.x, y = local.y, z = local.z;
+  const double dx = step.x, dy = step.y, dz = step.z;
+  double a[4], b[4];  // along x, at the four (y, z) edges: a + b s
+  for (int i = 0; i < 4; ++i) {
+    const float* edge = v + (i & 1) * kY + (i >> 1) * kZ;
+    const double rise = double(edge[1]) - edge[0];
+    a[i] = edge[0] + x * rise;
+    b[i] = dx * rise;
+  }
+  double p[2][3];  // along y, at the two z faces: quadratics
+  for (int i = 0; i < 2; ++i) {
+    const double rise_a = a[2 * i + 1] - a[2 * i];
+    const double rise_b = b[2 * i + 1] - b[2 * i];
+    p[i][0] = a[2 * i] + y * rise_a;
+    p[i][1] = b[2 * i] + y * rise_b + dy * rise_a;
+    p[i][2] = dy * rise_b;
+  }
+  const double r0 = p[1][0] - p[0][0], r1 = p[1][1] - p[0][1], r2 = p[1][2] - p[0][2];
+  piece.c0 = std::max(0.0, p[0][0] + z * r0);  // rounding can leave a hair below zero at an empty corner
+  piece.c1 = p[0][1] + z * r1 + dz * r0;
+  piece.c2 = p[0][2] + z * r2 + dz * r1;
+  piece.c3 = dz * r2;
+}
+
+Vec3d DensityGrid::support_lo() const {
+  return Vec3d(frame_.lo) - (frame_.interpolation == Interpolation::nearest ? 0.5 : 1.0);
+}
+
+Vec3d DensityGrid::support_hi() const {
+  return Vec3d(frame_.hi) + (frame_.interpolation == Interpolation::nearest ? 0.5 : 1.0);
+}
+
+Box DensityGrid::bounds() const {
+  Box box;
+  const Vec3d lo = support_lo(), hi = support_hi();
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 p(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z, 1.0);
+    box.add(Vec3(frame_.index_to_world * p));
+  }
+  return box;
+}
+
+size_t DensityGrid::memory_bytes() const {
+  return sizeof(*this) + bricks_.capacity() * sizeof(Brick) + values_.capacity() * sizeof(float);
+}
+
+}  // namespace vpm

@@ -1,0 +1,93 @@
+// A density field on a regular lattice: sparse bricks of 8^3 cells with their extrema, looked up and walked along rays.
+//
+// A voxel's value sits AT its integer index coordinates (as in OpenVDB). Trilinear interpolation: the cell with lower corner
+// (i, j, k) spans [i, i+1]^3. Nearest: the value of voxel (i, j, k) fills [i-1/2, i+1/2]^3. Stored values are dimensionless
+// densities; a medium multiplies them by its coefficients per unit density.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "medium/density_piece.h"
+
+namespace vpm {
+
+enum class Interpolation { trilinear, nearest };
+
+/// Where a grid lies and what surrounds it.
+struct GridFrame {
+  Mat4d index_to_world{1.0};  // affine, invertible
+  Vec3i lo{0}, hi{0};         // index box of the voxels with a value of their own, both ends included
+  Interpolation interpolation = Interpolation::trilinear;
+  float background = 0.0f;    // density outside the index box, >= 0
+};
+
+class DensityGrid {
+ public:
+  static constexpr int kCells = 8;             // cells along a brick's edge
+  static constexpr int kValues = kCells + 1;   // voxels along it: one more on the upper side, so a cell never leaves its brick
+  static constexpr int kBrickValues = kValues * kValues * kValues;
+
+  /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]; called from
+  /// one thread. All must be finite and >= 0.
+  using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
+
+  /// Builds the bricks that cover the frame's index box and its interpolation's reach. Bricks of one value store that value
+  /// only. Throws InputError where the table of bricks alone would take over 1 GiB.
+  DensityGrid(const GridFrame& frame, const FillBrick& fill);
+
+  /// Density at a point of the world.
+  float density(const Vec3& world) const;
+  /// Calls visit(const DensityPiece&) for the pieces of the ray with density > 0, in order, until it returns false.
+  /// Pieces of zero density are left out. Returns the number of cells and uniform bricks read ("look-ups").
+  template <class Visit>
+  uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const;
+
+  /// The part of the interval in which the density may differ from zero: all of it where the background does.
+  Interval clip(const Ray& ray, const Interval& interval) const;
+
+  const GridFrame& frame() const { return frame_; }
+  /// The box of index coordinates outside which the density is the background.
+  Vec3d support_lo() const;
+  Vec3d support_hi() const;
+  /// The world-space box around the support.
+  Box bounds() const;
+  /// Largest density, bounding the interpolated field; and the mean over the support (empty voxels included).
+  float max_density() const { return max_density_; }
+  double mean_density() const { return mean_density_; }
+  /// Shortest distance between neighbouring voxels, m.
+  float voxel_size() const { return voxel_size_; }
+  size_t memory_bytes() const;
+
+ private:
+  struct Brick {
+    float min = 0.0f, max = 0.0f;  // over the brick's 9^3 values; equal: nothing else is stored
+    uint32_t first = 0;            // of its values, in units of kBrickValues
+    bool uniform() const { return min == max; }
+  };
+
+  double lattice_shift() const { return frame_.interpolation == Interpolation::nearest ? 0.5 : 0.0; }
+  const Brick& brick(const Vec3i& b) const {
+    return bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
+  }
+  void cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step, DensityPiece& piece) const;
+  template <class Visit>
+  bool visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& direction, double t0, double t1, uint32_t& read,
+                   Visit& visit) const;
+
+  GridFrame frame_;
+  Mat4d world_to_index_{1.0};
+  Vec3i brick_lo_{0}, brick_count_{0};  // in bricks
+  std::vector<Brick> bricks_;
+  std::vector<float> values_;
+  float max_density_ = 0.0f;
+  double mean_density_ = 0.0;
+  float voxel_size_ = 0.0f;
+};
+
+}  // namespace vpm
+
+#include "medium/density_grid_walk.h"

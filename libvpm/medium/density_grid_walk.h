@@ -1,0 +1,118 @@
+// Walking a ray through a density grid: bricks first, then the cells of those that are not uniform. Included by
+// density_grid.h only.
+#pragma once
+
+namespace vpm {
+
+/// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at t0. Every plane
+/// is met at its own quotient, so that no error builds up along the way.
+class LatticeWalk {
+ public:
+  LatticeWalk(const Vec3d& origin, const Vec3d& direction, double spacing, double t0, const Vec3i& lo, const Vec3i& hi)
+      : origin_(origin), spacing_(spacing) {
+    for (int a = 0; a < 3; ++a) {
+      cell_[a] = std::clamp(static_cast<int>(std::floor((origin[a] + t0 * direction[a]) / spacing)), lo[a], hi[a]);
+      inverse_[a] = 1.0 / direction[a];
+      step_[a] = direction[a] > 0.0 ? 1 : -1;
+      meet_next_plane(a);
+    }
+  }
+  const Vec3i& cell() const { return cell_; }
+  /// Where the ray leaves the present cell.
+  double exit() const { return std::min(exit_.x, std::min(exit_.y, exit_.z)); }
+  void advance() {
+    const int a = exit_.x <= exit_.y ? (exit_.x <= exit_.z ? 0 : 2) : (exit_.y <= exit_.z ? 1 : 2);
+    cell_[a] += step_[a];
+    meet_next_plane(a);
+  }
+
+ private:
+  void meet_next_plane(int a) {
+    const double plane = static_cast<double>(cell_[a] + (step_[a] > 0 ? 1 : 0)) * spacing_;
+    exit_[a] = std::isinf(inverse_[a]) ? std::numeric_limits<double>::infinity() : (plane - origin_[a]) * inverse_[a];
+  }
+
+  Vec3d origin_, inverse_, exit_;
+  double spacing_;
+  Vec3i cell_, step_;
+};
+
+/// The part of [t0, t1] in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 where there is none.
+inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d& lo, const Vec3d& hi, double& t0, double& t1) {
+  for (int a = 0; a < 3; ++a) {
+    if (direction[a] == 0.0) {
+      if (origin[a] < lo[a] || origin[a] > hi[a]) t1 = t0;
+      continue;
+    }
+    const double near = (lo[a] - origin[a]) / direction[a];
+    const double far = (hi[a] - origin[a]) / direction[a];
+    t0 = std::max(t0, std::min(near, far));
+    t1 = std::min(t1, std::max(near, far));
+  }
+}
+
+template <class Visit>
+bool DensityGrid::visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& direction, double t0, double t1, uint32_t& read,
+                              Visit& visit) const {
+  const Brick& brick_here = brick(b - brick_lo_);
+  if (brick_here.max == 0.0f) return true;
+  if (brick_here.uniform()) {
+    ++read;
+    return visit(DensityPiece{t0, t1, brick_here.min, 0.0, 0.0, 0.0});
+  }
+  const float* values = values_.data() + static_cast<size_t>(brick_here.first) * kBrickValues;
+  const Vec3d brick_origin = Vec3d(b * kCells);
+  const Vec3d inside = origin - brick_origin;  // brick coordinates: 0 to 8
+  LatticeWalk walk(inside, direction, 1.0, t0, Vec3i(0), Vec3i(kCells - 1));
+  const Vec3 step(direction);
+  for (double t = t0; t < t1; walk.advance()) {
+    const Vec3i cell = walk.cell();
+    if (static_cast<unsigned>(cell.x | cell.y | cell.z) >= static_cast<unsigned>(kCells)) break;
+    const double end = std::min(walk.exit(), t1);
+    if (end > t) {
+      DensityPiece piece;
+      piece.t0 = t;
+      piece.t1 = end;
+      cell_piece(values, cell, Vec3(inside + t * direction - Vec3d(cell)), step, piece);
+      ++read;
+      if (!visit(piece)) return false;
+      t = end;
+    }
+  }
+  return true;
+}
+
+template <class Visit>
+uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  const Vec3d origin = Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.origin), 1.0)) + lattice_shift();
+  const Vec3d direction = Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0));
+  const Vec3d lo = Vec3d(brick_lo_ * kCells);
+  const Vec3d hi = lo + Vec3d(brick_count_ * kCells);
+  double t0 = interval.t0;
+  double t1 = interval.t1;
+  clip_to_box(origin, direction, lo, hi, t0, t1);
+  const bool fills_outside = frame_.background > 0.0f;
+  const auto outside = [&](double a, double b) {
+    return !fills_outside || !(b > a) || visit(DensityPiece{a, b, frame_.background, 0.0, 0.0, 0.0});
+  };
+  uint32_t read = 0;
+  if (!(t1 > t0)) {
+    outside(interval.t0, interval.t1);
+    return read;
+  }
+  if (!outside(interval.t0, t0)) return read;
+  LatticeWalk walk(origin, direction, kCells, t0, brick_lo_, brick_lo_ + brick_count_ - 1);
+  for (double t = t0; t < t1; walk.advance()) {
+    const Vec3i b = walk.cell() - brick_lo_;
+    if (glm::any(glm::lessThan(b, Vec3i(0))) || glm::any(glm::greaterThanEqual(b, brick_count_))) break;
+    const double end = std::min(walk.exit(), t1);
+    if (end > t) {
+      if (!visit_brick(walk.cell(), origin, direction, t, end, read, visit)) return read;
+      t = end;
+    }
+  }
+  outside(t1, interval.t1);
+  return read;
+}
+
+}  // namespace vpm

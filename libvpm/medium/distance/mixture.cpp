@@ -1,0 +1,52 @@
+// Weights of flights under the channel mixture.
+#include "medium/distance/mixture.h"
+
+namespace vpm {
+namespace {
+
+/// Stands for an infinite length, m, so that a rate of zero times it is zero.
+constexpr double kEndless = 1e30;
+
+}  // namespace
+
+Rgb analog_weight(const Medium& medium, const Rgb& shares, double column, bool collided) {
+  if (is_grey(medium.sigma_t)) return Rgb(1.0f);
+  const Rgbd sigma_t(medium.sigma_t);
+  // The largest transmittance is taken out, so that deep columns do not underflow in numerator and denominator.
+  const double least = std::min(sigma_t.r, std::min(sigma_t.g, sigma_t.b));
+  Rgbd value = glm::exp(-(sigma_t - least) * std::min(column, kEndless));
+  if (collided) value *= sigma_t;
+  return Rgb(value / glm::dot(Rgbd(shares), value));
+}
+
+Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& rate, const Rgb& power, Rng& rng) {
+  const Rgbd shares(channel_shares(power));
+  const double drawn = pick_channel(rate, Rgb(shares), rng.uniform());
+  const double target = -std::log1p(-rng.uniform_double());
+  const double reach = std::min<double>(interval.length(), kEndless);
+  const double distance = drawn > 0.0 ? target / drawn : kEndless;
+  Flight flight;
+  flight.collided = distance < reach;
+  flight.t = flight.collided ? interval.t0 + static_cast<float>(distance) : interval.t1;
+  const double length = flight.collided ? distance : reach;
+  const Column crossed = column(medium, ray, {interval.t0, flight.t});
+  flight.lookups = crossed.lookups;
+  // Transmittance over density: the exponents are joined before exp(), as each alone can underflow.
+  const Rgbd sigma_t(medium.sigma_t);
+  const Rgbd rates(rate);
+  Rgbd numerator(1.0);
+  Rgbd factor(1.0);
+  if (flight.collided) {
+    flight.density = medium.density(ray.at(flight.t));
+    ++flight.lookups;
+    numerator = sigma_t * static_cast<double>(flight.density);
+    factor = rates;
+  }
+  for (int c = 0; c < 3; ++c) {
+    const Rgbd ratio = glm::exp(sigma_t[c] * std::min(crossed.value, kEndless) - rates * length);
+    flight.weight[c] = static_cast<float>(numerator[c] / glm::dot(shares * factor, ratio));
+  }
+  return flight;
+}
+
+}  // namespace vpm

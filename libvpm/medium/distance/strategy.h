@@ -1,0 +1,51 @@
+// Distance sampling: one interface, and the list of strategies. Each strategy has a file of its own in this folder.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/rng.h"
+#include "base/vec.h"
+#include "medium/medium.h"
+
+namespace vpm {
+
+/// A free flight through one medium.
+struct Flight {
+  float t = 0.0f;          // m along the ray: the collision's, or the interval's end
+  bool collided = false;
+  float density = 0.0f;    // at the collision; sigma_t there is medium.sigma_t * density > 0 unless weight is black
+  Rgb weight{1.0f};        // the photon's power is multiplied by it
+  uint32_t lookups = 0;    // of density
+};
+
+/// Samples where a photon collides next. Its weight makes the photon's power the right one whatever the distances' density: at a
+/// collision at distance d sigma_t(x) Tr(d) / pdf(d), at the interval's end Tr(D) / P(d > D) [Jarosz2008, alg. 7.3, corrected]. Chromatic media are
+/// sampled by the mixture of the channels' densities, each with the share of the photon's power in it.
+class DistanceStrategy {
+ public:
+  virtual ~DistanceStrategy() = default;
+  virtual Flight sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng) const = 0;
+};
+
+struct DistanceSettings {
+  std::string strategy = "regular";
+  float step = 1.0f;              // ray-march: length of a step in voxels, > 0
+  float extinction_floor = 0.1f;  // local-extinction: the least rate, as a fraction of the mean one, > 0
+};
+
+/// What a user should know of a strategy.
+struct StrategyInfo {
+  std::string_view name;
+  std::string_view summary;
+  bool heterogeneous = true;  // false: refused in grids
+  bool unbiased = true;
+  bool bounded_weight = true;
+};
+std::span<const StrategyInfo> distance_strategies();
+/// The strategy of that name; null where there is none.
+std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings);
+
+}  // namespace vpm

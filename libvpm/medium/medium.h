@@ -1,0 +1,58 @@
+// A participating medium: coefficients per unit density, a density field, a phase function. It answers coefficients and
+// bounds; tracking is an algorithm outside it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/vec.h"
+#include "medium/density_grid.h"
+#include "phase/phase.h"
+
+namespace vpm {
+
+struct Medium {
+  std::string name;
+  Rgb sigma_s{0.0f};  // scattering coefficient at density 1, 1/m
+  Rgb sigma_t{0.0f};  // extinction coefficient at density 1, 1/m; >= sigma_s
+  Phase phase;
+  std::shared_ptr<const DensityGrid> grid;  // null: density 1 everywhere
+
+  bool homogeneous() const { return grid == nullptr; }
+  float density(const Vec3& p) const { return grid ? grid->density(p) : 1.0f; }
+  /// The mean density over the grid's support, empty voxels included.
+  double mean_density() const { return grid ? grid->mean_density() : 1.0; }
+  /// The shortest distance between voxels, m; infinite in a homogeneous medium.
+  float voxel_size() const { return grid ? grid->voxel_size() : kInfinity; }
+  /// The part of the interval in which the density may differ from zero.
+  Interval clip(const Ray& ray, const Interval& interval) const { return grid ? grid->clip(ray, interval) : interval; }
+  /// sigma_s / sigma_t per channel; 0 where sigma_t is 0.
+  Rgb albedo() const {
+    return {sigma_t.r > 0 ? sigma_s.r / sigma_t.r : 0.0f, sigma_t.g > 0 ? sigma_s.g / sigma_t.g : 0.0f,
+            sigma_t.b > 0 ? sigma_s.b / sigma_t.b : 0.0f};
+  }
+  bool grey() const { return is_grey(sigma_s) && is_grey(sigma_t); }
+
+  /// Calls visit(const DensityPiece&) along the ray until it returns false; returns the look-ups made.
+  template <class Visit>
+  uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
+    if (grid) return grid->visit_pieces(ray, interval, visit);
+    visit(DensityPiece{interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
+    return 0;
+  }
+};
+
+/// The column along a stretch of ray, m (the integral of density), with the look-ups it took.
+struct Column {
+  double value = 0.0;
+  uint32_t lookups = 0;
+};
+/// Exact for homogeneous, trilinear and nearest fields: regular tracking [Novak2018, sec. 4.1].
+Column column(const Medium& medium, const Ray& ray, const Interval& interval);
+
+/// exp(-sigma_t column) per channel.
+inline Rgb transmittance(const Medium& medium, double column) {
+  return {std::exp(-medium.sigma_t.r * column), std::exp(-medium.sigma_t.g * column), std::exp(-medium.sigma_t.b * column)};
+}
+
+}  // namespace vpm

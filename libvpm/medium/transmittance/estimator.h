@@ -1,0 +1,40 @@
+// Transmittance estimation: one interface, and the list of estimators. Each has a file of its own in this folder.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/rng.h"
+#include "base/vec.h"
+#include "medium/medium.h"
+
+namespace vpm {
+
+/// A transmittance per channel, with the look-ups of density it took.
+struct TransmittanceEstimate {
+  Rgb value{1.0f};
+  uint32_t lookups = 0;
+};
+
+class TransmittanceEstimator {
+ public:
+  virtual ~TransmittanceEstimator() = default;
+  virtual TransmittanceEstimate estimate(const Medium& medium, const Ray& ray, const Interval& interval, Rng& rng) const = 0;
+};
+
+struct TransmittanceSettings {
+  std::string estimator = "regular";
+  float step = 1.0f;  // ray-march: length of a step in voxels, > 0
+};
+
+struct EstimatorInfo {
+  std::string_view name;
+  std::string_view summary;
+};
+std::span<const EstimatorInfo> transmittance_estimators();
+/// The estimator of that name; null where there is none.
+std::unique_ptr<TransmittanceEstimator> make_transmittance_estimator(const TransmittanceSettings& settings);
+
+}  // namespace vpm

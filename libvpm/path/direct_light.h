@@ -1,0 +1,28 @@
+// Light that reaches a point straight from a source: one sampled light, through media and boundaries.
+#pragma once
+
+#include "medium/transmittance/estimator.h"
+#include "path/walk.h"
+
+namespace vpm {
+
+/// The light of one source, chosen by power, at a point: attenuated by media, black where something stands between.
+struct DirectSample {
+  Vec3 direction{0.0f};  // towards the light, unit
+  Rgb irradiance{0.0f};  // on a surface that faces it, W/m^2; its mean over samples is the direct light of all sources
+};
+
+/// Estimates the direct light at `point` in medium `medium`. With a normal, `facing`, only light from its side counts; zero:
+/// light from everywhere. A point on a surface must be just off it (leave_surface()).
+DirectSample sample_direct(const Scene& scene, const TransmittanceEstimator& transmittance, const Vec3& point, const Vec3& facing,
+                           MediumId medium, Rng& rng, WalkCounters& counters);
+
+/// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface stands between
+/// that is neither the light's own nor a boundary.
+Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light, MediumId medium,
+               Rng& rng, WalkCounters& counters);
+
+/// The number of the light that a uniform number picks, by power.
+int pick_light(const Scene& scene, float u);
+
+}  // namespace vpm

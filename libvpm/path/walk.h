@@ -1,0 +1,61 @@
+// The ONE random walk: photons, eye paths and the reference all move by next_event().
+#pragma once
+
+#include <cstdint>
+
+#include "medium/distance/strategy.h"
+#include "scene/scene.h"
+
+namespace vpm {
+
+/// A path under way.
+struct PathState {
+  Ray ray;
+  MediumId medium = kVacuum;
+  Rgb power{1.0f};  // W for photons, dimensionless throughput for eye paths
+};
+
+enum class EventKind { collision, surface, escape };
+
+/// What ends a flight. The path's state stands at the event: its ray starts there (at a surface: exactly on it).
+struct Event {
+  EventKind kind = EventKind::escape;
+  Hit hit;               // at a surface
+  float density = 0.0f;  // at a collision
+};
+
+/// What a walk counts.
+struct WalkCounters {
+  uint64_t lookups = 0;             // of density
+  uint64_t crossings = 0;           // of boundaries between media
+  uint64_t medium_mismatches = 0;   // boundaries met from a medium that is not the one on their near side
+
+  void merge(const WalkCounters& other) {
+    lookups += other.lookups;
+    crossings += other.crossings;
+    medium_mismatches += other.medium_mismatches;
+  }
+};
+
+/// The medium on the side of a surface that `direction` points to, for a path that is in `current`.
+inline MediumId medium_beyond(const Shape& shape, const Vec3& normal, const Vec3& direction, MediumId current) {
+  if (!shape.separates_media) return current;
+  return glm::dot(direction, normal) > 0.0f ? shape.media.outside : shape.media.inside;
+}
+
+/// Passes straight through a surface: moves the ray's origin just beyond it and enters the medium there.
+void cross_surface(const Scene& scene, const Hit& hit, Ray& ray, MediumId& medium, WalkCounters& counters);
+
+/// Flies to the next collision in a medium, scattering surface, or out of the scene, through any number of boundaries on the way.
+/// Multiplies the power by the flights' weights.
+Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng, WalkCounters& counters);
+
+/// The outcome of a collision: scatters with probability q = sum(albedo power) / sum(power), multiplying the power by albedo / q and choosing a new
+/// direction; returns false where the path is absorbed. Grey media: power unchanged [Jarosz2008, eq. 7.8].
+bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
+
+/// The outcome at a surface: samples the material and plays Russian roulette, surviving with the ratio of largest channels
+/// after and before, at most 1. The path goes on from just off the surface, in the medium there. False where absorbed.
+bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter);
+
+}  // namespace vpm

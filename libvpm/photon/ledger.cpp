@@ -1,0 +1,26 @@
+// Merging of ledgers.
+#include "photon/ledger.h"
+
+#include <algorithm>
+
+namespace vpm {
+
+void Ledger::merge(const Ledger& other) {
+  emitted_count += other.emitted_count;
+  emitted += other.emitted;
+  absorbed_in_media += other.absorbed_in_media;
+  absorbed_on_surfaces += other.absorbed_on_surfaces;
+  escaped += other.escaped;
+  cut += other.cut;
+  cut_count += other.cut_count;
+  imbalance.merge(other.imbalance);
+  weight_sum += other.weight_sum;
+  weight_squares += other.weight_squares;
+  largest_weight = std::max(largest_weight, other.largest_weight);
+  collisions += other.collisions;
+  surface_hits += other.surface_hits;
+  non_finite += other.non_finite;
+  walk.merge(other.walk);
+}
+
+}  // namespace vpm

@@ -1,0 +1,35 @@
+// The energy ledger of photon tracing: every flow summed where it happens, none by subtraction.
+#pragma once
+
+#include <cstdint>
+
+#include "base/statistics.h"
+#include "base/vec.h"
+#include "path/walk.h"
+
+namespace vpm {
+
+/// Sums over emitted photons. Divided by `emitted_count` they are in W.
+struct Ledger {
+  uint64_t emitted_count = 0;
+  Rgbd emitted{0.0};
+  Rgbd absorbed_in_media{0.0};
+  Rgbd absorbed_on_surfaces{0.0};
+  Rgbd escaped{0.0};
+  Rgbd cut{0.0};             // carried by photons that reached the limit of events
+  uint64_t cut_count = 0;
+  Moments imbalance;         // of each photon: (absorbed + escaped + cut - emitted) over channels, W; its mean is zero
+  double weight_sum = 0.0;   // of stored volume photons, power over emitted power
+  double weight_squares = 0.0;
+  double largest_weight = 0.0;  // power over emitted power that any photon carried
+  uint64_t collisions = 0;
+  uint64_t surface_hits = 0;
+  uint64_t non_finite = 0;   // photons dropped because their power was not finite
+  WalkCounters walk;
+
+  /// (sum w)^2 / sum w^2 over collisions.
+  double effective_sample_size() const { return weight_squares > 0.0 ? weight_sum * weight_sum / weight_squares : 0.0; }
+  void merge(const Ledger& other);
+};
+
+}  // namespace vpm

@@ -1,0 +1,102 @@
+// The photon map for fixed radii: photons sorted into a uniform grid, found by scanning short rows of cells.
+//
+// The grid's cells are half a radius wide unless that would make more than two cells a photon. Rows run along x, so that the
+// photons of neighbouring cells lie side by side and distances are computed in blocks.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.h"
+#include "photon/photon.h"
+
+namespace vpm {
+
+class RadiusMap {
+ public:
+  /// What a gather reads of a photon beside its position.
+  struct Payload {
+    PackedDirection travel;
+    Rgb power{0.0f};
+  };
+
+  RadiusMap() = default;
+  /// Sorts the photons for queries of `radius` (m, > 0), with powers multiplied by `scale`: 1/emitted.
+  RadiusMap(const std::vector<Photon>& photons, float radius, float scale);
+
+  /// Calls visit(const Payload&, offset from `point`, squared distance) for the photons nearer to `point` than the radius, in a
+  /// fixed order.
+  template <class Visit>
+  void for_each_near(const Vec3& point, Visit&& visit) const;
+
+  float radius() const { return radius_; }
+  size_t size() const { return payload_.size(); }
+  /// The box around the photons.
+  const Box& bounds() const { return bounds_; }
+  size_t memory_bytes() const;
+
+ private:
+  static constexpr int kBlock = 16;  // distances computed at once
+
+  int cell_along(int axis, float x) const {
+    return std::clamp(static_cast<int>((x - bounds_.lo[axis]) * per_cell_), 0, count_[axis] - 1);
+  }
+  template <class Visit>
+  void scan(uint32_t begin, uint32_t end, const Vec3& point, Visit& visit) const;
+
+  float radius_ = 0.0f;
+  float per_cell_ = 0.0f;  // 1/m
+  Box bounds_;
+  Vec3i count_{0};
+  std::vector<uint32_t> first_;  // of each cell, and one past the last
+  std::vector<float> x_, y_, z_;
+  std::vector<Payload> payload_;
+};
+
+template <class Visit>
+void RadiusMap::scan(uint32_t begin, uint32_t end, const Vec3& point, Visit& visit) const {
+  const float limit = radius_ * radius_;
+  for (uint32_t block = begin; block < end; block += kBlock) {
+    float d2[kBlock];
+    const uint32_t n = std::min<uint32_t>(kBlock, end - block);
+    for (uint32_t i = 0; i < n; ++i) {
+      const float dx = x_[block + i] - point.x;
+      const float dy = y_[block + i] - point.y;
+      const float dz = z_[block + i] - point.z;
+      d2[i] = dx * dx + dy * dy + dz * dz;
+    }
+    for (uint32_t i = 0; i < n; ++i)
+      if (d2[i] < limit) visit(payload_[block + i], Vec3(x_[block + i], y_[block + i], z_[block + i]) - point, d2[i]);
+  }
+}
+
+template <class Visit>
+void RadiusMap::for_each_near(const Vec3& point, Visit&& visit) const {
+  for (int a = 0; a < 3; ++a)
+    if (!(point[a] + radius_ >= bounds_.lo[a] && point[a] - radius_ <= bounds_.hi[a])) return;
+  const float cell = 1.0f / per_cell_;
+  const int z_end = cell_along(2, point.z + radius_);
+  for (int z = cell_along(2, point.z - radius_); z <= z_end; ++z) {
+    // The nearest distance of the slab of cells to the point, less a hair for rounding; border cells hold all that lies beyond.
+    const auto gap = [&](int axis, int index) {
+      const float lo = bounds_.lo[axis] + static_cast<float>(index) * cell;
+      return std::max(0.0f, std::max(lo - point[axis], point[axis] - (lo + cell)) - 1e-3f * cell);
+    };
+    const float gap_z = gap(2, z);
+    const float rest_z = radius_ * radius_ - gap_z * gap_z;
+    if (rest_z < 0.0f) continue;
+    const float reach_y = std::sqrt(rest_z);
+    const int y_end = cell_along(1, point.y + reach_y);
+    for (int y = cell_along(1, point.y - reach_y); y <= y_end; ++y) {
+      const float gap_y = gap(1, y);
+      const float rest = rest_z - gap_y * gap_y;
+      if (rest < 0.0f) continue;
+      const float reach_x = std::sqrt(rest);
+      const size_t row = (static_cast<size_t>(z) * count_.y + y) * count_.x;
+      scan(first_[row + cell_along(0, point.x - reach_x)], first_[row + cell_along(0, point.x + reach_x) + 1], point, visit);
+    }
+  }
+}
+
+}  // namespace vpm

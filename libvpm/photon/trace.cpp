@@ -1,0 +1,169 @@
+// The photon pass: photons in fixed chunks, joined in their order.
+#include "photon/trace.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "path/direct_light.h"
+#include "path/walk.h"
+
+namespace vpm {
+namespace {
+
+constexpr size_t kChunk = 4096;         // photons
+constexpr size_t kChunksPerWave = 64;   // traced between looks at how many are stored
+constexpr uint64_t kHopeless = 1 << 22;  // photons emitted without storing one
+constexpr double kRouletteWeight = 0.1; // photons lighter than this share of what was emitted play roulette
+
+/// One photon on its way, and where it leaves its traces.
+class PhotonPath {
+ public:
+  PhotonPath(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, TracedPhotons& out)
+      : scene_(scene), strategy_(strategy), settings_(settings), out_(out) {}
+
+  /// Emits and follows photon number `index`.
+  void trace(uint64_t index) {
+    Rng rng(settings_.seed, rng_stream(RngUse::photon, settings_.pass), index);
+    emit(rng);
+    for (int events = 0; alive_; ++events) {
+      if (events == settings_.max_events) {
+        cut();
+        break;
+      }
+      const Event event = next_event(scene_, strategy_, state_, rng, out_.ledger.walk);
+      if (!is_finite(state_.power)) {
+        ++out_.ledger.non_finite;
+        break;
+      }
+      if (event.kind == EventKind::escape) escape();
+      if (event.kind == EventKind::collision) collide(event, rng);
+      if (event.kind == EventKind::surface) meet_surface(event.hit, rng);
+    }
+    out_.ledger.imbalance.add(balance_);
+  }
+
+ private:
+  void emit(Rng& rng) {
+    const int light = pick_light(scene_, rng.uniform());
+    Emission emission = vpm::emit(scene_.lights[light], scene_.sphere, rng);
+    emission.power /= scene_.light_probability[light];
+    state_ = {emission.ray, scene_.light_medium[light], emission.power};
+    emitted_power_ = sum_channels(emission.power);
+    balance_ = -static_cast<double>(emitted_power_);
+    direct_ = true;
+    alive_ = emitted_power_ > 0.0f;
+    ++out_.ledger.emitted_count;
+    out_.ledger.emitted += Rgbd(emission.power);
+  }
+
+  void deposit(Rgbd& account, const Rgbd& power) {
+    account += power;
+    balance_ += power.r + power.g + power.b;
+  }
+  void escape() {
+    deposit(out_.ledger.escaped, Rgbd(state_.power));
+    alive_ = false;
+  }
+  void cut() {
+    deposit(out_.ledger.cut, Rgbd(state_.power));
+    ++out_.ledger.cut_count;
+  }
+
+  void collide(const Event& event, Rng& rng) {
+    const double weight = sum_channels(state_.power) / emitted_power_;
+    ++out_.ledger.collisions;
+    out_.ledger.weight_sum += weight;
+    out_.ledger.weight_squares += weight * weight;
+    out_.ledger.largest_weight = std::max(out_.ledger.largest_weight, weight);
+    alive_ = weight > 0.0 && roulette(weight, rng);
+    if (!alive_) return;
+    const Medium& medium = scene_.media[state_.medium];
+    if (settings_.keep_volume && (settings_.keep_direct_volume || !direct_)) {
+      const bool at_query = settings_.volume_form == VolumeForm::density_at_query;
+      out_.volume[state_.medium].push_back(
+          {state_.ray.origin, PackedDirection(state_.ray.direction), at_query ? state_.power / event.density : state_.power});
+    }
+    deposit(out_.ledger.absorbed_in_media, Rgbd(state_.power * (Rgb(1.0f) - medium.albedo())));
+    direct_ = false;
+    alive_ = scatter_in_medium(medium, state_, rng);
+  }
+
+  void meet_surface(const Hit& hit, Rng& rng) {
+    ++out_.ledger.surface_hits;
+    out_.ledger.largest_weight = std::max<double>(out_.ledger.largest_weight, sum_channels(state_.power) / emitted_power_);
+    alive_ = max_channel(state_.power) > 0.0f;
+    if (!alive_) return;
+    if (settings_.keep_surface && !is_specular(scene_.material_of(hit)) && (settings_.keep_direct_surface || !direct_))
+      out_.surface.push_back({hit.position, PackedDirection(state_.ray.direction), state_.power});
+    const Rgb before = state_.power;
+    Scatter scatter;
+    direct_ = false;
+    alive_ = scatter_at_surface(scene_, hit, state_, rng, scatter);
+    deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight)));
+  }
+
+  /// Ends light photons (weighted strategies make them) before they cost as much as heavy ones; unbiased.
+  bool roulette(double weight, Rng& rng) {
+    if (weight >= kRouletteWeight) return true;
+    const double survival = weight / kRouletteWeight;
+    if (rng.uniform_double() >= survival) return false;
+    state_.power /= static_cast<float>(survival);
+    return true;
+  }
+
+  const Scene& scene_;
+  const DistanceStrategy& strategy_;
+  const TraceSettings& settings_;
+  TracedPhotons& out_;
+  PathState state_;
+  float emitted_power_ = 0.0f;
+  double balance_ = 0.0;  // gone minus emitted, W
+  bool direct_ = true;
+  bool alive_ = true;
+};
+
+void append(TracedPhotons& all, const TracedPhotons& part) {
+  for (size_t m = 0; m < all.volume.size(); ++m)
+    all.volume[m].insert(all.volume[m].end(), part.volume[m].begin(), part.volume[m].end());
+  all.surface.insert(all.surface.end(), part.surface.begin(), part.surface.end());
+  all.ledger.merge(part.ledger);
+}
+
+size_t stored_count(const TracedPhotons& photons) {
+  size_t volume = 0;
+  for (const auto& map : photons.volume) volume += map.size();
+  return std::max(volume, photons.surface.size());
+}
+
+bool is_full(const TracedPhotons& photons, const TraceSettings& settings) {
+  if (settings.emitted > 0) return photons.ledger.emitted_count >= settings.emitted;
+  return stored_count(photons) >= settings.stored;
+}
+
+}  // namespace
+
+TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, Progress& progress) {
+  TracedPhotons all;
+  all.volume.resize(scene.media.size());
+  for (uint64_t first = 0; !is_full(all, settings);) {
+    const uint64_t left = settings.emitted > 0 ? settings.emitted - first : kChunk * kChunksPerWave;
+    const size_t wave = std::min<uint64_t>(left, kChunk * kChunksPerWave);
+    std::vector<TracedPhotons> parts((wave + kChunk - 1) / kChunk);
+    parallel_for_chunks(wave, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+      parts[chunk].volume.resize(scene.media.size());
+      PhotonPath path(scene, strategy, settings, parts[chunk]);
+      for (size_t i = begin; i < end; ++i) path.trace(first + i);
+      progress.advance(end - begin);
+    });
+    for (const TracedPhotons& part : parts)
+      if (!is_full(all, settings)) append(all, part);
+    first += wave;
+    if (settings.emitted == 0 && first >= kHopeless && stored_count(all) == 0)
+      throw InputError(fmt::format("no photon map can be filled: none of the first {} photons met a medium or a surface that stores photons", first));
+  }
+  return all;
+}
+
+}  // namespace vpm

@@ -1,0 +1,154 @@
+// Radiance along camera rays.
+#include "render/eye_path.h"
+
+#include "estimate/surface_estimate.h"
+#include "estimate/volume_estimate.h"
+#include "path/direct_light.h"
+
+namespace vpm {
+namespace {
+
+class EyePath {
+ public:
+  EyePath(const EyeContext& context, const Ray& ray, Marcher& marcher, Rng& rng, EyeCounters& counters)
+      : c_(context), ray_(ray), marcher_(marcher), rng_(rng), counters_(counters), medium_(context.scene.camera_medium) {}
+
+  Rgb follow() {
+    ++counters_.rays;
+    for (int events = 0; events < c_.settings.max_events; ++events) {
+      const std::optional<Hit> hit = c_.scene.geometry.intersect(ray_);
+      cross_segment({0.0f, hit ? hit->t : kInfinity});
+      if (is_black(throughput_)) return radiance_;
+      if (!hit) {
+        for (const Light& light : c_.scene.lights) radiance_ += throughput_ * environment_radiance(light, ray_.direction);
+        return radiance_;
+      }
+      if (!pass_surface(*hit)) return radiance_;
+    }
+    ++counters_.cut_paths;
+    return radiance_;
+  }
+
+ private:
+  /// Adds what media scatter towards the eye along the segment, and attenuates by it.
+  void cross_segment(const Interval& segment) {
+    const bool at_photon = c_.stages.volume_map && c_.settings.volume_form == VolumeForm::density_at_photon;
+    if (at_photon) gather_photon_densities(segment);
+    if (medium_ == kVacuum) return;
+    const Medium& medium = c_.scene.media[medium_];
+    const PhotonMap* map = c_.stages.volume_map && !at_photon ? &c_.volume[medium_] : nullptr;
+    if (!map && !c_.stages.volume_shadow_rays) {
+      throughput_ *= transmittance(medium, attenuate(medium, segment));
+      return;
+    }
+    const StepLimits limits{map ? map->settings.radius : step_without_map(medium), c_.settings.max_optical_step};
+    const Marched marched = marcher_.march(medium, ray_, segment, limits, rng_, [&](const Vec3& point, const Rgb& weight) {
+      Rgb source(0.0f);
+      if (map) {
+        ++counters_.volume_queries;
+        source += medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, *map);
+      }
+      if (c_.stages.volume_shadow_rays) source += medium.sigma_s * single_scattering(medium, point);
+      radiance_ += throughput_ * weight * source;
+    });
+    counters_.steps += marched.steps;
+    counters_.walk.lookups += marched.lookups;
+    throughput_ *= marched.transmittance;
+  }
+
+  double attenuate(const Medium& medium, const Interval& segment) {
+    const Column crossed = column(medium, ray_, segment);
+    counters_.walk.lookups += crossed.lookups;
+    return crossed.value;
+  }
+
+  float step_without_map(const Medium& medium) const { return first_volume_radius(c_.scene, c_.settings, medium); }
+
+  /// Radiance scattered once at a point, over sigma_s: phase function times what the lights send there.
+  Rgb single_scattering(const Medium& medium, const Vec3& point) {
+    ++counters_.shadow_rays;
+    const DirectSample light = sample_direct(c_.scene, *c_.transmittance, point, Vec3(0.0f), medium_, rng_, counters_.walk);
+    return is_black(light.irradiance) ? Rgb(0.0f)
+                                      : light.irradiance * phase_value(medium.phase, glm::dot(light.direction, ray_.direction));
+  }
+
+  /// The estimate with the density at the photon: photons of any medium count wherever they lie within the radius of the ray, also
+  /// where the ray itself is in empty space or outside the medium.
+  void gather_photon_densities(const Interval& segment) {
+    const Medium* around = medium_ == kVacuum ? nullptr : &c_.scene.media[medium_];
+    for (size_t m = 0; m < c_.volume.size(); ++m) {
+      const PhotonMap& map = c_.volume[m];
+      const float r = map.settings.radius;
+      const Interval near = clip(segment, map.bounds(), r);
+      if (map.size() == 0 || near.empty()) continue;
+      const double before = around ? attenuate(*around, {segment.t0, near.t0}) : 0.0;
+      const Medium& medium = c_.scene.media[m];
+      counters_.walk.lookups += march_evenly(around, ray_, near, before, r, rng_, [&](const Vec3& point, const Rgb& weight) {
+        ++counters_.volume_queries;
+        radiance_ += throughput_ * weight * medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, map);
+      });
+    }
+  }
+
+  /// The part of the segment in the box grown by `margin`.
+  Interval clip(const Interval& segment, const Box& box, float margin) const {
+    double t0 = segment.t0, t1 = segment.t1;
+    clip_to_box(Vec3d(ray_.origin), Vec3d(ray_.direction), Vec3d(box.lo - margin), Vec3d(box.hi + margin), t0, t1);
+    return {static_cast<float>(t0), static_cast<float>(t1)};
+  }
+
+  /// Adds what the surface sends towards the eye. Returns whether the path goes on.
+  bool pass_surface(const Hit& hit) {
+    const Shape& shape = c_.scene.shapes[hit.shape];
+    const Material& material = c_.scene.materials[shape.material];
+    if (shape.light >= 0) radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
+    if (is_boundary(material)) {
+      cross_surface(c_.scene, hit, ray_, medium_, counters_.walk);
+      return true;
+    }
+    if (const auto* diffuse = std::get_if<Lambertian>(&material)) {
+      radiance_ += throughput_ * diffuse->reflectance / kPi * irradiance(hit);
+      return false;
+    }
+    PathState state{ray_, medium_, throughput_};
+    Scatter scatter;
+    if (!scatter_at_surface(c_.scene, hit, state, rng_, scatter)) return false;
+    ray_ = state.ray;
+    medium_ = state.medium;
+    throughput_ = state.power * scatter.radiance_scale;
+    return true;
+  }
+
+  /// Irradiance on the eye's side of a surface: direct light by a shadow ray, the rest from the photon map.
+  Rgb irradiance(const Hit& hit) {
+    const Vec3 normal = glm::dot(hit.normal, ray_.direction) < 0.0f ? hit.normal : -hit.normal;
+    Rgb result(0.0f);
+    if (c_.stages.surface_shadow_rays) {
+      ++counters_.shadow_rays;
+      const DirectSample light = sample_direct(c_.scene, *c_.transmittance, leave_surface(hit, normal), normal, medium_, rng_, counters_.walk);
+      result += light.irradiance * std::max(0.0f, glm::dot(light.direction, normal));
+    }
+    if (c_.stages.surface_map) {
+      ++counters_.surface_queries;
+      result += surface_irradiance(hit.position, normal, c_.surface.settings.radius, c_.surface);
+    }
+    return result;
+  }
+
+  const EyeContext& c_;
+  Ray ray_;
+  Marcher& marcher_;
+  Rng& rng_;
+  EyeCounters& counters_;
+  MediumId medium_;
+  Rgb throughput_{1.0f};
+  Rgb radiance_{0.0f};
+};
+
+}  // namespace
+
+Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters) {
+  return EyePath(context, camera_ray, marcher, rng, counters).follow();
+}
+
+}  // namespace vpm

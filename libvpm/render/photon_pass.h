@@ -1,0 +1,36 @@
+// One pass of photon mapping: a pure function of scene, settings and pass number.
+#pragma once
+
+#include <atomic>
+
+#include "base/progress.h"
+#include "image/image.h"
+#include "render/settings.h"
+#include "render/statistics.h"
+#include "scene/scene.h"
+
+namespace vpm {
+
+/// What a scene needs: stages that would do nothing are not run.
+struct Stages {
+  bool volume_map = false;
+  bool surface_map = false;
+  bool volume_shadow_rays = false;
+  bool surface_shadow_rays = false;
+  bool photons() const { return volume_map || surface_map; }
+};
+Stages plan_stages(const Scene& scene, const RenderSettings& settings);
+
+/// The radius of a map in the first pass: the settings', or where that is 0 one hundredth of the diagonal of the medium's bounds (grids) or of the scene.
+float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium);
+float first_surface_radius(const Scene& scene, const RenderSettings& settings);
+
+struct Pass {
+  Image image;  // radiance, W/(m^2 sr)
+  RenderStatistics statistics;
+};
+
+/// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.
+Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop, ProgressMode progress);
+
+}  // namespace vpm

@@ -1,0 +1,39 @@
+// Everything a render can be told besides the scene. Plain values; the defaults here are the defaults of scene files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "estimate/gather.h"
+#include "medium/distance/strategy.h"
+#include "medium/transmittance/estimator.h"
+
+namespace vpm {
+
+/// Where light that has not scattered yet comes from: the photon map, or rays towards the lights.
+enum class DirectLight { photons, shadow_rays };
+
+struct RenderSettings {
+  std::string integrator = "photon";
+  uint64_t seed = 1;
+  int passes = 16;               // >= 1; ignored where seconds > 0
+  double seconds = 0.0;          // > 0: as many passes as fit
+  int samples_per_pixel = 1;     // camera rays per pixel and pass, >= 1
+
+  uint64_t photons_emitted = 200'000;  // per pass; 0: emit until photons_stored are stored
+  uint64_t photons_stored = 0;         // per pass and kind of map: tracing stops once the volume or surface maps hold that many
+  int max_events = 100'000;            // of one photon or eye path, a guard against endless paths; what it cuts is counted
+
+  DistanceSettings distance;           // how photons fly
+  TransmittanceSettings transmittance; // towards lights
+
+  GatherSettings volume;               // volumetric radiance estimate
+  GatherSettings surface;              // surface radiance estimate
+  bool shrink_radii = true;            // progressive passes [Knaus2011]; false: every pass has the first one's radii
+  VolumeForm volume_form = VolumeForm::density_at_query;
+  DirectLight volume_direct = DirectLight::photons;        // single scattering
+  DirectLight surface_direct = DirectLight::shadow_rays;
+  float max_optical_step = 0.5f;       // of a marching step, in optical thickness, > 0
+};
+
+}  // namespace vpm

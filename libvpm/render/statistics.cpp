@@ -1,0 +1,33 @@
+// Merging of counts.
+#include "render/statistics.h"
+
+#include <algorithm>
+
+namespace vpm {
+
+void EyeCounters::merge(const EyeCounters& other) {
+  rays += other.rays;
+  steps += other.steps;
+  volume_queries += other.volume_queries;
+  surface_queries += other.surface_queries;
+  shadow_rays += other.shadow_rays;
+  cut_paths += other.cut_paths;
+  non_finite += other.non_finite;
+  walk.merge(other.walk);
+}
+
+void RenderStatistics::merge(const RenderStatistics& pass) {
+  passes += pass.passes;
+  trace_seconds += pass.trace_seconds;
+  build_seconds += pass.build_seconds;
+  eye_seconds += pass.eye_seconds;
+  ledger.merge(pass.ledger);
+  volume_photons += pass.volume_photons;
+  surface_photons += pass.surface_photons;
+  photon_map_bytes = std::max(photon_map_bytes, pass.photon_map_bytes);
+  last_volume_radius = pass.last_volume_radius;
+  last_surface_radius = pass.last_surface_radius;
+  eye.merge(pass.eye);
+}
+
+}  // namespace vpm

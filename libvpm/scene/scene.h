@@ -1,0 +1,65 @@
+// The immutable scene: geometry with its materials and media, lights, camera.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "light/light.h"
+#include "medium/medium.h"
+#include "scene/camera.h"
+#include "surface/geometry.h"
+#include "surface/material.h"
+
+namespace vpm {
+
+/// The number of a medium in Scene::media, or kVacuum.
+using MediumId = int;
+inline constexpr MediumId kVacuum = -1;
+
+/// The media that meet at a surface: behind it (against its outward normal) and before it.
+struct Interface {
+  MediumId inside = kVacuum;
+  MediumId outside = kVacuum;
+};
+
+/// What the scene knows about the shape of the same number in Geometry.
+struct Shape {
+  std::string name;
+  uint32_t material = 0;
+  bool separates_media = false;  // false: the medium is the same on both sides, whatever it is
+  Interface media;               // where separates_media
+  int light = -1;                // its number in Scene::lights where it emits
+};
+
+struct Scene {
+  Geometry geometry;
+  std::vector<Shape> shapes;
+  std::vector<Material> materials;
+  std::vector<Medium> media;
+  std::vector<Light> lights;
+  MediumId world_medium = kVacuum;  // fills all space outside the shapes that separate media
+  Camera camera;
+  MediumId camera_medium = kVacuum;
+
+  // Derived by finish().
+  SceneSphere sphere;                    // around all shapes; without any, radius 1 m about the origin
+  bool grey = false;                     // one channel carries everything
+  std::vector<float> light_probability;  // of emitting the next photon, by power; sums to 1
+  std::vector<MediumId> light_medium;    // where photons start: around finite lights (area lights: before the middle of
+                                         // their surface), the world's medium for lights at infinity
+
+  const Material& material_of(const Hit& hit) const { return materials[shapes[hit.shape].material]; }
+};
+
+/// Fills in what a scene derives from its parts. Call once, after all else is set and the geometry committed. Throws
+/// InputError where there are lights, but all of them black.
+void finish(Scene& scene);
+
+/// The medium at a point that is not on a surface: what the nearest shape that separates media, along a fixed
+/// direction, has on the near side; the world's medium where there is none. Three directions vote, because one may run
+/// along an edge or a face.
+MediumId medium_at(const Scene& scene, const Vec3& point);
+
+}  // namespace vpm

@@ -1,0 +1,250 @@
+// Shapes in Embree: triangle meshes as they are, spheres as user geometry with our own intersection.
+#include "surface/geometry.h"
+
+#include <embree3/rtcore.h>
+
+#include <atomic>
+#include <cassert>
+#include <deque>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "base/error.h"
+#include "surface/sphere.h"
+
+namespace vpm {
+
+static_assert(sizeof(Vec3) == 3 * sizeof(float) && sizeof(glm::uvec3) == 3 * sizeof(uint32_t),
+              "Embree's buffer layout");
+
+namespace {
+
+/// Embree leaves out what is beyond 1.8e18 m; squares of coordinates must stay finite in float too.
+constexpr float kMaxCoordinate = 1e9f;
+/// Hits lie beyond this t, m: the smallest normal float, so that t > 0 in every rounding mode.
+constexpr float kMinT = std::numeric_limits<float>::min();
+
+/// A mesh in Embree's own buffers.
+struct MeshShape {
+  const Vec3* positions = nullptr;
+  const glm::uvec3* triangles = nullptr;
+};
+using ShapeData = std::variant<MeshShape, SphereShape>;
+
+bool in_range(const Vec3& p) {
+  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate && std::abs(p.z) <= kMaxCoordinate;
+}
+
+/// (b - a) x (c - a): normal to the triangle, twice its area long.
+Vec3d area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return glm::cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
+}
+
+/// The triangles that have an area; checks the mesh on the way.
+std::vector<glm::uvec3> proper_triangles(const TriangleMesh& mesh) {
+  const auto& p = mesh.positions;
+  for (size_t i = 0; i < p.size(); ++i) {
+    if (!in_range(p[i])) throw InputError("mesh: vertex " + std::to_string(i) + " is not finite or beyond 1e9 m");
+  }
+  std::vector<glm::uvec3> proper;
+  proper.reserve(mesh.triangles.size());
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3& v = mesh.triangles[i];
+    const uint32_t last = std::max(v.x, std::max(v.y, v.z));
+    if (last >= p.size()) {
+      throw InputError("mesh: triangle " + std::to_string(i) + " names vertex " + std::to_string(last) +
+                       ", but there are " + std::to_string(p.size()) + " (counted from 0)");
+    }
+    if (area_vector(p[v.x], p[v.y], p[v.z]) != Vec3d(0.0)) proper.push_back(v);
+  }
+  if (proper.empty()) throw InputError("mesh: it has no triangle with an area, at least one is needed");
+  return proper;
+}
+
+void sphere_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto& s = *static_cast<const SphereShape*>(args->geometryUserPtr);
+  const Vec3 half = Vec3(s.radius) + 0x1p-22f * (glm::abs(s.centre) + s.radius);  // rounding must not cut the sphere
+  const Vec3 lo = s.centre - half, hi = s.centre + half;
+  *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
+}
+
+void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (args->valid[0] == 0) return;
+  auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const auto& s = *static_cast<const SphereShape*>(args->geometryUserPtr);
+  RTCRay& r = ray_hit.ray;
+  const auto t = static_cast<float>(
+      intersect_sphere(s, Ray{Vec3(r.org_x, r.org_y, r.org_z), Vec3(r.dir_x, r.dir_y, r.dir_z)}, r.tnear));
+  if (!(t <= r.tfar) || std::isinf(t)) return;
+  r.tfar = t;
+  ray_hit.hit.geomID = args->geomID;
+  ray_hit.hit.primID = args->primID;
+  ray_hit.hit.instID[0] = args->context->instID[0];
+}
+
+/// The point of the triangle with Embree's barycentric coordinates: in its plane, wherever the ray came from.
+void locate(const MeshShape& mesh, const RTCRayHit& found, Hit& hit) {
+  const glm::uvec3& v = mesh.triangles[found.hit.primID];
+  const Vec3 &a = mesh.positions[v.x], &b = mesh.positions[v.y], &c = mesh.positions[v.z];
+  const double u = found.hit.u, w = found.hit.v;
+  hit.position = Vec3((1.0 - u - w) * Vec3d(a) + u * Vec3d(b) + w * Vec3d(c));
+  const Vec3d across = area_vector(a, b, c);
+  const double twice_area = glm::length(across);
+  hit.normal = Vec3(across / twice_area);
+  const Vec3& p = hit.position;
+  const Vec3 reach = glm::max(glm::max(glm::abs(a - p), glm::abs(b - p)), glm::abs(c - p));
+  hit.slack = flat_slack(hit.normal, reach, twice_area);
+}
+
+/// The point of the sphere, found again in double and projected onto it.
+void locate(const SphereShape& sphere, const Ray& ray, Hit& hit) {
+  const Vec3d normal = sphere_normal(sphere, ray, intersect_sphere(sphere, ray, kMinT));
+  hit.position = point_on(sphere, normal);
+  hit.normal = Vec3(normal);
+  hit.slack = sphere_slack(sphere);
+}
+
+}  // namespace
+
+struct Geometry::Impl {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::deque<ShapeData> shapes;  // a deque, because Embree keeps pointers to its elements
+  std::vector<double> areas;     // m^2
+  Box bounds;
+  bool committed = false;
+  std::atomic<int64_t> bytes{0};
+  std::string error;
+
+  Impl() : device(rtcNewDevice(nullptr)) {
+    if (!device) throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
+    rtcSetDeviceErrorFunction(device, on_error, this);
+    rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    check();
+  }
+  ~Impl() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  /// Embree calls this from C code, through which no exception may pass: check() throws later.
+  static void on_error(void* self, RTCError code, const char* message) {
+    static_cast<Impl*>(self)->error =
+        "Embree: " + std::string(message ? message : "") + ", error " + std::to_string(code);
+  }
+  static bool on_memory(void* self, ssize_t change, bool) {
+    static_cast<Impl*>(self)->bytes += change;
+    return true;
+  }
+  void check() const {
+    if (!error.empty()) throw std::runtime_error(error);
+  }
+
+  uint32_t attach(RTCGeometry geometry, double area) {
+    const auto number = static_cast<uint32_t>(areas.size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, number);
+    rtcReleaseGeometry(geometry);
+    check();
+    areas.push_back(area);
+    return number;
+  }
+};
+
+Geometry::Geometry() : impl_(std::make_unique<Impl>()) {}
+Geometry::~Geometry() = default;
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry& Geometry::operator=(Geometry&&) noexcept = default;
+
+uint32_t Geometry::add(const TriangleMesh& mesh) {
+  assert(!impl_->committed);
+  const std::vector<glm::uvec3> proper = proper_triangles(mesh);
+  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               sizeof(Vec3), mesh.positions.size()));
+  auto* triangles = static_cast<glm::uvec3*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), proper.size()));
+  impl_->check();
+  std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
+  std::copy(proper.begin(), proper.end(), triangles);
+  double area = 0.0;
+  for (const glm::uvec3& v : proper) {
+    area += 0.5 * glm::length(area_vector(positions[v.x], positions[v.y], positions[v.z]));
+    for (int corner = 0; corner < 3; ++corner) impl_->bounds.add(positions[v[corner]]);
+  }
+  impl_->shapes.emplace_back(MeshShape{positions, triangles});
+  return impl_->attach(geometry, area);
+}
+
+uint32_t Geometry::add(const SphereShape& sphere) {
+  assert(!impl_->committed);
+  if (!in_range(sphere.centre)) throw InputError("sphere: the centre is not finite or beyond 1e9 m");
+  if (!(sphere.radius > 0.0f && sphere.radius <= kMaxCoordinate)) {
+    throw InputError("sphere: the radius is " + std::to_string(sphere.radius) +
+                     " m, it must be positive and at most 1e9 m");
+  }
+  impl_->shapes.emplace_back(sphere);
+  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryUserData(geometry, &std::get<SphereShape>(impl_->shapes.back()));
+  rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
+  impl_->bounds.add(sphere.centre - sphere.radius);
+  impl_->bounds.add(sphere.centre + sphere.radius);
+  const double radius = sphere.radius;
+  return impl_->attach(geometry, 4.0 * kPiD * radius * radius);
+}
+
+void Geometry::commit() {
+  rtcCommitScene(impl_->scene);
+  impl_->check();
+  impl_->committed = true;
+}
+
+std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
+  assert(impl_->committed);
+  assert(is_finite(ray.origin) && is_finite(ray.direction));
+  RTCRayHit found{};
+  found.ray.org_x = ray.origin.x;
+  found.ray.org_y = ray.origin.y;
+  found.ray.org_z = ray.origin.z;
+  found.ray.dir_x = ray.direction.x;
+  found.ray.dir_y = ray.direction.y;
+  found.ray.dir_z = ray.direction.z;
+  found.ray.tnear = kMinT;
+  found.ray.tfar = std::isinf(t_max) ? t_max : std::nextafter(t_max, 0.0f);
+  found.ray.mask = ~0u;
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  if (!(found.ray.tfar >= kMinT)) return std::nullopt;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(impl_->scene, &context, &found);
+  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  Hit hit;
+  hit.t = found.ray.tfar;
+  hit.shape = found.hit.geomID;
+  const ShapeData& shape = impl_->shapes[hit.shape];
+  if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+    locate(*sphere, ray, hit);
+  } else {
+    locate(std::get<MeshShape>(shape), found, hit);
+  }
+  return hit;
+}
+
+Box Geometry::bounds() const { return impl_->bounds; }
+
+double Geometry::area(uint32_t shape) const {
+  assert(shape < impl_->areas.size());
+  return impl_->areas[shape];
+}
+
+size_t Geometry::memory_bytes() const { return static_cast<size_t>(impl_->bytes.load()); }
+
+}  // namespace vpm

@@ -1,0 +1,82 @@
+// Where rays meet shapes: triangles and quads through Embree, spheres by our own intersection. Every epsilon of the
+// project is in this folder.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace vpm {
+
+/// Triangles; counter-clockwise seen from outside, so that (b - a) x (c - a) is the outward normal.
+struct TriangleMesh {
+  std::vector<Vec3> positions;  // m
+  std::vector<glm::uvec3> triangles;
+};
+struct SphereShape {
+  Vec3 centre{0.0f};    // m
+  float radius = 1.0f;  // m, > 0
+};
+
+/// The point where a ray meets a shape.
+struct Hit {
+  float t = 0.0f;       // m along the ray
+  uint32_t shape = 0;   // as returned by add()
+  Vec3 position{0.0f};  // m, on the surface but for the rounding of its coordinates
+  Vec3 normal{0.0f};    // unit, outward, geometric: not turned towards the ray
+  float slack = 0.0f;   // m, by how much rounding may displace the surface from `position` in later queries
+};
+
+/// Shapes of the scene. Add all, then commit(); from then on it is immutable and all queries are thread-safe.
+/// Failures of Embree itself (out of memory) throw std::runtime_error.
+class Geometry {
+ public:
+  Geometry();
+  ~Geometry();
+  Geometry(Geometry&&) noexcept;
+  Geometry& operator=(Geometry&&) noexcept;
+
+  /// Adds a shape and returns its number: 0, 1, 2, ... Triangles without area are left out, as no ray can meet them.
+  /// Throws InputError where a mesh has no other, where a triangle names a vertex that does not exist, and for
+  /// coordinates or radii that are not finite or beyond 1e9 m, radii not positive.
+  uint32_t add(const TriangleMesh& mesh);
+  uint32_t add(const SphereShape& sphere);
+  void commit();
+
+  /// The nearest hit with 0 < t < t_max, seen from either side. Allocates nothing.
+  std::optional<Hit> intersect(const Ray& ray, float t_max = kInfinity) const;
+
+  /// The box around all shapes; empty without any.
+  Box bounds() const;
+  /// The area of a shape, m^2.
+  double area(uint32_t shape) const;
+  /// What Embree holds, its copy of the shapes included.
+  size_t memory_bytes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The origin of a ray that leaves the surface at `hit` along `direction`: moved along the normal, to the side the ray
+/// travels to, by as little as keeps it from meeting the same surface again. As in [Wachter2019], the offset follows
+/// the spacing of floats; a bound for each shape stands in place of its constants. A triangle may still be met again
+/// where |cos| of the direction to the normal is below 1e-6.
+Vec3 leave_surface(const Hit& hit, const Vec3& direction);
+/// The same for a point on a surface found without a ray: `normal` unit, `slack` as in Hit.
+Vec3 leave_surface_at(const Vec3& position, const Vec3& normal, const Vec3& direction, float slack = 0.0f);
+
+/// Slack of a triangle at a point of it, m: bounds the rounding of Embree's intersection. `reach` holds, for each axis,
+/// the largest distance from the point to the vertices (m); `twice_area` > 0 is in m^2. For needles (length over width
+/// above about 1000, not across an axis) it stops at a thousandth of their length, and they may be met again.
+float flat_slack(const Vec3& normal, const Vec3& reach, double twice_area);
+/// Slack of a sphere, m, at its points as point_on() gives them.
+float sphere_slack(const SphereShape& sphere);
+/// The point of a sphere where its outward normal is `normal` (of any length but 0), off it by the rounding of its
+/// coordinates only.
+Vec3 point_on(const SphereShape& sphere, const Vec3d& normal);
+
+}  // namespace vpm

@@ -1,0 +1,55 @@
+// What a surface does to light: the closed set of materials. Directions are those of travel, before and after.
+#pragma once
+
+#include <variant>
+
+#include "base/vec.h"
+
+namespace vpm {
+
+/// Ideal diffuse reflection on both sides, radiance factor reflectance/pi.
+struct Lambertian {
+  Rgb reflectance{0.5f};  // in [0, 1]
+};
+/// Ideal mirror on both sides.
+struct Mirror {
+  Rgb reflectance{1.0f};  // in [0, 1]
+};
+/// Smooth dielectric: reflects and refracts by Fresnel's equations.
+struct Dielectric {
+  float ior = 1.5f;  // index behind the surface (against its normal: inside) over the index before it, > 0
+};
+/// A border between media that light passes unchanged. Crossing it is no scattering event.
+struct Boundary {};
+
+using Material = std::variant<Lambertian, Mirror, Dielectric, Boundary>;
+
+/// Is the material a border that does not scatter?
+inline bool is_boundary(const Material& m) { return std::holds_alternative<Boundary>(m); }
+/// Does the material scatter into a set of directions of measure zero, so that photons on it are not stored?
+inline bool is_specular(const Material& m) {
+  return std::holds_alternative<Mirror>(m) || std::holds_alternative<Dielectric>(m);
+}
+/// Are all its coefficients equal over the channels?
+bool is_grey(const Material& m);
+
+/// How a path goes on from a surface.
+struct Scatter {
+  Vec3 direction{0.0f};  // of travel, away from the surface, unit; on the far side if transmitted, else on the near one
+  Rgb weight{0.0f};      // times the path's power or throughput: value cos / pdf
+  bool transmitted = false;  // to the other side of the surface
+  /// (ior on the near side / ior on the far side)^2 at refraction, else 1. Eye paths multiply by it, because radiance
+  /// over ior^2 is what refraction keeps; photons carry flux and do not.
+  float radiance_scale = 1.0f;
+};
+
+/// Samples the scattering of a path that travels along `travel` (unit) and meets a surface of normal `normal` (unit,
+/// outward) from either side. `u_choice` and `u` are uniform in [0, 1). Black weight: absorbed. A boundary, and a
+/// dielectric of ior 1, pass the direction unchanged to the last bit.
+Scatter sample_scatter(const Material& material, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+
+/// Fresnel reflectance of unpolarised light for the cosine of incidence in [0, 1] and eta = ior on the far side over
+/// ior on the near side; 1 at total internal reflection [Pharr2023, sec. 9.3.5].
+float fresnel_dielectric(float cos_incident, float eta);
+
+}  // namespace vpm

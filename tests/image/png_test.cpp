@@ -1,0 +1,125 @@
+// The preview, read back with libpng, shows the bytes that the sRGB curve asks for.
+#include "image/png.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "image/metrics.h"
+
+namespace vpm {
+namespace {
+
+namespace fs = std::filesystem;
+using Byte3 = std::array<int, 3>;
+
+class Png : public testing::Test {
+ protected:
+  ~Png() override { fs::remove(file_); }
+
+  std::vector<Byte3> read(int width, int height) const {
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_file(&png, file_.c_str())) << png.message;
+    EXPECT_EQ(png.width, static_cast<png_uint_32>(width));
+    EXPECT_EQ(png.height, static_cast<png_uint_32>(height));
+    EXPECT_EQ(png.format, static_cast<png_uint_32>(PNG_FORMAT_RGB));
+    std::vector<uint8_t> bytes(PNG_IMAGE_SIZE(png));
+    EXPECT_TRUE(png_image_finish_read(&png, nullptr, bytes.data(), 0, nullptr)) << png.message;
+    std::vector<Byte3> pixels;
+    for (size_t i = 0; i + 2 < bytes.size(); i += 3) pixels.push_back({bytes[i], bytes[i + 1], bytes[i + 2]});
+    return pixels;
+  }
+
+  std::string bytes() const {
+    std::ifstream in(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  const fs::path file_ = fs::path(testing::TempDir()) / ("vpm-png-test-" + std::to_string(getpid()) + ".png");
+};
+
+TEST_F(Png, CurveAndOrder) {
+  Image image(3, 2);
+  image.at(0, 0) = {0.0f, 0.5f, 1.0f};     // 0.5 -> 0.7354 * 255
+  image.at(1, 0) = {-1.0f, 2.0f, 0.18f};   // clipped; 0.18 -> 0.4614 * 255
+  image.at(2, 0) = {0.002f, 0.0f, 0.0f};   // linear part: 12.92 * 0.002 * 255 = 6.6
+  image.at(0, 1) = {0.0f, 0.2140f, 0.0f};  // half grey
+  image.at(2, 1) = {1e30f, 1e-30f, 1.0f};
+  EXPECT_EQ(write_png(file_, image, 0.0f), 0u);
+  const std::vector<Byte3> expected = {{0, 188, 255}, {0, 255, 118}, {7, 0, 0}, {0, 127, 0}, {0, 0, 0}, {255, 0, 255}};
+  EXPECT_EQ(read(3, 2), expected);
+}
+
+TEST_F(Png, ExposureIsInStops) {
+  Image image(2, 1);
+  image.at(0, 0) = Rgb(0.25f);
+  image.at(1, 0) = Rgb(0.125f);
+  write_png(file_, image, 1.0f);
+  const std::vector<Byte3> expected = {{188, 188, 188}, {137, 137, 137}};
+  EXPECT_EQ(read(2, 1), expected);
+  write_png(file_, image, 200.0f);  // an infinite gain
+  const std::vector<Byte3> white(2, Byte3{255, 255, 255});
+  EXPECT_EQ(read(2, 1), white);
+}
+
+TEST_F(Png, NonFinitePixelsAreMagentaAndCounted) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  Image image(4, 1);
+  image.at(0, 0) = {nan, 0.0f, 0.0f};
+  image.at(1, 0) = {0.0f, kInfinity, nan};
+  image.at(2, 0) = {0.0f, 0.0f, -kInfinity};
+  EXPECT_EQ(write_png(file_, image, -3.0f), 3u);
+  const std::vector<Byte3> expected = {{255, 0, 255}, {255, 0, 255}, {255, 0, 255}, {0, 0, 0}};
+  EXPECT_EQ(read(4, 1), expected);
+}
+
+TEST_F(Png, ABlackPixelStaysBlackUnderAnyExposure) {
+  EXPECT_EQ(write_png(file_, Image(1, 1), 200.0f), 0u);
+  EXPECT_EQ(read(1, 1), std::vector<Byte3>(1, Byte3{0, 0, 0}));
+}
+
+TEST_F(Png, EqualPicturesGiveEqualBytes) {
+  Image image(31, 17);
+  for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = Rgb(static_cast<float>(i) / 527.0f, 0.3f, 0.1f);
+  write_png(file_, image, 0.0f);
+  const std::string first = bytes();
+  write_png(file_, image, 0.0f);
+  EXPECT_EQ(bytes(), first);
+  EXPECT_EQ(first.find("tIME"), std::string::npos);
+}
+
+TEST_F(Png, RefusedPath) {
+  EXPECT_THROW(write_png(file_ / "missing" / "x.png", Image(1, 1), 0.0f), InputError);
+  EXPECT_THROW(write_png(testing::TempDir(), Image(1, 1), 0.0f), InputError);
+}
+
+TEST(AutoExposure, PutsThe99thPercentileAtFourFifths) {
+  Image image(100, 10);
+  for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = Rgb(static_cast<float>(i + 1));
+  const float exposure = auto_exposure(image);
+  EXPECT_NEAR(990.0f * std::exp2(exposure), 0.8f, 0.001f);
+  for (size_t i = 991; i < 1000; ++i) image.pixels[i] = Rgb(1e20f);  // fireflies do not darken the picture
+  EXPECT_EQ(auto_exposure(image), exposure);
+}
+
+TEST(AutoExposure, IgnoresBlackSurroundingsAndNonFinitePixels) {
+  Image image(100, 100);
+  EXPECT_EQ(auto_exposure(image), 0.0f);
+  image.at(3, 4) = Rgb(0.1f);
+  EXPECT_FLOAT_EQ(auto_exposure(image), 3.0f);
+  image.at(5, 5) = Rgb(kInfinity);
+  image.at(6, 5) = Rgb(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_FLOAT_EQ(auto_exposure(image), 3.0f);
+}
+
+}  // namespace
+}  // namespace vpm

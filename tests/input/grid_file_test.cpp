@@ -1,0 +1,436 @@
+// Grids from .vdb files: what they become, and what is refused. The files are written here by OpenVDB itself; its own samplers are the
+// truth for the values.
+#include "input/grid_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/LevelSetSphere.h>
+#include <random>
+
+#include "base/error.h"
+#include "base/rng.h"
+
+namespace vpm {
+namespace {
+
+using openvdb::Coord;
+using openvdb::CoordBBox;
+using openvdb::DoubleGrid;
+using openvdb::FloatGrid;
+using openvdb::math::Transform;
+
+class GridFile : public ::testing::Test {
+ protected:
+  GridFile() {
+    openvdb::initialize();
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) / ("grid_file_" + std::string(test->name()));
+    std::filesystem::create_directories(folder_);
+    path_ = (folder_ / "grid.vdb").string();
+  }
+  ~GridFile() override { std::filesystem::remove_all(folder_); }
+
+  void write(const openvdb::GridPtrVec& grids) const { openvdb::io::File(path_).write(grids); }
+  GridRequest request(const std::string& name = "density") const {
+    GridRequest r;
+    r.path = path_;
+    r.name = name;
+    return r;
+  }
+  /// The message with which load_grid refuses.
+  static std::string refusal(const GridRequest& request) {
+    try {
+      load_grid(request);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "(accepted)";
+  }
+
+  std::filesystem::path folder_;
+  std::string path_;
+};
+
+/// Random values in a box of voxels, some of them left empty.
+template <class Grid>
+typename Grid::Ptr random_grid(const Coord& lo, const Coord& hi, float background = 0.0f) {
+  auto grid = Grid::create(background);
+  grid->setName("density");
+  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+  Rng rng(1, 2, 3);
+  auto accessor = grid->getAccessor();
+  for (const Coord& c : CoordBBox(lo, hi))
+    if (rng.uniform() < 0.7f) accessor.setValue(c, rng.uniform());
+  return grid;
+}
+
+/// Both interpolations of the grid in the file equal OpenVDB's samplers, at points inside and around it.
+template <class Grid>
+void expect_same_as_sampler(const Grid& grid, const GridRequest& request, float tolerance = 1e-5f) {
+  for (const Interpolation interpolation : {Interpolation::trilinear, Interpolation::nearest}) {
+    GridRequest r = request;
+    r.interpolation = interpolation;
+    const auto density = load_grid(r).grid;
+    const auto accessor = grid.getConstAccessor();
+    CoordBBox box = grid.evalActiveVoxelBoundingBox();
+    box.expand(3);
+    Rng rng(4, 5, 6);
+    for (int i = 0; i < 20000; ++i) {
+      const auto between = [&](int a) { return box.min()[a] + rng.uniform_double() * (box.max()[a] - box.min()[a]); };
+      const openvdb::Vec3d somewhere = grid.indexToWorld(openvdb::Vec3d(between(0), between(1), between(2)));
+      const Vec3 world(somewhere.x(), somewhere.y(), somewhere.z());
+      const openvdb::Vec3d index = grid.worldToIndex(openvdb::Vec3d(world.x, world.y, world.z));
+      const double expected = interpolation == Interpolation::trilinear ? openvdb::tools::BoxSampler::sample(accessor, index)
+                                                                        : openvdb::tools::PointSampler::sample(accessor, index);
+      ASSERT_NEAR(density->density(world), expected, tolerance) << "at index " << index;
+    }
+  }
+}
+
+TEST_F(GridFile, EqualsTheSamplerUnderAnyAffineTransform) {
+  using openvdb::math::Mat4d;
+  const auto rotated = [] {
+    auto t = Transform::createLinearTransform(0.25);
+    t->postRotate(0.7, openvdb::math::X_AXIS);
+    t->postRotate(-1.1, openvdb::math::Z_AXIS);
+    t->postTranslate({3, -2, 1});
+    return t;
+  };
+  const auto stretched = [] {
+    auto t = Transform::createLinearTransform(1.0);
+    t->preScale({0.1, 0.35, 0.2});
+    return t;
+  };
+  const auto mirrored = [] { return Transform::createLinearTransform(Mat4d(-0.5, 0., 0., 0., 0., 0.5, 0., 0., 0., 0., 0.5, 0., 7., 8., 9., 1.)); };
+  const auto sheared = [] { return Transform::createLinearTransform(Mat4d(0.5, 0.1, 0., 0., 0., 0.4, 0.2, 0., -0.3, 0., 0.6, 0., 1., 2., 3., 1.)); };
+  const std::vector<Transform::Ptr> transforms = {Transform::createLinearTransform(1.0), rotated(), stretched(), mirrored(), sheared()};
+  for (const auto& transform : transforms) {
+    auto grid = random_grid<FloatGrid>(Coord(-13, -9, -20), Coord(5, 11, -2));
+    grid->setTransform(transform);
+    write({grid});
+    expect_same_as_sampler(*grid, request());
+  }
+}
+
+TEST_F(GridFile, ReadsDoubleHalfAndUnclassedGrids) {
+  auto wide = random_grid<DoubleGrid>(Coord(-3), Coord(12));
+  write({wide});
+  expect_same_as_sampler(*wide, request());
+  auto half = random_grid<FloatGrid>(Coord(-3), Coord(12));
+  half->setSaveFloatAsHalf(true);
+  half->setGridClass(openvdb::GRID_UNKNOWN);
+  write({half});
+  expect_same_as_sampler(*half, request(), 5e-4f);  // half of 2^-10, the spacing of half floats near 1
+  EXPECT_EQ(list_grids(path_)[0].value_type, "float stored as half");
+}
+
+TEST_F(GridFile, ReadsTilesAndPrunedGrids) {
+  auto grid = FloatGrid::create(0.0f);
+  grid->setName("density");
+  grid->fill(CoordBBox(Coord(-16, -8, 0), Coord(31, 39, 15)), 0.5f);
+  grid->fill(CoordBBox(Coord(40, 3, 5), Coord(44, 11, 9)), 0.25f);
+  grid->pruneGrid();
+  ASSERT_GT(grid->activeVoxelCount(), 0u);
+  write({grid});
+  ASSERT_GT(list_grids(path_)[0].active_tiles, 0u);
+  expect_same_as_sampler(*grid, request());
+}
+
+TEST_F(GridFile, InactiveValuesCountInsideTheBoxAndNotOutside) {
+  auto grid = FloatGrid::create(0.0f);
+  grid->setName("density");
+  grid->fill(CoordBBox(Coord(0), Coord(4)), 1.0f);
+  grid->tree().setValueOff(Coord(2, 2, 2), 0.5f);
+  grid->tree().setValueOff(Coord(6, 2, 2), 0.5f);
+  write({grid});
+  const auto density = load_grid(request()).grid;
+  EXPECT_FLOAT_EQ(density->density(Vec3(2, 2, 2)), 0.5f);
+  EXPECT_FLOAT_EQ(density->density(Vec3(6, 2, 2)), 0.0f);
+}
+
+TEST_F(GridFile, AppliesTheObjectTransformAfterTheGridsOwn) {
+  auto grid = random_grid<FloatGrid>(Coord(0), Coord(9));
+  grid->setTransform(Transform::createLinearTransform(0.5));
+  write({grid});
+  GridRequest r = request();
+  r.object_to_world = Mat4d(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 10, 20, 30, 1);  // a quarter turn about z, twice as large, moved
+  const auto moved = load_grid(r).grid;
+  const auto plain = load_grid(request()).grid;
+  EXPECT_FLOAT_EQ(moved->voxel_size(), 1.0f);
+  Rng rng(7, 8, 9);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 p(5 * rng.uniform(), 5 * rng.uniform(), 5 * rng.uniform());
+    EXPECT_NEAR(moved->density(Vec3(10 - 2 * p.y, 20 + 2 * p.x, 30 + 2 * p.z)), plain->density(p), 2e-5f);
+  }
+}
+
+TEST_F(GridFile, FindsGridsByNameAndRepeatedOnesByNumber) {
+  openvdb::GridPtrVec grids;
+  for (const float value : {1.0f, 2.0f, 3.0f}) {
+    auto grid = FloatGrid::create(0.0f);
+    grid->setName(value == 3.0f ? "heat" : "density");
+    grid->fill(CoordBBox(Coord(0), Coord(3)), value);
+    grids.push_back(grid);
+  }
+  write(grids);
+  EXPECT_FLOAT_EQ(load_grid(request("density[0]")).grid->max_density(), 1.0f);
+  EXPECT_FLOAT_EQ(load_grid(request("density[1]")).grid->max_density(), 2.0f);
+  EXPECT_FLOAT_EQ(load_grid(request("heat")).grid->max_density(), 3.0f);
+  for (const std::string name : {"density", "density[2]", "Heat", ""}) {
+    const std::string message = refusal(request(name));
+    EXPECT_NE(message.find("density[0] (float, class unknown), density[1] (float, class unknown), heat (float"), std::string::npos) << message;
+  }
+}
+
+TEST_F(GridFile, SharesTreesBetweenInstances) {
+  auto first = random_grid<FloatGrid>(Coord(0), Coord(9));
+  auto second = first->copy();
+  second->setName("copy");
+  second->setTransform(Transform::createLinearTransform(2.0));
+  write({first, second});
+  expect_same_as_sampler(*second, request("copy"));
+}
+
+TEST_F(GridFile, RefusesLevelSetsUnlessAskedToConvertThem) {
+  auto sphere = openvdb::tools::createLevelSetSphere<FloatGrid>(2.0f, {0, 0, 0}, 0.1f);
+  sphere->setName("density");
+  write({sphere});
+  EXPECT_NE(refusal(request()).find("from_level_set"), std::string::npos);
+  GridRequest r = request();
+  r.from_level_set = true;
+  const auto fog = load_grid(r).grid;
+  EXPECT_FLOAT_EQ(fog->density(Vec3(0.0f)), 1.0f);
+  EXPECT_FLOAT_EQ(fog->density(Vec3(2.15f, 0.0f, 0.0f)), 0.0f);
+  EXPECT_NEAR(fog->density(Vec3(0.0f, 1.85f, 0.0f)), 0.5f, 0.01f);  // the ramp is 3 voxels deep
+  auto dense = random_grid<FloatGrid>(Coord(0), Coord(9));
+  write({dense});
+  EXPECT_NE(refusal(r).find("fog volume already"), std::string::npos);
+}
+
+TEST_F(GridFile, RefusesOtherTypesEmptyGridsAndNonlinearTransforms) {
+  auto vectors = openvdb::Vec3SGrid::create();
+  vectors->setName("density");
+  vectors->fill(CoordBBox(Coord(0), Coord(3)), openvdb::Vec3f(1.0f));
+  write({vectors});
+  EXPECT_NE(refusal(request()).find("holds vec3s values"), std::string::npos);
+  EXPECT_NE(refusal(request()).find("the file holds: density (vec3s, "), std::string::npos);
+  EXPECT_EQ(list_grids(path_)[0].active_voxels, 64u);
+  auto empty = FloatGrid::create(0.0f);
+  empty->setName("density");
+  write({empty});
+  EXPECT_NE(refusal(request()).find("no active voxels"), std::string::npos);
+  auto bent = random_grid<FloatGrid>(Coord(0), Coord(9));
+  bent->setTransform(Transform::createFrustumTransform(openvdb::BBoxd({0, 0, 0}, {10, 10, 10}), 0.5, 1.0));
+  write({bent});
+  EXPECT_NE(refusal(request()).find("not affine"), std::string::npos);
+  EXPECT_FALSE(list_grids(path_)[0].index_to_world.has_value());
+}
+
+TEST_F(GridFile, RefusesValuesThatAreNotNumbersAndSaysWhere) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    auto grid = random_grid<FloatGrid>(Coord(0), Coord(9));
+    grid->setTransform(Transform::createLinearTransform(0.5));
+    grid->tree().setValue(Coord(3, 4, 5), bad);
+    grid->tree().setValueOff(Coord(9, 9, 9), bad);
+    write({grid});
+    GridRequest r = request();
+    r.clamp_negative = true;
+    EXPECT_NE(refusal(r).find("has 2 NaN or infinite values, the first"), std::string::npos) << refusal(r);
+    EXPECT_NE(refusal(r).find("voxel (3, 4, 5), world position (1.5, 2, 2.5) m"), std::string::npos) << refusal(r);
+  }
+  auto wide = random_grid<DoubleGrid>(Coord(0), Coord(9));
+  wide->tree().setValue(Coord(1, 1, 1), 1e39);
+  write({wide});
+  EXPECT_NE(refusal(request()).find("(1e+39) at voxel (1, 1, 1)"), std::string::npos) << refusal(request());
+}
+
+TEST_F(GridFile, ClampsNegativeValuesOnlyOnRequestAndCountsThem) {
+  auto grid = random_grid<FloatGrid>(Coord(0), Coord(20));
+  grid->tree().setValue(Coord(3, 4, 5), -0.5f);
+  grid->tree().addTile(1, Coord(8, 8, 8), -0.25f, true);
+  write({grid});
+  EXPECT_NE(refusal(request()).find("has 513 negative values"), std::string::npos) << refusal(request());
+  GridRequest r = request();
+  r.clamp_negative = true;
+  const LoadedGrid loaded = load_grid(r);
+  EXPECT_EQ(loaded.clamped_values, 513u);
+  EXPECT_FLOAT_EQ(loaded.grid->density(Vec3(3, 4, 5)), 0.0f);
+  EXPECT_FLOAT_EQ(loaded.grid->density(Vec3(11, 12, 13)), 0.0f);
+  auto clean = random_grid<FloatGrid>(Coord(0), Coord(9));
+  write({clean});
+  EXPECT_EQ(load_grid(r).clamped_values, 0u);
+}
+
+TEST_F(GridFile, ABackgroundNeedsABoundingShape) {
+  auto grid = random_grid<FloatGrid>(Coord(0), Coord(9), 0.75f);
+  write({grid});
+  EXPECT_NE(refusal(request()).find("background 0.75"), std::string::npos);
+  GridRequest r = request();
+  r.has_bounding_shape = true;
+  EXPECT_FLOAT_EQ(load_grid(r).grid->density(Vec3(500.0f, 0.0f, 0.0f)), 0.75f);
+  expect_same_as_sampler(*grid, r);
+}
+
+TEST_F(GridFile, RefusesBoxesThatWouldNotFitInMemory) {
+  auto grid = FloatGrid::create(0.0f);
+  grid->setName("density");
+  grid->tree().setValue(Coord(0), 1.0f);
+  grid->tree().setValue(Coord(100000), 1.0f);
+  write({grid});
+  EXPECT_NE(refusal(request()).find("too large"), std::string::npos) << refusal(request());
+  grid->tree().setValue(Coord(std::numeric_limits<int>::max()), 1.0f);
+  grid->tree().setValue(Coord(std::numeric_limits<int>::min()), 1.0f);
+  write({grid});
+  EXPECT_NE(refusal(request()).find("beyond"), std::string::npos) << refusal(request());
+}
+
+TEST_F(GridFile, SummarizesGrids) {
+  auto grid = FloatGrid::create(0.0f);
+  grid->setName("density");
+  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+  grid->setTransform(Transform::createLinearTransform(0.5));
+  grid->transform().postTranslate({1, 2, 3});
+  grid->tree().addTile(1, Coord(8, 0, 0), 2.0f, true);
+  grid->tree().setValue(Coord(-1, 0, 0), 5.0f);
+  write({grid});
+  const GridSummary s = list_grids(path_).at(0);
+  EXPECT_EQ(s.grid_class, "fog volume");
+  EXPECT_EQ(s.value_type, "float");
+  EXPECT_TRUE(s.problem.empty());
+  EXPECT_TRUE(s.axis_aligned);
+  EXPECT_EQ(s.active_voxels, 513u);
+  EXPECT_EQ(s.active_tiles, 1u);
+  EXPECT_EQ(s.lo, Vec3i(-1, 0, 0));
+  EXPECT_EQ(s.hi, Vec3i(15, 7, 7));
+  EXPECT_EQ(s.world_box.lo, Vec3(0.5f, 2.0f, 3.0f));
+  EXPECT_EQ(s.world_box.hi, Vec3(8.5f, 5.5f, 6.5f));
+  ASSERT_TRUE(s.values.has_value());
+  EXPECT_DOUBLE_EQ(s.values->min, 2.0);
+  EXPECT_DOUBLE_EQ(s.values->max, 5.0);
+  EXPECT_DOUBLE_EQ(s.values->mean, (512 * 2.0 + 5.0) / 513);
+  EXPECT_GT(s.memory_bytes, 2048u);
+}
+
+TEST_F(GridFile, RefusesWhatIsNotAFile) {
+  EXPECT_NE(refusal(request()).find("no such file"), std::string::npos);
+  GridRequest r = request();
+  r.path = folder_.string();
+  EXPECT_NE(refusal(r).find("not a file"), std::string::npos);
+  std::ofstream(path_) << "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n";
+  EXPECT_NE(refusal(request()).find("git-lfs pointer"), std::string::npos);
+  std::ofstream(path_) << "density = 1\n";
+  EXPECT_NE(refusal(request()).find("not a .vdb file"), std::string::npos);
+  std::ofstream(path_).close();
+  EXPECT_NE(refusal(request()).find("empty"), std::string::npos);
+}
+
+TEST_F(GridFile, NoTruncationIsAccepted) {
+  write({random_grid<FloatGrid>(Coord(-3), Coord(12))});
+  std::ifstream whole(path_, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
+  for (size_t length = 0; length < bytes.size(); length += 1 + length / 40) {
+    std::ofstream(path_, std::ios::binary) << bytes.substr(0, length);
+    EXPECT_THROW(load_grid(request()), InputError) << length << " of " << bytes.size() << " bytes";
+    EXPECT_THROW(list_grids(path_), InputError) << length << " of " << bytes.size() << " bytes";
+  }
+}
+
+TEST_F(GridFile, DamagedBytesAreRefusedOrHarmless) {
+  auto plain = random_grid<FloatGrid>(Coord(-3), Coord(12));
+  auto half = random_grid<DoubleGrid>(Coord(0), Coord(9));
+  half->setName("other");
+  half->setSaveFloatAsHalf(true);
+  for (const uint32_t compression : {0u, 1u, 2u, 3u, 6u}) {
+    openvdb::io::File file(path_);
+    file.setCompression(compression);
+    file.write(openvdb::GridPtrVec{plain, half});
+    std::ifstream whole(path_, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
+    std::mt19937 random(compression);
+    for (int i = 0; i < 60; ++i) {
+      std::string damaged = bytes;
+      const size_t place = random() % (i % 2 ? 1200 : bytes.size() - 8);
+      const uint64_t value = i % 3 == 0 ? ~uint64_t{0} - random() % 100000 : uint64_t{random()} << (random() % 33);
+      std::memcpy(damaged.data() + place, &value, i % 4 < 2 ? 4 : 8);
+      std::ofstream(path_, std::ios::binary) << damaged;
+      for (const std::string name : {"density", "other"}) {
+        try {
+          const auto grid = load_grid(request(name)).grid;
+          EXPECT_TRUE(std::isfinite(grid->max_density()));
+        } catch (const InputError&) {
+        }
+      }
+    }
+  }
+}
+
+// Real files -------------------------------------------------------------------------------------------------------------------------
+
+class RealGrid : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "no " << kFolder;
+  }
+  /// Compares a file's grid with OpenVDB's own reading of it.
+  static void expect_same(const std::string& file, const std::string& name = "density", bool bounded = false) {
+    GridRequest request;
+    request.path = kFolder + file;
+    request.name = name;
+    request.has_bounding_shape = bounded;
+    openvdb::initialize();
+    openvdb::io::File reader(request.path);
+    reader.open(false);
+    const auto grid = reader.readGrid(name);
+    const float scale = std::max(1.0f, load_grid(request).grid->max_density());
+    if (const auto narrow = openvdb::gridPtrCast<FloatGrid>(grid))
+      expect_same_as_sampler(*narrow, request, 1e-5f * scale);
+    else
+      expect_same_as_sampler(*openvdb::gridPtrCast<DoubleGrid>(grid), request, 1e-5f * scale);
+  }
+  static std::string refusal(const std::string& file, const std::string& name = "density") {
+    GridRequest request;
+    request.path = kFolder + file;
+    request.name = name;
+    try {
+      load_grid(request);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "(accepted)";
+  }
+
+  inline static const std::string kFolder = std::string(VPM_SHARED_DIR) + "/vdb/";
+};
+
+TEST_F(RealGrid, EqualTheSampler) {
+  expect_same("smoke1.vdb");
+  expect_same("wdas_cloud_sixteenth.vdb");
+  expect_same("usd_smoke3.vdb");
+  expect_same("edge/affine_rotated_dragon.vdb");
+  expect_same("edge/background_one_box.vdb", "density", true);
+  expect_same("edge/double_grid.vdb");
+  expect_same("edge/duplicate_names.vdb", "density[1]");
+  expect_same("edge/other_name_voxel_fog_density.vdb", "voxel_fog_density");
+}
+
+TEST_F(RealGrid, AreRefusedWhereTheyAreNoDensities) {
+  EXPECT_NE(refusal("ls_sphere.vdb", "ls_sphere").find("level set"), std::string::npos);
+  EXPECT_NE(refusal("edge/background_one_box.vdb").find("background 1"), std::string::npos);
+  EXPECT_NE(refusal("edge/duplicate_names.vdb").find("density[0]"), std::string::npos);
+  EXPECT_NE(refusal("edge/other_name_voxel_fog_density.vdb").find("voxel_fog_density"), std::string::npos);
+  EXPECT_NE(refusal("edge/vec3_only_Cd.vdb", "Cd").find("vec3s"), std::string::npos);
+  EXPECT_NE(refusal("edge/pointdata_only.vdb", "points").find("ptdataidx32"), std::string::npos);
+  EXPECT_NE(refusal("edge/empty_density.vdb").find("no active voxels"), std::string::npos);
+  EXPECT_NE(refusal("edge/damaged_bad-bbox-bomb_40ba.vdb", "bomb").find("no active voxels"), std::string::npos);
+  EXPECT_NE(refusal("edge/damaged_bad-bbox-huge_2258.vdb", "huge").find("no active voxels"), std::string::npos);
+  EXPECT_NE(refusal("edge/damaged_bad-bbox-inverted_3691.vdb", "inverted").find("no active voxels"), std::string::npos);
+  EXPECT_NE(refusal("edge/damaged_truncated_14b0.vdb", "huge").find("truncated"), std::string::npos);
+  EXPECT_NE(refusal("edge/lfs_pointer_text.vdb").find("git-lfs"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vpm

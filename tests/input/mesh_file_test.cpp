@@ -1,0 +1,107 @@
+// Meshes: what PLY and OBJ files say, in every encoding, and a clear refusal of every damaged one.
+#include "input/mesh_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "input/expectations.h"
+
+namespace vpm {
+namespace {
+
+std::string write_file(const std::string& name, const std::string& text) {
+  const std::string path = ::testing::TempDir() + name;
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+/// The bytes of a value in the given order.
+template <class T>
+std::string bytes(T value, std::endian order) {
+  std::string s(sizeof value, '\0');
+  std::memcpy(s.data(), &value, sizeof value);
+  if (order != std::endian::native) std::reverse(s.begin(), s.end());
+  return s;
+}
+
+/// A unit square in the plane z = 0.25, as one polygon of four corners.
+void expect_square(const LoadedMesh& loaded) {
+  const TriangleMesh& mesh = loaded.mesh;
+  EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0.25}, {1, 0, 0.25}, {1, 1, 0.25}, {0, 1, 0.25}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(loaded.degenerate_triangles, 0u);
+}
+
+TEST(MeshFile, ReadsAsciiPly) {
+  expect_square(load_mesh(write_file("square.ply",
+                                     "ply\r\nformat ascii 1.0\nobj_info made by hand\nelement vertex 4\nproperty double x\n"
+                                     "property float y\nproperty float z\nproperty uchar red\nelement edge 1\n"
+                                     "property int vertex1\nproperty int vertex2\nelement face 1\nproperty uchar flags\n"
+                                     "property list uchar uint vertex_index\nproperty list uchar float weights\nend_header\n"
+                                     "0 0 .25 255\n1 0 2.5e-1 0\n+1 1 0.25 0\n0 1\n0.25 0\n0 1\n7 4 0 1 2 3 2 0.5 0.5\n")));
+}
+
+/// Every scalar type, a list to skip, and an unknown element between vertices and faces.
+std::string binary_ply(std::endian order) {
+  const bool little = order == std::endian::little;
+  std::string text = "ply\nformat binary_" + std::string(little ? "little" : "big") +
+                     "_endian 1.0\nelement vertex 4\nproperty char x\nproperty float64 z\nproperty list ushort int16 skipped\n"
+                     "property float32 y\nelement thing 2\nproperty uint32 a\nproperty int32 b\nelement face 1\n"
+                     "property list int8 uint16 vertex_indices\nend_header\n";
+  for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+    text += bytes(static_cast<int8_t>(x), order) + bytes(0.25, order) + bytes(uint16_t{2}, order) + bytes(int16_t{-1}, order) +
+            bytes(int16_t{10}, order) + bytes(static_cast<float>(y), order);
+  }
+  for (int i = 0; i < 2; ++i) text += bytes(uint32_t{0x0a0a0a0a}, order) + bytes(int32_t{-1}, order);
+  text += bytes(int8_t{4}, order);
+  for (const uint16_t corner : {0, 1, 2, 3}) text += bytes(corner, order);
+  return text;
+}
+
+TEST(MeshFile, ReadsBinaryPlyOfEitherByteOrder) {
+  expect_square(load_mesh(write_file("little.ply", binary_ply(std::endian::little))));
+  expect_square(load_mesh(write_file("big.PLY", binary_ply(std::endian::big))));
+}
+
+TEST(MeshFile, ReadsObj) {
+  expect_square(load_mesh(write_file("square.obj",
+                                     "# a square\nmtllib none.mtl\no square\nv 0 0 .25\nv 1 0 .25 1.0\r\nv 1 1 .25 # corner\n"
+                                     "\tv 0 1 0.25\nvn 0 0 1\nvt 0 0\nusemtl none\nf 1/1/1 2//1 -2/1 4")));
+}
+
+TEST(MeshFile, CountsDegenerateTriangles) {
+  const LoadedMesh loaded = load_mesh(write_file("thin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 2\nf 1 2 4\n"));
+  EXPECT_EQ(loaded.mesh.triangles.size(), 1u);
+  EXPECT_EQ(loaded.degenerate_triangles, 2u);
+}
+
+TEST(MeshFile, RefusesOtherFiles) {
+  EXPECT_NE(message_of([] { load_mesh("mesh.stl"); }).find("mesh.stl: a mesh must be a .ply or .obj file"), std::string::npos);
+  EXPECT_NE(message_of([] { load_mesh("no_such.ply"); }).find("no_such.ply: cannot open"), std::string::npos);
+}
+
+TEST(MeshFile, RefusesDamagedFiles) {
+  for (const std::string& path : bad_files({".ply", ".obj"})) {
+    SCOPED_TRACE(path);
+    expect_message(path, message_of([&] { load_mesh(path); }));
+  }
+}
+
+/// A file cut anywhere is refused, or read up to whole faces; it never crashes.
+TEST(MeshFile, SurvivesTruncation) {
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    const std::string whole = binary_ply(order);
+    for (size_t size = 0; size < whole.size(); size += 5) {
+      const std::string path = write_file("cut.ply", whole.substr(0, size));
+      EXPECT_NE(message_of([&] { load_mesh(path); }), "") << size;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,167 @@
+// Light that arrives at a point: the mean of sample_towards() against closed forms.
+#include <gtest/gtest.h>
+
+#include "light/lights.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+/// Samples of irradiance on a surface of normal `normal` at `point`, red channel; its pdf and direction are checked on
+/// the way.
+Moments irradiance(const Light& light, const Vec3& point, const Vec3& normal, uint64_t index, int samples = 100000) {
+  Rng rng = test_rng(index);
+  Moments moments;
+  for (int i = 0; i < samples; ++i) {
+    const auto in = sample_towards(light, point, rng);
+    moments.add(in ? in->irradiance.r * std::max(0.0f, glm::dot(normal, in->direction)) : 0.0);
+    if (!in) continue;
+    EXPECT_NEAR(glm::length(in->direction), 1.0f, 1e-6f);
+    EXPECT_GT(in->distance, 0.0f);
+  }
+  return moments;
+}
+
+/// Irradiance of a polygon of radiance 1 wholly above the horizon: half the sum, over its edges, of the angle each
+/// subtends times the cosine of the receiver's normal to the normal of the plane through edge and point [Arvo1994, eq.
+/// 3].
+double lambert_polygon(const std::vector<Vec3d>& corners, const Vec3d& point, const Vec3d& normal) {
+  double sum = 0.0;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d a = glm::normalize(corners[i] - point), b = glm::normalize(corners[(i + 1) % corners.size()] - point);
+    sum += std::acos(glm::dot(a, b)) * glm::dot(glm::normalize(glm::cross(a, b)), normal);
+  }
+  return 0.5 * std::abs(sum);
+}
+
+TEST(Incident, PointLightFallsWithTheSquare) {
+  Rng rng = test_rng(0);
+  const auto in = sample_towards(PointLight{{0, 3, 4}, Rgb(50, 25, 5)}, {0, 0, 0}, rng);
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->irradiance, Rgb(2, 1, 0.2f));
+  EXPECT_EQ(in->distance, 5.0f);
+  EXPECT_EQ(in->pdf, 0.0f);
+  EXPECT_LT(glm::length(in->direction - Vec3(0, 0.6f, 0.8f)), 1e-6f);
+  EXPECT_FALSE(sample_towards(PointLight{}, {0, 0, 0}, rng));
+}
+
+TEST(Incident, SpotHasFullIntensityWithinHalfAtTheMiddleOfTheRimAndNoneOutside) {
+  Rng rng = test_rng(1);
+  const SpotLight spot{{0, 0, 0}, {0, -1, 0}, 0.9f, 0.7f, Rgb(4)};
+  const auto at = [&](float cosine) {
+    return sample_towards(spot, 2.0f * Vec3(std::sqrt(1.0f - cosine * cosine), -cosine, 0.0f), rng);
+  };
+  EXPECT_NEAR(at(0.95f)->irradiance.r, 1.0f, 1e-6f);
+  EXPECT_NEAR(at(0.8f)->irradiance.r, 0.5f, 1e-5f);
+  EXPECT_NEAR(at(0.75f)->irradiance.r, 3.0f / 16 - 2.0f / 64, 1e-5f);
+  EXPECT_FALSE(at(0.69f));
+  EXPECT_FALSE(at(-0.9f));
+}
+
+TEST(Incident, BeamLightsItsCylinderOnly) {
+  Rng rng = test_rng(2);
+  const BeamLight beam{{0, 1, 0}, {0, -1, 0}, 0.5f, Rgb(kPi)};
+  const auto in = sample_towards(beam, {0.3f, -2, 0.3f}, rng);
+  ASSERT_TRUE(in);
+  EXPECT_FLOAT_EQ(in->irradiance.r, 4.0f);
+  EXPECT_EQ(in->direction, Vec3(0, 1, 0));
+  EXPECT_FLOAT_EQ(in->distance, 3.0f);
+  EXPECT_EQ(in->pdf, 0.0f);
+  EXPECT_FALSE(sample_towards(beam, {0.4f, -2, 0.4f}, rng));
+  EXPECT_FALSE(sample_towards(beam, {0, 1.5f, 0}, rng));
+}
+
+TEST(Incident, DirectionalLightIsEverywhereTheSame) {
+  Rng rng = test_rng(3);
+  const auto in = sample_towards(DirectionalLight{{0, 0, 1}, Rgb(1, 2, 3)}, {100, 200, 300}, rng);
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->irradiance, Rgb(1, 2, 3));
+  EXPECT_EQ(in->direction, Vec3(0, 0, -1));
+  EXPECT_TRUE(std::isinf(in->distance));
+  EXPECT_EQ(in->pdf, 0.0f);
+}
+
+// False-alarm rate 1e-5 for each point.
+TEST(Incident, QuadMatchesLambertsFormula) {
+  const QuadLight quad{{-1, 2, -0.5f}, {1.5f, 0.3f, 0}, {0.4f, -0.2f, 1.2f}, Rgb(2)};
+  const Vec3d c(quad.corner), u(quad.edge_u), v(quad.edge_v);
+  const Vec3 normal = glm::normalize(Vec3(0.1f, 1.0f, 0.2f));
+  for (const Vec3& point : {Vec3(0, 0, 0), Vec3(2, -1, 1), Vec3(-0.5f, 1, 0.2f)}) {
+    const double expected =
+        2.0 * lambert_polygon({c, c + u, c + u + v, c + v}, Vec3d(point), glm::normalize(Vec3d(normal)));
+    // It emits to the side of its normal, here downwards; the same quad with its edges exchanged emits upwards only.
+    ASSERT_LT(glm::cross(quad.edge_u, quad.edge_v).y, 0.0f);
+    expect_mean(irradiance(quad, point, normal, 10), expected, 1e-5, "front");
+    EXPECT_EQ(irradiance(QuadLight{quad.corner, quad.edge_v, quad.edge_u, Rgb(2)}, point, normal, 11, 1000).mean(),
+              0.0);
+  }
+}
+
+// E = pi L (R/d)^2 cos for a sphere above the horizon, from just off it to a million radii. False-alarm rate 1e-5 for
+// each distance.
+TEST(Incident, SphereMatchesItsFormFactor) {
+  const Vec3 towards = glm::normalize(Vec3(0.2f, 0.9f, 0.3f));
+  for (const double distance : {1.0001, 1.5, 4.0, 1e3, 1e6}) {
+    const SphereLight sphere{static_cast<float>(0.5 * distance) * towards, 0.5f, Rgb(2)};
+    const double expected = 2.0 * kPiD / (distance * distance);
+    const Moments m = irradiance(sphere, {0, 0, 0}, towards, 20);
+    EXPECT_NEAR(m.mean() / expected, 1.0, 1e-6 + normal_quantile(1e-5) * std::sqrt(m.variance_of_mean()) / expected)
+        << distance;
+  }
+  Rng rng = test_rng(21);
+  EXPECT_FALSE(sample_towards(SphereLight{{0, 0, 0}, 1.0f, Rgb(1)}, {0.5f, 0.5f, 0.5f}, rng));
+}
+
+TEST(Incident, SphereIsMetAtItsNearSide) {
+  const SphereLight sphere{{3, 4, 12}, 2.0f, Rgb(1)};
+  Rng rng = test_rng(22);
+  for (int i = 0; i < 10000; ++i) {
+    const auto in = sample_towards(sphere, {0, 0, 0}, rng);
+    ASSERT_TRUE(in);
+    const Vec3 p = in->distance * in->direction;
+    ASSERT_NEAR(glm::length(p - sphere.centre), 2.0f, 2e-5f);
+    ASSERT_LE(in->distance, std::sqrt(169.0f - 4.0f) + 1e-4f);
+    ASSERT_FLOAT_EQ(in->pdf * in->irradiance.r, 1.0f);
+  }
+}
+
+// A hemisphere of constant radiance L: E = pi L. False-alarm rate 1e-5 each.
+TEST(Incident, EnvironmentsMatchTheirCosineIntegral) {
+  const Vec3 normal = glm::normalize(Vec3(-0.4f, 0.3f, 0.8f));
+  expect_mean(irradiance(ConstantEnvironment{Rgb(2)}, {5, 6, 7}, normal, 30), 2.0 * kPiD, 1e-5, "constant");
+  const EnvironmentMap map = test_map();
+  double expected = 0.0;  // by the midpoint rule within every texel's smooth piece
+  constexpr int kRows = 800, kColumns = 1600;
+  for (int r = 0; r < kRows; ++r) {
+    for (int c = 0; c < kColumns; ++c) {
+      const double theta = (r + 0.5) * kPiD / kRows, phi = (c + 0.5) * 2.0 * kPiD / kColumns;
+      const Vec3 d(Vec3d(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)));
+      const double solid_angle = std::sin(theta) * kPiD / kRows * 2.0 * kPiD / kColumns;
+      expected += map.image->radiance(d).r * std::max(0.0f, glm::dot(normal, d)) * solid_angle;
+    }
+  }
+  expect_mean(irradiance(map, {5, 6, 7}, normal, 31), expected, 1e-5, "map");
+}
+
+TEST(Incident, RadianceIsSeenFromTheFrontOnly) {
+  const Light quad = QuadLight{{}, {1, 0, 0}, {0, 1, 0}, Rgb(3)}, sphere = SphereLight{{}, 1.0f, Rgb(4)};
+  EXPECT_EQ(surface_radiance(quad, {0, 0, 1}, {0, 0, -1}), Rgb(3));
+  EXPECT_EQ(surface_radiance(quad, {0, 0, 1}, {0, 0, 1}), Rgb(0));
+  EXPECT_EQ(surface_radiance(sphere, {0, 0, 1}, {0, 0, -1}), Rgb(4));
+  EXPECT_EQ(surface_radiance(PointLight{}, {0, 0, 1}, {0, 0, -1}), Rgb(0));
+  EXPECT_EQ(environment_radiance(ConstantEnvironment{Rgb(5)}, {0, 0, 1}), Rgb(5));
+  EXPECT_EQ(environment_radiance(quad, {0, 0, 1}), Rgb(0));
+}
+
+TEST(Lights, KnowGreyAndInfinite) {
+  int infinite = 0;
+  for (const Light& light : test_lights()) {
+    EXPECT_FALSE(is_grey(light));
+    infinite += is_infinite(light) ? 1 : 0;
+  }
+  EXPECT_EQ(infinite, 3);
+  EXPECT_TRUE(is_grey(Light(PointLight{})) && is_grey(Light(SphereLight{})) && is_grey(Light(QuadLight{})));
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,168 @@
+// Density grids: look-ups against the definition, walks against look-ups, exact columns against quadrature.
+#include "medium/density_grid.h"
+
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "base/warp.h"
+#include "support/grids.h"
+
+namespace vpm {
+namespace {
+
+GridFrame frame_of(Interpolation interpolation, float background = 0.0f) {
+  GridFrame frame;
+  frame.index_to_world = awkward_transform();
+  frame.lo = Vec3i(-11, 3, -5);
+  frame.hi = Vec3i(9, 22, 17);
+  frame.interpolation = interpolation;
+  frame.background = background;
+  return frame;
+}
+
+double voxel(const GridFrame& frame, const Vec3i& p) {
+  const bool inside = glm::all(glm::greaterThanEqual(p, frame.lo)) && glm::all(glm::lessThanEqual(p, frame.hi));
+  return inside ? 2.0 * static_cast<float>(lattice_noise(p.x, p.y, p.z)) : frame.background;
+}
+
+/// The definition of the interpolated field at index coordinates.
+double defined_density(const GridFrame& frame, const Vec3d& index) {
+  if (frame.interpolation == Interpolation::nearest) return voxel(frame, Vec3i(glm::floor(index + 0.5)));
+  const Vec3i cell(glm::floor(index));
+  const Vec3d f = index - Vec3d(cell);
+  double sum = 0.0;
+  for (int c = 0; c < 8; ++c) {
+    const Vec3i d(c & 1, (c >> 1) & 1, c >> 2);
+    const Vec3d w = glm::mix(1.0 - f, f, glm::equal(d, Vec3i(1)));
+    sum += w.x * w.y * w.z * voxel(frame, cell + d);
+  }
+  return sum;
+}
+
+std::shared_ptr<const DensityGrid> noise_grid(const GridFrame& frame) {
+  return make_grid(frame, [](int x, int y, int z) { return 2.0 * static_cast<float>(lattice_noise(x, y, z)); });
+}
+
+class DensityGridTest : public testing::TestWithParam<std::tuple<Interpolation, float>> {};
+INSTANTIATE_TEST_SUITE_P(All, DensityGridTest,
+                         testing::Combine(testing::Values(Interpolation::trilinear, Interpolation::nearest), testing::Values(0.0f, 0.7f)));
+
+TEST_P(DensityGridTest, LookUpsFollowTheDefinition) {
+  const GridFrame frame = frame_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  const auto grid = noise_grid(frame);
+  Rng rng(1, rng_stream(RngUse::test, 0), 0);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3d index = Vec3d(-16, -2, -10) + Vec3d(rng.uniform(), rng.uniform(), rng.uniform()) * Vec3d(32, 30, 33);
+    const Vec3 world(frame.index_to_world * glm::dvec4(index, 1.0));
+    const Vec3d exact_index(glm::inverse(frame.index_to_world) * glm::dvec4(Vec3d(world), 1.0));
+    if (frame.interpolation == Interpolation::nearest) {
+      const Vec3d off = glm::abs(glm::fract(exact_index) - 0.5);
+      if (std::min(off.x, std::min(off.y, off.z)) < 1e-4) continue;
+    }
+    ASSERT_NEAR(grid->density(world), defined_density(frame, exact_index), 2e-6);
+  }
+}
+
+TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
+  const GridFrame frame = frame_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  const auto grid = noise_grid(frame);
+  const Mat4d to_index = glm::inverse(frame.index_to_world);
+  Rng rng(1, rng_stream(RngUse::test, 1), 0);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 target = Vec3(frame.index_to_world * glm::dvec4(-10.0 + 20.0 * rng.uniform(), 5.0 + 15.0 * rng.uniform(), 16.0 * rng.uniform(), 1.0));
+    const Ray ray{target - 3.0f * uniform_sphere(rng.uniform2()), {}};
+    const Ray aimed{ray.origin, glm::normalize(target - ray.origin)};
+    const Interval interval{0.2f, 5.5f};
+    double end = interval.t0, total = 0.0;
+    grid->visit_pieces(aimed, interval, [&](const DensityPiece& piece) {
+      EXPECT_GE(piece.t0, end - 1e-12);
+      EXPECT_GT(piece.t1, piece.t0);
+      EXPECT_TRUE(frame.background == 0.0f || std::abs(piece.t0 - end) < 1e-9);
+      end = piece.t1;
+      total += piece.column();
+      const double s = rng.uniform() * piece.length();
+      const Vec3d p = Vec3d(aimed.origin) + (piece.t0 + s) * Vec3d(aimed.direction);
+      EXPECT_NEAR(piece.density(s), defined_density(frame, Vec3d(to_index * glm::dvec4(p, 1.0))), 2e-5);
+      return true;
+    });
+    EXPECT_LE(end, interval.t1 + 1e-9);
+    double sum = 0.0;
+    constexpr int kSteps = 20000;
+    for (int k = 0; k < kSteps; ++k) {
+      const double t = interval.t0 + (k + 0.5) / kSteps * interval.length();
+      const Vec3d p = Vec3d(aimed.origin) + t * Vec3d(aimed.direction);
+      sum += defined_density(frame, Vec3d(to_index * glm::dvec4(p, 1.0)));
+    }
+    const double tolerance = frame.interpolation == Interpolation::trilinear ? 2e-5 : 5e-3;
+    ASSERT_NEAR(total, sum * interval.length() / kSteps, tolerance);
+    if (i == 20) break;  // quadrature is slow; the pieces of the other rays are checked above
+  }
+}
+
+TEST(DensityGrid, RaysAlongFacesAndEdgesOfCellsSeeTheField) {
+  GridFrame frame;
+  frame.lo = Vec3i(0);
+  frame.hi = Vec3i(20);
+  const auto grid = make_grid(frame, [](int x, int y, int z) { return 1.0 + 0.1 * x + 0.01 * y + 0.001 * z; });
+  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    for (const Vec3& through : {Vec3(8.0f, 8.0f, 8.0f), Vec3(8.0f, 3.0f, 16.0f), Vec3(5.5f, 16.0f, 8.0f)}) {
+      const Ray ray{through - 100.0f * direction, direction};
+      double total = 0.0;
+      grid->visit_pieces(ray, {}, [&](const DensityPiece& piece) {
+        total += piece.column();
+        return true;
+      });
+      // Linear inside the lattice, fading to 0 over one voxel at both ends.
+      const Vec3 along = glm::abs(direction);
+      const double middle = 1.0 + glm::dot(glm::mix(through, Vec3(10.0f), along), Vec3(0.1f, 0.01f, 0.001f));
+      EXPECT_NEAR(total, 21.0 * middle, 2e-5) << direction.x << direction.y << direction.z;
+    }
+  }
+}
+
+TEST(DensityGrid, KnowsItsExtremesAndMean) {
+  GridFrame frame;
+  frame.lo = Vec3i(-3);
+  frame.hi = Vec3i(30, 5, 9);
+  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.5, 0.25, 2.0));
+  double sum = 0.0;
+  const auto grid = make_grid(frame, [&](int x, int y, int z) { return x == 4 && y == 1 && z == 2 ? 9.0 : lattice_noise(x, y, z); });
+  for (int z = -3; z <= 9; ++z)
+    for (int y = -3; y <= 5; ++y)
+      for (int x = -3; x <= 30; ++x) sum += x == 4 && y == 1 && z == 2 ? 9.0 : lattice_noise(x, y, z);
+  EXPECT_EQ(grid->max_density(), 9.0f);
+  EXPECT_NEAR(grid->mean_density(), sum / (35.0 * 10.0 * 14.0), 1e-6);
+  EXPECT_FLOAT_EQ(grid->voxel_size(), 0.25f);
+}
+
+TEST(DensityGrid, EmptySpaceCostsNoLookUps) {
+  GridFrame frame;
+  frame.lo = Vec3i(0);
+  frame.hi = Vec3i(511);
+  const auto grid = make_grid(frame, [](int x, int, int) { return x == 500 ? 1.0 : 0.0; });
+  int pieces = 0;
+  const uint32_t read = grid->visit_pieces({Vec3(-5, 100, 100), Vec3(1, 0, 0)}, {}, [&](const DensityPiece&) { return ++pieces; });
+  EXPECT_LE(read, 9u);
+  EXPECT_LT(grid->memory_bytes(), 24u << 20);
+}
+
+TEST(DensityPiece, InvertsItsColumn) {
+  Rng rng(1, rng_stream(RngUse::test, 2), 0);
+  for (int i = 0; i < 20000; ++i) {
+    // Random cubics made non-negative by squaring a linear factor: roots lie on and inside the piece.
+    const double a = 2.0 * rng.uniform_double() - 0.5, b = rng.uniform_double(), c = 3.0 * rng.uniform_double();
+    DensityPiece piece{1.0, 1.0 + 0.5 + rng.uniform_double(), 0, 0, 0, 0};
+    piece.c0 = b * a * a;
+    piece.c1 = c * a * a - 2.0 * a * b;
+    piece.c2 = b - 2.0 * a * c;
+    piece.c3 = c;
+    const double target = rng.uniform_double() * piece.column();
+    const double s = piece.invert(target);
+    ASSERT_GE(s, 0.0);
+    ASSERT_LE(s, piece.length());
+    ASSERT_NEAR(piece.column(s), target, 1e-11 * (1.0 + piece.column()));
+  }
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,173 @@
+// Every distance strategy against the exact law of free flights, in grey and in colour.
+#include <gtest/gtest.h>
+
+#include "medium/distance/strategy.h"
+#include "support/grids.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kFalseAlarms = 1e-6;  // of each single comparison
+
+struct Field {
+  const char* name;
+  std::shared_ptr<const DensityGrid> grid;
+};
+
+/// Grids over x in (-1, 1) along the ray, voxels of 1/8 m.
+std::vector<Field> fields() {
+  GridFrame frame;
+  frame.lo = Vec3i(-7);
+  frame.hi = Vec3i(7);
+  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.125));
+  GridFrame boxes = frame;
+  boxes.interpolation = Interpolation::nearest;
+  return {{"constant", make_grid(frame, [](int, int, int) { return 0.8; })},
+          {"ramp", make_grid(frame, [](int x, int, int) { return 0.1 * (x + 8); })},
+          {"checker", make_grid(boxes, [](int x, int y, int z) { return (x + y + z) & 1 ? 1.5 : 0.3; })},
+          {"sparse", make_grid(frame, [](int x, int, int) { return x == -4 || x == 5 ? 2.0 : 0.0; })},
+          {"gaussian", make_grid(frame, [](int x, int y, int z) { return std::exp(-0.05 * (x * x + y * y + z * z)); })},
+          {"random", make_grid(frame, [](int x, int y, int z) { return lattice_noise(x, y, z); })}};
+}
+
+const Ray kRay{Vec3(-1.3f, 0.03f, -0.06f), glm::normalize(Vec3(1.0f, 0.02f, 0.05f))};
+const Interval kReach{0.0f, 2.7f};
+constexpr int kBins = 24;
+
+/// What a flight deposits: per bin of distance, then leaving.
+struct Deposits {
+  std::vector<Moments> bins = std::vector<Moments>(kBins + 1);
+  double weight = 0.0, squares = 0.0;
+};
+
+std::array<Deposits, 3> fly(const Medium& medium, const DistanceStrategy& strategy, int flights, const Rgb& power, uint64_t stream) {
+  std::array<Deposits, 3> result;
+  for (int i = 0; i < flights; ++i) {
+    Rng rng(7, rng_stream(RngUse::test, stream), static_cast<uint64_t>(i));
+    const Flight flight = strategy.sample(medium, kRay, kReach, power, rng);
+    const int bin = flight.collided ? std::min(kBins - 1, static_cast<int>(flight.t / kReach.t1 * kBins)) : kBins;
+    for (int c = 0; c < 3; ++c) {
+      for (int b = 0; b <= kBins; ++b) result[c].bins[b].add(b == bin ? flight.weight[c] : 0.0);
+      result[c].weight += flight.weight[c];
+      result[c].squares += double(flight.weight[c]) * flight.weight[c];
+    }
+  }
+  return result;
+}
+
+double exact_probability(const Medium& medium, int channel, int bin) {
+  const auto through = [&](int edge) {
+    return std::exp(-double(medium.sigma_t[channel]) * column(medium, kRay, {0.0f, kReach.t1 * edge / kBins}).value);
+  };
+  return bin == kBins ? through(kBins) : through(bin) - through(bin + 1);
+}
+
+void expect_exact(const Medium& medium, const DistanceSettings& settings, const Rgb& power, const char* field) {
+  constexpr int kFlights = 40000;
+  const auto deposits = fly(medium, *make_distance_strategy(settings), kFlights, power, 1);
+  for (int c = 0; c < 3; ++c) {
+    const double sample_size = deposits[c].weight * deposits[c].weight / deposits[c].squares;
+    if (sample_size < 1000.0) continue;  // heavy tails: a z-test would lie
+    for (int b = 0; b <= kBins; ++b) {
+      const double exact = exact_probability(medium, c, b);
+      const Moments& m = deposits[c].bins[b];
+      // The exact variance of a count bounds the estimate's where a rare bin saw too few.
+      const double error = std::sqrt(std::max(m.variance_of_mean(), exact * (1.0 - exact) / kFlights));
+      EXPECT_LT(std::abs(m.mean() - exact), normal_quantile(kFalseAlarms) * error + 1e-7)
+          << settings.strategy << " on " << field << ", channel " << c << ", bin " << b << ": " << m.mean() << " against " << exact;
+    }
+  }
+}
+
+TEST(DistanceStrategy, EveryUnbiasedOneFollowsTheExactTransmittance) {
+  for (const Field& field : fields())
+    for (const StrategyInfo& info : distance_strategies()) {
+      if (!info.heterogeneous || !info.unbiased) continue;
+      DistanceSettings settings;
+      settings.strategy = info.name;
+      expect_exact(make_medium(field.grid, Rgb(1.5f)), settings, Rgb(1.0f), field.name);
+      expect_exact(make_medium(field.grid, Rgb(0.5f, 1.5f, 3.0f)), settings, Rgb(1.0f, 0.5f, 2.0f), field.name);
+    }
+}
+
+TEST(DistanceStrategy, RayMarchErrsWithTheSquareOfTheStep) {
+  // Equal random numbers make the same target column for both strategies, so the error of each flight is seen without noise.
+  const Medium medium = make_medium(fields()[4].grid, Rgb(3.0f));
+  const auto exact = make_distance_strategy({});
+  const auto error = [&](float step) {
+    const auto strategy = make_distance_strategy({.strategy = "ray-march", .step = step});
+    double squares = 0.0;
+    int flights = 0;
+    for (uint64_t i = 0; i < 5000; ++i) {
+      Rng a(7, rng_stream(RngUse::test, 2), i), b(7, rng_stream(RngUse::test, 2), i);
+      const Flight x = exact->sample(medium, kRay, kReach, Rgb(1.0f), a);
+      const Flight y = strategy->sample(medium, kRay, kReach, Rgb(1.0f), b);
+      if (!x.collided || !y.collided) continue;
+      const double d = column(medium, kRay, {0.0f, y.t}).value - column(medium, kRay, {0.0f, x.t}).value;
+      squares += d * d;
+      ++flights;
+    }
+    return std::sqrt(squares / flights);
+  };
+  const double coarse = error(2.0f), middle = error(1.0f), fine = error(0.5f);
+  EXPECT_GT(coarse / middle, 2.8);  // an error of first order would halve
+  EXPECT_GT(middle / fine, 2.8);
+  EXPECT_LT(fine, 1e-3);
+}
+
+TEST(DistanceStrategy, HomogeneousEqualsAConstantGridFlightByFlight) {
+  GridFrame frame;
+  frame.lo = Vec3i(-50);
+  frame.hi = Vec3i(50);
+  const auto grid = make_grid(frame, [](int, int, int) { return 1.0; });
+  const Interval inside{0.0f, 40.0f};
+  for (const Rgb& sigma_t : {Rgb(0.1f), Rgb(0.02f, 0.1f, 0.4f)}) {
+    const Medium constant = make_medium(grid, sigma_t);
+    const Medium homogeneous = make_medium(nullptr, sigma_t);
+    for (const StrategyInfo& info : distance_strategies()) {
+      // The mean over the grid's support counts the voxel over which the density fades, so that strategy's rate is not the medium's.
+      if (!info.heterogeneous || info.name == "mean-extinction") continue;
+      DistanceSettings settings;
+      settings.strategy = info.name;
+      for (uint64_t i = 0; i < 2000; ++i) {
+        Rng a(3, rng_stream(RngUse::test, 3), i), b(3, rng_stream(RngUse::test, 3), i);
+        const Flight x = make_distance_strategy({.strategy = "homogeneous"})->sample(homogeneous, {}, inside, Rgb(1, 2, 3), a);
+        const Flight y = make_distance_strategy(settings)->sample(constant, {}, inside, Rgb(1, 2, 3), b);
+        ASSERT_EQ(x.collided, y.collided) << info.name;
+        ASSERT_NEAR(x.t, y.t, 1e-4) << info.name;
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(x.weight[c], y.weight[c], 1e-5 * (1.0 + x.weight[c])) << info.name;
+      }
+    }
+  }
+}
+
+TEST(DistanceStrategy, GreyWeightsOfAnalogStrategiesAreExactlyOne) {
+  for (const StrategyInfo& info : distance_strategies()) {
+    if (!info.bounded_weight) continue;
+    const Medium medium = make_medium(info.heterogeneous ? fields()[5].grid : nullptr, Rgb(2.0f));
+    for (uint64_t i = 0; i < 1000; ++i) {
+      Rng rng(3, rng_stream(RngUse::test, 4), i);
+      const auto strategy = make_distance_strategy({.strategy = std::string(info.name)});
+      EXPECT_EQ(strategy->sample(medium, kRay, kReach, Rgb(1.0f), rng).weight, Rgb(1.0f)) << info.name;
+    }
+  }
+}
+
+TEST(DistanceStrategy, EndlessAndEmptyMediaGiveFiniteWeights) {
+  const Interval endless;
+  for (const StrategyInfo& info : distance_strategies())
+    for (const Rgb& sigma_t : {Rgb(0.0f), Rgb(0.0f, 1.0f, 2.0f), Rgb(1e-9f), Rgb(1e9f)}) {
+      const Medium medium = make_medium(nullptr, sigma_t);
+      for (uint64_t i = 0; i < 200; ++i) {
+        Rng rng(3, rng_stream(RngUse::test, 5), i);
+        const Flight f = make_distance_strategy({.strategy = std::string(info.name)})->sample(medium, {}, endless, Rgb(1.0f), rng);
+        EXPECT_TRUE(is_finite(f.weight)) << info.name << " sigma_t " << sigma_t.r;
+        EXPECT_EQ(f.collided, f.t < kInfinity) << info.name;
+        EXPECT_FALSE(is_black(sigma_t) && f.collided) << info.name;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace vpm

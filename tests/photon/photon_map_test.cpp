@@ -1,0 +1,136 @@
+// Photon maps against their brute-force twins, on spread, flat, clustered and coinciding photons.
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "base/warp.h"
+#include "estimate/surface_estimate.h"
+#include "estimate/volume_estimate.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+enum class Layout { spread, flat, clustered, coinciding, line };
+
+std::vector<Photon> photons(Layout layout, size_t count) {
+  std::vector<Photon> result(count);
+  for (size_t i = 0; i < count; ++i) {
+    Rng rng(4, rng_stream(RngUse::test, static_cast<uint64_t>(layout)), i);
+    Vec3 p(rng.uniform(), rng.uniform(), rng.uniform());
+    if (layout == Layout::flat) p.y = 0.25f;
+    if (layout == Layout::clustered) p = (i & 7) ? 1e-3f * p + 0.4f : 100.0f * p;
+    if (layout == Layout::coinciding && i % 2) p = Vec3(0.5f);
+    if (layout == Layout::line) p = Vec3(p.x * 50.0f, 1.0f, 2.0f);
+    result[i] = {p, PackedDirection(uniform_sphere(rng.uniform2())), Rgb(rng.uniform(), rng.uniform(), rng.uniform())};
+    // Photons at one distance must be alike, or a k-nearest answer would depend on which of them it takes.
+    if (p == Vec3(0.5f)) result[i] = {p, PackedDirection(Vec3(0.6f, -0.8f, 0.0f)), Rgb(0.5f)};
+  }
+  return result;
+}
+
+constexpr Layout kLayouts[] = {Layout::spread, Layout::flat, Layout::clustered, Layout::coinciding, Layout::line};
+
+void expect_near(const Rgb& a, const Rgb& b, const char* what) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-4f * (1e-3f + std::abs(b[c]))) << what;
+}
+
+TEST(PackedDirection, IsAccurate) {
+  for (uint64_t i = 0; i < 100000; ++i) {
+    Rng rng(4, rng_stream(RngUse::test, 20), i);
+    Vec3 d = uniform_sphere(rng.uniform2());
+    if (i < 6) d = Vec3(i == 0, i == 1, i == 2) - Vec3(i == 3, i == 4, i == 5);
+    const Vec3 back = PackedDirection(d).unpack();
+    ASSERT_NEAR(glm::length(back), 1.0f, 1e-6f);
+    ASSERT_LT(glm::length(back - d), 7e-5f);
+  }
+}
+
+TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
+  const Phase phase = HenyeyGreenstein{0.6f};
+  const Vec3 towards = glm::normalize(Vec3(1, 2, 3));
+  for (const Layout layout : kLayouts) {
+    const std::vector<Photon> all = photons(layout, 5000);
+    for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
+      for (const KernelKind kernel : {KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight})
+        for (const float radius : {0.02f, 0.11f, 3.0f}) {
+          const GatherSettings settings{mode, radius, 40, kernel};
+          const PhotonMap map = make_photon_map(all, settings, 1000);
+          for (uint64_t i = 0; i < 20; ++i) {
+            Rng rng(4, rng_stream(RngUse::test, 10), i);
+            const Vec3 at = all[static_cast<size_t>(rng.uniform() * 5000)].position + 0.3f * radius * uniform_sphere(rng.uniform2());
+            expect_near(volume_sum(phase, at, towards, map), volume_sum(phase, at, towards, all, settings, uint64_t{1000}), "volume");
+            expect_near(surface_irradiance(at, Vec3(0, 1, 0), radius, map),
+                        surface_irradiance(at, Vec3(0, 1, 0), radius, all, settings, uint64_t{1000}), "surface");
+          }
+        }
+  }
+}
+
+TEST(PhotonMap, SmallAndEmptyMapsAnswer) {
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
+    for (const size_t count : {0u, 1u, 2u, 3u, 39u, 40u, 41u}) {
+      const std::vector<Photon> all = photons(Layout::spread, count);
+      const GatherSettings settings{mode, 0.9f, 40, KernelKind::constant};
+      const PhotonMap map = make_photon_map(all, settings, 10);
+      EXPECT_EQ(map.size(), count);
+      expect_near(volume_sum(Isotropic{}, Vec3(0.5f), Vec3(0, 0, 1), map),
+                  volume_sum(Isotropic{}, Vec3(0.5f), Vec3(0, 0, 1), all, settings, uint64_t{10}), "few photons");
+    }
+}
+
+TEST(PhotonMap, KNearestIsUnbiasedInUniformPhotons) {
+  // 2000 photons of power 1/2000 uniform in the unit cube: the density at its middle is 1. With k counted instead of k - 1 the mean would be k/(k-1).
+  for (const KernelKind kernel : {KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight}) {
+    Moments density;
+    for (uint64_t trial = 0; trial < 1000; ++trial) {
+      Rng rng(4, rng_stream(RngUse::test, 30), trial);
+      std::vector<Photon> all(2000);
+      for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
+      const NearestMap map(all, 1.0f / 2000.0f);
+      const GatherSettings settings{GatherMode::nearest, 10.0f, 12, kernel};
+      density.add(kernel_sum<3>(map, settings, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; }).r);
+    }
+    expect_mean(density, 1.0, 1e-6, "density");
+  }
+}
+
+TEST(PhotonMap, FixedRadiusMeanIsTheSmoothedDensity) {
+  Moments density;
+  for (uint64_t trial = 0; trial < 2000; ++trial) {
+    Rng rng(4, rng_stream(RngUse::test, 31), trial);
+    std::vector<Photon> all(500);
+    for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
+    const PhotonMap map = make_photon_map(all, {GatherMode::radius, 0.3f, 0, KernelKind::biweight}, 500);
+    density.add(kernel_sum<3>(map, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; }).r);
+  }
+  expect_mean(density, 1.0, 1e-6, "density");
+}
+
+TEST(PhotonMap, TakesAtMost40BytesAPhoton) {
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest}) {
+    const PhotonMap map = make_photon_map(photons(Layout::spread, 100000), {mode, 0.02f, 40, KernelKind::constant}, 1);
+    EXPECT_LE(static_cast<double>(map.memory_bytes()) / 100000.0, 40.0);
+  }
+}
+
+TEST(Kernel, IsNormalised) {
+  constexpr int kSteps = 100000;
+  for (const KernelKind kind : {KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight}) {
+    const float r = 0.7f;
+    double disc = 0.0, ball = 0.0;
+    with_kernel(kind, [&](auto profile) {
+      for (int i = 0; i < kSteps; ++i) {
+        const double t = (i + 0.5) / kSteps;
+        const double value = profile(static_cast<float>(t * t)) * r / kSteps;
+        disc += value * 2.0 * kPiD * (t * r);
+        ball += value * 4.0 * kPiD * (t * r) * (t * r);
+      }
+      return 0;
+    });
+    EXPECT_NEAR(disc * kernel_norm_2d(kind, r), 1.0, 1e-5);
+    EXPECT_NEAR(ball * kernel_norm_3d(kind, r), 1.0, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace vpm

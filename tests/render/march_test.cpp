@@ -1,0 +1,128 @@
+// The eye's march: exact where it must be, unbiased everywhere, whatever the steps.
+#include "render/march.h"
+
+#include <gtest/gtest.h>
+
+#include "render/film.h"
+#include "render/radius_schedule.h"
+#include "support/grids.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+const Ray kRay{Vec3(-2.0f, 0.1f, -0.2f), glm::normalize(Vec3(1.0f, 0.05f, 0.1f))};
+constexpr double kFalseAlarms = 1e-6;
+
+Medium noise_medium(const Rgb& sigma_t) {
+  GridFrame frame;
+  frame.lo = Vec3i(-10);
+  frame.hi = Vec3i(10);
+  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.1));
+  return make_medium(make_grid(frame, [](int x, int y, int z) { return x % 5 == 0 ? 0.0 : 2.0 * lattice_noise(x, y, z); }), sigma_t);
+}
+
+TEST(March, IntegratesAConstantWithoutNoise) {
+  for (const float sigma : {1e-7f, 0.3f, 20.0f})
+    for (const StepLimits limits : {StepLimits{0.05f, 10.0f}, StepLimits{0.7f, 0.2f}, StepLimits{100.0f, 1e9f}}) {
+      const Medium medium = noise_medium(Rgb(sigma));
+      Marcher marcher;
+      Rng rng(1, 0, 0);
+      double sum = 0.0;
+      const Marched marched = marcher.march(medium, kRay, {0.0f, 4.0f}, limits, rng, [&](const Vec3&, const Rgb& w) { sum += w.r; });
+      const double crossed = column(medium, kRay, {0.0f, 4.0f}).value;
+      if (std::exp(-sigma * crossed) < 0.01) continue;  // roulette
+      EXPECT_NEAR(sum, attenuated_column(sigma, crossed), 1e-5 * crossed);
+      EXPECT_NEAR(marched.transmittance.r, std::exp(-sigma * crossed), 1e-6);
+    }
+}
+
+/// f of the tests: a smooth function of position.
+double probe(const Vec3& p) { return 1.0 + p.x + 0.5 * p.x * p.x; }
+
+/// The integral of Tr density f by fine quadrature over the exact field.
+double reference(const Medium& medium, float sigma, float t1, bool times_density) {
+  constexpr int kSteps = 40000;
+  double sum = 0.0, crossed = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double width = t1 / double(kSteps);
+    const Vec3 p = kRay.at(static_cast<float>((i + 0.5) * width));
+    const double density = medium.density(p);
+    sum += std::exp(-sigma * (crossed + 0.5 * density * width)) * (times_density ? density : 1.0) * probe(p) * width;
+    crossed += density * width;
+  }
+  return sum;
+}
+
+TEST(March, IsUnbiasedForAnyStep) {
+  const Rgb sigma(0.2f, 1.0f, 6.0f);
+  const Medium medium = noise_medium(sigma);
+  for (const StepLimits limits : {StepLimits{0.06f, 0.5f}, StepLimits{0.8f, 1e9f}, StepLimits{50.0f, 0.7f}, StepLimits{50.0f, 1e9f}}) {
+    std::array<Moments, 3> sums;
+    Moments through;
+    Marcher marcher;
+    for (uint64_t i = 0; i < 20000; ++i) {
+      Rng rng(1, rng_stream(RngUse::test, 0), i);
+      Rgb sum(0.0f);
+      const Marched m = marcher.march(medium, kRay, {0.0f, 4.0f}, limits, rng,
+                                      [&](const Vec3& p, const Rgb& w) { sum += w * static_cast<float>(probe(p)); });
+      for (int c = 0; c < 3; ++c) sums[c].add(sum[c]);
+      through.add(m.transmittance.b);
+    }
+    for (int c = 0; c < 3; ++c) expect_mean(sums[c], reference(medium, sigma[c], 4.0f, true), kFalseAlarms, "march");
+    // Where roulette never plays the transmittance is exact, with no spread to test against.
+    const double exact = std::exp(-sigma.b * column(medium, kRay, {0.0f, 4.0f}).value);
+    EXPECT_NEAR(through.mean(), exact, 1e-6 + normal_quantile(kFalseAlarms) * std::sqrt(through.variance_of_mean()));
+  }
+}
+
+TEST(March, EndsInEndlessMedia) {
+  const Medium medium = make_medium(nullptr, Rgb(0.5f));
+  Moments sums;
+  Marcher marcher;
+  for (uint64_t i = 0; i < 4000; ++i) {
+    Rng rng(1, rng_stream(RngUse::test, 1), i);
+    double sum = 0.0;
+    marcher.march(medium, kRay, {}, {0.5f, 0.3f}, rng, [&](const Vec3&, const Rgb& w) { sum += w.r; });
+    sums.add(sum);
+  }
+  expect_mean(sums, 2.0, kFalseAlarms, "endless");
+}
+
+TEST(March, EvenStepsAreUnbiasedToo) {
+  const Medium medium = noise_medium(Rgb(1.0f));
+  Moments sums;
+  for (uint64_t i = 0; i < 20000; ++i) {
+    Rng rng(1, rng_stream(RngUse::test, 2), i);
+    double sum = 0.0;
+    march_evenly(&medium, kRay, {0.0f, 4.0f}, 0.0, 0.3f, rng, [&](const Vec3& p, const Rgb& w) { sum += w.r * probe(p); });
+    sums.add(sum);
+  }
+  expect_mean(sums, reference(medium, 1.0f, 4.0f, false), kFalseAlarms, "even steps");
+}
+
+TEST(RadiusSchedule, FollowsTheRecurrence) {
+  for (const int d : {1, 2, 3}) {
+    const double a = 4.0 / (d + 4.0);
+    double measure = 1.0;
+    EXPECT_FLOAT_EQ(radius_of_pass(2.0f, d, 0), 2.0f);
+    for (int i = 1; i < 50; ++i) {
+      measure *= (i + a) / (i + 1.0);
+      EXPECT_NEAR(radius_of_pass(2.0f, d, i), 2.0 * std::pow(measure, 1.0 / d), 1e-6);
+    }
+  }
+}
+
+TEST(Film, KeepsMeanAndVarianceOfTheMean) {
+  Film film(1, 1);
+  for (const float x : {1.0f, 2.0f, 6.0f}) {
+    Image pass(1, 1);
+    pass.at(0, 0) = Rgb(x, 2 * x, 0.0f);
+    film.add(pass);
+  }
+  EXPECT_EQ(film.mean().at(0, 0), Rgb(3.0f, 6.0f, 0.0f));
+  EXPECT_FLOAT_EQ(film.variance_of_mean().at(0, 0).r, 7.0f / 3.0f);
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,153 @@
+// Materials: directions, weights, Fresnel's equations.
+#include "surface/material.h"
+
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "base/warp.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+const Vec3 kNormal = glm::normalize(Vec3(0.3f, 0.8f, -0.5f));
+
+TEST(Fresnel, KnownValues) {
+  EXPECT_NEAR(fresnel_dielectric(1.0f, 1.5f), 0.04f, 1e-7f);         // ((n - 1) / (n + 1))^2
+  EXPECT_NEAR(fresnel_dielectric(1.0f, 1.0f / 1.5f), 0.04f, 1e-7f);  // the same from inside
+  EXPECT_EQ(fresnel_dielectric(0.0f, 1.5f), 1.0f);
+  EXPECT_EQ(fresnel_dielectric(0.5f, 1.0f), 0.0f);
+  EXPECT_EQ(fresnel_dielectric(0.0f, 1.0f), 0.0f);
+  // 60 degrees on glass: with cos t = sqrt(1 - 0.75 / 2.25) = sqrt(2/3).
+  const double ct = std::sqrt(2.0 / 3.0), s = (0.5 - 1.5 * ct) / (0.5 + 1.5 * ct), p = (0.75 - ct) / (0.75 + ct);
+  EXPECT_NEAR(fresnel_dielectric(0.5f, 1.5f), 0.5 * (s * s + p * p), 1e-6);
+  // At Brewster's angle, tan = n, only the perpendicular part is reflected: ((n^2 - 1) / (n^2 + 1))^2 / 2.
+  EXPECT_NEAR(fresnel_dielectric(static_cast<float>(std::cos(std::atan(1.5))), 1.5f), 0.5 * std::pow(1.25 / 3.25, 2),
+              1e-6);
+  // Beyond the critical angle, sin = 1 / 1.5, nothing passes.
+  EXPECT_EQ(fresnel_dielectric(0.745f, 1.0f / 1.5f), 1.0f);
+  EXPECT_LT(fresnel_dielectric(0.7455f, 1.0f / 1.5f), 1.0f);
+}
+
+TEST(Dielectric, ObeysSnellOnBothSides) {
+  Rng rng(1, static_cast<uint64_t>(RngUse::test), 0);
+  const Dielectric glass{1.5f};
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 travel = uniform_sphere(rng.uniform2());
+    const double cosine = glm::dot(Vec3d(kNormal), Vec3d(travel));
+    const double eta = cosine < 0.0 ? 1.5 : 1.0 / 1.5;
+    const Scatter s = sample_scatter(glass, kNormal, travel, 0.9999999f, rng.uniform2());
+    EXPECT_NEAR(glm::length(s.direction), 1.0f, 1e-6f);
+    EXPECT_EQ(s.weight, Rgb(1.0f));
+    const Vec3d in = glm::cross(Vec3d(kNormal), Vec3d(travel)), out = glm::cross(Vec3d(kNormal), Vec3d(s.direction));
+    const double to_side = glm::dot(kNormal, s.direction);
+    if (s.transmitted) {
+      EXPECT_LT(glm::length(in - eta * out), 5e-7);  // sines and plane of incidence
+      EXPECT_GT(to_side * cosine, 0.0);
+      EXPECT_FLOAT_EQ(s.radiance_scale, static_cast<float>(1.0 / (eta * eta)));
+    } else {
+      EXPECT_GT(glm::length(in), eta - 1e-6) << "only total reflection leaves nothing to refract";
+      EXPECT_LT(glm::length(in - out), 5e-7);
+      EXPECT_LT(to_side * cosine, 0.0);
+      EXPECT_EQ(s.radiance_scale, 1.0f);
+    }
+  }
+}
+
+// False-alarm rate 1e-5 for each of the four angles.
+TEST(Dielectric, ReflectsWithFresnelsProbability) {
+  Rng rng(2, static_cast<uint64_t>(RngUse::test), 0);
+  for (const float away : {0.0f, 0.5f, 0.9f, 0.98f}) {
+    const Vec3 travel = -direction_about(kNormal, away, 1.0f);
+    Moments reflected;
+    for (int i = 0; i < 100000; ++i) {
+      reflected.add(
+          sample_scatter(Dielectric{1.33f}, kNormal, travel, rng.uniform(), rng.uniform2()).transmitted ? 0.0 : 1.0);
+    }
+    expect_mean(reflected, fresnel_dielectric(-glm::dot(kNormal, travel), 1.33f), 1e-5);
+  }
+}
+
+TEST(Dielectric, RadianceScalesOfEnteringAndLeavingCancel) {
+  const Vec3 travel = -direction_about(kNormal, 0.3f, 2.0f);
+  const Scatter in = sample_scatter(Dielectric{1.7f}, kNormal, travel, 0.99f, {});
+  const Scatter out = sample_scatter(Dielectric{1.7f}, -kNormal, in.direction, 0.99f, {});
+  ASSERT_TRUE(in.transmitted && out.transmitted);
+  EXPECT_NEAR(in.radiance_scale, 1.0f / (1.7f * 1.7f), 1e-6f);
+  EXPECT_NEAR(in.radiance_scale * out.radiance_scale, 1.0f, 1e-6f);
+  EXPECT_LT(glm::length(out.direction - travel), 1e-6f);
+}
+
+TEST(Materials, BoundaryAndIndexOnePassTheRayToTheLastBit) {
+  Rng rng(3, static_cast<uint64_t>(RngUse::test), 0);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 travel = uniform_sphere(rng.uniform2());
+    for (const Material& m : {Material(Boundary{}), Material(Dielectric{1.0f})}) {
+      const Scatter s = sample_scatter(m, kNormal, travel, 0.0f, rng.uniform2());
+      EXPECT_EQ(s.direction, travel);
+      EXPECT_EQ(s.weight, Rgb(1.0f));
+      EXPECT_TRUE(s.transmitted);
+      EXPECT_EQ(s.radiance_scale, 1.0f);
+    }
+  }
+}
+
+// Grazing to the last bit, from both sides: no NaN, unit length, and strictly on the side it says.
+TEST(Materials, SurviveGrazingIncidence) {
+  Rng rng(4, static_cast<uint64_t>(RngUse::test), 0);
+  const Material materials[] = {Lambertian{},           Mirror{},         Dielectric{1.5f}, Dielectric{1.0f / 1.5f},
+                                Dielectric{1.0000001f}, Dielectric{10.0f}};
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 normal = uniform_sphere(rng.uniform2());
+    const float away = 1.0f - (i % 2 == 0 ? 1.0f : -1.0f) * std::pow(10.0f, -12.0f * rng.uniform());
+    const Vec3 travel = i % 10 == 0 ? direction_about(normal, 1.0f, 6.28f * rng.uniform())
+                                    : direction_about(normal, away, 6.28f * rng.uniform());
+    const float before = glm::dot(normal, travel);
+    for (const Material& m : materials) {
+      const Scatter s = sample_scatter(m, normal, travel, rng.uniform(), rng.uniform2());
+      ASSERT_TRUE(is_finite(s.direction) && is_finite(s.weight) && std::isfinite(s.radiance_scale));
+      ASSERT_NEAR(glm::length(s.direction), 1.0f, 1e-6f);
+      const float after = glm::dot(normal, s.direction);
+      ASSERT_EQ(s.transmitted ? after < 0.0f : after > 0.0f, before < 0.0f)
+          << m.index() << ": " << before << " to " << after;
+    }
+  }
+}
+
+TEST(Mirror, ReflectsAndTints) {
+  const Scatter s = sample_scatter(Mirror{Rgb(0.9f, 0.5f, 0.1f)}, {0, 1, 0}, glm::normalize(Vec3(1, -2, 3)), 0.5f, {});
+  EXPECT_LT(glm::length(s.direction - glm::normalize(Vec3(1, 2, 3))), 1e-6f);
+  EXPECT_EQ(s.weight, Rgb(0.9f, 0.5f, 0.1f));
+  EXPECT_FALSE(s.transmitted);
+}
+
+// The square of the cosine is uniform. False-alarm rate 1e-5 for each side.
+TEST(Lambertian, ScattersByTheCosineToTheSideItCameFrom) {
+  Rng rng(5, static_cast<uint64_t>(RngUse::test), 0);
+  for (const float side : {-1.0f, 1.0f}) {
+    const Vec3 normal = side * kNormal, travel = -direction_about(kNormal, 0.4f, 0.7f);
+    std::vector<double> counts(20, 0.0);
+    for (int i = 0; i < 100000; ++i) {
+      const Scatter s =
+          sample_scatter(Lambertian{Rgb(0.2f, 0.3f, 0.4f)}, normal, travel, rng.uniform(), rng.uniform2());
+      ASSERT_EQ(s.weight, Rgb(0.2f, 0.3f, 0.4f));
+      ASSERT_FALSE(s.transmitted);
+      const float cosine = glm::dot(kNormal, s.direction);
+      ASSERT_GT(cosine, 0.0f);
+      counts[std::min(19, static_cast<int>(20.0f * cosine * cosine))] += 1.0;
+    }
+    expect_distribution(counts, std::vector<double>(20, 0.05), 1e-5);
+  }
+}
+
+TEST(Materials, KnowGreySpecularAndBoundary) {
+  EXPECT_TRUE(is_grey(Material(Lambertian{})));
+  EXPECT_FALSE(is_grey(Material(Lambertian{Rgb(0.1f, 0.2f, 0.1f)})));
+  EXPECT_FALSE(is_grey(Material(Mirror{Rgb(0.1f, 0.2f, 0.1f)})));
+  EXPECT_TRUE(is_grey(Material(Dielectric{})) && is_grey(Material(Boundary{})));
+  EXPECT_TRUE(is_specular(Dielectric{}) && is_specular(Mirror{}) && !is_specular(Lambertian{}) &&
+              !is_specular(Boundary{}));
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,40 @@
+// The subcommands of vpm: what each is told, and the functions that run them. They return the exit status.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+
+namespace vpm::tools {
+
+struct RenderOptions {
+  std::string scene;                   // a scene file
+  std::string output;                  // .exr; empty: the scene's name in the current folder
+  std::vector<std::string> overrides;  // key.path=value
+  int threads = 0;                     // 0: all
+  std::optional<int> passes;
+  std::optional<double> seconds;
+  std::optional<uint64_t> seed;
+  ProgressMode progress = ProgressMode::automatic;
+};
+/// Renders a scene to an EXR file, with a PNG preview and a JSON report beside it. 130 when interrupted: the finished passes are written.
+int render_command(const RenderOptions& options);
+
+struct InfoOptions {
+  std::string file;                    // a scene or a .vdb
+  std::vector<std::string> overrides;  // key.path=value, for scenes
+};
+/// Prints what a file holds; of a scene also what a render of it would run.
+int info_command(const InfoOptions& options);
+
+struct MediaOptions {
+  std::string name;      // of a generator; empty: list them
+  int resolution = 128;  // voxels along the longest edge
+  std::string output;    // .vdb; empty: NAME.vdb in the current folder
+};
+/// Writes one of our own generated grids.
+int media_command(const MediaOptions& options);
+
+}  // namespace vpm::tools

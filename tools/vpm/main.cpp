@@ -1,0 +1,76 @@
+// The command line of vpm: options into structs, errors into exit status 2.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+#include <new>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "commands.h"
+
+namespace {
+
+using namespace vpm;
+using namespace vpm::tools;
+
+constexpr int kBadInput = 2;
+
+void add_render(CLI::App& app, RenderOptions& options) {
+  CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
+  command->add_option("scene", options.scene, "Scene file (.toml)")->required();
+  command->add_option("-o,--output", options.output, "Image to write (.exr); default: the scene's name in the current folder");
+  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")->allow_extra_args(false);
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
+  CLI::Option* passes = command->add_option("--passes", options.passes, "Passes to render")->check(CLI::Range(1, 1'000'000'000));
+  command->add_option("--time", options.seconds, "Render passes until this many seconds are over")->check(CLI::PositiveNumber)->excludes(passes);
+  command->add_option("--seed", options.seed, "Seed of all random numbers");
+  const std::map<std::string, ProgressMode> modes{
+      {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
+  command->add_option("--progress", options.progress, "Progress bar: auto (on a terminal), always, never")->transform(CLI::CheckedTransformer(modes));
+}
+
+void add_info(CLI::App& app, InfoOptions& options) {
+  CLI::App* command = app.add_subcommand("info", "Tell what a scene or a .vdb file holds, and what a scene would run");
+  command->add_option("file", options.file, "Scene (.toml) or grid file (.vdb)")->required();
+  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")->allow_extra_args(false);
+}
+
+void add_media(CLI::App& app, MediaOptions& options) {
+  CLI::App* command = app.add_subcommand("media", "Make one of vpm's own density grids; without a name: list them");
+  command->add_option("name", options.name, "Which one");
+  command->add_option("--resolution", options.resolution, "Voxels along the longest edge")->capture_default_str();
+  command->add_option("-o,--output", options.output, "File to write (.vdb); default: NAME.vdb in the current folder");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("vpm: volumetric photon mapping", "vpm");
+  app.set_version_flag("--version", fmt::format("vpm {}", version()));
+  app.require_subcommand(1);
+  RenderOptions render;
+  InfoOptions info;
+  MediaOptions media;
+  add_render(app, render);
+  add_info(app, info);
+  add_media(app, media);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+  if (app.got_subcommand("render")) return render_command(render);
+  if (app.got_subcommand("info")) return info_command(info);
+  return media_command(media);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "vpm: {}\n", error.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "vpm: out of memory\n");
+  }
+  return kBadInput;
+}

@@ -1,0 +1,21 @@
+// vpm media: our own density grids.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "input/grid_writer.h"
+#include "medium/procedural.h"
+
+namespace vpm::tools {
+
+int media_command(const MediaOptions& options) {
+  if (options.name.empty()) {
+    for (const ProceduralField& field : procedural_fields()) fmt::print("{:<10} {}\n", field.name, field.summary);
+    return 0;
+  }
+  const std::string output = options.output.empty() ? options.name + ".vdb" : options.output;
+  write_media_grid(options.name, options.resolution, output);
+  fmt::print("{}\n", output);
+  return 0;
+}
+
+}  // namespace vpm::tools

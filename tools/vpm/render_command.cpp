@@ -1,0 +1,126 @@
+// vpm render: scene file in, picture and report out.
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/version.h"
+#include "commands.h"
+#include "image/exr.h"
+#include "image/png.h"
+#include "input/scene_file.h"
+#include "render/render.h"
+#include "report.h"
+
+namespace vpm::tools {
+namespace {
+
+constexpr int kInterrupted = 130;  // as shells report a process ended by SIGINT
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// A first SIGINT or SIGTERM ends the render after writing what is finished; a second one kills.
+void stop_on_signals() {
+  const auto request = [](int number) {
+    stop_requested = true;
+    std::signal(number, SIG_DFL);
+  };
+  std::signal(SIGINT, request);
+  std::signal(SIGTERM, request);
+}
+
+struct Outputs {
+  std::filesystem::path exr, png, json;
+};
+
+Outputs output_paths(const RenderOptions& options) {
+  namespace fs = std::filesystem;
+  const fs::path exr = options.output.empty() ? fs::path(options.scene).filename().replace_extension(".exr") : fs::path(options.output);
+  if (exr.extension() != ".exr") throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
+  return {exr, fs::path(exr).replace_extension(".png"), fs::path(exr).replace_extension(".json")};
+}
+
+void check_outputs(const Outputs& outputs, const Camera& camera) {
+  const uint64_t pixels = static_cast<uint64_t>(camera.width) * camera.height;
+  constexpr uint64_t kReportBytes = 1 << 16;
+  check_writable(outputs.exr, pixels * 6 * sizeof(float));
+  check_writable(outputs.png, pixels * 3);
+  check_writable(outputs.json, kReportBytes);
+}
+
+void apply_options(const RenderOptions& options, RenderSettings& settings) {
+  if (options.seed) settings.seed = *options.seed;
+  if (options.passes) {
+    settings.passes = *options.passes;
+    settings.seconds = 0.0;
+  }
+  if (options.seconds) settings.seconds = *options.seconds;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  TemporaryFile file(path);
+  std::ofstream(file.path(), std::ios::binary) << text;
+  file.commit();
+}
+
+void write_outputs(const Outputs& outputs, const RenderOptions& options, const LoadedScene& loaded, const RenderResult& result) {
+  const Image mean = result.film.mean();
+  const std::vector<std::pair<std::string, std::string>> metadata{
+      {"vpm.version", std::string(version())},
+      {"vpm.scene", std::filesystem::path(options.scene).filename().string()},
+      {"vpm.sceneHash", loaded.hash},
+      {"vpm.quantity", "radiance, W/(m^2 sr); variance.*: variance of the mean of passes"},
+      {"vpm.seed", std::to_string(loaded.settings.seed)},
+      {"vpm.passes", std::to_string(result.film.passes())},
+      {"vpm.distance", loaded.settings.distance.strategy}};
+  if (result.film.passes() > 1) {
+    const Image variance = result.film.variance_of_mean();
+    write_exr(outputs.exr, mean, &variance, metadata);
+  } else {
+    write_exr(outputs.exr, mean, nullptr, metadata);
+  }
+  write_png(outputs.png, mean, auto_exposure(mean));
+  write_text(outputs.json, render_report(options.scene, outputs.exr.string(), loaded, result));
+}
+
+/// What went wrong without stopping the render; stderr, so that it is seen.
+void print_warnings(const LoadedScene& loaded, const RenderStatistics& s) {
+  for (const std::string& note : loaded.notes) fmt::print(stderr, "note: {}\n", note);
+  const auto warn = [](uint64_t count, const char* what) {
+    if (count > 0) fmt::print(stderr, "warning: {} {}\n", count, what);
+  };
+  warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
+  warn(s.eye.non_finite, "samples were dropped because they were not finite");
+  warn(s.ledger.cut_count, "photons were cut at render.max_events");
+  warn(s.eye.cut_paths, "eye paths were cut at render.max_events");
+  warn(s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches, "boundaries were met from a medium that is not the one before them: check that media do not overlap");
+}
+
+}  // namespace
+
+int render_command(const RenderOptions& options) {
+  set_threads(options.threads);
+  const Outputs outputs = output_paths(options);
+  LoadedScene loaded = load_scene(options.scene, options.overrides);
+  apply_options(options, loaded.settings);
+  check_outputs(outputs, loaded.scene.camera);
+  stop_on_signals();
+  const RenderResult result = render(loaded.scene, loaded.settings, stop_requested, options.progress);
+  print_warnings(loaded, result.statistics);
+  if (result.film.passes() == 0) {
+    fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
+    return kInterrupted;
+  }
+  write_outputs(outputs, options, loaded, result);
+  fmt::print("{}: {} passes in {:.1f} s; preview {}, report {}\n", outputs.exr.string(), result.film.passes(), result.seconds,
+             outputs.png.string(), outputs.json.string());
+  return stop_requested ? kInterrupted : 0;
+}
+
+}  // namespace vpm::tools

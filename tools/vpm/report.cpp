@@ -1,0 +1,133 @@
+// What a render tells of itself.
+#include "report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include "base/parallel.h"
+#include "base/version.h"
+#include "render/photon_pass.h"
+
+namespace vpm::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rgb(const Rgbd& c) { return Json::array({c.r, c.g, c.b}); }
+
+double per_second(uint64_t count, double seconds) { return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0; }
+
+Json times(const RenderResult& result) {
+  const RenderStatistics& s = result.statistics;
+  return {{"unit", "s, wall clock"}, {"total", result.seconds}, {"photon_tracing", s.trace_seconds}, {"map_building", s.build_seconds}, {"eye_pass", s.eye_seconds}};
+}
+
+Json photons(const RenderStatistics& s) {
+  const uint64_t stored = s.volume_photons + s.surface_photons;
+  return {{"emitted", s.ledger.emitted_count},
+          {"stored_volume", s.volume_photons},
+          {"stored_surface", s.surface_photons},
+          {"collisions", s.ledger.collisions},
+          {"surface_hits", s.ledger.surface_hits},
+          {"emitted_per_second", per_second(s.ledger.emitted_count, s.trace_seconds)},
+          {"emitted_per_second_and_thread", per_second(s.ledger.emitted_count, s.trace_seconds) / thread_count()},
+          {"stored_per_second", per_second(stored, s.trace_seconds)},
+          {"density_lookups", s.ledger.walk.lookups},
+          {"largest_weight", s.ledger.largest_weight},
+          {"effective_sample_size", s.ledger.effective_sample_size()},
+          {"paths_cut_at_max_events", s.ledger.cut_count},
+          {"dropped_non_finite", s.ledger.non_finite}};
+}
+
+/// Flows of energy per second, each summed where it happens; `imbalance` is their difference from what was emitted, in standard errors.
+Json ledger(const Ledger& l) {
+  const double n = static_cast<double>(std::max<uint64_t>(1, l.emitted_count));
+  const double error = std::sqrt(l.imbalance.variance_of_mean());
+  return {{"unit", "W"},
+          {"emitted", rgb(l.emitted / n)},
+          {"absorbed_in_media", rgb(l.absorbed_in_media / n)},
+          {"absorbed_on_surfaces", rgb(l.absorbed_on_surfaces / n)},
+          {"escaped", rgb(l.escaped / n)},
+          {"cut_at_max_events", rgb(l.cut / n)},
+          {"imbalance", l.imbalance.mean()},
+          {"imbalance_standard_error", error},
+          {"imbalance_in_standard_errors", error > 0.0 ? l.imbalance.mean() / error : 0.0}};
+}
+
+Json eye(const RenderStatistics& s) {
+  return {{"camera_rays", s.eye.rays},
+          {"marching_steps", s.eye.steps},
+          {"volume_queries", s.eye.volume_queries},
+          {"surface_queries", s.eye.surface_queries},
+          {"shadow_rays", s.eye.shadow_rays},
+          {"density_lookups", s.eye.walk.lookups},
+          {"paths_cut_at_max_events", s.eye.cut_paths},
+          {"dropped_non_finite", s.eye.non_finite},
+          {"last_volume_radius_m", s.last_volume_radius},
+          {"last_surface_radius_m", s.last_surface_radius}};
+}
+
+Json memory(const Scene& scene, const RenderStatistics& s) {
+  size_t grids = 0;
+  for (const Medium& m : scene.media) grids += m.grid ? m.grid->memory_bytes() : 0;
+  const uint64_t stored = (s.volume_photons + s.surface_photons) / std::max(1, s.passes);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return {{"unit", "bytes"},
+          {"grids", grids},
+          {"geometry", scene.geometry.memory_bytes()},
+          {"largest_photon_maps", s.photon_map_bytes},
+          {"per_stored_photon", stored > 0 ? static_cast<double>(s.photon_map_bytes) / static_cast<double>(stored) : 0.0},
+          {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
+}
+
+}  // namespace
+
+std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded, const RenderResult& result) {
+  const RenderStatistics& s = result.statistics;
+  const Camera& camera = loaded.scene.camera;
+  Json report{{"program", fmt::format("vpm {}", version())},
+              {"scene", scene_path},
+              {"scene_hash", loaded.hash},
+              {"image", image},
+              {"quantity", "radiance, W/(m^2 sr)"},
+              {"width", camera.width},
+              {"height", camera.height},
+              {"seed", loaded.settings.seed},
+              {"threads", thread_count()},
+              {"passes", s.passes},
+              {"distance_strategy", loaded.settings.distance.strategy},
+              {"transmittance_estimator", loaded.settings.transmittance.estimator},
+              {"stages", stage_lines(loaded.scene, loaded.settings)},
+              {"notes", loaded.notes},
+              {"clamped_density_values", loaded.clamped_density_values},
+              {"times", times(result)},
+              {"photons", photons(s)},
+              {"energy", ledger(s.ledger)},
+              {"eye", eye(s)},
+              {"boundaries", {{"crossings", s.ledger.walk.crossings + s.eye.walk.crossings}, {"met_in_another_medium", s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches}}},
+              {"memory", memory(loaded.scene, s)}};
+  return report.dump(2) + "\n";
+}
+
+std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings) {
+  const Stages stages = plan_stages(scene, settings);
+  const std::string no_medium = scene.media.empty() ? "no medium" : "no medium scatters";
+  const auto line = [](bool runs, const std::string& what, const std::string& why) {
+    return runs ? "runs " + what : "skips " + what + ": " + why;
+  };
+  bool grids = false;
+  for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
+  return {line(stages.photons(), "photon tracing, distances by " + settings.distance.strategy, "nothing stores photons"),
+          line(stages.volume_map, "volume photon map", no_medium),
+          line(stages.surface_map, "surface photon map", "no diffuse surface"),
+          line(stages.volume_shadow_rays, "shadow rays in media, transmittance by " + settings.transmittance.estimator,
+               stages.volume_map ? "single scattering comes from the photon map" : no_medium),
+          line(stages.surface_shadow_rays, "shadow rays at surfaces, transmittance by " + settings.transmittance.estimator,
+               stages.surface_map ? "direct light comes from the photon map" : "no diffuse surface"),
+          line(grids, "grid look-ups", "all media are homogeneous"),
+          scene.grey ? "all coefficients are grey" : "coefficients differ between channels"};
+}
+
+}  // namespace vpm::tools
