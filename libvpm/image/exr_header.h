@@ -6,7 +6,7 @@
 namespace vpm {
 
 /// Throws InputError where the file is no OpenEXR file, or where an attribute's size does not fit its type or the file
-/// [OpenEXRLayout, component three]. OpenEXR itself believes such sizes, and allocates before it reads.
+/// [OpenEXR2021, component three]. OpenEXR itself believes such sizes, and allocates before it reads.
 void check_exr_header(const std::filesystem::path& path);
 
 }  // namespace vpm

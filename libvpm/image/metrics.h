@@ -5,7 +5,7 @@
 
 namespace vpm {
 
-/// Luminance of linear sRGB [ITU709, item 3.2], in the unit of its argument.
+/// Luminance of linear sRGB [ITU2015, item 3.2], in the unit of its argument.
 inline float luminance(const Rgb& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 /// The mean of each channel over the pixels.

@@ -17,7 +17,7 @@
 namespace vpm {
 namespace {
 
-/// The nearest of 256 steps of the sRGB curve [IEC61966].
+/// The nearest of 256 steps of the sRGB curve [IEC1999].
 uint8_t srgb_byte(float linear) {
   const float c = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // black also where an infinite gain meets 0
   const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;

@@ -8,7 +8,7 @@
 
 namespace vpm {
 
-/// Writes radiance * 2^exposure, clipped to [0, 1] and with the sRGB transfer curve [IEC61966], to 8 bits. Pixels
+/// Writes radiance * 2^exposure, clipped to [0, 1] and with the sRGB transfer curve [IEC1999], to 8 bits. Pixels
 /// with a non-finite channel are drawn magenta; returns their number. Equal pictures give equal bytes. The file appears
 /// whole or not at all; throws InputError where it cannot be written.
 size_t write_png(const std::filesystem::path& path, const Image& radiance, float exposure);

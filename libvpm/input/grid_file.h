@@ -58,7 +58,7 @@ struct LoadedGrid {
 /// Reads a float or double grid as a density. It fills the box of its active voxels: inside, every voxel has the value that OpenVDB
 /// answers for it, active or not; outside, the background. Throws InputError, listing the grids of the file, for whatever cannot be a
 /// density: no such grid, a level set (unless asked for), other types, no active voxels, a transform that is not affine, a background
-/// other than 0 without a bounding shape, NaN, infinite or negative values, a damaged file, a box that would take over 1 GiB of bricks.
+/// other than 0 without a bounding shape, NaN, infinite or negative values, a damaged file, a box whose table of bricks would take over 512 MiB.
 LoadedGrid load_grid(const GridRequest& request);
 
 }  // namespace vpm

@@ -1,15 +1,15 @@
-// Writing procedural fields with OpenVDB: to a temporary file, checked, then renamed.
+// Writing procedural fields with OpenVDB.
 #include "input/grid_writer.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
-#include <tbb/parallel_for.h>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/parallel.h"
 #include "input/vdb_layout.h"
 #include "medium/procedural.h"
 
@@ -54,9 +54,10 @@ openvdb::FloatGrid::Ptr sample(const Lattice& lattice) {
   std::vector<float> slab(static_cast<size_t>(kSlab) * count.x * count.y);
   for (int z0 = 0; z0 < count.z; z0 += kSlab) {
     const int layers = std::min(kSlab, count.z - z0);
-    tbb::parallel_for(0, layers * count.y, [&](int row) {
-      float* values = slab.data() + static_cast<size_t>(row) * count.x;
-      for (int x = 0; x < count.x; ++x) values[x] = lattice.value({x, row % count.y, z0 + row / count.y});
+    parallel_for_chunks(static_cast<size_t>(layers) * count.y, count.y, [&](size_t begin, size_t end, size_t layer) {
+      float* value = slab.data() + begin * count.x;
+      for (int y = 0; y < static_cast<int>(end - begin); ++y)
+        for (int x = 0; x < count.x; ++x) *value++ = lattice.value({x, y, z0 + static_cast<int>(layer)});
     });
     for (int row = 0; row < layers * count.y; ++row)
       for (int x = 0; x < count.x; ++x)
@@ -108,19 +109,16 @@ void check_written(const std::string& path) {
 void write_media_grid(const std::string& name, int resolution, const std::string& path) {
   const ProceduralField& field = find_field(name);
   if (resolution < 2 || resolution > 2048) throw InputError(fmt::format("resolution {}: must lie between 2 and 2048", resolution));
-  const std::string partial = path + ".partial";
-  if (!std::ofstream(partial)) throw InputError(fmt::format("{}: cannot be written (does its folder exist?)", path));
+  TemporaryFile file(path);
   try {
     openvdb::initialize();
-    write_file(sample(Lattice(field, resolution)), partial);
-    fix_unique_number(partial);
-    check_written(partial);
-    std::filesystem::rename(partial, path);
+    write_file(sample(Lattice(field, resolution)), file.path());
+    fix_unique_number(file.path());
   } catch (const std::exception& e) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
     throw InputError(fmt::format("{}: cannot be written: {}", path, e.what()));
   }
+  check_written(file.path());
+  file.commit();
 }
 
 }  // namespace vpm

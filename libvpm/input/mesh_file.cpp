@@ -20,8 +20,9 @@ void check_indices(const std::string& path, const TriangleMesh& mesh) {
   for (const glm::uvec3& t : mesh.triangles) {
     const uint32_t largest = std::max({t.x, t.y, t.z});
     if (largest >= mesh.positions.size())
-      fail_in_mesh(path, 0, "a face names vertex " + std::to_string(largest) + " (counted from 0), but there are only " +
-                                std::to_string(mesh.positions.size()));
+      fail_in_mesh(path, 0,
+                   "a face names vertex " + std::to_string(largest) + " (counted from 0), but there are only " +
+                       std::to_string(mesh.positions.size()));
   }
 }
 
@@ -37,7 +38,8 @@ void add_fan(const std::vector<uint32_t>& corners, TriangleMesh& mesh) {
 
 LoadedMesh load_mesh(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   if (extension != ".ply" && extension != ".obj") fail_in_mesh(path, 0, "a mesh must be a .ply or .obj file");
   const std::string text = read_whole_file(path);
   LoadedMesh loaded;

@@ -60,7 +60,8 @@ class ObjReader {
     const int64_t index = number < 0 ? count + number : number - 1;
     const bool clean = error == std::errc() && (end == word.data() + word.size() || *end == '/');
     if (!clean || number == 0 || index < 0 || index > std::numeric_limits<uint32_t>::max())
-      fail_in_mesh(name_, line_, "'" + std::string(word) + "' names no vertex; there are " + std::to_string(count) + " so far");
+      fail_in_mesh(name_, line_,
+                   "'" + std::string(word) + "' names no vertex; there are " + std::to_string(count) + " so far");
     return static_cast<uint32_t>(index);
   }
 

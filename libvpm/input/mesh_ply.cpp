@@ -54,9 +54,12 @@ class PlyReader {
     read_header();
     for (const Element& element : elements_) {
       check_count(element);
-      if (element.name == "vertex") read_vertices(element);
-      else if (element.name == "face") read_faces(element);
-      else skip(element);
+      if (element.name == "vertex")
+        read_vertices(element);
+      else if (element.name == "face")
+        read_faces(element);
+      else
+        skip(element);
     }
     return std::move(mesh_);
   }
@@ -107,7 +110,8 @@ class PlyReader {
   void read_format(const std::vector<std::string>& words) {
     const bool little = words[1] == "binary_little_endian", big = words[1] == "binary_big_endian";
     if ((!little && !big && words[1] != "ascii") || words[2] != "1.0")
-      fail("unknown format '" + words[1] + " " + words[2] + "'; known are ascii, binary_little_endian and binary_big_endian 1.0");
+      fail("unknown format '" + words[1] + " " + words[2] +
+           "'; known are ascii, binary_little_endian and binary_big_endian 1.0");
     binary_body_ = little || big;
     swap_ = little != (std::endian::native == std::endian::little);
   }
@@ -127,9 +131,12 @@ class PlyReader {
 
   void read_property(const std::vector<std::string>& words) {
     Property property;
-    if (words.size() == 3) property = {words[2], type_of(words[1]), nullptr};
-    else if (words.size() == 5 && words[1] == "list") property = {words[4], type_of(words[3]), type_of(words[2])};
-    else fail("cannot read this property");
+    if (words.size() == 3)
+      property = {words[2], type_of(words[1]), nullptr};
+    else if (words.size() == 5 && words[1] == "list")
+      property = {words[4], type_of(words[3]), type_of(words[2])};
+    else
+      fail("cannot read this property");
     if (property.count_type && !property.count_type->integer) fail("the length of a list must be of an integer type");
     elements_.back().properties.push_back(property);
   }
@@ -137,10 +144,12 @@ class PlyReader {
   /// Refuses counts for which the rest of the file is too short, before anything is allocated.
   void check_count(const Element& element) const {
     size_t least = 0;  // bytes of an element
-    for (const Property& p : element.properties) least += binary_ ? (p.count_type ? p.count_type->bytes : p.type->bytes) : 1;
+    for (const Property& p : element.properties)
+      least += binary_ ? (p.count_type ? p.count_type->bytes : p.type->bytes) : 1;
     if (element.count > 0 && element.properties.empty()) fail("the element '" + element.name + "' has no properties");
     if (element.count > 0 && element.count > rest_.size() / least)
-      fail("the header announces " + std::to_string(element.count) + " elements '" + element.name + "', more than the file can hold");
+      fail("the header announces " + std::to_string(element.count) + " elements '" + element.name +
+           "', more than the file can hold");
     if (element.count > std::numeric_limits<uint32_t>::max()) fail("more than 2^32 elements '" + element.name + "'");
   }
 
@@ -204,8 +213,10 @@ class PlyReader {
     for (uint64_t i = 0; i < element.count; ++i) {
       Vec3 position(0.0f);
       for (size_t p = 0; p < axis.size(); ++p) {
-        if (axis[p] < 0) skip(element.properties[p]);
-        else position[axis[p]] = static_cast<float>(next(*element.properties[p].type));
+        if (axis[p] < 0)
+          skip(element.properties[p]);
+        else
+          position[axis[p]] = static_cast<float>(next(*element.properties[p].type));
       }
       if (!is_finite(position)) fail("the position of vertex " + std::to_string(i) + " is not finite");
       mesh_.positions.push_back(position);
@@ -213,13 +224,17 @@ class PlyReader {
   }
 
   void read_faces(const Element& element) {
-    const auto is_corners = [](const Property& p) { return p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index"); };
+    const auto is_corners = [](const Property& p) {
+      return p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index");
+    };
     if (std::count_if(element.properties.begin(), element.properties.end(), is_corners) != 1)
       fail("a face needs one list property vertex_indices");
     for (uint64_t i = 0; i < element.count; ++i)
       for (const Property& property : element.properties) {
-        if (is_corners(property)) read_corners(property, i);
-        else skip(property);
+        if (is_corners(property))
+          read_corners(property, i);
+        else
+          skip(property);
       }
   }
 

@@ -10,7 +10,8 @@ namespace {
 
 Rgb read_emitted(TableReader& table, const std::string& key) {
   const Rgb value = table.rgb(key, kNotNegative);
-  if (is_black(value)) table.fail(key, table.title() + " emits nothing", "make '" + key + "' positive, or remove the light");
+  if (is_black(value))
+    table.fail(key, table.title() + " emits nothing", "make '" + key + "' positive, or remove the light");
   return value;
 }
 
@@ -18,8 +19,9 @@ Rgb read_emitted(TableReader& table, const std::string& key) {
 Rgb read_intensity(TableReader& table, float solid_angle) {
   const bool power = table.has("power");
   if (table.has("intensity") == power)
-    table.fail_here(table.title() + (power ? " has both 'intensity' and 'power'" : " has neither 'intensity' nor 'power'"),
-                    "give one: intensity (W/sr) or power (W)");
+    table.fail_here(
+        table.title() + (power ? " has both 'intensity' and 'power'" : " has neither 'intensity' nor 'power'"),
+        "give one: intensity (W/sr) or power (W)");
   return power ? read_emitted(table, "power") / solid_angle : read_emitted(table, "intensity");
 }
 
@@ -28,8 +30,9 @@ Light read_point(TableReader& table) { return PointLight{table.vector("position"
 Vec3 read_aim(TableReader& table, const Vec3& position) {
   const bool target = table.has("target");
   if (table.has("direction") == target)
-    table.fail_here(table.title() + (target ? " has both 'direction' and 'target'" : " has neither 'direction' nor 'target'"),
-                    "give one: the direction of travel, or a target point");
+    table.fail_here(
+        table.title() + (target ? " has both 'direction' and 'target'" : " has neither 'direction' nor 'target'"),
+        "give one: the direction of travel, or a target point");
   if (!target) return table.direction("direction");
   const Vec3d towards = Vec3d(table.vector("target")) - Vec3d(position);
   if (glm::length(towards) == 0.0) table.fail("target", "the target of " + table.title() + " is its position");
@@ -46,7 +49,8 @@ Light read_spot(TableReader& table) {
   spot.cos_inner = static_cast<float>(std::cos(glm::radians(static_cast<double>(inner))));
   spot.cos_outer = static_cast<float>(std::cos(glm::radians(static_cast<double>(outer))));
   const float solid_angle = kPi * ((1.0f - spot.cos_inner) + (1.0f - spot.cos_outer));  // smoothstep's mean is 1/2
-  if (!(solid_angle > 0.0f)) table.fail("outer_angle", "'outer_angle' of " + table.title() + " is too narrow", "use a beam light");
+  if (!(solid_angle > 0.0f))
+    table.fail("outer_angle", "'outer_angle' of " + table.title() + " is too narrow", "use a beam light");
   spot.intensity = read_intensity(table, solid_angle);
   return spot;
 }
@@ -60,7 +64,9 @@ Light read_beam(TableReader& table) {
   return beam;
 }
 
-Light read_directional(TableReader& table) { return DirectionalLight{table.direction("direction"), read_emitted(table, "irradiance")}; }
+Light read_directional(TableReader& table) {
+  return DirectionalLight{table.direction("direction"), read_emitted(table, "irradiance")};
+}
 
 Light read_environment_map(TableReader& table) {
   const std::string path = read_path(table, "path");
@@ -77,8 +83,8 @@ Light read_environment_map(TableReader& table) {
     texel *= scale;
     const auto width = static_cast<size_t>(image.width);
     if (!is_finite(texel) || std::min({texel.r, texel.g, texel.b}) < 0.0f)
-      table.fail("path", path + ": the radiance at column " + std::to_string(i % width) + ", row " + std::to_string(i / width) +
-                             " is negative or not finite");
+      table.fail("path", path + ": the radiance at column " + std::to_string(i % width) + ", row " +
+                             std::to_string(i / width) + " is negative or not finite");
     black = black && is_black(texel);
   }
   if (black) table.fail("path", path + ": the whole environment is black");

@@ -12,7 +12,8 @@ Phase read_phase(TableReader& medium) {
   if (!table) return Isotropic{};
   enum class Kind { isotropic, henyey_greenstein, rayleigh };
   const Kind kind = table->choice<Kind>(
-      "type", {{"isotropic", Kind::isotropic}, {"henyey-greenstein", Kind::henyey_greenstein}, {"rayleigh", Kind::rayleigh}});
+      "type",
+      {{"isotropic", Kind::isotropic}, {"henyey-greenstein", Kind::henyey_greenstein}, {"rayleigh", Kind::rayleigh}});
   Phase phase = Isotropic{};
   if (kind == Kind::rayleigh) phase = Rayleigh{};
   if (kind == Kind::henyey_greenstein) phase = HenyeyGreenstein{table->number("g", {-1.0, 1.0, true, true})};
@@ -33,7 +34,8 @@ void read_measured(TableReader& table, Medium& medium) {
   medium.sigma_s = Rgb(scale * measured->reduced_sigma_s);
   medium.sigma_t = Rgb(scale * (measured->reduced_sigma_s + measured->sigma_a));
   if (!std::holds_alternative<Isotropic>(medium.phase))
-    table.fail("phase", "measured coefficients are reduced ones, (1 - g) sigma_s: they go with an isotropic phase function only",
+    table.fail("phase",
+               "measured coefficients are reduced ones, (1 - g) sigma_s: they go with an isotropic phase function only",
                "remove the phase function, or give sigma_s and sigma_a");
 }
 
@@ -43,7 +45,8 @@ void read_coefficients(TableReader& table, bool grid, Medium& medium) {
   const bool sigma_t = table.has("sigma_t"), albedo = table.has("albedo");
   const bool separate = sigma_s || sigma_a, total = sigma_t || albedo;
   if (measured + separate + total != 1) {
-    const std::string wrong = measured + separate + total == 0 ? " has no coefficients" : " gives its coefficients in two ways";
+    const std::string wrong =
+        measured + separate + total == 0 ? " has no coefficients" : " gives its coefficients in two ways";
     table.fail_here(table.title() + wrong, "give sigma_s and sigma_a (1/m), or sigma_t (1/m) and albedo, or measured");
   }
   if (measured) return read_measured(table, medium);
@@ -61,7 +64,8 @@ GridRequest read_grid(TableReader& table) {
   request.path = read_path(table, "path");
   request.name = table.string("grid", "density");
   request.interpolation = table.choice<Interpolation>(
-      "interpolation", {{"trilinear", Interpolation::trilinear}, {"nearest", Interpolation::nearest}}, Interpolation::trilinear);
+      "interpolation", {{"trilinear", Interpolation::trilinear}, {"nearest", Interpolation::nearest}},
+      Interpolation::trilinear);
   request.from_level_set = table.flag("from_level_set", false);
   request.clamp_negative = table.flag("clamp_negative", false);
   request.object_to_world = read_transform(table, "transform");
@@ -78,14 +82,15 @@ MediumPlan read_medium(TableReader& table, const std::string& name, const Names&
   if (grid) {
     plan.grid = read_grid(table);
     plan.path_place = table.place_of("path");
-    plan.boundary = table.choice<GridBoundary>("boundary", {{"box", GridBoundary::box}, {"shapes", GridBoundary::shapes}},
-                                               GridBoundary::automatic);
+    plan.boundary = table.choice<GridBoundary>(
+        "boundary", {{"box", GridBoundary::box}, {"shapes", GridBoundary::shapes}}, GridBoundary::automatic);
     plan.outside = read_medium_name(table, "outside", names, world);
     const float scale = table.number("density_scale", kPositive, 1.0f);
     plan.medium.sigma_s *= scale;
     plan.medium.sigma_t *= scale;
   }
-  if (!is_finite(plan.medium.sigma_t)) table.fail_here("the extinction of " + table.title() + " is too large for single precision");
+  if (!is_finite(plan.medium.sigma_t))
+    table.fail_here("the extinction of " + table.title() + " is too large for single precision");
   table.finish();
   return plan;
 }

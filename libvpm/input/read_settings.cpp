@@ -1,4 +1,5 @@
-// The sections about how to render: [camera], [film], [render], [photons], [distance], [transmittance], [volume], [surface].
+// The sections about how to render: [camera], [film], [render], [photons], [distance], [transmittance], [volume],
+// [surface].
 #include "input/sections.h"
 
 namespace vpm {
@@ -13,14 +14,16 @@ int small_integer(TableReader& table, const std::string& key, uint64_t hi, int f
 Filter read_filter(TableReader& film) {
   Filter filter;
   filter.kind = film.choice<FilterKind>(
-      "filter", {{"box", FilterKind::box}, {"tent", FilterKind::tent}, {"gaussian", FilterKind::gaussian}}, FilterKind::box);
+      "filter", {{"box", FilterKind::box}, {"tent", FilterKind::tent}, {"gaussian", FilterKind::gaussian}},
+      FilterKind::box);
   const float usual = filter.kind == FilterKind::box ? 0.5f : filter.kind == FilterKind::tent ? 1.0f : 1.5f;
   filter.radius = film.number("filter_radius", {0.0, 32.0, true, false}, usual);
   return filter;
 }
 
 void read_gather(TableReader& table, GatherSettings& gather) {
-  gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}}, gather.mode);
+  gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}},
+                                         gather.mode);
   gather.radius = table.number("radius", kNotNegative, gather.radius);
   gather.count = static_cast<uint32_t>(table.integer("count", 2, 1'000'000, gather.count));
   gather.kernel = table.choice<KernelKind>("kernel",
@@ -31,12 +34,14 @@ void read_gather(TableReader& table, GatherSettings& gather) {
 }
 
 DirectLight read_direct(TableReader& table, DirectLight fallback) {
-  return table.choice<DirectLight>("direct", {{"photons", DirectLight::photons}, {"shadow-rays", DirectLight::shadow_rays}}, fallback);
+  return table.choice<DirectLight>(
+      "direct", {{"photons", DirectLight::photons}, {"shadow-rays", DirectLight::shadow_rays}}, fallback);
 }
 
 /// A name out of a list of strategies or estimators.
 template <class Info>
-std::string read_listed(TableReader& table, const std::string& key, std::span<const Info> infos, const std::string& fallback) {
+std::string read_listed(TableReader& table, const std::string& key, std::span<const Info> infos,
+                        const std::string& fallback) {
   std::vector<std::pair<std::string, std::string>> names;
   for (const Info& info : infos) names.emplace_back(info.name, info.name);
   return table.choice<std::string>(key, names, fallback);
@@ -67,8 +72,10 @@ void read_distance(TableReader& table, DistanceSettings& distance, bool has_grid
   Names others;
   bool refused = false;
   for (const StrategyInfo& info : distance_strategies()) {
-    if (info.heterogeneous) others.emplace_back(info.name);
-    else refused = refused || (has_grid && info.name == distance.strategy);
+    if (info.heterogeneous)
+      others.emplace_back(info.name);
+    else
+      refused = refused || (has_grid && info.name == distance.strategy);
   }
   if (refused)
     table.fail("strategy", "the strategy '" + distance.strategy + "' is wrong in a grid medium, and the scene has one",
@@ -94,7 +101,8 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
   const Vec3d forward = Vec3d(target) - Vec3d(position);
   if (glm::length(forward) == 0.0) camera.fail("target", "the camera's target is its position");
   if (!(glm::length(glm::cross(glm::normalize(forward), Vec3d(up))) > 1e-6))
-    camera.fail(camera.has("up") ? "up" : "target", "the camera looks along its 'up' vector", "give it an 'up' that points elsewhere");
+    camera.fail(camera.has("up") ? "up" : "target", "the camera looks along its 'up' vector",
+                "give it an 'up' that points elsewhere");
   int width = 512, height = 512;
   Filter filter;
   if (film) {
@@ -118,7 +126,9 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   read_section(root, "volume", [&](TableReader& table) {
     read_gather(table, s.volume);
     s.volume_form = table.choice<VolumeForm>(
-        "form", {{"density-at-query", VolumeForm::density_at_query}, {"density-at-photon", VolumeForm::density_at_photon}}, s.volume_form);
+        "form",
+        {{"density-at-query", VolumeForm::density_at_query}, {"density-at-photon", VolumeForm::density_at_photon}},
+        s.volume_form);
     s.volume_direct = read_direct(table, s.volume_direct);
   });
   read_section(root, "surface", [&](TableReader& table) {

@@ -31,7 +31,8 @@ uint32_t read_shape_material(TableReader& table, const Names& names, std::vector
   }
   const std::string name = table.string("material");
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) table.fail("material", "there is no material '" + name + "'", suggest(name, names, "there are"));
+  if (found == names.end())
+    table.fail("material", "there is no material '" + name + "'", suggest(name, names, "there are"));
   return static_cast<uint32_t>(found - names.begin());
 }
 
@@ -93,7 +94,8 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
   enum class Kind { sphere, quad, box, mesh };
   ShapePlan plan;
   plan.shape.name = table.string("name", "");
-  const Kind kind = table.choice<Kind>("type", {{"sphere", Kind::sphere}, {"quad", Kind::quad}, {"box", Kind::box}, {"mesh", Kind::mesh}});
+  const Kind kind = table.choice<Kind>(
+      "type", {{"sphere", Kind::sphere}, {"quad", Kind::quad}, {"box", Kind::box}, {"mesh", Kind::mesh}});
   plan.shape.material = read_shape_material(table, material_names, materials);
   plan.shape.separates_media = table.has("inside") || table.has("outside");
   plan.shape.media.inside = read_medium_name(table, "inside", media, world);
@@ -101,10 +103,13 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
   if (kind == Kind::sphere) {
     plan.surface = read_sphere(table);
   } else {
-    TriangleMesh mesh = kind == Kind::quad ? read_quad(table) : kind == Kind::box ? read_box(table) : read_mesh(table, plan);
+    TriangleMesh mesh = kind == Kind::quad  ? read_quad(table)
+                        : kind == Kind::box ? read_box(table)
+                                            : read_mesh(table, plan);
     transform_mesh(read_transform(table, "transform"), mesh);
     for (const Vec3& p : mesh.positions)
-      if (!is_finite(p)) table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
+      if (!is_finite(p))
+        table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
     plan.surface = std::move(mesh);
   }
   if (kind == Kind::sphere || kind == Kind::quad) read_emission(table, plan, kind == Kind::quad, materials);
@@ -122,7 +127,8 @@ void transform_mesh(const Mat4d& transform, TriangleMesh& mesh) {
 
 TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi) {
   TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.emplace_back(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
   mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
   return mesh;
@@ -134,8 +140,8 @@ std::vector<Material> read_materials(TableReader& section) {
   return materials;
 }
 
-std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names, MediumId world,
-                                   std::vector<Material>& materials) {
+std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
+                                   MediumId world, std::vector<Material>& materials) {
   std::vector<ShapePlan> plans;
   for (TableReader& table : tables) {
     ShapePlan plan = read_shape(table, media, material_names, world, materials);

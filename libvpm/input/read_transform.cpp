@@ -25,7 +25,8 @@ Mat4d read_rotation(TableReader& step) {
 Mat4d read_matrix(TableReader& step) {
   const std::vector<double> m = step.numbers("matrix", 16);
   if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] != 1.0)
-    step.fail("matrix", "the last row of a matrix must be 0, 0, 0, 1", "write it row by row: the translation is the fourth column");
+    step.fail("matrix", "the last row of a matrix must be 0, 0, 0, 1",
+              "write it row by row: the translation is the fourth column");
   Mat4d matrix(1.0);
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) matrix[column][row] = m[static_cast<size_t>(4 * row + column)];
@@ -33,10 +34,12 @@ Mat4d read_matrix(TableReader& step) {
 }
 
 Mat4d read_step(TableReader& step) {
-  const bool translate = step.has("translate"), scale = step.has("scale"), rotate = step.has("rotate"), matrix = step.has("matrix");
+  const bool translate = step.has("translate"), scale = step.has("scale"), rotate = step.has("rotate"),
+             matrix = step.has("matrix");
   step.finish();
   if (translate + scale + rotate + matrix != 1)
-    step.fail_here(step.title() + " must hold exactly one key", "write one of translate, scale, rotate, matrix in each step");
+    step.fail_here(step.title() + " must hold exactly one key",
+                   "write one of translate, scale, rotate, matrix in each step");
   if (translate) return glm::translate(Mat4d(1.0), to_vector(step.numbers("translate", 3)));
   if (scale) return glm::scale(Mat4d(1.0), read_scale(step));
   return rotate ? read_rotation(step) : read_matrix(step);
@@ -47,11 +50,13 @@ Mat4d read_step(TableReader& step) {
 Mat4d read_transform(TableReader& table, const std::string& key) {
   Mat4d transform(1.0);
   if (!table.has(key)) return transform;
-  for (TableReader& step : table.tables(key, "'" + key + "' of " + table.title() + ", step")) transform = read_step(step) * transform;
+  for (TableReader& step : table.tables(key, "'" + key + "' of " + table.title() + ", step"))
+    transform = read_step(step) * transform;
   const Mat3d linear(transform);
   const double volume = std::abs(glm::determinant(linear));
   const double edges = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-  if (!(volume > 1e-12 * edges)) table.fail(key, "the transform of " + table.title() + " flattens space: it has no inverse");
+  if (!(volume > 1e-12 * edges))
+    table.fail(key, "the transform of " + table.title() + " flattens space: it has no inverse");
   return transform;
 }
 

@@ -104,7 +104,8 @@ bool needs_box(const ScenePlan& plan, MediumId id) {
     return false;
   }
   if (medium.boundary == GridBoundary::shapes && !inside && !outside)
-    fail_at(medium.place, "no shape names " + title + ", which asks for shapes as its boundary", "name it as a shape's 'inside'");
+    fail_at(medium.place, "no shape names " + title + ", which asks for shapes as its boundary",
+            "name it as a shape's 'inside'");
   if (medium.boundary == GridBoundary::automatic && outside && !inside)
     fail_at(medium.place, title + " lies outside of shapes only: say where it ends",
             "give it boundary = \"box\" (its grid's own box, around those shapes) or \"shapes\" (they enclose it)");
@@ -144,7 +145,8 @@ void load_medium_grid(ScenePlan& plan, MediumId id, LoadedScene& loaded) {
   }
   const DensityGrid& grid = *medium.medium.grid;
   if (plan.world == id && grid.frame().background == 0.0f)
-    fail_at(plan.world_place, "the grid of '" + medium.medium.name + "' has background 0: it cannot fill the world", "remove [world]");
+    fail_at(plan.world_place, "the grid of '" + medium.medium.name + "' has background 0: it cannot fill the world",
+            "remove [world]");
 }
 
 /// Reads the grids, and adds the boxes of those that no shape bounds.
@@ -167,7 +169,8 @@ void add_shapes(ScenePlan& plan, LoadedScene& loaded) {
     if (shape.degenerate_triangles > 0)
       loaded.notes.push_back("shape '" + shape.shape.name + "': " + std::to_string(shape.degenerate_triangles) +
                              " triangles without area dropped");
-    std::visit([&](auto& surface) { scene.geometry.add(std::move(surface)); }, shape.surface);
+    const Layer layer = is_boundary(plan.materials[shape.shape.material]) ? Layer::boundary : Layer::surface;
+    std::visit([&](const auto& surface) { scene.geometry.add(surface, layer); }, shape.surface);
     scene.shapes.push_back(std::move(shape.shape));
   }
   scene.geometry.commit();

@@ -18,10 +18,10 @@ struct LoadedScene {
   uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
 };
 
-/// Reads a scene file and the files it names. `overrides` are `key.path=value` options that change keys of the file before it is read; an
-/// element of an array of tables is addressed by its number (from 0) or its name: shapes.0.radius=2, shapes.ball.radius=2.
-/// Paths in the file are relative to its folder, paths in an option to the current one. Throws InputError for anything that is not
-/// right, telling file:line:column, or the option.
+/// Reads a scene file and the files it names. `overrides` are `key.path=value` options that change keys of the file
+/// before it is read; an element of an array of tables is addressed by its number (from 0) or its name:
+/// shapes.0.radius=2, shapes.ball.radius=2. Paths in the file are relative to its folder, paths in an option to the
+/// current one. Throws InputError for anything that is not right, telling file:line:column, or the option.
 LoadedScene load_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace vpm

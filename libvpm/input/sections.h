@@ -1,4 +1,5 @@
-// The readers of a scene file's sections, one file each. They check everything that can be checked without reading a grid.
+// The readers of a scene file's sections, one file each. They check everything that can be checked without reading a
+// grid.
 #pragma once
 
 #include <optional>
@@ -46,15 +47,16 @@ struct ShapePlan {
   uint64_t degenerate_triangles = 0;  // dropped from a mesh
 };
 /// Reads [[shapes]]; appends materials that shapes define in place to `materials`.
-std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names, MediumId world,
-                                   std::vector<Material>& materials);
+std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
+                                   MediumId world, std::vector<Material>& materials);
 
 /// The box [lo, hi] as triangles with normals outward.
 TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi);
 /// Moves a mesh by an affine map. Its normals stay outward under mirrors too.
 void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);
 
-/// The affine map of a list of steps, applied in the list's order; the identity where `key` is missing. Refuses singular ones.
+/// The affine map of a list of steps, applied in the list's order; the identity where `key` is missing. Refuses
+/// singular ones.
 Mat4d read_transform(TableReader& table, const std::string& key);
 
 /// Reads [[lights]].
@@ -63,7 +65,8 @@ std::vector<Light> read_lights(std::vector<TableReader>& tables);
 /// Reads [camera] and [film].
 Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
 
-/// Reads [render], [photons], [distance], [transmittance], [volume] and [surface]. `has_grid`: does the scene hold a grid medium?
+/// Reads [render], [photons], [distance], [transmittance], [volume] and [surface]. `has_grid`: does the scene hold a
+/// grid medium?
 RenderSettings read_settings(TableReader& root, bool has_grid);
 
 }  // namespace vpm

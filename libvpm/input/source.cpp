@@ -31,7 +31,8 @@ size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-/// What puts a caret under a character of `line`: tabs stay tabs, and the bytes that continue a UTF-8 character take no room.
+/// What puts a caret under a character of `line`: tabs stay tabs, and the bytes that continue a UTF-8 character take no
+/// room.
 std::string indent_to(const std::string& line, uint32_t column) {
   std::string indent;
   uint32_t at = 1;

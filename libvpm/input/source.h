@@ -21,8 +21,8 @@ struct Place {
   uint32_t column = 1;
 };
 
-/// Throws InputError: "file:line:column: <wrong>", the offending line with a caret under the column, then `right`: what would be right.
-/// For an option: "--set key.path=value: <wrong>" and `right`.
+/// Throws InputError: "file:line:column: <wrong>", the offending line with a caret under the column, then `right`: what
+/// would be right. For an option: "--set key.path=value: <wrong>" and `right`.
 [[noreturn]] void fail_at(const Place& place, const std::string& wrong, const std::string& right = "");
 
 /// "did you mean 'radius'? <title>: centre, radius, ..."; the question only where a candidate is near to `name`.

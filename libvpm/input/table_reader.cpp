@@ -17,19 +17,24 @@ std::string text_of(double value) {
 std::string text_of(const Range& range) {
   if (range.lo == -kNoLimit && range.hi == kNoLimit) return "finite";
   if (range.hi == kNoLimit) return (range.lo_open ? "> " : ">= ") + text_of(range.lo);
-  return std::string("in ") + (range.lo_open ? "(" : "[") + text_of(range.lo) + ", " + text_of(range.hi) + (range.hi_open ? ")" : "]");
+  return std::string("in ") + (range.lo_open ? "(" : "[") + text_of(range.lo) + ", " + text_of(range.hi) +
+         (range.hi_open ? ")" : "]");
 }
 
 bool inside(const Range& range, double value) {
-  return (range.lo_open ? value > range.lo : value >= range.lo) && (range.hi_open ? value < range.hi : value <= range.hi);
+  return (range.lo_open ? value > range.lo : value >= range.lo) &&
+         (range.hi_open ? value < range.hi : value <= range.hi);
 }
 
 /// A number of the file, checked as it is and in the single precision it is going to be kept in.
 double checked_number(const Node& node, const std::string& what, const Range& range) {
   double value = 0.0;
-  if (const auto* integer = std::get_if<int64_t>(&node.value)) value = static_cast<double>(*integer);
-  else if (const auto* number = std::get_if<double>(&node.value)) value = *number;
-  else fail_at(node.place, what + " must be a number, not " + kind_of(node), "it must be " + text_of(range));
+  if (const auto* integer = std::get_if<int64_t>(&node.value))
+    value = static_cast<double>(*integer);
+  else if (const auto* number = std::get_if<double>(&node.value))
+    value = *number;
+  else
+    fail_at(node.place, what + " must be a number, not " + kind_of(node), "it must be " + text_of(range));
   if (!std::isfinite(value)) fail_at(node.place, what + " must be finite, not " + text_of(value));
   const auto single = static_cast<float>(value);
   if (!std::isfinite(single)) fail_at(node.place, what + " is too large for single precision: " + text_of(value));
@@ -46,7 +51,8 @@ std::vector<double> checked_numbers(const Node& node, const std::string& key, co
   const std::string wanted = std::to_string(count) + " numbers";
   const Node::Array* array = node.array();
   if (!array) fail_at(node.place, what + " must be an array of " + wanted + ", not " + kind_of(node));
-  if (array->size() != count) fail_at(node.place, what + " must have " + wanted + ", not " + std::to_string(array->size()));
+  if (array->size() != count)
+    fail_at(node.place, what + " must have " + wanted + ", not " + std::to_string(array->size()));
   std::vector<double> values;
   for (size_t i = 0; i < count; ++i)
     values.push_back(checked_number((*array)[i], quoted(key + "[" + std::to_string(i) + "]", title), range));
@@ -87,7 +93,8 @@ uint64_t TableReader::integer(const std::string& key, uint64_t lo, uint64_t hi, 
   const Node& node = require(key);
   const std::string allowed = "from " + std::to_string(lo) + " to " + std::to_string(hi);
   const auto* value = std::get_if<int64_t>(&node.value);
-  if (!value) fail_at(node.place, quoted(key, title_) + " must be an integer, not " + kind_of(node), "it must be " + allowed);
+  if (!value)
+    fail_at(node.place, quoted(key, title_) + " must be an integer, not " + kind_of(node), "it must be " + allowed);
   if (*value < 0 || static_cast<uint64_t>(*value) < lo || static_cast<uint64_t>(*value) > hi)
     fail_at(node.place, quoted(key, title_) + " must be " + allowed + ", not " + std::to_string(*value));
   return static_cast<uint64_t>(*value);
@@ -105,7 +112,8 @@ std::string TableReader::string(const std::string& key, std::optional<std::strin
   if (!find(key) && fallback) return *fallback;
   const Node& node = require(key);
   const auto* value = std::get_if<std::string>(&node.value);
-  if (!value) fail_at(node.place, quoted(key, title_) + " must be a string, not " + kind_of(node), "write it in quotes");
+  if (!value)
+    fail_at(node.place, quoted(key, title_) + " must be a string, not " + kind_of(node), "write it in quotes");
   if (value->empty()) fail_at(node.place, quoted(key, title_) + " is empty");
   return *value;
 }
@@ -132,7 +140,8 @@ Rgb TableReader::rgb(const std::string& key, const Range& range, std::optional<R
   if (!find(key) && fallback) return *fallback;
   const Node& node = require(key);
   if (!node.array()) {
-    if (std::holds_alternative<int64_t>(node.value) || std::holds_alternative<double>(node.value)) return Rgb(number(key, range));
+    if (std::holds_alternative<int64_t>(node.value) || std::holds_alternative<double>(node.value))
+      return Rgb(number(key, range));
     fail_at(node.place, quoted(key, title_) + " must be a number or [red, green, blue], not " + kind_of(node));
   }
   const std::vector<double> v = checked_numbers(node, key, title_, 3, range);
@@ -146,7 +155,8 @@ std::optional<TableReader> TableReader::table(const std::string& key, const std:
 
 std::vector<std::pair<std::string, TableReader>> TableReader::named_tables(const std::string& title) {
   std::vector<std::pair<std::string, TableReader>> all;
-  for (const Entry& entry : *node_->table()) all.emplace_back(entry.key, TableReader(entry.node, "[" + title + "." + entry.key + "]"));
+  for (const Entry& entry : *node_->table())
+    all.emplace_back(entry.key, TableReader(entry.node, "[" + title + "." + entry.key + "]"));
   return all;
 }
 
@@ -154,7 +164,8 @@ std::vector<TableReader> TableReader::tables(const std::string& key, const std::
   std::vector<TableReader> all;
   const Node* node = find(key);
   if (!node) return all;
-  if (!node->array()) fail_at(node->place, "'" + key + "' must be an array of tables, not " + kind_of(*node), "write [[" + key + "]]");
+  if (!node->array())
+    fail_at(node->place, "'" + key + "' must be an array of tables, not " + kind_of(*node), "write [[" + key + "]]");
   for (const Node& element : *node->array()) {
     const Entry* name = element.table() ? find_entry(*element.table(), "name") : nullptr;
     const auto* text = name ? std::get_if<std::string>(&name->node.value) : nullptr;
@@ -172,7 +183,8 @@ void TableReader::refuse_unknown(const Entry& entry) const {
   fail_at(entry.place, "unknown key '" + entry.key + "' in " + title_, suggest(entry.key, known_, "known keys"));
 }
 
-void TableReader::refuse_word(const std::string& key, const std::string& word, const std::vector<std::string>& words) const {
+void TableReader::refuse_word(const std::string& key, const std::string& word,
+                              const std::vector<std::string>& words) const {
   fail(key, quoted(key, title_) + " cannot be '" + word + "'", suggest(word, words, "it can be"));
 }
 
@@ -191,6 +203,8 @@ void TableReader::fail(const std::string& key, const std::string& wrong, const s
   fail_at(place_of(key), wrong, right);
 }
 
-void TableReader::fail_here(const std::string& wrong, const std::string& right) const { fail_at(node_->place, wrong, right); }
+void TableReader::fail_here(const std::string& wrong, const std::string& right) const {
+  fail_at(node_->place, wrong, right);
+}
 
 }  // namespace vpm

@@ -22,8 +22,8 @@ inline constexpr Range kPositive{0.0, kNoLimit, true, true};
 inline constexpr Range kNotNegative{0.0, kNoLimit, false, true};
 inline constexpr Range kFraction{0.0, 1.0, false, false};
 
-/// Wraps a table. Every key asked for becomes a known key; finish() refuses all others. A reader with a default returns it
-/// where the key is missing; one without refuses that. All errors are InputErrors that tell the place.
+/// Wraps a table. Every key asked for becomes a known key; finish() refuses all others. A reader with a default returns
+/// it where the key is missing; one without refuses that. All errors are InputErrors that tell the place.
 class TableReader {
  public:
   /// `title` names the table in messages, e.g. "[camera]". Refuses a node that is no table.
@@ -71,7 +71,8 @@ class TableReader {
 
  private:
   [[noreturn]] void refuse_unknown(const Entry& entry) const;
-  [[noreturn]] void refuse_word(const std::string& key, const std::string& word, const std::vector<std::string>& words) const;
+  [[noreturn]] void refuse_word(const std::string& key, const std::string& word,
+                                const std::vector<std::string>& words) const;
 
   const Node* node_;
   std::string title_;
@@ -79,7 +80,8 @@ class TableReader {
 };
 
 template <class T>
-T TableReader::choice(const std::string& key, const std::vector<std::pair<std::string, T>>& words, std::optional<T> fallback) {
+T TableReader::choice(const std::string& key, const std::vector<std::pair<std::string, T>>& words,
+                      std::optional<T> fallback) {
   if (!find(key) && fallback) return *fallback;
   const std::string word = string(key);
   std::vector<std::string> allowed;

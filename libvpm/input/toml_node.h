@@ -52,9 +52,9 @@ Document read_toml(const std::string& path);
 /// A TOML value as written after "key ="; nothing where the text is none.
 std::unique_ptr<Node> parse_toml_value(const std::string& text, const Source* source);
 
-/// Applies `key.path=value`: the value is read as a TOML value, or taken as a string where it is none. An element of an array
-/// of tables is addressed by its number (from 0) or its name. Only the last key and sections of the file (the path's first
-/// key) may be new. Errors start with "--set key.path=value:".
+/// Applies `key.path=value`: the value is read as a TOML value, or taken as a string where it is none. An element of an
+/// array of tables is addressed by its number (from 0) or its name. Only the last key and sections of the file (the
+/// path's first key) may be new. Errors start with "--set key.path=value:".
 void apply_override(Document& document, const std::string& option);
 
 }  // namespace vpm

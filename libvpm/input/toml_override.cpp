@@ -10,11 +10,14 @@ namespace {
 std::vector<std::string> split_path(const std::string& path, const Place& place) {
   std::vector<std::string> keys(1);
   for (const char c : path) {
-    if (c == '.') keys.emplace_back();
-    else if (c != ' ') keys.back() += c;
+    if (c == '.')
+      keys.emplace_back();
+    else if (c != ' ')
+      keys.back() += c;
   }
   for (const std::string& key : keys)
-    if (key.empty()) fail_at(place, "the path '" + path + "' has an empty key", "write it like render.passes=4 or shapes.0.radius=2");
+    if (key.empty())
+      fail_at(place, "the path '" + path + "' has an empty key", "write it like render.passes=4 or shapes.0.radius=2");
   return keys;
 }
 
@@ -41,7 +44,8 @@ Node& element_of(Node::Array& array, const std::string& key, const std::string& 
 }
 
 /// The value under `key`; where it is missing it is made if `may_be_new`.
-Node& value_of(Node::Table& table, const std::string& key, const std::string& owner, bool may_be_new, const Place& place) {
+Node& value_of(Node::Table& table, const std::string& key, const std::string& owner, bool may_be_new,
+               const Place& place) {
   std::vector<std::string> keys;
   for (Entry& entry : table) {
     if (entry.key == key) return entry.node;
@@ -62,7 +66,8 @@ const Entry* find_entry(const Node::Table& table, const std::string& key) {
 }
 
 std::string kind_of(const Node& node) {
-  constexpr const char* kNames[] = {"a string", "an integer", "a number", "a boolean", "a date or time", "an array", "a table"};
+  constexpr const char* kNames[] = {"a string",       "an integer", "a number", "a boolean",
+                                    "a date or time", "an array",   "a table"};
   return kNames[node.value.index()];
 }
 
@@ -79,9 +84,12 @@ void apply_override(Document& document, const std::string& option) {
   const std::vector<std::string> keys = split_path(option.substr(0, equals), place);
   for (size_t i = 0; i < keys.size(); ++i) {
     const bool may_be_new = i == 0 || i + 1 == keys.size();
-    if (auto* table = std::get_if<Node::Table>(&node->value)) node = &value_of(*table, keys[i], owner, may_be_new, place);
-    else if (auto* array = std::get_if<Node::Array>(&node->value)) node = &element_of(*array, keys[i], owner, place);
-    else fail_at(place, "'" + owner + "' is " + kind_of(*node) + " and has no '" + keys[i] + "'");
+    if (auto* table = std::get_if<Node::Table>(&node->value))
+      node = &value_of(*table, keys[i], owner, may_be_new, place);
+    else if (auto* array = std::get_if<Node::Array>(&node->value))
+      node = &element_of(*array, keys[i], owner, place);
+    else
+      fail_at(place, "'" + owner + "' is " + kind_of(*node) + " and has no '" + keys[i] + "'");
     owner += (i > 0 ? "." : "") + keys[i];
   }
   const std::unique_ptr<Node> value = parse_toml_value(text, source);

@@ -71,8 +71,8 @@ ImageEnvironment::Sample ImageEnvironment::sample(Rng& rng) const {
   const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end(), target);
   assert(above != cumulative_.end());
   const auto texel = static_cast<size_t>(above - cumulative_.begin() - 1);
-  const double column = static_cast<double>(texel % static_cast<size_t>(width_));
-  const double row = static_cast<double>(texel / static_cast<size_t>(width_));
+  const size_t width = static_cast<size_t>(width_), row_index = texel / width;
+  const auto column = static_cast<double>(texel % width), row = static_cast<double>(row_index);
   // Uniform in solid angle: uniform in azimuth and in the cosine between the row's edges.
   const double step = kPiD / height_;
   const double azimuth = 2.0 * kPiD * (column + rng.uniform_double()) / width_;

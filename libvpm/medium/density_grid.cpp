@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -12,8 +13,12 @@ namespace {
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
-/// The most bricks a table may hold: 1 GiB of them.
-constexpr double kMaxBricks = double(1u << 30) / 12.0;
+/// The most bricks a table may hold: 512 MiB of them.
+constexpr double kMaxBricks = double(1u << 29) / 12.0;
+
+bool all_equal(const float* values) {
+  return std::memcmp(values, values + 1, (DensityGrid::kBrickValues - 1) * sizeof(float)) == 0;
+}
 
 /// The sum over the voxels that belong to the brick alone (not to its upper neighbours).
 double owned_sum(const float* values) {
@@ -35,7 +40,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
   }
   const double count = double(brick_count_.x) * brick_count_.y * brick_count_.z;
   if (count > kMaxBricks)
-    throw InputError(fmt::format("a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 1 GiB",
+    throw InputError(fmt::format("a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.5 GiB",
                                  brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
   bricks_.resize(static_cast<size_t>(count));
   double sum = 0.0;
@@ -45,6 +50,13 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
     for (int y = 0; y < brick_count_.y; ++y)
       for (int x = 0; x < brick_count_.x; ++x, ++i) {
         fill((brick_lo_ + Vec3i(x, y, z)) * kCells, values);
+        if (all_equal(values)) {
+          assert(values[0] >= 0.0f && std::isfinite(values[0]));
+          bricks_[i] = {values[0], values[0], 0};
+          max_density_ = std::max(max_density_, values[0]);
+          sum += double(kCells * kCells * kCells) * values[0];
+          continue;
+        }
         const auto [min, max] = std::minmax_element(values, values + kBrickValues);
         assert(*min >= 0.0f && std::isfinite(*max));
         bricks_[i] = {*min, *max, static_cast<uint32_t>(values_.size() / kBrickValues)};

@@ -36,7 +36,7 @@ class DensityGrid {
   using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
 
   /// Builds the bricks that cover the frame's index box and its interpolation's reach. Bricks of one value store that value
-  /// only. Throws InputError where the table of bricks alone would take over 1 GiB.
+  /// only. Throws InputError where the table of bricks alone would take over 512 MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill);
 
   /// Density at a point of the world.

@@ -8,8 +8,8 @@
 
 namespace vpm {
 
-/// Coefficients of a material as printed: 1/mm, red, green, blue. Scattering is the REDUCED coefficient sigma_s' = (1 - g) sigma_s:
-/// it describes the material together with an isotropic phase function only.
+/// Coefficients of a material as printed: 1/mm, red, green, blue. Scattering is the REDUCED coefficient sigma_s' = (1 -
+/// g) sigma_s: it describes the material together with an isotropic phase function only.
 struct MeasuredMedium {
   std::string_view name;
   Vec3d reduced_sigma_s{0.0};  // 1/mm

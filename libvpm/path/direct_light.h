@@ -1,4 +1,4 @@
-// Light that reaches a point straight from a source: one sampled light, through media and boundaries.
+// Light that reaches a point straight from a source, through media and boundaries.
 #pragma once
 
 #include "medium/transmittance/estimator.h"
@@ -6,15 +6,15 @@
 
 namespace vpm {
 
-/// The light of one source, chosen by power, at a point: attenuated by media, black where something stands between.
+/// The light of a source at a point: attenuated by media, black where something stands between.
 struct DirectSample {
   Vec3 direction{0.0f};  // towards the light, unit
-  Rgb irradiance{0.0f};  // on a surface that faces it, W/m^2; its mean over samples is the direct light of all sources
+  Rgb irradiance{0.0f};  // on a surface that faces it, W/m^2; its mean over samples is that of the source
 };
 
-/// Estimates the direct light at `point` in medium `medium`. With a normal, `facing`, only light from its side counts; zero:
+/// Estimates what light number `light` sends to `point` in medium `medium`. With a normal, `facing`, only light from its side counts; zero:
 /// light from everywhere. A point on a surface must be just off it (leave_surface()).
-DirectSample sample_direct(const Scene& scene, const TransmittanceEstimator& transmittance, const Vec3& point, const Vec3& facing,
+DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEstimator& transmittance, const Vec3& point, const Vec3& facing,
                            MediumId medium, Rng& rng, WalkCounters& counters);
 
 /// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface stands between
@@ -22,7 +22,7 @@ DirectSample sample_direct(const Scene& scene, const TransmittanceEstimator& tra
 Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light, MediumId medium,
                Rng& rng, WalkCounters& counters);
 
-/// The number of the light that a uniform number picks, by power.
+/// The number of the light that a uniform number picks, by power (Scene::light_probability).
 int pick_light(const Scene& scene, float u);
 
 }  // namespace vpm

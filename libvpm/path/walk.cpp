@@ -5,19 +5,27 @@
 
 namespace vpm {
 
-void cross_surface(const Scene& scene, const Hit& hit, Ray& ray, MediumId& medium, WalkCounters& counters) {
-  const Shape& shape = scene.shapes[hit.shape];
-  if (shape.separates_media) {
-    ++counters.crossings;
-    if (medium_beyond(shape, hit.normal, -ray.direction, medium) != medium) ++counters.medium_mismatches;
+std::optional<Hit> meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters) {
+  std::optional<Hit> hit = scene.geometry.intersect(ray, t_max);
+  if (hit && is_boundary(scene.material_of(*hit))) {
+    if (const std::optional<Hit> surface = scene.geometry.surface_at(*hit, ray)) hit = surface;
   }
-  medium = medium_beyond(shape, hit.normal, ray.direction, medium);
+  if (!hit && t_max < kInfinity) return hit;
+  const MediumId known = hit ? medium_beyond(scene.shapes[hit->shape], hit->normal, -ray.direction, medium) : scene.world_medium;
+  if (known != medium) ++counters.medium_mismatches;
+  medium = known;
+  return hit;
+}
+
+void cross_boundary(const Scene& scene, const Hit& hit, Ray& ray, MediumId& medium, WalkCounters& counters) {
+  ++counters.crossings;
+  medium = medium_beyond(scene.shapes[hit.shape], hit.normal, ray.direction, medium);
   ray.origin = leave_surface(hit, ray.direction);
 }
 
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng, WalkCounters& counters) {
   for (;;) {
-    const std::optional<Hit> hit = scene.geometry.intersect(state.ray);
+    const std::optional<Hit> hit = meet(scene, state.ray, kInfinity, state.medium, counters);
     if (state.medium != kVacuum) {
       const Medium& medium = scene.media[state.medium];
       const Interval free{0.0f, hit ? hit->t : kInfinity};
@@ -34,7 +42,7 @@ Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState
       state.ray.origin = hit->position;
       return {EventKind::surface, *hit, 0.0f};
     }
-    cross_surface(scene, *hit, state.ray, state.medium, counters);
+    cross_boundary(scene, *hit, state.ray, state.medium, counters);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "medium/distance/strategy.h"
 #include "scene/scene.h"
@@ -28,7 +29,7 @@ struct Event {
 struct WalkCounters {
   uint64_t lookups = 0;             // of density
   uint64_t crossings = 0;           // of boundaries between media
-  uint64_t medium_mismatches = 0;   // boundaries met from a medium that is not the one on their near side
+  uint64_t medium_mismatches = 0;   // corrections of a path's medium by meet()
 
   void merge(const WalkCounters& other) {
     lookups += other.lookups;
@@ -43,8 +44,12 @@ inline MediumId medium_beyond(const Shape& shape, const Vec3& normal, const Vec3
   return glm::dot(direction, normal) > 0.0f ? shape.media.outside : shape.media.inside;
 }
 
-/// Passes straight through a surface: moves the ray's origin just beyond it and enters the medium there.
-void cross_surface(const Scene& scene, const Hit& hit, Ray& ray, MediumId& medium, WalkCounters& counters);
+/// What the ray meets first, with t < t_max: a surface where one coincides with a boundary. Where the shape separates media, the one
+/// on its near side becomes `medium`, and the world's where nothing is met at all: rounding at edges can then not carry a medium astray.
+std::optional<Hit> meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters);
+
+/// Passes straight through a boundary: moves the ray's origin just beyond it and enters the medium there.
+void cross_boundary(const Scene& scene, const Hit& hit, Ray& ray, MediumId& medium, WalkCounters& counters);
 
 /// Flies to the next collision in a medium, scattering surface, or out of the scene, through any number of boundaries on the way.
 /// Multiplies the power by the flights' weights.

@@ -16,7 +16,7 @@ class EyePath {
   Rgb follow() {
     ++counters_.rays;
     for (int events = 0; events < c_.settings.max_events; ++events) {
-      const std::optional<Hit> hit = c_.scene.geometry.intersect(ray_);
+      const std::optional<Hit> hit = meet(c_.scene, ray_, kInfinity, medium_, counters_.walk);
       cross_segment({0.0f, hit ? hit->t : kInfinity});
       if (is_black(throughput_)) return radiance_;
       if (!hit) {
@@ -67,9 +67,10 @@ class EyePath {
   /// Radiance scattered once at a point, over sigma_s: phase function times what the lights send there.
   Rgb single_scattering(const Medium& medium, const Vec3& point) {
     ++counters_.shadow_rays;
-    const DirectSample light = sample_direct(c_.scene, *c_.transmittance, point, Vec3(0.0f), medium_, rng_, counters_.walk);
-    return is_black(light.irradiance) ? Rgb(0.0f)
-                                      : light.irradiance * phase_value(medium.phase, glm::dot(light.direction, ray_.direction));
+    const int picked = pick_light(c_.scene, rng_.uniform());
+    const DirectSample light = sample_direct(c_.scene, picked, *c_.transmittance, point, Vec3(0.0f), medium_, rng_, counters_.walk);
+    if (is_black(light.irradiance)) return Rgb(0.0f);
+    return light.irradiance * phase_value(medium.phase, glm::dot(light.direction, ray_.direction)) / c_.scene.light_probability[picked];
   }
 
   /// The estimate with the density at the photon: photons of any medium count wherever they lie within the radius of the ray, also
@@ -103,7 +104,7 @@ class EyePath {
     const Material& material = c_.scene.materials[shape.material];
     if (shape.light >= 0) radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
     if (is_boundary(material)) {
-      cross_surface(c_.scene, hit, ray_, medium_, counters_.walk);
+      cross_boundary(c_.scene, hit, ray_, medium_, counters_.walk);
       return true;
     }
     if (const auto* diffuse = std::get_if<Lambertian>(&material)) {
@@ -119,14 +120,17 @@ class EyePath {
     return true;
   }
 
-  /// Irradiance on the eye's side of a surface: direct light by a shadow ray, the rest from the photon map.
+  /// Irradiance on the eye's side of a surface: direct light by a shadow ray to each light, the rest from the photon map.
   Rgb irradiance(const Hit& hit) {
     const Vec3 normal = glm::dot(hit.normal, ray_.direction) < 0.0f ? hit.normal : -hit.normal;
     Rgb result(0.0f);
     if (c_.stages.surface_shadow_rays) {
-      ++counters_.shadow_rays;
-      const DirectSample light = sample_direct(c_.scene, *c_.transmittance, leave_surface(hit, normal), normal, medium_, rng_, counters_.walk);
-      result += light.irradiance * std::max(0.0f, glm::dot(light.direction, normal));
+      const Vec3 point = leave_surface(hit, normal);
+      for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
+        ++counters_.shadow_rays;
+        const DirectSample light = sample_direct(c_.scene, i, *c_.transmittance, point, normal, medium_, rng_, counters_.walk);
+        result += light.irradiance * std::max(0.0f, glm::dot(light.direction, normal));
+      }
     }
     if (c_.stages.surface_map) {
       ++counters_.surface_queries;

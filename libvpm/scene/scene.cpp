@@ -48,6 +48,7 @@ std::vector<float> probability_by_power(const std::vector<Light>& lights, const 
     throw InputError("lights: their power is " + std::to_string(total) + " W in all, it must be positive and finite");
   }
   std::vector<float> probability;
+  probability.reserve(power.size());
   for (const double p : power) probability.push_back(static_cast<float>(p / total));
   return probability;
 }

@@ -114,6 +114,7 @@ struct Geometry::Impl {
   std::deque<ShapeData> shapes;  // a deque, because Embree keeps pointers to its elements
   std::vector<double> areas;     // m^2
   Box bounds;
+  uint32_t layers = 0;           // that occur
   bool committed = false;
   std::atomic<int64_t> bytes{0};
   std::string error;
@@ -146,8 +147,10 @@ struct Geometry::Impl {
     if (!error.empty()) throw std::runtime_error(error);
   }
 
-  uint32_t attach(RTCGeometry geometry, double area) {
+  uint32_t attach(RTCGeometry geometry, double area, Layer layer) {
     const auto number = static_cast<uint32_t>(areas.size());
+    layers |= static_cast<uint32_t>(layer);
+    rtcSetGeometryMask(geometry, static_cast<uint32_t>(layer));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, number);
     rtcReleaseGeometry(geometry);
@@ -162,7 +165,7 @@ Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 
-uint32_t Geometry::add(const TriangleMesh& mesh) {
+uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
   assert(!impl_->committed);
   const std::vector<glm::uvec3> proper = proper_triangles(mesh);
   RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -179,10 +182,10 @@ uint32_t Geometry::add(const TriangleMesh& mesh) {
     for (int corner = 0; corner < 3; ++corner) impl_->bounds.add(positions[v[corner]]);
   }
   impl_->shapes.emplace_back(MeshShape{positions, triangles});
-  return impl_->attach(geometry, area);
+  return impl_->attach(geometry, area, layer);
 }
 
-uint32_t Geometry::add(const SphereShape& sphere) {
+uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
   assert(!impl_->committed);
   if (!in_range(sphere.centre)) throw InputError("sphere: the centre is not finite or beyond 1e9 m");
   if (!(sphere.radius > 0.0f && sphere.radius <= kMaxCoordinate)) {
@@ -198,7 +201,7 @@ uint32_t Geometry::add(const SphereShape& sphere) {
   impl_->bounds.add(sphere.centre - sphere.radius);
   impl_->bounds.add(sphere.centre + sphere.radius);
   const double radius = sphere.radius;
-  return impl_->attach(geometry, 4.0 * kPiD * radius * radius);
+  return impl_->attach(geometry, 4.0 * kPiD * radius * radius, layer);
 }
 
 void Geometry::commit() {
@@ -207,7 +210,20 @@ void Geometry::commit() {
   impl_->committed = true;
 }
 
-std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
+std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const { return intersect(ray, t_max, ~0u); }
+
+std::optional<Hit> Geometry::surface_at(const Hit& boundary, const Ray& ray) const {
+  constexpr uint32_t kSurfaces = static_cast<uint32_t>(Layer::surface);
+  if (!(impl_->layers & kSurfaces)) return std::nullopt;
+  const Vec3 before = leave_surface(boundary, -ray.direction);
+  const Vec3 beyond = leave_surface(boundary, ray.direction);
+  const float reach = glm::distance(before, beyond) / std::max(1e-6f, std::abs(glm::dot(boundary.normal, ray.direction)));
+  std::optional<Hit> hit = intersect({before, ray.direction}, reach, kSurfaces);
+  if (hit) hit->t = boundary.t;
+  return hit;
+}
+
+std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t layers) const {
   assert(impl_->committed);
   assert(is_finite(ray.origin) && is_finite(ray.direction));
   RTCRayHit found{};
@@ -219,7 +235,7 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
   found.ray.dir_z = ray.direction.z;
   found.ray.tnear = kMinT;
   found.ray.tfar = std::isinf(t_max) ? t_max : std::nextafter(t_max, 0.0f);
-  found.ray.mask = ~0u;
+  found.ray.mask = layers;
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   if (!(found.ray.tfar >= kMinT)) return std::nullopt;
   RTCIntersectContext context;

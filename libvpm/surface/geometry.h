@@ -30,6 +30,9 @@ struct Hit {
   float slack = 0.0f;   // m, by how much rounding may displace the surface from `position` in later queries
 };
 
+/// What a shape is to a ray: a surface that light scatters at, or a boundary between media that it passes.
+enum class Layer : uint32_t { surface = 1, boundary = 2 };
+
 /// Shapes of the scene. Add all, then commit(); from then on it is immutable and all queries are thread-safe.
 /// Failures of Embree itself (out of memory) throw std::runtime_error.
 class Geometry {
@@ -42,12 +45,16 @@ class Geometry {
   /// Adds a shape and returns its number: 0, 1, 2, ... Triangles without area are left out, as no ray can meet them.
   /// Throws InputError where a mesh has no other, where a triangle names a vertex that does not exist, and for
   /// coordinates or radii that are not finite or beyond 1e9 m, radii not positive.
-  uint32_t add(const TriangleMesh& mesh);
-  uint32_t add(const SphereShape& sphere);
+  uint32_t add(const TriangleMesh& mesh, Layer layer = Layer::surface);
+  uint32_t add(const SphereShape& sphere, Layer layer = Layer::surface);
   void commit();
 
   /// The nearest hit with 0 < t < t_max, seen from either side. Allocates nothing.
   std::optional<Hit> intersect(const Ray& ray, float t_max = kInfinity) const;
+
+  /// A surface that coincides with the boundary the ray met at `boundary`: within the distance by which rays are moved off it. The ray meets
+  /// that surface and does not cross the boundary: so smoke can stand on a floor.
+  std::optional<Hit> surface_at(const Hit& boundary, const Ray& ray) const;
 
   /// The box around all shapes; empty without any.
   Box bounds() const;
@@ -58,6 +65,8 @@ class Geometry {
 
  private:
   struct Impl;
+  std::optional<Hit> intersect(const Ray& ray, float t_max, uint32_t layers) const;
+
   std::unique_ptr<Impl> impl_;
 };
 

@@ -1,5 +1,5 @@
-// The files in tests/input/bad say themselves what is to be said about them: every line that contains "expect TEXT" asks for an error
-// message with that TEXT in it.
+// The files in tests/input/bad say themselves what is to be said about them: every line that contains "expect TEXT"
+// asks for an error message with that TEXT in it.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -38,24 +38,26 @@ void expect_square(const LoadedMesh& loaded) {
 }
 
 TEST(MeshFile, ReadsAsciiPly) {
-  expect_square(load_mesh(write_file("square.ply",
-                                     "ply\r\nformat ascii 1.0\nobj_info made by hand\nelement vertex 4\nproperty double x\n"
-                                     "property float y\nproperty float z\nproperty uchar red\nelement edge 1\n"
-                                     "property int vertex1\nproperty int vertex2\nelement face 1\nproperty uchar flags\n"
-                                     "property list uchar uint vertex_index\nproperty list uchar float weights\nend_header\n"
-                                     "0 0 .25 255\n1 0 2.5e-1 0\n+1 1 0.25 0\n0 1\n0.25 0\n0 1\n7 4 0 1 2 3 2 0.5 0.5\n")));
+  expect_square(
+      load_mesh(write_file("square.ply",
+                           "ply\r\nformat ascii 1.0\nobj_info made by hand\nelement vertex 4\nproperty double x\n"
+                           "property float y\nproperty float z\nproperty uchar red\nelement edge 1\n"
+                           "property int vertex1\nproperty int vertex2\nelement face 1\nproperty uchar flags\n"
+                           "property list uchar uint vertex_index\nproperty list uchar float weights\nend_header\n"
+                           "0 0 .25 255\n1 0 2.5e-1 0\n+1 1 0.25 0\n0 1\n0.25 0\n0 1\n7 4 0 1 2 3 2 0.5 0.5\n")));
 }
 
 /// Every scalar type, a list to skip, and an unknown element between vertices and faces.
 std::string binary_ply(std::endian order) {
   const bool little = order == std::endian::little;
-  std::string text = "ply\nformat binary_" + std::string(little ? "little" : "big") +
-                     "_endian 1.0\nelement vertex 4\nproperty char x\nproperty float64 z\nproperty list ushort int16 skipped\n"
-                     "property float32 y\nelement thing 2\nproperty uint32 a\nproperty int32 b\nelement face 1\n"
-                     "property list int8 uint16 vertex_indices\nend_header\n";
+  std::string text =
+      "ply\nformat binary_" + std::string(little ? "little" : "big") +
+      "_endian 1.0\nelement vertex 4\nproperty char x\nproperty float64 z\nproperty list ushort int16 skipped\n"
+      "property float32 y\nelement thing 2\nproperty uint32 a\nproperty int32 b\nelement face 1\n"
+      "property list int8 uint16 vertex_indices\nend_header\n";
   for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
-    text += bytes(static_cast<int8_t>(x), order) + bytes(0.25, order) + bytes(uint16_t{2}, order) + bytes(int16_t{-1}, order) +
-            bytes(int16_t{10}, order) + bytes(static_cast<float>(y), order);
+    text += bytes(static_cast<int8_t>(x), order) + bytes(0.25, order) + bytes(uint16_t{2}, order) +
+            bytes(int16_t{-1}, order) + bytes(int16_t{10}, order) + bytes(static_cast<float>(y), order);
   }
   for (int i = 0; i < 2; ++i) text += bytes(uint32_t{0x0a0a0a0a}, order) + bytes(int32_t{-1}, order);
   text += bytes(int8_t{4}, order);
@@ -69,19 +71,22 @@ TEST(MeshFile, ReadsBinaryPlyOfEitherByteOrder) {
 }
 
 TEST(MeshFile, ReadsObj) {
-  expect_square(load_mesh(write_file("square.obj",
-                                     "# a square\nmtllib none.mtl\no square\nv 0 0 .25\nv 1 0 .25 1.0\r\nv 1 1 .25 # corner\n"
-                                     "\tv 0 1 0.25\nvn 0 0 1\nvt 0 0\nusemtl none\nf 1/1/1 2//1 -2/1 4")));
+  expect_square(
+      load_mesh(write_file("square.obj",
+                           "# a square\nmtllib none.mtl\no square\nv 0 0 .25\nv 1 0 .25 1.0\r\nv 1 1 .25 # corner\n"
+                           "\tv 0 1 0.25\nvn 0 0 1\nvt 0 0\nusemtl none\nf 1/1/1 2//1 -2/1 4")));
 }
 
 TEST(MeshFile, CountsDegenerateTriangles) {
-  const LoadedMesh loaded = load_mesh(write_file("thin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 2\nf 1 2 4\n"));
+  const LoadedMesh loaded =
+      load_mesh(write_file("thin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 2\nf 1 2 4\n"));
   EXPECT_EQ(loaded.mesh.triangles.size(), 1u);
   EXPECT_EQ(loaded.degenerate_triangles, 2u);
 }
 
 TEST(MeshFile, RefusesOtherFiles) {
-  EXPECT_NE(message_of([] { load_mesh("mesh.stl"); }).find("mesh.stl: a mesh must be a .ply or .obj file"), std::string::npos);
+  EXPECT_NE(message_of([] { load_mesh("mesh.stl"); }).find("mesh.stl: a mesh must be a .ply or .obj file"),
+            std::string::npos);
   EXPECT_NE(message_of([] { load_mesh("no_such.ply"); }).find("no_such.ply: cannot open"), std::string::npos);
 }
 

@@ -99,7 +99,11 @@ void print_warnings(const LoadedScene& loaded, const RenderStatistics& s) {
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");
   warn(s.eye.cut_paths, "eye paths were cut at render.max_events");
-  warn(s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches, "boundaries were met from a medium that is not the one before them: check that media do not overlap");
+  // Rays through the very edges of boundaries need a correction now and then: some in 1e7. More means media that overlap.
+  WalkCounters walk = s.ledger.walk;
+  walk.merge(s.eye.walk);
+  if (walk.medium_mismatches > 100 + walk.crossings / 1'000'000)
+    warn(walk.medium_mismatches, "boundaries were met from a medium that is not the one before them: check that media do not overlap");
 }
 
 }  // namespace
