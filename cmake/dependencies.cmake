@@ -8,7 +8,6 @@ find_package(fmt 9 CONFIG REQUIRED)
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(glm CONFIG REQUIRED)
 find_package(tomlplusplus CONFIG REQUIRED)
-find_package(tinyobjloader CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 
 # OpenVDB ships a find module only, in a folder that also shadows the good FindTBB: it is on the path for this one call, and after

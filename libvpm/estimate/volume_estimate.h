@@ -23,7 +23,7 @@ Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const
       phase);
 }
 
-/// The fluence over density, sum_p Phi_p K_r / sigma_t for photons stored for the density at the query: W/m^2 in a medium of density 1.
+/// The fluence, W/m^2: sum_p Phi_p K_r / sigma_t for photons stored for the density at the query, sigma_t at density 1.
 template <class... Photons>
 Rgb fluence(const Rgb& sigma_t, const Vec3& point, const Photons&... photons) {
   const auto all = [](const Vec3&, const Vec3&) { return true; };

@@ -85,7 +85,8 @@ void read_tree(VdbFile& file, const VdbGridEntry& entry, Grid& grid) {
   grid.tree().readBuffers(stream, source->stored_half);
 }
 
-// Summaries --------------------------------------------------------------------------------------------------------------------------
+// Summaries
+// --------------------------------------------------------------------------------------------------------------------------
 
 Vec3i to_vec(const Coord& c) { return {c.x(), c.y(), c.z()}; }
 
@@ -158,7 +159,8 @@ GridSummary summarize(VdbFile& file, const VdbGridEntry& entry) {
   return summary;
 }
 
-// Densities --------------------------------------------------------------------------------------------------------------------------
+// Densities
+// --------------------------------------------------------------------------------------------------------------------------
 
 /// The values of one kind that a grid should not have.
 struct Fault {
@@ -213,8 +215,10 @@ struct DensitySource {
   [[noreturn]] void refuse(const std::string& why) const { file.refuse(entry.name, why); }
   [[noreturn]] void refuse(const Fault& fault, const std::string& kind, const std::string& remedy) const {
     const Vec3d p(index_to_world * glm::dvec4(Vec3d(to_vec(fault.first)), 1.0));
-    refuse(fmt::format("has {} {} value{}, the first ({}) at voxel ({}, {}, {}), world position ({:.6g}, {:.6g}, {:.6g}) m{}", fault.count, kind,
-                       fault.count == 1 ? "" : "s", fault.value, fault.first.x(), fault.first.y(), fault.first.z(), p.x, p.y, p.z, remedy));
+    refuse(fmt::format(
+        "has {} {} value{}, the first ({}) at voxel ({}, {}, {}), world position ({:.6g}, {:.6g}, {:.6g}) m{}",
+        fault.count, kind, fault.count == 1 ? "" : "s", fault.value, fault.first.x(), fault.first.y(), fault.first.z(),
+        p.x, p.y, p.z, remedy));
   }
 };
 
@@ -223,7 +227,8 @@ template <class Grid>
 void convert_level_set(const DensitySource& source, Grid& grid) {
   if (source.entry.grid_class == "fog volume") source.refuse("is a fog volume already; leave out from_level_set");
   if (!(grid.background() > 0) || not_finite(grid.background()))
-    source.refuse(fmt::format("is not a level set: its background is {}, not the positive width of a narrow band", grid.background()));
+    source.refuse(fmt::format("is not a level set: its background is {}, not the positive width of a narrow band",
+                              grid.background()));
   const Fault fault = find_faults(grid.tree(), CoordBBox::inf(), not_finite<typename Grid::ValueType>);
   if (fault.count) source.refuse(fault, "NaN or infinite", "");
   openvdb::tools::sdfToFogVolume(grid);
@@ -233,7 +238,8 @@ void convert_level_set(const DensitySource& source, Grid& grid) {
 template <class Grid>
 CoordBBox active_box(const DensitySource& source, const Grid& grid) {
   CoordBBox box;
-  if (!grid.tree().evalActiveVoxelBoundingBox(box) || grid.tree().activeVoxelCount() == 0) source.refuse("has no active voxels");
+  if (!grid.tree().evalActiveVoxelBoundingBox(box) || grid.tree().activeVoxelCount() == 0)
+    source.refuse("has no active voxels");
   constexpr int kFarthest = 1 << 30;
   if (std::min(box.min().x(), std::min(box.min().y(), box.min().z())) < -kFarthest ||
       std::max(box.max().x(), std::max(box.max().y(), box.max().z())) > kFarthest)
@@ -253,7 +259,8 @@ float outside_density(const DensitySource& source, const Grid& grid, uint64_t& c
     background = 0.0f;
   }
   if (background > 0.0f && !source.request.has_bounding_shape)
-    source.refuse(fmt::format("has the background {}, which would fill all space; bound the medium by a shape", background));
+    source.refuse(
+        fmt::format("has the background {}, which would fill all space; bound the medium by a shape", background));
   return background;
 }
 
@@ -275,7 +282,8 @@ class BrickFiller {
   static constexpr int kValues = DensityGrid::kValues;
   static constexpr int kLeaf = 8;
 
-  /// Fills a brick that lies outside the box, or inside it within one large tile; false for others. Most bricks of a sparse grid are such.
+  /// Fills a brick that lies outside the box, or inside it within one large tile; false for others. Most bricks of a
+  /// sparse grid are such.
   bool fill_at_once(const Vec3i& origin, float* values) {
     const Coord corner(origin.x, origin.y, origin.z);
     const CoordBBox brick(corner, corner.offsetBy(kValues - 1));
@@ -284,7 +292,8 @@ class BrickFiller {
       constexpr int kTile = 128;  // the smallest tile above the level of leaves
       constexpr int kDepth = 1;   // of such a tile; larger ones have less
       const Vec3i place = origin & (kTile - 1);
-      if (std::max(place.x, std::max(place.y, place.z)) > kTile - 2 * kLeaf || accessor_.getValueDepth(corner) > kDepth) return false;
+      if (std::max(place.x, std::max(place.y, place.z)) > kTile - 2 * kLeaf || accessor_.getValueDepth(corner) > kDepth)
+        return false;
       value = density(accessor_.getValue(corner));
       if (value != background_ && !box_.isInside(brick)) return false;
     }
@@ -335,7 +344,8 @@ LoadedGrid make_density(const DensitySource& source, Grid& grid) {
   if (negative.count && !source.request.clamp_negative)
     source.refuse(negative, "negative", "; clamp_negative = true reads them as 0");
   loaded.clamped_values += negative.count;
-  const GridFrame frame{source.index_to_world, to_vec(box.min()), to_vec(box.max()), source.request.interpolation, background};
+  const GridFrame frame{source.index_to_world, to_vec(box.min()), to_vec(box.max()), source.request.interpolation,
+                        background};
   try {
     loaded.grid = std::make_shared<const DensityGrid>(frame, BrickFiller<Grid>(grid, box, background));
   } catch (const InputError& e) {
@@ -346,10 +356,13 @@ LoadedGrid make_density(const DensitySource& source, Grid& grid) {
 
 const VdbGridEntry& find_density(const VdbFile& file, const GridRequest& request) {
   const VdbGridEntry* entry = file.layout.find(request.name);
-  if (!entry) throw InputError(fmt::format("{}: has no single grid named '{}'; {}", request.path, request.name, file.layout.listing()));
+  if (!entry)
+    throw InputError(
+        fmt::format("{}: has no single grid named '{}'; {}", request.path, request.name, file.layout.listing()));
   if (!entry->scalar())
     file.refuse(entry->name, fmt::format("holds {} values; a density needs float or double", entry->value_type()));
-  if (!entry->affine()) file.refuse(entry->name, fmt::format("has a transform ({}) that is not affine", entry->map_type));
+  if (!entry->affine())
+    file.refuse(entry->name, fmt::format("has a transform ({}) that is not affine", entry->map_type));
   if (entry->grid_class == "level set" && !request.from_level_set)
     file.refuse(entry->name, "is a level set, not a density; from_level_set = true turns it into a fog volume");
   return *entry;

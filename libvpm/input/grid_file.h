@@ -29,25 +29,26 @@ struct GridSummary {
   bool axis_aligned = false;            // the grid's axes lie along those of the world (mirrored or not)
   uint64_t active_voxels = 0;           // those that tiles fill included; of other types what the file states
   uint64_t active_tiles = 0;
-  Vec3i lo{0}, hi{-1};  // index box of the active voxels, both ends included; empty: lo > hi
-  Box world_box;        // m, around the positions of those voxels
+  Vec3i lo{0}, hi{-1};               // index box of the active voxels, both ends included; empty: lo > hi
+  Box world_box;                     // m, around the positions of those voxels
   std::optional<ValueRange> values;  // of float and double grids with active voxels; NaN or infinity show in it
   std::optional<double> background;  // of float and double grids
   uint64_t memory_bytes = 0;         // of float and double grids, as OpenVDB holds them
 };
 
-/// The grids of a file, in its order. The values of float and double grids are read, of others only the heading. Throws InputError
-/// for what is not a whole .vdb file; a single grid that cannot be read becomes a summary with its `problem`.
+/// The grids of a file, in its order. The values of float and double grids are read, of others only the heading. Throws
+/// InputError for what is not a whole .vdb file; a single grid that cannot be read becomes a summary with its
+/// `problem`.
 std::vector<GridSummary> list_grids(const std::string& path);
 
 struct GridRequest {
   std::string path;
   std::string name = "density";
   Interpolation interpolation = Interpolation::trilinear;
-  bool from_level_set = false;       // turn a level set into a fog volume: 1 inside, falling to 0 at the surface
-  bool clamp_negative = false;       // read negative values as 0
-  bool has_bounding_shape = false;   // the medium is bounded by a shape, so that a background may be other than 0
-  Mat4d object_to_world{1.0};        // applied after the grid's own transform
+  bool from_level_set = false;      // turn a level set into a fog volume: 1 inside, falling to 0 at the surface
+  bool clamp_negative = false;      // read negative values as 0
+  bool has_bounding_shape = false;  // the medium is bounded by a shape, so that a background may be other than 0
+  Mat4d object_to_world{1.0};       // applied after the grid's own transform
 };
 
 struct LoadedGrid {
@@ -55,10 +56,11 @@ struct LoadedGrid {
   uint64_t clamped_values = 0;  // voxels inside the active box that were negative; a negative background adds 1
 };
 
-/// Reads a float or double grid as a density. It fills the box of its active voxels: inside, every voxel has the value that OpenVDB
-/// answers for it, active or not; outside, the background. Throws InputError, listing the grids of the file, for whatever cannot be a
-/// density: no such grid, a level set (unless asked for), other types, no active voxels, a transform that is not affine, a background
-/// other than 0 without a bounding shape, NaN, infinite or negative values, a damaged file, a box whose table of bricks would take over 512 MiB.
+/// Reads a float or double grid as a density. It fills the box of its active voxels: inside, every voxel has the value
+/// that OpenVDB answers for it, active or not; outside, the background. Throws InputError, listing the grids of the
+/// file, for whatever cannot be a density: no such grid, a level set (unless asked for), other types, no active voxels,
+/// a transform that is not affine, a background other than 0 without a bounding shape, NaN, infinite or negative
+/// values, a damaged file, a box whose table of bricks would take over 256 MiB.
 LoadedGrid load_grid(const GridRequest& request);
 
 }  // namespace vpm

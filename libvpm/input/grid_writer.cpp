@@ -1,11 +1,11 @@
 // Writing procedural fields with OpenVDB.
 #include "input/grid_writer.h"
 
-#include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
+#include <algorithm>
+#include <fstream>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -19,7 +19,8 @@ namespace {
 const ProceduralField& find_field(const std::string& name) {
   if (const ProceduralField* field = find_procedural_field(name)) return *field;
   std::string names;
-  for (const ProceduralField& field : procedural_fields()) names += fmt::format("{}{}", names.empty() ? "" : ", ", field.name);
+  for (const ProceduralField& field : procedural_fields())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", field.name);
   throw InputError(fmt::format("there is no medium '{}' to make; there are: {}", name, names));
 }
 
@@ -108,7 +109,8 @@ void check_written(const std::string& path) {
 
 void write_media_grid(const std::string& name, int resolution, const std::string& path) {
   const ProceduralField& field = find_field(name);
-  if (resolution < 2 || resolution > 2048) throw InputError(fmt::format("resolution {}: must lie between 2 and 2048", resolution));
+  if (resolution < 2 || resolution > 2048)
+    throw InputError(fmt::format("resolution {}: must lie between 2 and 2048", resolution));
   TemporaryFile file(path);
   try {
     openvdb::initialize();

@@ -1,10 +1,10 @@
 // Walking the tree of a scalar grid through its bytes, so that OpenVDB meets only lengths that fit.
 //
-// In the file: buffer count; root: background, tiles, children; a child is two masks, its compressed values, its own children; a leaf is a
-// mask. Then, for every leaf, a mask and its compressed values.
+// In the file: buffer count; root: background, tiles, children; a child is two masks, its compressed values, its own
+// children; a leaf is a mask. Then, for every leaf, a mask and its compressed values.
+#include <fmt/format.h>
 #include <array>
 #include <bitset>
-#include <fmt/format.h>
 #include <memory>
 #include <set>
 
@@ -15,10 +15,10 @@ namespace {
 
 enum Compression : uint32_t { kZip = 1, kActiveMask = 2, kBlosc = 4 };
 
-constexpr size_t kLeafValues = 512;      // 8^3
-constexpr size_t kLowerValues = 4096;    // 16^3
-constexpr size_t kUpperValues = 32768;   // 32^3
-constexpr int kRootChildSize = 4096;  // voxels along the edge of a root's child
+constexpr size_t kLeafValues = 512;     // 8^3
+constexpr size_t kLowerValues = 4096;   // 16^3
+constexpr size_t kUpperValues = 32768;  // 32^3
+constexpr int kRootChildSize = 4096;    // voxels along the edge of a root's child
 
 struct TreeChecker {
   VdbCursor& cursor;
@@ -42,7 +42,8 @@ void TreeChecker::check_block(uint64_t bytes) {
   if (!(entry.compression & (kBlosc | kZip))) return cursor.skip(bytes);
   const auto stored = cursor.read<int64_t>();
   if (stored <= 0) {
-    if (stored != -static_cast<int64_t>(bytes)) cursor.damaged(fmt::format("a block of {} bytes instead of {}", stored, bytes));
+    if (stored != -static_cast<int64_t>(bytes))
+      cursor.damaged(fmt::format("a block of {} bytes instead of {}", stored, bytes));
     return cursor.skip(bytes);
   }
   const auto length = static_cast<uint64_t>(stored);
@@ -54,11 +55,13 @@ void TreeChecker::check_block(uint64_t bytes) {
   if (length < sizeof(BloscHeader)) cursor.damaged(fmt::format("a packed block of {} bytes", length));
   const auto header = cursor.read<BloscHeader>();
   if (header.unpacked != bytes || header.packed != length)
-    cursor.damaged(fmt::format("a block that unpacks {} bytes to {} instead of {} to {}", header.packed, header.unpacked, length, bytes));
+    cursor.damaged(fmt::format("a block that unpacks {} bytes to {} instead of {} to {}", header.packed,
+                               header.unpacked, length, bytes));
   cursor.skip(length - sizeof(BloscHeader));
 }
 
-/// Values of a node: a code for what the inactive ones are, the one or two values and the mask that this needs, the rest in a block.
+/// Values of a node: a code for what the inactive ones are, the one or two values and the mask that this needs, the
+/// rest in a block.
 void TreeChecker::check_compressed(uint64_t values, uint64_t active, uint64_t mask_bytes) {
   const auto code = cursor.read<int8_t>();
   if (code < 0 || code > 6) cursor.damaged(fmt::format("unknown coding {} of inactive values", code));
@@ -98,7 +101,8 @@ void TreeChecker::check_root() {
   for (uint64_t i = 0; i < uint64_t{tiles} + children; ++i) {
     const auto origin = cursor.read<std::array<int32_t, 3>>();
     for (const int32_t x : origin)
-      if (x % kRootChildSize != 0) cursor.damaged(fmt::format("a node at voxel {}, off the lattice of {}", x, kRootChildSize));
+      if (x % kRootChildSize != 0)
+        cursor.damaged(fmt::format("a node at voxel {}, off the lattice of {}", x, kRootChildSize));
     if (!origins.insert(origin).second) cursor.damaged("two nodes at one place");
     if (i < tiles)
       cursor.skip(value_bytes + 1);

@@ -1,8 +1,8 @@
 // Reading a .vdb file byte by byte, never past its end.
 #include "input/vdb_cursor.h"
 
-#include <filesystem>
 #include <fmt/format.h>
+#include <filesystem>
 
 #include "base/error.h"
 
@@ -12,7 +12,8 @@ VdbCursor::VdbCursor(const std::string& path) : path_(path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: no such file", path));
-  if (!std::filesystem::is_regular_file(status)) throw InputError(fmt::format("{}: is not a file; a .vdb file is needed", path));
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError(fmt::format("{}: is not a file; a .vdb file is needed", path));
   size_ = std::filesystem::file_size(path, error);
   file_.open(path, std::ios::binary);
   if (!file_ || error) throw InputError(fmt::format("{}: cannot be read (is it permitted?)", path));
@@ -47,8 +48,9 @@ void VdbCursor::seek(uint64_t position) {
 
 void VdbCursor::need(uint64_t count) const {
   if (count > remaining())
-    throw InputError(fmt::format("{}: damaged or truncated: {} more bytes are needed at byte {}, the file ends at byte {}", path_, count,
-                                 position_, size_));
+    throw InputError(
+        fmt::format("{}: damaged or truncated: {} more bytes are needed at byte {}, the file ends at byte {}", path_,
+                    count, position_, size_));
 }
 
 void VdbCursor::damaged(const std::string& what) const {

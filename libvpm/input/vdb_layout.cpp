@@ -1,9 +1,9 @@
 // Reading the table of contents of a .vdb file.
 #include "input/vdb_layout.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <string_view>
 
 #include "base/error.h"
@@ -43,7 +43,9 @@ void check_magic(VdbCursor& cursor) {
   cursor.read_bytes(start.data(), count);
   const std::string_view text(start.data(), count);
   if (text == kLfs)
-    throw InputError(fmt::format("{}: is not a .vdb file but a git-lfs pointer to one; fetch the file itself with 'git lfs pull'", cursor.path()));
+    throw InputError(
+        fmt::format("{}: is not a .vdb file but a git-lfs pointer to one; fetch the file itself with 'git lfs pull'",
+                    cursor.path()));
   if (count == 0) throw InputError(fmt::format("{}: is empty; a .vdb file is needed", cursor.path()));
   if (!text.starts_with(kMagic)) throw InputError(fmt::format("{}: is not a .vdb file", cursor.path()));
   cursor.seek(kMagic.size());
@@ -79,9 +81,11 @@ uint64_t read_grid_entry(VdbCursor& cursor, bool has_offsets, VdbGridEntry& entr
   cursor.skip(sizeof(uint64_t));  // where the leaf blocks begin: they follow the tree
   const auto end = cursor.read<uint64_t>();
   if (has_offsets) {
-    if (begin < cursor.position() || end < begin) cursor.damaged(fmt::format("grid '{}' lies at bytes {} to {}", entry.name, begin, end));
+    if (begin < cursor.position() || end < begin)
+      cursor.damaged(fmt::format("grid '{}' lies at bytes {} to {}", entry.name, begin, end));
     if (end > cursor.size())
-      throw InputError(fmt::format("{}: truncated: grid '{}' ends at byte {}, the file at byte {}", cursor.path(), entry.name, end, cursor.size()));
+      throw InputError(fmt::format("{}: truncated: grid '{}' ends at byte {}, the file at byte {}", cursor.path(),
+                                   entry.name, end, cursor.size()));
     cursor.seek(begin);
   }
   entry.compression = cursor.read<uint32_t>();
@@ -103,8 +107,8 @@ std::string VdbGridEntry::value_type() const {
 
 bool VdbGridEntry::affine() const {
   constexpr std::array<std::string_view, 7> kAffine = {
-      "AffineMap",      "ScaleMap",          "UniformScaleMap",         "TranslationMap",
-      "ScaleTranslateMap", "UniformScaleTranslateMap", "UnitaryMap"};
+      "AffineMap", "ScaleMap", "UniformScaleMap", "TranslationMap", "ScaleTranslateMap", "UniformScaleTranslateMap",
+      "UnitaryMap"};
   return std::find(kAffine.begin(), kAffine.end(), map_type) != kAffine.end();
 }
 
@@ -133,8 +137,9 @@ VdbLayout read_vdb_layout(VdbCursor& cursor) {
   VdbLayout layout;
   layout.file_version = cursor.read<uint32_t>();
   if (layout.file_version < kOldest || layout.file_version > kNewest)
-    throw InputError(fmt::format("{}: has file format {}; formats {} to {} can be read: save it anew with a current OpenVDB", cursor.path(),
-                                 layout.file_version, kOldest, kNewest));
+    throw InputError(
+        fmt::format("{}: has file format {}; formats {} to {} can be read: save it anew with a current OpenVDB",
+                    cursor.path(), layout.file_version, kOldest, kNewest));
   layout.library_major = cursor.read<uint32_t>();
   layout.library_minor = cursor.read<uint32_t>();
   const bool has_offsets = cursor.read<uint8_t>() != 0;
@@ -144,7 +149,8 @@ VdbLayout read_vdb_layout(VdbCursor& cursor) {
   const auto count = cursor.read<int32_t>();
   if (count < 0) cursor.damaged(fmt::format("{} grids", count));
   if (!has_offsets && count > 1)
-    throw InputError(fmt::format("{}: holds {} grids but not where each begins; save it with openvdb::io::File", cursor.path(), count));
+    throw InputError(fmt::format("{}: holds {} grids but not where each begins; save it with openvdb::io::File",
+                                 cursor.path(), count));
   for (int32_t i = 0; i < count; ++i) {
     VdbGridEntry entry;
     const uint64_t next = read_grid_entry(cursor, has_offsets, entry);

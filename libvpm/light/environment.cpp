@@ -5,13 +5,12 @@
 
 #include "base/error.h"
 #include "base/warp.h"
+#include "image/metrics.h"
 #include "light/kinds.h"
 
 namespace vpm {
 
 namespace {
-
-double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }  // Rec. 709 primaries
 
 /// The solid angle of one texel of a row, sr: the azimuth's share times the difference of the cosines of its edges,
 /// which is 2 sin(middle) sin(half) and so does not cancel.

@@ -13,8 +13,8 @@ namespace {
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
-/// The most bricks a table may hold: 512 MiB of them.
-constexpr double kMaxBricks = double(1u << 29) / 12.0;
+/// The most bricks a table may hold: 256 MiB of them, which span 2200^3 voxels.
+constexpr double kMaxBricks = double(1u << 28) / 12.0;
 
 bool all_equal(const float* values) {
   return std::memcmp(values, values + 1, (DensityGrid::kBrickValues - 1) * sizeof(float)) == 0;
@@ -40,7 +40,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
   }
   const double count = double(brick_count_.x) * brick_count_.y * brick_count_.z;
   if (count > kMaxBricks)
-    throw InputError(fmt::format("a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.5 GiB",
+    throw InputError(fmt::format("a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.25 GiB",
                                  brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
   bricks_.resize(static_cast<size_t>(count));
   double sum = 0.0;

@@ -36,13 +36,13 @@ class DensityGrid {
   using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
 
   /// Builds the bricks that cover the frame's index box and its interpolation's reach. Bricks of one value store that value
-  /// only. Throws InputError where the table of bricks alone would take over 512 MiB.
+  /// only. Throws InputError where the table of bricks alone would take over 256 MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill);
 
   /// Density at a point of the world.
   float density(const Vec3& world) const;
-  /// Calls visit(const DensityPiece&) for the pieces of the ray with density > 0, in order, until it returns false.
-  /// Pieces of zero density are left out. Returns the number of cells and uniform bricks read ("look-ups").
+  /// Calls visit(const DensityPiece&) for the pieces of the ray, in order, until it returns false.
+  /// Bricks of zero density are left out. Returns the number of cells and uniform bricks read ("look-ups").
   template <class Visit>
   uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const;
 

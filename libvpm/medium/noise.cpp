@@ -6,8 +6,9 @@ namespace {
 
 /// Perlin's twelve edge directions of a cube, four of them twice.
 float along_edge(uint32_t hash, const Vec3& d, Vec3& direction) {
-  static constexpr signed char kEdges[16][3] = {{1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},  {1, 0, -1}, {-1, 0, -1},
-                                                {0, 1, 1}, {0, -1, 1}, {0, 1, -1}, {0, -1, -1}, {1, 1, 0}, {0, -1, 1}, {-1, 1, 0}, {0, -1, -1}};
+  static constexpr signed char kEdges[16][3] = {
+      {1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {1, 0, 1}, {-1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
+      {0, 1, 1}, {0, -1, 1}, {0, 1, -1}, {0, -1, -1}, {1, 1, 0}, {0, -1, 1}, {-1, 1, 0}, {0, -1, -1}};
   const signed char* e = kEdges[hash >> 28];
   direction = Vec3(e[0], e[1], e[2]);
   return glm::dot(direction, d);
@@ -51,7 +52,8 @@ NoiseSample gradient_noise(const Vec3& p, uint32_t seed) {
     }
     const float w = weight.x * weight.y * weight.z;
     sum.value += w * value;
-    sum.gradient += w * direction + value * Vec3(rise.x * weight.y * weight.z, weight.x * rise.y * weight.z, weight.x * weight.y * rise.z);
+    sum.gradient += w * direction + value * Vec3(rise.x * weight.y * weight.z, weight.x * rise.y * weight.z,
+                                                 weight.x * weight.y * rise.z);
   }
   return sum;
 }
@@ -71,14 +73,16 @@ float value_noise(const Vec3& p, uint32_t seed) {
 float fractal_noise(const Vec3& p, int octaves, uint32_t seed) {
   float sum = 0.0f;
   float scale = 1.0f;
-  for (int i = 0; i < octaves; ++i, scale *= 2.0f) sum += gradient_noise(p * scale, seed + static_cast<uint32_t>(i)).value / scale;
+  for (int i = 0; i < octaves; ++i, scale *= 2.0f)
+    sum += gradient_noise(p * scale, seed + static_cast<uint32_t>(i)).value / scale;
   return sum;
 }
 
 float billow_noise(const Vec3& p, int octaves, uint32_t seed) {
   float sum = 0.0f;
   float scale = 1.0f;
-  for (int i = 0; i < octaves; ++i, scale *= 2.0f) sum += std::abs(gradient_noise(p * scale, seed + static_cast<uint32_t>(i)).value) / scale;
+  for (int i = 0; i < octaves; ++i, scale *= 2.0f)
+    sum += std::abs(gradient_noise(p * scale, seed + static_cast<uint32_t>(i)).value) / scale;
   return sum;
 }
 

@@ -42,7 +42,8 @@ float depth_in_balls(const std::array<Ball, N>& balls, const Vec3& p, float roun
 /// A number in [-1, 1) for a ball.
 float draw(int ball, int what, uint32_t seed) { return 2.0f * lattice_value(Vec3i(ball, what, 0), seed) - 1.0f; }
 
-// Smoke ------------------------------------------------------------------------------------------------------------------------------
+// Smoke
+// ------------------------------------------------------------------------------------------------------------------------------
 
 constexpr Vec3 kSmokeSize(0.7f, 1.0f, 0.7f);  // m
 
@@ -63,8 +64,8 @@ std::array<Ball, 60> smoke_balls() {
   return balls;
 }
 
-/// A turbulent plume: its axis sways, its surface is stirred by curls and covered with billows, all in proportion to its width; higher
-/// up it is thinner and frays.
+/// A turbulent plume: its axis sways, its surface is stirred by curls and covered with billows, all in proportion to
+/// its width; higher up it is thinner and frays.
 float smoke(const Vec3& unit) {
   static const std::array<Ball, 60> balls = smoke_balls();
   const Vec3 p = (unit - Vec3(0.5f, 0.0f, 0.5f)) * kSmokeSize;
@@ -72,18 +73,21 @@ float smoke(const Vec3& unit) {
   if (p.x * p.x + p.z * p.z > 6.0f * radius * radius) return 0.0f;
   const float grown = radius / smoke_radius(1.0f);
   const float sway = 0.3f * radius * smooth_step(0.0f, 0.4f, p.y);
-  Vec3 q = p + sway * Vec3(gradient_noise(Vec3(0.3f, 2.6f * p.y, 0.7f), 21).value, 0.0f, gradient_noise(Vec3(0.6f, 2.6f * p.y, 0.2f), 22).value);
+  Vec3 q = p + sway * Vec3(gradient_noise(Vec3(0.3f, 2.6f * p.y, 0.7f), 21).value, 0.0f,
+                           gradient_noise(Vec3(0.6f, 2.6f * p.y, 0.2f), 22).value);
   q += grown * (0.026f * curl_noise(6.0f * q, 31) + 0.009f * curl_noise(17.0f * q, 41));
   const float billows = billow_noise(11.0f * q, 5, 51);
   const float wisps = fractal_noise(14.0f * q, 4, 61);
   const float frayed = smooth_step(0.35f, 1.0f, p.y);
-  const float depth = depth_in_balls(balls, q, 0.3f * radius) / radius + 0.7f * billows - 0.2f - 0.55f * frayed * (0.35f + wisps);
+  const float depth =
+      depth_in_balls(balls, q, 0.3f * radius) / radius + 0.7f * billows - 0.2f - 0.55f * frayed * (0.35f + wisps);
   const float ends = smooth_step(0.0f, 0.03f, p.y) * smooth_step(0.98f, 0.7f, p.y + 0.1f * wisps);
   const float texture = std::clamp(0.75f + 0.6f * wisps, 0.1f, 1.0f) * (1.0f - 0.5f * smooth_step(0.1f, 1.0f, p.y));
   return smooth_step(0.0f, 0.45f + 0.25f * frayed, depth) * ends * texture * inside_cube(unit, 0.02f);
 }
 
-// Cloud ------------------------------------------------------------------------------------------------------------------------------
+// Cloud
+// ------------------------------------------------------------------------------------------------------------------------------
 
 constexpr Vec3 kCloudSize(1000.0f, 600.0f, 800.0f);  // m
 constexpr float kCloudBase = 0.1f;                   // height of its flat base, in units of the box's height
@@ -116,7 +120,8 @@ float cloud(const Vec3& unit) {
   return body * texture * inside_cube(unit, 0.02f);
 }
 
-// Shapes with known answers ----------------------------------------------------------------------------------------------------------
+// Shapes with known answers
+// ----------------------------------------------------------------------------------------------------------
 
 constexpr Vec3 kUnitSize(1.0f);  // m
 
@@ -151,7 +156,8 @@ constexpr std::array<ProceduralField, 7> kFields = {{
 std::span<const ProceduralField> procedural_fields() { return kFields; }
 
 const ProceduralField* find_procedural_field(std::string_view name) {
-  const auto field = std::find_if(kFields.begin(), kFields.end(), [name](const ProceduralField& f) { return f.name == name; });
+  const auto field =
+      std::find_if(kFields.begin(), kFields.end(), [name](const ProceduralField& f) { return f.name == name; });
   return field == kFields.end() ? nullptr : &*field;
 }
 

@@ -11,7 +11,7 @@ namespace vpm {
 struct ProceduralField {
   std::string_view name;
   std::string_view summary;
-  Vec3 world_size;                  // m, of the box that the unit cube stands for
+  Vec3 world_size;                   // m, of the box that the unit cube stands for
   float (*value)(const Vec3& unit);  // density at a point of [0, 1]^3: finite, >= 0, at most 1; y points up
 };
 

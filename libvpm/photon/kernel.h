@@ -25,7 +25,4 @@ inline float kernel_norm_3d(KernelKind kind, float r) {
   return n / (kPi * r * r * r);
 }
 
-/// Does the kernel vanish at its radius? A k-nearest estimate with it needs no (k - 1)/k correction.
-inline bool vanishes_at_radius(KernelKind kind) { return kind != KernelKind::constant; }
-
 }  // namespace vpm

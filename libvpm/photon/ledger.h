@@ -19,7 +19,7 @@ struct Ledger {
   Rgbd cut{0.0};             // carried by photons that reached the limit of events
   uint64_t cut_count = 0;
   Moments imbalance;         // of each photon: (absorbed + escaped + cut - emitted) over channels, W; its mean is zero
-  double weight_sum = 0.0;   // of stored volume photons, power over emitted power
+  double weight_sum = 0.0;   // of collisions, power over emitted power
   double weight_squares = 0.0;
   double largest_weight = 0.0;  // power over emitted power that any photon carried
   uint64_t collisions = 0;

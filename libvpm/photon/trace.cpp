@@ -12,8 +12,9 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 4096;         // photons
-constexpr size_t kChunksPerWave = 64;   // traced between looks at how many are stored
+constexpr size_t kChunk = 4096;         // photons traced one after another
+constexpr size_t kFirstWave = 4;        // chunks traced before the first look at how many are stored
+constexpr size_t kLargestWave = 64;     // chunks whose records wait to be joined
 constexpr uint64_t kHopeless = 1 << 22;  // photons emitted without storing one
 constexpr double kRouletteWeight = 0.1; // photons lighter than this share of what was emitted play roulette
 
@@ -138,21 +139,33 @@ size_t stored_count(const TracedPhotons& photons) {
 }
 
 bool is_full(const TracedPhotons& photons, const TraceSettings& settings) {
-  if (settings.emitted > 0) return photons.ledger.emitted_count >= settings.emitted;
-  return stored_count(photons) >= settings.stored;
+  return (settings.emitted > 0 && photons.ledger.emitted_count >= settings.emitted) ||
+         (settings.stored > 0 && stored_count(photons) >= settings.stored);
 }
+
+/// How many photons to trace before looking again. Any answer gives the same result: what lies beyond a full map is dropped.
+uint64_t next_wave(const TracedPhotons& photons, const TraceSettings& settings, uint64_t traced) {
+  const uint64_t most = settings.emitted > 0 ? settings.emitted - traced : kChunk * kLargestWave;
+  if (settings.stored == 0) return std::min<uint64_t>(most, kChunk * kLargestWave);
+  const size_t stored = stored_count(photons);
+  if (stored == 0) return std::min<uint64_t>(most, kChunk * (traced == 0 ? kFirstWave : kLargestWave));
+  const double missing = static_cast<double>(settings.stored - stored) * static_cast<double>(traced) / static_cast<double>(stored);
+  return std::min<uint64_t>(most, kChunk * std::clamp<uint64_t>(static_cast<uint64_t>(missing / kChunk) + 1, 1, kLargestWave));
+}
+
+bool is_stopped(const TraceSettings& settings) { return settings.stop && *settings.stop; }
 
 }  // namespace
 
 TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, Progress& progress) {
   TracedPhotons all;
   all.volume.resize(scene.media.size());
-  for (uint64_t first = 0; !is_full(all, settings);) {
-    const uint64_t left = settings.emitted > 0 ? settings.emitted - first : kChunk * kChunksPerWave;
-    const size_t wave = std::min<uint64_t>(left, kChunk * kChunksPerWave);
-    std::vector<TracedPhotons> parts((wave + kChunk - 1) / kChunk);
+  for (uint64_t first = 0; !is_full(all, settings) && !is_stopped(settings);) {
+    const uint64_t wave = next_wave(all, settings, first);
+    std::vector<TracedPhotons> parts(chunk_count(wave, kChunk));
     parallel_for_chunks(wave, kChunk, [&](size_t begin, size_t end, size_t chunk) {
       parts[chunk].volume.resize(scene.media.size());
+      if (is_stopped(settings)) return;
       PhotonPath path(scene, strategy, settings, parts[chunk]);
       for (size_t i = begin; i < end; ++i) path.trace(first + i);
       progress.advance(end - begin);

@@ -1,6 +1,7 @@
 // Photon tracing [Jarosz2008, alg. 7.1 to 7.3, corrected]: from the lights into records of collisions and surface hits.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -16,12 +17,13 @@ namespace vpm {
 struct TraceSettings {
   uint64_t seed = 1;
   uint64_t pass = 0;
-  uint64_t emitted = 0;      // photons to emit; 0: until `stored`
-  uint64_t stored = 0;       // stop once the volume maps together or the surface map hold that many
+  uint64_t emitted = 0;      // photons to emit at the most; 0: no limit, `stored` decides
+  uint64_t stored = 0;       // stop once the volume maps together or the surface map hold that many; 0: no limit
   int max_events = 100'000;  // of one photon
   bool keep_volume = true, keep_surface = true;                // store at all
   bool keep_direct_volume = true, keep_direct_surface = true;  // store photons that have not scattered yet
   VolumeForm volume_form = VolumeForm::density_at_query;
+  const std::atomic<bool>* stop = nullptr;  // once true, tracing ends as soon as it can, with photons of no use
 };
 
 /// The photons of one pass; powers are those of the photons, not yet divided by `ledger.emitted_count`.
@@ -33,7 +35,8 @@ struct TracedPhotons {
 
 /// Traces photons in parallel. Photon i depends on (seed, pass, i) alone, and the records stand in the photons' order.
 ///
-/// A volume photon is stored at EVERY collision, before the choice between absorption and scattering. Its power is the flux Phi that collides
+/// A volume photon is stored at every collision, before the choice between absorption and scattering (photons that weighted strategies made
+/// lighter than a tenth of what was emitted first play roulette). Its power is the flux Phi that collides
 /// (density at the photon) or Phi / density there (density at the query), so that the estimates only multiply by what belongs to the query.
 /// A photon is direct until its first scattering, reflection or refraction; crossing a boundary is none.
 TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, Progress& progress);

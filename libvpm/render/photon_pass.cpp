@@ -22,7 +22,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-TraceSettings trace_settings(const RenderSettings& settings, const Stages& stages, int pass) {
+TraceSettings trace_settings(const RenderSettings& settings, const Stages& stages, int pass, const std::atomic<bool>& stop) {
   TraceSettings trace;
   trace.seed = settings.seed;
   trace.pass = static_cast<uint64_t>(pass);
@@ -34,6 +34,7 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
   trace.keep_direct_volume = !stages.volume_shadow_rays;
   trace.keep_direct_surface = !stages.surface_shadow_rays;
   trace.volume_form = settings.volume_form;
+  trace.stop = &stop;
   return trace;
 }
 
@@ -45,12 +46,13 @@ GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dim
 }
 
 /// Traces the photons and sorts them into the context's maps.
-void make_maps(EyeContext& context, int pass, ProgressMode progress, RenderStatistics& statistics) {
+void make_maps(EyeContext& context, const TraceSettings& trace, ProgressMode progress, RenderStatistics& statistics) {
+  const int pass = static_cast<int>(trace.pass);
   const auto& [scene, settings, stages, volume, surface, transmittance] = context;
   const Stopwatch tracing;
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Progress bar("photons", settings.photons_emitted, progress_enabled(progress));
-  TracedPhotons photons = trace_photons(scene, *strategy, trace_settings(settings, stages, pass), bar);
+  TracedPhotons photons = trace_photons(scene, *strategy, trace, bar);
   bar.finish();
   statistics.trace_seconds = tracing.seconds();
   statistics.ledger = photons.ledger;
@@ -138,7 +140,7 @@ Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int 
   Pass result{Image(scene.camera.width, scene.camera.height), {}};
   result.statistics.passes = 1;
   EyeContext context{scene, settings, plan_stages(scene, settings), {}, {}, make_transmittance_estimator(settings.transmittance)};
-  if (context.stages.photons()) make_maps(context, pass, progress, result.statistics);
+  if (context.stages.photons()) make_maps(context, trace_settings(settings, context.stages, pass, stop), progress, result.statistics);
   const Stopwatch seeing;
   render_image(context, pass, stop, progress, result);
   result.statistics.eye_seconds = seeing.seconds();

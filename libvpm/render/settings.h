@@ -20,8 +20,8 @@ struct RenderSettings {
   double seconds = 0.0;          // > 0: as many passes as fit
   int samples_per_pixel = 1;     // camera rays per pixel and pass, >= 1
 
-  uint64_t photons_emitted = 200'000;  // per pass; 0: emit until photons_stored are stored
-  uint64_t photons_stored = 0;         // per pass and kind of map: tracing stops once the volume or surface maps hold that many
+  uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
+  uint64_t photons_stored = 0;         // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
   int max_events = 100'000;            // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
   DistanceSettings distance;           // how photons fly

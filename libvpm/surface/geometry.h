@@ -1,5 +1,5 @@
-// Where rays meet shapes: triangles and quads through Embree, spheres by our own intersection. Every epsilon of the
-// project is in this folder.
+// Where rays meet shapes: triangles and quads through Embree, spheres by our own intersection. Every offset of a
+// ray's origin is made in this folder.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Procedural fields in .vdb files: the values that were asked for, where they belong.
 #include "input/grid_writer.h"
 
+#include <gtest/gtest.h>
 #include <filesystem>
 #include <fstream>
-#include <gtest/gtest.h>
 #include <iterator>
 
 #include "base/error.h"
@@ -18,7 +18,8 @@ class GridWriter : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const {
     return (std::filesystem::path(::testing::TempDir()) /
-            ("grid_writer_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" + name + ".vdb"))
+            ("grid_writer_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" +
+             name + ".vdb"))
         .string();
   }
   static std::string bytes(const std::string& file) {
@@ -95,7 +96,8 @@ TEST_F(GridWriter, RefusesUnknownNamesResolutionsAndPlaces) {
     return "(accepted)";
   };
   EXPECT_NE(refusal("fog", 16, path("x")).find("smoke, cloud, constant"), std::string::npos);
-  for (const int resolution : {-1, 0, 1, 2049}) EXPECT_NE(refusal("ramp", resolution, path("x")).find("between 2 and 2048"), std::string::npos);
+  for (const int resolution : {-1, 0, 1, 2049})
+    EXPECT_NE(refusal("ramp", resolution, path("x")).find("between 2 and 2048"), std::string::npos);
   EXPECT_NE(refusal("ramp", 16, "/no/such/folder/x.vdb").find("/no/such/folder"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(path("x")));
 }

@@ -1,9 +1,9 @@
-// The procedural fields: within their bounds, empty at the faces of their box, the same on every machine; noise against its own
-// definition.
+// The procedural fields: within their bounds, empty at the faces of their box, the same on every machine; noise against
+// its own definition.
 #include "medium/procedural.h"
 
-#include <cstring>
 #include <gtest/gtest.h>
+#include <cstring>
 
 #include "base/rng.h"
 #include "medium/noise.h"
@@ -41,7 +41,8 @@ TEST(Noise, GradientNoiseVanishesAtLatticePointsAndIsSymmetric) {
     sum += value;
     squares += value * value;
   }
-  // Neighbouring points are correlated within 8e6 cells only: the mean of 1e5 strays beyond 5 standard errors once in 2e6 seeds.
+  // Neighbouring points are correlated within 8e6 cells only: the mean of 1e5 strays beyond 5 standard errors once in
+  // 2e6 seeds.
   EXPECT_LT(std::abs(sum), 5.0 * std::sqrt(squares));
   EXPECT_NEAR(std::sqrt(squares / kCount), 0.27, 0.05);
 }

@@ -1,7 +1,10 @@
 // The command line of vpm: options into structs, errors into exit status 2.
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <limits>
 #include <new>
 
 #include "base/error.h"
@@ -15,6 +18,25 @@ using namespace vpm::tools;
 
 constexpr int kBadInput = 2;
 
+/// The whole of the text as a number, or `otherwise`.
+template <class Number>
+Number parse(const std::string& text, Number otherwise) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end ? value : otherwise;
+}
+
+// Checks of options, which the command line library's own would let wrap around or be NaN: what is wrong, or "".
+std::string check_seed(const std::string& text) {
+  if (parse<uint64_t>(text, 0) == parse<uint64_t>(text, 1)) return "";
+  return fmt::format("{} is not a whole number from 0 to {}", text, std::numeric_limits<uint64_t>::max());
+}
+std::string check_seconds(const std::string& text) {
+  const double seconds = parse(text, 0.0);
+  return seconds > 0.0 && std::isfinite(seconds) ? "" : fmt::format("{} is not a number of seconds above 0", text);
+}
+
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
   command->add_option("scene", options.scene, "Scene file (.toml)")->required();
@@ -22,8 +44,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
   command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")->allow_extra_args(false);
   command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
   CLI::Option* passes = command->add_option("--passes", options.passes, "Passes to render")->check(CLI::Range(1, 1'000'000'000));
-  command->add_option("--time", options.seconds, "Render passes until this many seconds are over")->check(CLI::PositiveNumber)->excludes(passes);
-  command->add_option("--seed", options.seed, "Seed of all random numbers");
+  command->add_option("--time", options.seconds, "Render passes until this many seconds are over")->check(check_seconds)->excludes(passes);
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
   const std::map<std::string, ProgressMode> modes{
       {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
   command->add_option("--progress", options.progress, "Progress bar: auto (on a terminal), always, never")->transform(CLI::CheckedTransformer(modes));

@@ -65,7 +65,10 @@ void apply_options(const RenderOptions& options, RenderSettings& settings) {
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
   TemporaryFile file(path);
-  std::ofstream(file.path(), std::ios::binary) << text;
+  std::ofstream stream(file.path(), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw InputError(fmt::format("cannot write '{}': is the disk full?", path.string()));
   file.commit();
 }
 

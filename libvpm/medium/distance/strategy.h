@@ -16,7 +16,7 @@ namespace vpm {
 struct Flight {
   float t = 0.0f;          // m along the ray: the collision's, or the interval's end
   bool collided = false;
-  float density = 0.0f;    // at the collision; sigma_t there is medium.sigma_t * density > 0 unless weight is black
+  float density = 0.0f;    // that the collision was drawn from: sigma_t there is medium.sigma_t * density > 0 unless the weight is black
   Rgb weight{1.0f};        // the photon's power is multiplied by it
   uint32_t lookups = 0;    // of density
 };

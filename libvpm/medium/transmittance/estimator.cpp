@@ -10,7 +10,7 @@ namespace vpm {
 std::span<const EstimatorInfo> transmittance_estimators() {
   static constexpr std::array<EstimatorInfo, 2> kEstimators{{
       {"regular", "exact: the column of every cell along the ray"},
-      {"ray-march", "midpoint quadrature in steps of a voxel with a random offset; bias falls as step^2"},
+      {"ray-march", "quadrature in equal steps with one random offset; bias falls as step^2"},
   }};
   return kEstimators;
 }

@@ -1,0 +1,233 @@
+// Photon tracing: the strategies against each other without a kernel, the ledger, what is stored, and reproducibility.
+#include "photon/trace.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "base/parallel.h"
+#include "support/scenes.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kFalseAlarms = 1e-6;  // of each comparison
+constexpr int kBoxes = 3;              // along an edge of [-1, 1]^3
+constexpr int kBatches = 100;
+
+/// A spot from above that grazes the box's side, so that photons enter by several faces.
+const Light kSpot = SpotLight{Vec3(-1.5f, 2.5f, 0.4f), glm::normalize(Vec3(0.5f, -1.0f, -0.1f)), 0.97f, 0.9f, Rgb(4.0f, 2.0f, 1.0f)};
+
+TracedPhotons trace(const Scene& scene, const std::string& strategy, TraceSettings settings) {
+  Progress silent("photons", 0, false);
+  settings.volume_form = VolumeForm::density_at_photon;
+  return trace_photons(scene, *make_distance_strategy({.strategy = strategy}), settings, silent);
+}
+
+/// The power that collides in each box and channel, and what escapes, over independent batches.
+struct Tally {
+  std::vector<Moments> values;
+  double effective_sample_size = 0.0;
+};
+
+Tally tally(const Scene& scene, const std::string& strategy, uint64_t seed) {
+  Tally result{std::vector<Moments>(kBoxes * kBoxes * kBoxes * 3 + 3), 0.0};
+  Ledger all;
+  for (int batch = 0; batch < kBatches; ++batch) {
+    TraceSettings settings;
+    settings.seed = seed;
+    settings.pass = static_cast<uint64_t>(batch);
+    settings.emitted = 1000;
+    const TracedPhotons photons = trace(scene, strategy, settings);
+    std::vector<double> sums(result.values.size(), 0.0);
+    for (const Photon& p : photons.volume[0]) {
+      const Vec3i box = glm::clamp(Vec3i((p.position + 1.0f) * (0.5f * kBoxes)), Vec3i(0), Vec3i(kBoxes - 1));
+      for (int c = 0; c < 3; ++c) sums[((box.z * kBoxes + box.y) * kBoxes + box.x) * 3 + c] += p.power[c];
+    }
+    for (int c = 0; c < 3; ++c) sums[sums.size() - 3 + c] = photons.ledger.escaped[c];
+    for (size_t i = 0; i < sums.size(); ++i) result.values[i].add(sums[i] / 1000.0);
+    all.merge(photons.ledger);
+  }
+  result.effective_sample_size = all.effective_sample_size();
+  return result;
+}
+
+/// z-tests of all boxes; nothing is determined where a weighted strategy's sample is too small.
+void expect_equal(const Tally& a, const Tally& b, const std::string& what) {
+  if (std::min(a.effective_sample_size, b.effective_sample_size) < 1000.0) {
+    std::printf("%s: not determined, effective sample sizes %.0f and %.0f\n", what.c_str(), a.effective_sample_size, b.effective_sample_size);
+    return;
+  }
+  for (size_t i = 0; i < a.values.size(); ++i) {
+    const double error = std::sqrt(a.values[i].variance_of_mean() + b.values[i].variance_of_mean());
+    EXPECT_LE(std::abs(a.values[i].mean() - b.values[i].mean()), normal_quantile(kFalseAlarms) * error + 1e-9)
+        << what << ", value " << i << ": " << a.values[i].mean() << " against " << b.values[i].mean() << " +- " << error;
+  }
+}
+
+std::shared_ptr<const DensityGrid> grid_over_box(double (*density)(int, int, int)) {
+  GridFrame frame;  // voxels of 1/8 m over [-1.5, 1.5]^3: the fading at the grid's edge stays outside the box
+  frame.lo = Vec3i(-12);
+  frame.hi = Vec3i(12);
+  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.125));
+  return make_grid(frame, density);
+}
+
+Medium colourful(std::shared_ptr<const DensityGrid> grid) {
+  Medium medium = make_medium(std::move(grid), Rgb(0.6f, 1.2f, 2.4f));
+  medium.sigma_s = medium.sigma_t * Rgb(0.95f, 0.7f, 0.3f);
+  medium.phase = HenyeyGreenstein{0.5f};
+  return medium;
+}
+
+TEST(PhotonTracing, AConstantGridEqualsTheHomogeneousMedium) {
+  const auto constant = grid_over_box([](int, int, int) { return 1.0; });
+  for (const bool grey : {true, false}) {
+    const Medium in_grid = grey ? make_medium(constant, Rgb(1.5f), 0.8f) : colourful(constant);
+    Medium plain = in_grid;
+    plain.grid = nullptr;
+    const Tally expected = tally(boxed_medium(plain, kSpot), "homogeneous", 1);
+    uint64_t seed = 2;
+    for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march", "regular"})
+      expect_equal(tally(boxed_medium(in_grid, kSpot), strategy, seed++), expected, strategy + std::string(grey ? ", grey" : ", RGB"));
+  }
+}
+
+TEST(PhotonTracing, TheStrategiesAgreeOnASmoothGrid) {
+  const auto smooth = grid_over_box([](int x, int y, int z) { return 0.25 + std::exp(-0.015 * ((x - 2) * (x - 2) + y * y + z * z)); });
+  for (const bool grey : {true, false}) {
+    const Scene scene = boxed_medium(grey ? make_medium(smooth, Rgb(1.5f), 0.8f) : colourful(smooth), kSpot);
+    const Tally exact = tally(scene, "regular", 11);
+    uint64_t seed = 12;
+    for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march"})
+      expect_equal(tally(scene, strategy, seed++), exact, strategy + std::string(grey ? ", grey" : ", RGB"));
+  }
+}
+
+/// A scene with everything a photon can meet: fog, a glass ball, a mirror, coloured walls.
+Scene full_scene() {
+  Scene scene;
+  scene.media.push_back(colourful(nullptr));
+  scene.world_medium = 0;
+  add_shape(scene, quad_mesh(Vec3(-2, -1, 2), Vec3(4, 0, 0), Vec3(0, 0, -4)), Lambertian{Rgb(0.8f, 0.5f, 0.2f)});
+  add_shape(scene, quad_mesh(Vec3(-2, -1, -2), Vec3(4, 0, 0), Vec3(0, 3, 0)), Mirror{Rgb(0.9f, 0.8f, 0.7f)});
+  const Interface vacuum_inside{kVacuum, 0};
+  add_shape(scene, SphereShape{Vec3(0.0f, -0.2f, 0.0f), 0.6f}, Dielectric{1.5f}, &vacuum_inside);
+  scene.lights.push_back(PointLight{Vec3(0.3f, 1.2f, 0.1f), Rgb(1.0f, 2.0f, 0.5f)});
+  scene.lights.push_back(kSpot);
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+TEST(PhotonTracing, TheLedgerCloses) {
+  const Scene scene = full_scene();
+  TraceSettings settings;
+  settings.emitted = 50000;
+  for (const char* strategy : {"homogeneous", "local-extinction", "mean-extinction", "ray-march", "regular"}) {
+    const Ledger ledger = trace(scene, strategy, settings).ledger;
+    EXPECT_LT(std::abs(ledger.imbalance.mean()), 5.0 * std::sqrt(ledger.imbalance.variance_of_mean())) << strategy;
+    // Each channel, too: the channels' mixtures must conserve every one of them.
+    const double n = static_cast<double>(ledger.emitted_count);
+    const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(gone[c] / ledger.emitted[c], 1.0, 20.0 / std::sqrt(n)) << strategy << " channel " << c;
+    EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene.sphere).g, 0.2) << strategy;
+    EXPECT_EQ(ledger.non_finite, 0u);
+    EXPECT_EQ(ledger.cut_count, 0u);
+  }
+}
+
+TEST(PhotonTracing, IsTheSameForAnyNumberOfThreads) {
+  const Scene scene = full_scene();
+  TraceSettings settings;
+  settings.emitted = 30001;
+  std::vector<TracedPhotons> results;
+  for (const int threads : {1, 2, 5}) {
+    set_threads(threads);
+    results.push_back(trace(scene, "homogeneous", settings));
+  }
+  set_threads(0);
+  ASSERT_GT(results[0].volume[0].size(), 30000u);
+  for (size_t i = 1; i < results.size(); ++i) {
+    ASSERT_EQ(results[i].volume[0].size(), results[0].volume[0].size());
+    EXPECT_EQ(std::memcmp(results[i].volume[0].data(), results[0].volume[0].data(), results[0].volume[0].size() * sizeof(Photon)), 0);
+    EXPECT_EQ(std::memcmp(results[i].surface.data(), results[0].surface.data(), results[0].surface.size() * sizeof(Photon)), 0);
+    EXPECT_EQ(results[i].ledger.escaped, results[0].ledger.escaped);
+  }
+}
+
+TEST(PhotonTracing, FillsTheMapAndDividesByTheEmitted) {
+  const Scene scene = full_scene();
+  // The mean does not depend on how many are asked for: power stored over photons emitted.
+  std::array<Moments, 2> stored;
+  for (uint64_t pass = 0; pass < 40; ++pass)
+    for (const int many : {0, 1}) {
+      TraceSettings settings;
+      settings.pass = pass + 1000u * many;
+      settings.stored = many ? 40000 : 10000;
+      const TracedPhotons photons = trace(scene, "homogeneous", settings);
+      EXPECT_GE(photons.volume[0].size(), settings.stored);
+      double sum = 0.0;
+      for (const Photon& p : photons.volume[0]) sum += p.power.g;
+      stored[many].add(sum / static_cast<double>(photons.ledger.emitted_count));
+    }
+  const double error = std::sqrt(stored[0].variance_of_mean() + stored[1].variance_of_mean());
+  EXPECT_LT(std::abs(stored[0].mean() - stored[1].mean()), normal_quantile(kFalseAlarms) * error);
+}
+
+TEST(PhotonTracing, LeavesOutWhatIsNotAskedFor) {
+  const Scene scene = full_scene();
+  TraceSettings settings;
+  settings.emitted = 5000;
+  const TracedPhotons all = trace(scene, "homogeneous", settings);
+  settings.keep_direct_volume = false;
+  settings.keep_direct_surface = false;
+  const TracedPhotons indirect = trace(scene, "homogeneous", settings);
+  EXPECT_LT(indirect.volume[0].size(), all.volume[0].size());
+  EXPECT_LT(indirect.surface.size(), all.surface.size());
+  EXPECT_EQ(indirect.ledger.collisions, all.ledger.collisions);
+  settings.keep_volume = false;
+  settings.keep_surface = false;
+  const TracedPhotons none = trace(scene, "homogeneous", settings);
+  EXPECT_TRUE(none.volume[0].empty() && none.surface.empty());
+}
+
+TEST(PhotonTracing, PhotonsThroughABoundaryStayDirect) {
+  Medium medium = make_medium(nullptr, Rgb(100.0f), 0.0f);  // black: every stored photon is at its first collision
+  const Scene scene = boxed_medium(medium, kSpot);
+  TraceSettings settings;
+  settings.emitted = 2000;
+  EXPECT_GT(trace(scene, "homogeneous", settings).volume[0].size(), 500u);
+  settings.keep_direct_volume = false;
+  EXPECT_EQ(trace(scene, "homogeneous", settings).volume[0].size(), 0u);
+}
+
+TEST(PhotonTracing, PowerStaysEvenInColour) {
+  // The channel mixture keeps the sum over channels as it was, flight by flight and collision by collision.
+  const Scene scene = boxed_medium(colourful(grid_over_box([](int x, int y, int z) { return lattice_noise(x, y, z); })), kSpot);
+  TraceSettings settings;
+  settings.emitted = 20000;
+  const Ledger ledger = trace(scene, "regular", settings).ledger;
+  EXPECT_NEAR(ledger.largest_weight, 1.0, 1e-4);
+  EXPECT_NEAR(ledger.effective_sample_size() / static_cast<double>(ledger.collisions), 1.0, 1e-4);
+}
+
+TEST(PhotonTracing, CutsEndlessPathsAndCountsThem) {
+  Medium medium = make_medium(nullptr, Rgb(5.0f), 1.0f);
+  Scene scene;
+  scene.media.push_back(medium);
+  scene.world_medium = 0;
+  scene.lights.push_back(PointLight{});
+  scene.geometry.commit();
+  finish(scene);
+  TraceSettings settings;
+  settings.emitted = 50;
+  settings.max_events = 500;
+  const Ledger ledger = trace(scene, "homogeneous", settings).ledger;
+  EXPECT_EQ(ledger.cut_count, 50u);
+  EXPECT_NEAR(ledger.cut.r, ledger.emitted.r, 1e-6 * ledger.emitted.r);
+}
+
+}  // namespace
+}  // namespace vpm

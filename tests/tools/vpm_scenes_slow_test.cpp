@@ -1,0 +1,145 @@
+// Every scene of the project renders, small, and its energy ledger closes; so do all distance strategies.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "image/exr.h"
+#include "input/scene_file.h"
+#include "tools/vpm_binary.h"
+
+namespace vpm {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Where the grid of a scene comes from: a real file, or one of our generators.
+struct GridSource {
+  std::string scene, key, file, generator;
+};
+const std::vector<GridSource> kGrids{{"smoke", "media.smoke.path", "", "smoke"},
+                                     {"cloud", "media.cloud.path", "", "cloud"},
+                                     {"smoke1", "media.smoke.path", "smoke1.vdb", ""},
+                                     {"wdas_cloud", "media.cloud.path", "wdas_cloud_sixteenth.vdb", ""},
+                                     {"usd_smoke", "media.smoke.path", "usd_smoke3.vdb", ""}};
+
+std::string scene_folder() { return std::string(VPM_SOURCE_DIR) + "/scenes/"; }
+
+/// The names of all scenes, without folder and extension.
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(scene_folder()))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class VpmScenes : public VpmBinary {
+ protected:
+  /// The option that gives the scene its grid; none where it has none. Nothing at all where a real grid is missing.
+  std::optional<std::vector<std::string>> grid_option(const std::string& scene) const {
+    const auto source = std::find_if(kGrids.begin(), kGrids.end(), [&](const GridSource& g) { return g.scene == scene; });
+    if (source == kGrids.end()) return std::vector<std::string>{};
+    std::string file = std::string(VPM_SHARED_DIR) + "/vdb/" + source->file;
+    if (!source->generator.empty()) {
+      file = path("grid.vdb");
+      vpm_succeeds({"media", source->generator, "--resolution", "48", "-o", file});
+    } else if (!std::filesystem::exists(file)) {
+      return std::nullopt;
+    }
+    return std::vector<std::string>{"--set", source->key + "=" + file};
+  }
+
+  /// Renders a scene of the project, small, and returns its report.
+  Json render(const std::string& scene, const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments{"render", scene_folder() + scene + ".toml", "-o", path("a.exr"), "--passes", "2",
+                                       "--set", "film.width=64", "--set", "film.height=48", "--set", "photons.emitted=100_000"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(vpm_succeeds(arguments).err, "");
+    return report("a.json");
+  }
+};
+
+double sum(const Json& rgb) { return rgb[0].get<double>() + rgb[1].get<double>() + rgb[2].get<double>(); }
+
+/// Absorbed, escaped and cut energy equal the emitted: false-alarm rate 6e-7 where the effective sample size is large.
+void expect_closed_ledger(const Json& report) {
+  const Json& energy = report["energy"];
+  const double emitted = sum(energy["emitted"]);
+  const double gone = sum(energy["absorbed_in_media"]) + sum(energy["absorbed_on_surfaces"]) + sum(energy["escaped"]) + sum(energy["cut_at_max_events"]);
+  const double error = energy["imbalance_standard_error"];
+  EXPECT_GT(emitted, 0.0);
+  EXPECT_LT(error, 0.01 * emitted);
+  EXPECT_LT(std::abs(gone - emitted), 5.0 * error + 1e-5 * emitted) << energy.dump(2);  // powers are floats
+  EXPECT_NEAR(energy["imbalance"].get<double>(), gone - emitted, 1e-6 * emitted);
+  EXPECT_EQ(report["photons"]["paths_cut_at_max_events"], 0);
+  EXPECT_EQ(report["photons"]["dropped_non_finite"], 0);
+  EXPECT_EQ(report["eye"]["dropped_non_finite"], 0);
+  EXPECT_EQ(report["boundaries"]["met_in_another_medium"], 0);
+}
+
+class VpmEveryScene : public VpmScenes, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(VpmEveryScene, RendersAndItsEnergyLedgerCloses) {
+  const auto grid = grid_option(GetParam());
+  if (!grid) GTEST_SKIP() << "the grid of this scene is not here";
+  const Json report = render(GetParam(), *grid);
+  expect_closed_ledger(report);
+
+  // What was emitted is what the lights have; which light a photon comes from is chance, so channels vary by at most 5/sqrt(2e5) = 1.1 %.
+  const std::vector<std::string> overrides(grid->begin() + (grid->empty() ? 0 : 1), grid->end());
+  const Scene scene = load_scene(scene_folder() + GetParam() + ".toml", overrides).scene;
+  Rgbd power(0.0);
+  for (const Light& light : scene.lights) power += Rgbd(light_power(light, scene.sphere));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(report["energy"]["emitted"][c].get<double>(), power[c], 0.011 * power[c]) << "channel " << c;
+
+  const Image image = read_exr(path("a.exr"));
+  int lit = 0;
+  for (const Rgb& c : image.pixels) {
+    EXPECT_TRUE(is_finite(c) && c.r >= 0.0f && c.g >= 0.0f && c.b >= 0.0f);
+    lit += !is_black(c);
+  }
+  EXPECT_GT(lit, 64 * 48 / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, VpmEveryScene, ::testing::ValuesIn(scene_names()), [](const auto& test) { return test.param; });
+
+/// A strategy, and what keeps its weights even enough for a z-test: thin smoke, for weights that grow with the optical thickness.
+struct Strategy {
+  std::string name;
+  std::vector<std::string> options;
+};
+void PrintTo(const Strategy& strategy, std::ostream* out) { *out << strategy.name; }
+
+class VpmEveryStrategy : public VpmScenes, public ::testing::WithParamInterface<Strategy> {};
+
+TEST_P(VpmEveryStrategy, ClosesTheLedgerOfTheSmoke) {
+  std::vector<std::string> options = *grid_option("smoke");
+  options.insert(options.end(), {"--set", "distance.strategy=" + GetParam().name});
+  for (const std::string& option : GetParam().options) options.insert(options.end(), {"--set", option});
+  const Json report = render("smoke", options);
+  EXPECT_EQ(report["distance_strategy"], GetParam().name);
+  EXPECT_GE(report["photons"]["effective_sample_size"].get<double>(), 1000.0);
+  EXPECT_GE(report["photons"]["largest_weight"].get<double>(), 0.99);
+  expect_closed_ledger(report);
+}
+
+INSTANTIATE_TEST_SUITE_P(Strategies, VpmEveryStrategy,
+                         ::testing::Values(Strategy{"regular", {}}, Strategy{"ray-march", {}},
+                                           Strategy{"local-extinction", {"media.smoke.sigma_t=10", "distance.extinction_floor=2"}},
+                                           Strategy{"mean-extinction", {"media.smoke.sigma_t=1", "photons.emitted=400_000"}}),
+                         [](const auto& test) {
+                           std::string name = test.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_F(VpmScenes, TheHomogeneousStrategyRefusesGrids) {
+  std::vector<std::string> arguments{"render", scene_folder() + "smoke.toml", "--set", "distance.strategy=homogeneous"};
+  const auto grid = *grid_option("smoke");
+  arguments.insert(arguments.end(), grid.begin(), grid.end());
+  vpm_refuses(arguments, {"homogeneous", "grid"});
+}
+
+}  // namespace
+}  // namespace vpm
