@@ -93,6 +93,7 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
                      std::vector<Material>& materials) {
   enum class Kind { sphere, quad, box, mesh };
   ShapePlan plan;
+  plan.place = table.place();
   plan.shape.name = table.string("name", "");
   const Kind kind = table.choice<Kind>(
       "type", {{"sphere", Kind::sphere}, {"quad", Kind::quad}, {"box", Kind::box}, {"mesh", Kind::mesh}});

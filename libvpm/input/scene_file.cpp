@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "input/check_media.h"
 #include "input/sections.h"
 
 namespace vpm {
@@ -123,6 +124,7 @@ void add_box(ScenePlan& plan, MediumId id) {
   const MediumPlan& medium = plan.media[static_cast<size_t>(id)];
   plan.materials.push_back(Boundary{});
   ShapePlan shape;
+  shape.place = medium.place;
   shape.shape.name = "box of " + medium.medium.name;
   shape.shape.material = static_cast<uint32_t>(plan.materials.size() - 1);
   shape.shape.separates_media = true;
@@ -169,7 +171,7 @@ void add_shapes(ScenePlan& plan, LoadedScene& loaded) {
     if (shape.degenerate_triangles > 0)
       loaded.notes.push_back("shape '" + shape.shape.name + "': " + std::to_string(shape.degenerate_triangles) +
                              " triangles without area dropped");
-    const Layer layer = is_boundary(plan.materials[shape.shape.material]) ? Layer::boundary : Layer::surface;
+    const Layer layer = layer_of(shape.shape, plan.materials[shape.shape.material]);
     std::visit([&](const auto& surface) { scene.geometry.add(surface, layer); }, shape.surface);
     scene.shapes.push_back(std::move(shape.shape));
   }
@@ -178,6 +180,16 @@ void add_shapes(ScenePlan& plan, LoadedScene& loaded) {
   for (const Light& light : plan.lights) infinite = infinite || is_infinite(light);
   if (infinite && scene.geometry.bounds().empty())
     fail_at(plan.lights_place, "a light at infinity has nothing to shine on: the scene has no shapes");
+}
+
+void check_media(const Scene& scene, const ScenePlan& plan) {
+  const std::optional<MediaContradiction> found = find_media_contradiction(scene);
+  if (!found) return;
+  const auto title = [&](MediumId id) { return id == kVacuum ? std::string("vacuum") : "'" + scene.media[id].name + "'"; };
+  fail_at(plan.shapes[found->shape].place,
+          "shape '" + scene.shapes[found->shape].name + "' has " + title(found->declared) + (found->outside ? " outside" : " inside") +
+              ", but the shapes around it say that " + title(found->found) + " is there",
+          "name on both sides of every shape the media that are there; media fill closed shapes and may be nested, not overlap in part");
 }
 
 }  // namespace
@@ -204,6 +216,7 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
   } catch (const InputError& error) {
     fail_at(plan.lights_place, error.what());
   }
+  check_media(scene, plan);
   return loaded;
 }
 

@@ -41,6 +41,7 @@ std::vector<Material> read_materials(TableReader& section);
 
 /// A shape as the file describes it.
 struct ShapePlan {
+  Place place;  // of the shape in the file; of its medium for the box of a grid
   Shape shape;
   std::variant<TriangleMesh, SphereShape> surface;
   std::optional<Light> light;

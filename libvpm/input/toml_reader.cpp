@@ -4,14 +4,6 @@
 #include "base/error.h"
 #include "input/toml_node.h"
 
-// toml++ 3.3 only asserts what some damaged files break, e.g. the header "[.a]", and takes it for granted in release
-// builds. Here a failed assertion is an exception in every build.
-namespace vpm {
-struct FailedTomlAssertion {};
-[[noreturn]] inline void fail_toml_assertion() { throw FailedTomlAssertion{}; }
-}  // namespace vpm
-#undef NDEBUG
-#define TOML_ASSERT(condition) ((condition) ? static_cast<void>(0) : vpm::fail_toml_assertion())
 #include <toml++/toml.h>
 
 namespace vpm {
@@ -62,22 +54,6 @@ std::vector<std::string> split_lines(const std::string& text) {
   return lines;
 }
 
-/// The number of the line that breaks an assertion of toml++: the last one of the shortest beginning of the file that
-/// does.
-uint32_t breaking_line(const std::vector<std::string>& lines) {
-  std::string beginning;
-  for (uint32_t line = 1; line <= lines.size(); ++line) {
-    beginning += lines[line - 1] + "\n";
-    try {
-      static_cast<void>(toml::parse(beginning));
-    } catch (const FailedTomlAssertion&) {
-      return line;
-    } catch (const toml::parse_error&) {  // a string or an array that a later line closes
-    }
-  }
-  return static_cast<uint32_t>(lines.size());
-}
-
 }  // namespace
 
 Document read_toml(const std::string& path) {
@@ -89,8 +65,6 @@ Document read_toml(const std::string& path) {
     document.root = convert(toml::parse(document.text), source);
   } catch (const toml::parse_error& error) {
     fail_at(place_of(source, error.source()), "not valid TOML: " + std::string(error.description()));
-  } catch (const FailedTomlAssertion&) {
-    fail_at({source, breaking_line(source->lines), 1}, "not valid TOML: cannot make sense of this line");
   }
   return document;
 }
@@ -101,8 +75,6 @@ std::unique_ptr<Node> parse_toml_value(const std::string& text, const Source* so
     if (table.size() != 1) return nullptr;
     return std::make_unique<Node>(convert(*table.get("value"), source));
   } catch (const toml::parse_error&) {
-    return nullptr;
-  } catch (const FailedTomlAssertion&) {
     return nullptr;
   }
 }

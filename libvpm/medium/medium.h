@@ -18,6 +18,8 @@ struct Medium {
   Phase phase;
   std::shared_ptr<const DensityGrid> grid;  // null: density 1 everywhere
 
+  /// Does it send any light on?
+  bool scatters() const { return sigma_s != Rgb(0.0f); }
   bool homogeneous() const { return grid == nullptr; }
   float density(const Vec3& p) const { return grid ? grid->density(p) : 1.0f; }
   /// The mean density over the grid's support, empty voxels included.
@@ -50,9 +52,12 @@ struct Column {
 /// Exact for homogeneous, trilinear and nearest fields: regular tracking [Novak2018, sec. 4.1].
 Column column(const Medium& medium, const Ray& ray, const Interval& interval);
 
-/// exp(-sigma_t column) per channel.
+/// exp(-sigma_t column) per channel; 1 where sigma_t is 0, also for an endless column.
 inline Rgb transmittance(const Medium& medium, double column) {
-  return {std::exp(-medium.sigma_t.r * column), std::exp(-medium.sigma_t.g * column), std::exp(-medium.sigma_t.b * column)};
+  Rgb result(1.0f);
+  for (int c = 0; c < 3; ++c)
+    if (medium.sigma_t[c] > 0.0f) result[c] = static_cast<float>(std::exp(-medium.sigma_t[c] * column));
+  return result;
 }
 
 }  // namespace vpm

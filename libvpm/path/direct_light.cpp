@@ -18,17 +18,17 @@ Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, 
                Rng& rng, WalkCounters& counters) {
   Rgb result(1.0f);
   for (;;) {
-    const std::optional<Hit> hit = meet(scene, ray, distance, medium, counters);
+    const Encounter met = meet(scene, ray, distance, medium, counters);
+    const float reach = met ? met.hits[0].t : distance;
     if (medium != kVacuum) {
-      const TransmittanceEstimate t = transmittance.estimate(scene.media[medium], ray, {0.0f, hit ? hit->t : distance}, rng);
+      const TransmittanceEstimate t = transmittance.estimate(scene.media[medium], ray, {0.0f, reach}, rng);
       counters.lookups += t.lookups;
       result *= t.value;
     }
-    if (!hit || scene.shapes[hit->shape].light == light) return result;
-    if (!is_boundary(scene.material_of(*hit)) || is_black(result)) return Rgb(0.0f);
-    const float gone = hit->t;
-    cross_boundary(scene, *hit, ray, medium, counters);
-    distance -= gone;
+    if (!met || scene.shapes[met.hits[0].shape].light == light) return result;
+    if (!is_boundary(scene.material_of(met.hits[0])) || is_black(result)) return Rgb(0.0f);
+    cross_boundaries(scene, met, ray, medium, counters);
+    distance -= reach;
   }
 }
 

@@ -5,30 +5,27 @@
 
 namespace vpm {
 
-std::optional<Hit> meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters) {
-  std::optional<Hit> hit = scene.geometry.intersect(ray, t_max);
-  if (hit && is_boundary(scene.material_of(*hit))) {
-    if (const std::optional<Hit> surface = scene.geometry.surface_at(*hit, ray)) hit = surface;
-  }
-  if (!hit && t_max < kInfinity) return hit;
-  const MediumId known = hit ? medium_beyond(scene.shapes[hit->shape], hit->normal, -ray.direction, medium) : scene.world_medium;
+Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters) {
+  const Encounter met = scene.geometry.encounter(ray, t_max);
+  if (!met && t_max < kInfinity) return met;
+  const MediumId known = met ? medium_before(scene, met, ray.direction, medium) : scene.world_medium;
   if (known != medium) ++counters.medium_mismatches;
   medium = known;
-  return hit;
+  return met;
 }
 
-void cross_boundary(const Scene& scene, const Hit& hit, Ray& ray, MediumId& medium, WalkCounters& counters) {
-  ++counters.crossings;
-  medium = medium_beyond(scene.shapes[hit.shape], hit.normal, ray.direction, medium);
-  ray.origin = leave_surface(hit, ray.direction);
+void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, MediumId& medium, WalkCounters& counters) {
+  counters.crossings += static_cast<uint64_t>(met.count);
+  medium = medium_after(scene, met, ray.direction, medium);
+  ray.origin = leave_surfaces(met, ray.direction);
 }
 
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng, WalkCounters& counters) {
   for (;;) {
-    const std::optional<Hit> hit = meet(scene, state.ray, kInfinity, state.medium, counters);
+    const Encounter met = meet(scene, state.ray, kInfinity, state.medium, counters);
     if (state.medium != kVacuum) {
       const Medium& medium = scene.media[state.medium];
-      const Interval free{0.0f, hit ? hit->t : kInfinity};
+      const Interval free{0.0f, met ? met.hits[0].t : kInfinity};
       const Flight flight = strategy.sample(medium, state.ray, free, state.power, rng);
       counters.lookups += flight.lookups;
       state.power *= flight.weight;
@@ -37,12 +34,12 @@ Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState
         return {EventKind::collision, {}, flight.density};
       }
     }
-    if (!hit) return {EventKind::escape, {}, 0.0f};
-    if (!is_boundary(scene.material_of(*hit))) {
-      state.ray.origin = hit->position;
-      return {EventKind::surface, *hit, 0.0f};
+    if (!met) return {EventKind::escape, {}, 0.0f};
+    if (!is_boundary(scene.material_of(met.hits[0]))) {
+      state.ray.origin = met.hits[0].position;
+      return {EventKind::surface, met.hits[0], 0.0f};
     }
-    cross_boundary(scene, *hit, state.ray, state.medium, counters);
+    cross_boundaries(scene, met, state.ray, state.medium, counters);
   }
 }
 

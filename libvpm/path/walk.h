@@ -1,8 +1,7 @@
-// The ONE random walk: photons, eye paths and the reference all move by next_event().
+// The ONE random walk: how every path meets shapes, changes media, flies to events and goes on from them.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "medium/distance/strategy.h"
 #include "scene/scene.h"
@@ -38,18 +37,12 @@ struct WalkCounters {
   }
 };
 
-/// The medium on the side of a surface that `direction` points to, for a path that is in `current`.
-inline MediumId medium_beyond(const Shape& shape, const Vec3& normal, const Vec3& direction, MediumId current) {
-  if (!shape.separates_media) return current;
-  return glm::dot(direction, normal) > 0.0f ? shape.media.outside : shape.media.inside;
-}
+/// What the ray meets first, with t < t_max. `medium` becomes what the shapes there say it is, and the world's where nothing is met at
+/// all: rounding at edges can then not carry a medium astray.
+Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters);
 
-/// What the ray meets first, with t < t_max: a surface where one coincides with a boundary. Where the shape separates media, the one
-/// on its near side becomes `medium`, and the world's where nothing is met at all: rounding at edges can then not carry a medium astray.
-std::optional<Hit> meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters);
-
-/// Passes straight through a boundary: moves the ray's origin just beyond it and enters the medium there.
-void cross_boundary(const Scene& scene, const Hit& hit, Ray& ray, MediumId& medium, WalkCounters& counters);
+/// Passes straight through all boundaries of an encounter: moves the ray's origin just beyond them and enters the medium there.
+void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, MediumId& medium, WalkCounters& counters);
 
 /// Flies to the next collision in a medium, scattering surface, or out of the scene, through any number of boundaries on the way.
 /// Multiplies the power by the flights' weights.

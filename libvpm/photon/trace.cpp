@@ -50,7 +50,8 @@ class PhotonPath {
     const int light = pick_light(scene_, rng.uniform());
     Emission emission = vpm::emit(scene_.lights[light], scene_.sphere, rng);
     emission.power /= scene_.light_probability[light];
-    state_ = {emission.ray, scene_.light_medium[light], emission.power};
+    const MediumId medium = scene_.light_medium[light];
+    state_ = {emission.ray, medium == kSeveralMedia ? medium_at(scene_, emission.ray.origin) : medium, emission.power};
     emitted_power_ = sum_channels(emission.power);
     balance_ = -static_cast<double>(emitted_power_);
     direct_ = true;
@@ -81,7 +82,7 @@ class PhotonPath {
     alive_ = weight > 0.0 && roulette(weight, rng);
     if (!alive_) return;
     const Medium& medium = scene_.media[state_.medium];
-    if (settings_.keep_volume && (settings_.keep_direct_volume || !direct_)) {
+    if (settings_.keep_volume && medium.scatters() && (settings_.keep_direct_volume || !direct_)) {
       const bool at_query = settings_.volume_form == VolumeForm::density_at_query;
       out_.volume[state_.medium].push_back(
           {state_.ray.origin, PackedDirection(state_.ray.direction), at_query ? state_.power / event.density : state_.power});
@@ -96,7 +97,7 @@ class PhotonPath {
     out_.ledger.largest_weight = std::max<double>(out_.ledger.largest_weight, sum_channels(state_.power) / emitted_power_);
     alive_ = max_channel(state_.power) > 0.0f;
     if (!alive_) return;
-    if (settings_.keep_surface && !is_specular(scene_.material_of(hit)) && (settings_.keep_direct_surface || !direct_))
+    if (settings_.keep_surface && is_diffuse(scene_.material_of(hit)) && (settings_.keep_direct_surface || !direct_))
       out_.surface.push_back({hit.position, PackedDirection(state_.ray.direction), state_.power});
     const Rgb before = state_.power;
     Scatter scatter;

@@ -16,14 +16,14 @@ class EyePath {
   Rgb follow() {
     ++counters_.rays;
     for (int events = 0; events < c_.settings.max_events; ++events) {
-      const std::optional<Hit> hit = meet(c_.scene, ray_, kInfinity, medium_, counters_.walk);
-      cross_segment({0.0f, hit ? hit->t : kInfinity});
+      const Encounter met = meet(c_.scene, ray_, kInfinity, medium_, counters_.walk);
+      cross_segment({0.0f, met ? met.hits[0].t : kInfinity});
       if (is_black(throughput_)) return radiance_;
-      if (!hit) {
+      if (!met) {
         for (const Light& light : c_.scene.lights) radiance_ += throughput_ * environment_radiance(light, ray_.direction);
         return radiance_;
       }
-      if (!pass_surface(*hit)) return radiance_;
+      if (!pass_shapes(met)) return radiance_;
     }
     ++counters_.cut_paths;
     return radiance_;
@@ -37,12 +37,31 @@ class EyePath {
     if (medium_ == kVacuum) return;
     const Medium& medium = c_.scene.media[medium_];
     const PhotonMap* map = c_.stages.volume_map && !at_photon ? &c_.volume[medium_] : nullptr;
-    if (!map && !c_.stages.volume_shadow_rays) {
+    if (!medium.scatters() || (!map && !c_.stages.volume_shadow_rays)) {
       throughput_ *= transmittance(medium, attenuate(medium, segment));
       return;
     }
-    const StepLimits limits{map ? map->settings.radius : step_without_map(medium), c_.settings.max_optical_step};
-    const Marched marched = marcher_.march(medium, ray_, segment, limits, rng_, [&](const Vec3& point, const Rgb& weight) {
+    // Fine steps where there are photons to gather; elsewhere only single scattering is left to find, in steps of optical thickness.
+    const Interval near = map ? clip(segment, map->bounds(), map->settings.radius) : Interval{segment.t1, segment.t1};
+    if (near.empty()) {
+      march_media(medium, segment, nullptr);
+    } else {
+      march_media(medium, {segment.t0, near.t0}, nullptr);
+      march_media(medium, near, map);
+      march_media(medium, {near.t1, segment.t1}, nullptr);
+    }
+  }
+
+  /// Adds what the medium scatters towards the eye along an interval, and attenuates by it.
+  void march_media(const Medium& medium, const Interval& interval, const PhotonMap* map) {
+    if (interval.empty() || is_black(throughput_)) return;
+    if (!map && !c_.stages.volume_shadow_rays) {
+      throughput_ *= transmittance(medium, attenuate(medium, interval));
+      return;
+    }
+    const StepLimits limits{map ? map->settings.radius : kInfinity, c_.settings.max_optical_step};
+    const glm::bvec3 matters = glm::greaterThan(throughput_ * medium.sigma_s, Rgb(0.0f));
+    const Marched marched = marcher_.march(medium, ray_, interval, limits, matters, rng_, [&](const Vec3& point, const Rgb& weight) {
       Rgb source(0.0f);
       if (map) {
         ++counters_.volume_queries;
@@ -53,7 +72,7 @@ class EyePath {
     });
     counters_.steps += marched.steps;
     counters_.walk.lookups += marched.lookups;
-    throughput_ *= marched.transmittance;
+    throughput_ *= transmittance(medium, marched.column);
   }
 
   double attenuate(const Medium& medium, const Interval& segment) {
@@ -61,8 +80,6 @@ class EyePath {
     counters_.walk.lookups += crossed.lookups;
     return crossed.value;
   }
-
-  float step_without_map(const Medium& medium) const { return first_volume_radius(c_.scene, c_.settings, medium); }
 
   /// Radiance scattered once at a point, over sigma_s: phase function times what the lights send there.
   Rgb single_scattering(const Medium& medium, const Vec3& point) {
@@ -98,17 +115,18 @@ class EyePath {
     return {static_cast<float>(t0), static_cast<float>(t1)};
   }
 
-  /// Adds what the surface sends towards the eye. Returns whether the path goes on.
-  bool pass_surface(const Hit& hit) {
+  /// Adds what a surface sends towards the eye, or passes boundaries. Returns whether the path goes on.
+  bool pass_shapes(const Encounter& met) {
+    const Hit& hit = met.hits[0];
     const Shape& shape = c_.scene.shapes[hit.shape];
     const Material& material = c_.scene.materials[shape.material];
     if (shape.light >= 0) radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
     if (is_boundary(material)) {
-      cross_boundary(c_.scene, hit, ray_, medium_, counters_.walk);
+      cross_boundaries(c_.scene, met, ray_, medium_, counters_.walk);
       return true;
     }
     if (const auto* diffuse = std::get_if<Lambertian>(&material)) {
-      radiance_ += throughput_ * diffuse->reflectance / kPi * irradiance(hit);
+      if (!is_black(diffuse->reflectance)) radiance_ += throughput_ * diffuse->reflectance / kPi * irradiance(hit);
       return false;
     }
     PathState state{ray_, medium_, throughput_};

@@ -22,7 +22,7 @@ struct StepLimits {
 
 /// The outcome of a march.
 struct Marched {
-  Rgb transmittance{1.0f};  // of the whole interval; black where roulette ended the march
+  double column = 0.0;      // of the whole interval, m: exact
   uint32_t lookups = 0;     // of density
   uint32_t steps = 0;
 };
@@ -31,9 +31,11 @@ struct Marched {
 class Marcher {
  public:
   /// Calls add(point, weight) for each step; the sum of weight * f(point), per channel, estimates the integral of Tr density f over the
-  /// interval (weights are in m). Below a transmittance of 1 % the march goes on by Russian roulette, so that endless media end.
+  /// interval (weights are in m). `matters` tells the channels whose f is not 0: where the transmittance of all of these is below 1 %
+  /// the march goes on by Russian roulette, so that it ends in endless media.
   template <class Add>
-  Marched march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits, Rng& rng, Add&& add);
+  Marched march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits, const glm::bvec3& matters, Rng& rng,
+               Add&& add);
 
  private:
   /// The stretch of a piece that lies in the present step.
@@ -95,11 +97,14 @@ inline double Marcher::locate(double column) const {
 }
 
 template <class Add>
-Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits, Rng& rng, Add&& add) {
+Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits, const glm::bvec3& matters,
+                       Rng& rng, Add&& add) {
   constexpr double kRouletteBelow = 0.01;
   const Rgbd sigma_t(medium.sigma_t);
   const double thickest = std::max(sigma_t.r, std::max(sigma_t.g, sigma_t.b));
-  const double thinnest = std::min(sigma_t.r, std::min(sigma_t.g, sigma_t.b));
+  double thinnest = thickest;
+  for (int c = 0; c < 3; ++c)
+    if (matters[c]) thinnest = std::min(thinnest, sigma_t[c]);
   const double most_column = thickest > 0.0 ? limits.optical / thickest : static_cast<double>(kInfinity);
   Marched result;
   double crossed = 0.0;  // column before the present step, m
@@ -121,13 +126,13 @@ Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& int
     scale = rng.uniform() < 0.5f ? 2.0 * scale : 0.0;
   };
   result.lookups = medium.visit_pieces(ray, interval, [&](const DensityPiece& piece) {
-    for (double s = 0.0; s < piece.length();) {
+    result.column += piece.column();
+    for (double s = 0.0; s < piece.length() && scale > 0.0;) {
       const double t = piece.t0 + s;
       if (parts_.empty()) start = t;
       double end = std::min(piece.length(), s + (start + limits.length - t));
       if (!(end > s)) {  // the step is used up: by empty space, or to the last bit
         finish_step();
-        if (scale == 0.0) return false;
         continue;
       }
       const double before = piece.column(s);
@@ -140,12 +145,10 @@ Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& int
       column_ += here;
       s = end;
       if (column_ >= most_column || piece.t0 + s - start >= limits.length) finish_step();
-      if (scale == 0.0) return false;
     }
     return true;
   });
   if (scale > 0.0) finish_step();
-  result.transmittance = Rgb(glm::exp(-sigma_t * crossed) * scale);
   return result;
 }
 

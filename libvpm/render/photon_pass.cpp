@@ -65,7 +65,7 @@ void make_maps(EyeContext& context, const TraceSettings& trace, ProgressMode pro
     statistics.volume_photons += photons.volume[m].size();
     context.volume.push_back(
         make_photon_map(std::move(photons.volume[m]), gather_in_pass(settings.volume, first, 3, settings, pass), emitted));
-    statistics.last_volume_radius = context.volume.back().settings.radius;
+    statistics.last_volume_radius = std::max(statistics.last_volume_radius, context.volume.back().settings.radius);
     statistics.photon_map_bytes += context.volume.back().memory_bytes();
   }
   const float first = first_surface_radius(scene, settings);
@@ -116,11 +116,8 @@ void render_image(const EyeContext& context, int pass, const std::atomic<bool>& 
 
 Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
   bool scatters = false, diffuse = false;
-  for (const Medium& medium : scene.media) scatters |= !is_black(medium.sigma_s);
-  for (const Shape& shape : scene.shapes) {
-    const auto* lambertian = std::get_if<Lambertian>(&scene.materials[shape.material]);
-    diffuse |= lambertian && !is_black(lambertian->reflectance);
-  }
+  for (const Medium& medium : scene.media) scatters |= medium.scatters();
+  for (const Shape& shape : scene.shapes) diffuse |= is_diffuse(scene.materials[shape.material]);
   return {.volume_map = scatters,
           .surface_map = diffuse,
           .volume_shadow_rays = scatters && settings.volume_direct == DirectLight::shadow_rays,

@@ -26,7 +26,7 @@ struct RenderStatistics {
   Ledger ledger;
   uint64_t volume_photons = 0, surface_photons = 0;  // stored
   uint64_t photon_map_bytes = 0;                     // of the largest pass
-  float last_volume_radius = 0.0f, last_surface_radius = 0.0f;  // m; of the last pass
+  float last_volume_radius = 0.0f, last_surface_radius = 0.0f;  // m; of the last pass, the largest over media
   EyeCounters eye;
 
   void merge(const RenderStatistics& pass);

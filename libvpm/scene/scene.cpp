@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "base/error.h"
+#include "base/rng.h"
 
 namespace vpm {
 
@@ -15,15 +16,20 @@ const Vec3 kProbes[] = {glm::normalize(Vec3(0.5470f, 0.7316f, 0.4071f)),
                         glm::normalize(Vec3(-0.6133f, 0.3319f, 0.7168f)),
                         glm::normalize(Vec3(0.2843f, -0.8429f, -0.4567f))};
 
-MediumId medium_along(const Scene& scene, const Vec3& point, const Vec3& direction) {
-  Ray ray{point, direction};
-  while (const std::optional<Hit> hit = scene.geometry.intersect(ray)) {
-    const Shape& shape = scene.shapes[hit->shape];
-    if (shape.separates_media)
-      return glm::dot(direction, hit->normal) > 0.0f ? shape.media.inside : shape.media.outside;
-    ray.origin = leave_surface(*hit, direction);
+/// The near side of a shape that is no other one's far side: what a ray of unknown past comes out of.
+MediumId near_side(const Scene& scene, const Encounter& met, const Vec3& direction) {
+  const auto side = [&](int i, const Vec3& d) { return medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, d, kVacuum); };
+  for (int i = 0; i < met.count; ++i) {
+    bool entered = false;
+    for (int j = 0; j < met.count; ++j) entered = entered || (j != i && side(j, direction) == side(i, -direction));
+    if (!entered) return side(i, -direction);
   }
-  return scene.world_medium;
+  return side(0, -direction);
+}
+
+MediumId medium_along(const Scene& scene, const Vec3& point, const Vec3& direction) {
+  const Encounter met = scene.geometry.division({point, direction});
+  return met ? near_side(scene, met, direction) : scene.world_medium;
 }
 
 SceneSphere bounding_sphere(const Box& box) {
@@ -53,6 +59,24 @@ std::vector<float> probability_by_power(const std::vector<Light>& lights, const 
   return probability;
 }
 
+/// The box around a finite light's surface: a point for point lights.
+Box bounds_of(const Light& light) {
+  Box box;
+  if (const auto* point = std::get_if<PointLight>(&light)) box.add(point->position);
+  if (const auto* spot = std::get_if<SpotLight>(&light)) box.add(spot->position);
+  if (const auto* beam = std::get_if<BeamLight>(&light)) {
+    box.add(beam->position - beam->radius);
+    box.add(beam->position + beam->radius);
+  }
+  if (const auto* quad = std::get_if<QuadLight>(&light))
+    for (const Vec3& p : {Vec3(0.0f), quad->edge_u, quad->edge_v, quad->edge_u + quad->edge_v}) box.add(quad->corner + p);
+  if (const auto* sphere = std::get_if<SphereLight>(&light)) {
+    box.add(sphere->centre - sphere->radius);
+    box.add(sphere->centre + sphere->radius);
+  }
+  return box;
+}
+
 /// A point of a finite light, for area lights just before their surface.
 Vec3 point_before(const Light& light) {
   if (const auto* l = std::get_if<PointLight>(&light)) return l->position;
@@ -71,16 +95,54 @@ Vec3 point_before(const Light& light) {
   return leave_surface_at(point_on(shape, normal), normal, normal, sphere_slack(shape));
 }
 
+/// Does a boundary between media cut the box? Judged by segments between random points in it: a cut that parts off a share f of
+/// the box is overlooked with probability about (1 - 2 f)^256.
+bool is_cut(const Scene& scene, const Box& box) {
+  constexpr uint64_t kSegments = 256;
+  for (uint64_t i = 0; i < kSegments; ++i) {
+    Rng rng(0, rng_stream(RngUse::probe, 0), i);
+    const auto point = [&] { return glm::mix(box.lo, box.hi, Vec3(rng.uniform(), rng.uniform(), rng.uniform())); };
+    const Vec3 from = point(), to = point();
+    if (from == to) return false;
+    const Ray ray{from, glm::normalize(to - from)};
+    const Encounter met = scene.geometry.division(ray);
+    if (met && met.hits[0].t < glm::distance(from, to)) return true;
+  }
+  return false;
+}
+
+/// The medium that all photons of a light start in: one where no boundary cuts the light.
+MediumId medium_of(const Scene& scene, const Light& light) {
+  if (is_infinite(light)) return scene.world_medium;
+  return is_cut(scene, bounds_of(light)) ? kSeveralMedia : medium_at(scene, point_before(light));
+}
+
 }  // namespace
+
+MediumId medium_before(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current) {
+  for (int i = 0; i < (met.surface ? 1 : met.count); ++i)
+    if (medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, -direction, current) == current) return current;
+  return near_side(scene, met, direction);
+}
+
+MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current) {
+  bool crossed[Encounter::kMost] = {};
+  for (int round = 0; round < met.count; ++round)
+    for (int i = 0; i < met.count; ++i) {
+      const Shape& shape = scene.shapes[met.hits[i].shape];
+      if (crossed[i] || medium_beyond(shape, met.hits[i].normal, -direction, current) != current) continue;
+      crossed[i] = true;
+      current = medium_beyond(shape, met.hits[i].normal, direction, current);
+    }
+  return current;
+}
 
 void finish(Scene& scene) {
   assert(scene.light_probability.empty() && scene.light_medium.empty());
   scene.sphere = bounding_sphere(scene.geometry.bounds());
   scene.grey = all_grey(scene);
   scene.light_probability = probability_by_power(scene.lights, scene.sphere);
-  for (const Light& light : scene.lights) {
-    scene.light_medium.push_back(is_infinite(light) ? scene.world_medium : medium_at(scene, point_before(light)));
-  }
+  for (const Light& light : scene.lights) scene.light_medium.push_back(medium_of(scene, light));
 }
 
 MediumId medium_at(const Scene& scene, const Vec3& point) {

@@ -17,6 +17,7 @@ namespace vpm {
 /// The number of a medium in Scene::media, or kVacuum.
 using MediumId = int;
 inline constexpr MediumId kVacuum = -1;
+inline constexpr MediumId kSeveralMedia = -2;
 
 /// The media that meet at a surface: behind it (against its outward normal) and before it.
 struct Interface {
@@ -47,11 +48,28 @@ struct Scene {
   SceneSphere sphere;                    // around all shapes; without any, radius 1 m about the origin
   bool grey = false;                     // one channel carries everything
   std::vector<float> light_probability;  // of emitting the next photon, by power; sums to 1
-  std::vector<MediumId> light_medium;    // where photons start: around finite lights (area lights: before the middle of
-                                         // their surface), the world's medium for lights at infinity
+  std::vector<MediumId> light_medium;    // that a light's photons start in; kSeveralMedia where a boundary cuts the light
 
   const Material& material_of(const Hit& hit) const { return materials[shapes[hit.shape].material]; }
 };
+
+/// The medium on the side of a surface that `direction` points to, for a path that is in `current`.
+inline MediumId medium_beyond(const Shape& shape, const Vec3& normal, const Vec3& direction, MediumId current) {
+  if (!shape.separates_media) return current;
+  return glm::dot(direction, normal) > 0.0f ? shape.media.outside : shape.media.inside;
+}
+
+/// The medium in which a ray along `direction` comes to an encounter: `current` where one of the shapes has it on the near side, or none
+/// separates media; otherwise the near side that is no other shape's far side.
+MediumId medium_before(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current);
+/// The medium in which the ray goes on once it has crossed all of the encounter's shapes: each in turn whose near side is the medium so far.
+MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current);
+
+/// What a shape of that material is to rays, for Geometry::add().
+inline Layer layer_of(const Shape& shape, const Material& material) {
+  if (is_boundary(material)) return Layer::boundary;
+  return shape.separates_media ? Layer::dividing_surface : Layer::surface;
+}
 
 /// Fills in what a scene derives from its parts. Call once, after all else is set and the geometry committed. Throws
 /// InputError where there are lights, but all of them black.

@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <deque>
@@ -22,6 +23,7 @@ namespace {
 
 /// Embree leaves out what is beyond 1.8e18 m; squares of coordinates must stay finite in float too.
 constexpr float kMaxCoordinate = 1e9f;
+constexpr uint32_t kAllLayers = ~0u;
 /// Hits lie beyond this t, m: the smallest normal float, so that t > 0 in every rounding mode.
 constexpr float kMinT = std::numeric_limits<float>::min();
 
@@ -69,9 +71,31 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
 }
 
+/// What Embree hands to callbacks: the shapes that a query leaves out stand behind the context.
+struct Query {
+  RTCIntersectContext context;
+  const Encounter& without;
+
+  bool leaves_out(unsigned shape) const {
+    return std::any_of(without.hits.begin(), without.hits.begin() + without.count, [&](const Hit& h) { return h.shape == shape; });
+  }
+};
+
+void leave_out(const RTCFilterFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (reinterpret_cast<const Query*>(args->context)->leaves_out(RTCHitN_geomID(args->hit, 1, 0))) args->valid[0] = 0;
+}
+
+/// How far along the ray others may coincide with a hit, m: as far as leave_surface() takes the ray past it, and the rounding of distances.
+float coincidence(const Hit& hit, const Vec3& direction) {
+  const float skipped = glm::distance(leave_surface(hit, direction), hit.position);
+  return skipped / std::max(1e-6f, std::abs(glm::dot(hit.normal, direction))) + 0x1p-20f * hit.t;
+}
+
 void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
+  if (args->context->filter && reinterpret_cast<const Query*>(args->context)->leaves_out(args->geomID)) return;
   auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   const auto& s = *static_cast<const SphereShape*>(args->geometryUserPtr);
   RTCRay& r = ray_hit.ray;
@@ -113,8 +137,8 @@ struct Geometry::Impl {
   RTCScene scene = nullptr;
   std::deque<ShapeData> shapes;  // a deque, because Embree keeps pointers to its elements
   std::vector<double> areas;     // m^2
-  Box bounds;
-  uint32_t layers = 0;           // that occur
+  std::vector<Box> bounds;
+  std::vector<Layer> layers;
   bool committed = false;
   std::atomic<int64_t> bytes{0};
   std::string error;
@@ -124,7 +148,7 @@ struct Geometry::Impl {
     rtcSetDeviceErrorFunction(device, on_error, this);
     rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
     scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     check();
   }
   ~Impl() {
@@ -147,15 +171,16 @@ struct Geometry::Impl {
     if (!error.empty()) throw std::runtime_error(error);
   }
 
-  uint32_t attach(RTCGeometry geometry, double area, Layer layer) {
+  uint32_t attach(RTCGeometry geometry, double area, const Box& box, Layer layer) {
     const auto number = static_cast<uint32_t>(areas.size());
-    layers |= static_cast<uint32_t>(layer);
+    layers.push_back(layer);
     rtcSetGeometryMask(geometry, static_cast<uint32_t>(layer));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, number);
     rtcReleaseGeometry(geometry);
     check();
     areas.push_back(area);
+    bounds.push_back(box);
     return number;
   }
 };
@@ -177,12 +202,13 @@ uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
   std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
   std::copy(proper.begin(), proper.end(), triangles);
   double area = 0.0;
+  Box box;
   for (const glm::uvec3& v : proper) {
     area += 0.5 * glm::length(area_vector(positions[v.x], positions[v.y], positions[v.z]));
-    for (int corner = 0; corner < 3; ++corner) impl_->bounds.add(positions[v[corner]]);
+    for (int corner = 0; corner < 3; ++corner) box.add(positions[v[corner]]);
   }
   impl_->shapes.emplace_back(MeshShape{positions, triangles});
-  return impl_->attach(geometry, area, layer);
+  return impl_->attach(geometry, area, box, layer);
 }
 
 uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
@@ -198,10 +224,8 @@ uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
   rtcSetGeometryUserData(geometry, &std::get<SphereShape>(impl_->shapes.back()));
   rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
-  impl_->bounds.add(sphere.centre - sphere.radius);
-  impl_->bounds.add(sphere.centre + sphere.radius);
   const double radius = sphere.radius;
-  return impl_->attach(geometry, 4.0 * kPiD * radius * radius, layer);
+  return impl_->attach(geometry, 4.0 * kPiD * radius * radius, {sphere.centre - sphere.radius, sphere.centre + sphere.radius}, layer);
 }
 
 void Geometry::commit() {
@@ -210,20 +234,39 @@ void Geometry::commit() {
   impl_->committed = true;
 }
 
-std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const { return intersect(ray, t_max, ~0u); }
+std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const { return intersect(ray, t_max, kAllLayers, {}); }
 
-std::optional<Hit> Geometry::surface_at(const Hit& boundary, const Ray& ray) const {
-  constexpr uint32_t kSurfaces = static_cast<uint32_t>(Layer::surface);
-  if (!(impl_->layers & kSurfaces)) return std::nullopt;
-  const Vec3 before = leave_surface(boundary, -ray.direction);
-  const Vec3 beyond = leave_surface(boundary, ray.direction);
-  const float reach = glm::distance(before, beyond) / std::max(1e-6f, std::abs(glm::dot(boundary.normal, ray.direction)));
-  std::optional<Hit> hit = intersect({before, ray.direction}, reach, kSurfaces);
-  if (hit) hit->t = boundary.t;
-  return hit;
+Encounter Geometry::encounter(const Ray& ray, float t_max) const {
+  Encounter found;
+  std::optional<Hit> hit = intersect(ray, t_max);
+  for (float beyond = 0.0f; hit; hit = intersect(ray, beyond, kAllLayers, found)) {
+    found.hits[found.count++] = *hit;
+    if (impl_->layers[hit->shape] != Layer::boundary) {
+      found.surface = true;
+      found.hits[found.count - 1].t = found.hits[0].t;  // rounding may have put it behind the boundaries
+      std::swap(found.hits[0], found.hits[found.count - 1]);
+      break;
+    }
+    if (found.count == Encounter::kMost) break;
+    beyond = std::max(beyond, std::min(t_max, hit->t + coincidence(*hit, ray.direction)));
+  }
+  return found;
 }
 
-std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t layers) const {
+Encounter Geometry::division(const Ray& ray) const {
+  constexpr uint32_t kBetweenMedia = static_cast<uint32_t>(Layer::dividing_surface) | static_cast<uint32_t>(Layer::boundary);
+  Encounter found;
+  float beyond = kInfinity;
+  while (const std::optional<Hit> hit = intersect(ray, beyond, kBetweenMedia, found)) {
+    const float reach = hit->t + coincidence(*hit, ray.direction);
+    beyond = found ? std::max(beyond, reach) : reach;
+    found.hits[found.count++] = *hit;
+    if (found.count == Encounter::kMost) break;
+  }
+  return found;
+}
+
+std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const {
   assert(impl_->committed);
   assert(is_finite(ray.origin) && is_finite(ray.direction));
   RTCRayHit found{};
@@ -238,9 +281,10 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t lay
   found.ray.mask = layers;
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   if (!(found.ray.tfar >= kMinT)) return std::nullopt;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(impl_->scene, &context, &found);
+  Query query{{}, without};
+  rtcInitIntersectContext(&query.context);
+  if (without) query.context.filter = leave_out;
+  rtcIntersect1(impl_->scene, &query.context, &found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   Hit hit;
   hit.t = found.ray.tfar;
@@ -254,7 +298,13 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t lay
   return hit;
 }
 
-Box Geometry::bounds() const { return impl_->bounds; }
+Box Geometry::bounds() const {
+  Box all;
+  for (const Box& box : impl_->bounds) all.add(box);
+  return all;
+}
+
+const Box& Geometry::bounds(uint32_t shape) const { return impl_->bounds[shape]; }
 
 double Geometry::area(uint32_t shape) const {
   assert(shape < impl_->areas.size());

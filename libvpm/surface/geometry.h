@@ -2,6 +2,7 @@
 // ray's origin is made in this folder.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,8 +31,20 @@ struct Hit {
   float slack = 0.0f;   // m, by how much rounding may displace the surface from `position` in later queries
 };
 
-/// What a shape is to a ray: a surface that light scatters at, or a boundary between media that it passes.
-enum class Layer : uint32_t { surface = 1, boundary = 2 };
+/// What a shape is to a ray: a surface that light scatters at, with one medium around it or with different ones on its two sides, or a
+/// boundary between media that light passes.
+enum class Layer : uint32_t { surface = 1, dividing_surface = 2, boundary = 4 };
+
+/// The hits of a ray at one place; none: the ray meets nothing. Boundaries stand in the order of distance, a surface that coincides with
+/// them stands first.
+struct Encounter {
+  static constexpr int kMost = 4;
+  std::array<Hit, kMost> hits;
+  int count = 0;
+  bool surface = false;  // the first hit is of a surface: the ray goes no further
+
+  explicit operator bool() const { return count > 0; }
+};
 
 /// Shapes of the scene. Add all, then commit(); from then on it is immutable and all queries are thread-safe.
 /// Failures of Embree itself (out of memory) throw std::runtime_error.
@@ -52,12 +65,16 @@ class Geometry {
   /// The nearest hit with 0 < t < t_max, seen from either side. Allocates nothing.
   std::optional<Hit> intersect(const Ray& ray, float t_max = kInfinity) const;
 
-  /// A surface that coincides with the boundary the ray met at `boundary`: within the distance by which rays are moved off it. The ray meets
-  /// that surface and does not cross the boundary: so smoke can stand on a floor.
-  std::optional<Hit> surface_at(const Hit& boundary, const Ray& ray) const;
+  /// The nearest hit, and where it is of a boundary all others within the distance by which the ray is moved off it: what the ray meets
+  /// at one place. A surface among them stops the ray, so that smoke can stand on a floor.
+  Encounter encounter(const Ray& ray, float t_max = kInfinity) const;
+  /// The same of the shapes between media alone, none of which stops the ray: for finding out which medium is where.
+  Encounter division(const Ray& ray) const;
 
   /// The box around all shapes; empty without any.
   Box bounds() const;
+  /// The box around one shape.
+  const Box& bounds(uint32_t shape) const;
   /// The area of a shape, m^2.
   double area(uint32_t shape) const;
   /// What Embree holds, its copy of the shapes included.
@@ -65,7 +82,7 @@ class Geometry {
 
  private:
   struct Impl;
-  std::optional<Hit> intersect(const Ray& ray, float t_max, uint32_t layers) const;
+  std::optional<Hit> intersect(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const;
 
   std::unique_ptr<Impl> impl_;
 };
@@ -75,6 +92,8 @@ class Geometry {
 /// the spacing of floats; a bound for each shape stands in place of its constants. A triangle may still be met again
 /// where |cos| of the direction to the normal is below 1e-6.
 Vec3 leave_surface(const Hit& hit, const Vec3& direction);
+/// The origin of a ray that goes on straight through everything it meets at one place.
+Vec3 leave_surfaces(const Encounter& met, const Vec3& direction);
 /// The same for a point on a surface found without a ray: `normal` unit, `slack` as in Hit.
 Vec3 leave_surface_at(const Vec3& position, const Vec3& normal, const Vec3& direction, float slack = 0.0f);
 

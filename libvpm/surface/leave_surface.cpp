@@ -20,6 +20,15 @@ Vec3 leave_surface(const Hit& hit, const Vec3& direction) {
   return leave_surface_at(hit.position, hit.normal, direction, hit.slack);
 }
 
+Vec3 leave_surfaces(const Encounter& met, const Vec3& direction) {
+  Vec3 beyond = leave_surface(met.hits[0], direction);
+  for (int i = 1; i < met.count; ++i) {
+    const Vec3 other = leave_surface(met.hits[i], direction);
+    if (glm::dot(other - beyond, direction) > 0.0f) beyond = other;
+  }
+  return beyond;
+}
+
 float flat_slack(const Vec3& normal, const Vec3& reach, double twice_area) {
   // Embree takes the vertices relative to the ray's origin, v with |v_i| <= reach_i, and compares dot(v, N) with 0, N
   // the cross product of two edges. Rounding v_i by its unit displaces the plane by up to sum |n_i| reach_i units;

@@ -26,9 +26,10 @@ using Material = std::variant<Lambertian, Mirror, Dielectric, Boundary>;
 
 /// Is the material a border that does not scatter?
 inline bool is_boundary(const Material& m) { return std::holds_alternative<Boundary>(m); }
-/// Does the material scatter into a set of directions of measure zero, so that photons on it are not stored?
-inline bool is_specular(const Material& m) {
-  return std::holds_alternative<Mirror>(m) || std::holds_alternative<Dielectric>(m);
+/// Does the material scatter light into all directions, so that photons on it are worth storing?
+inline bool is_diffuse(const Material& m) {
+  const auto* lambertian = std::get_if<Lambertian>(&m);
+  return lambertian && !is_black(lambertian->reflectance);
 }
 /// Are all its coefficients equal over the channels?
 bool is_grey(const Material& m);

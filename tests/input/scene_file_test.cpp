@@ -340,7 +340,12 @@ TEST(SceneFile, ShapesBoundAGrid) {
   EXPECT_NE(message_of([&] { load_with(medium); }).find("scene.toml:10:8: "),
             std::string::npos);  // its background is not 0
   EXPECT_EQ(load_with(medium + ball + "inside = 'smoke'\n").scene.shapes.size(), 1u);
-  EXPECT_EQ(load_with(medium + ball + "outside = 'smoke'\n", {"media.smoke.boundary=shapes"}).scene.shapes.size(), 1u);
+  const std::string shell =
+      "[[shapes]]\nname = 'shell'\ntype = 'sphere'\nmaterial = { type = 'boundary' }\ncenter = [0, 0, 0]\nradius = 3\n";
+  EXPECT_EQ(load_with(medium + ball + "outside = 'smoke'\n" + shell + "inside = 'smoke'\n").scene.shapes.size(), 2u);
+  EXPECT_NE(message_of([&] { load_with(medium + ball + "outside = 'smoke'\n", {"media.smoke.boundary=shapes"}); })
+                .find("say that vacuum is there"),
+            std::string::npos);
   EXPECT_NO_THROW(load_with(medium, {"world.medium=smoke"}));
   const std::string empty_outside = shared_grid("usd_smoke3.vdb");
   EXPECT_NE(message_of([&] {

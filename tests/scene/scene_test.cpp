@@ -6,23 +6,16 @@
 #include "base/error.h"
 #include "base/rng.h"
 #include "base/warp.h"
+#include "support/scenes.h"
 
 namespace vpm {
 namespace {
 
 constexpr bool kSeparates = true;
 
-TriangleMesh box_mesh(const Vec3& lo, const Vec3& hi) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z});
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
 template <class S>
 void add(Scene& scene, const S& geometry, bool separates = false, Interface media = {}) {
-  scene.geometry.add(geometry);
+  scene.geometry.add(geometry, separates ? Layer::boundary : Layer::surface);
   Shape shape;
   shape.separates_media = separates;
   shape.media = media;
@@ -115,12 +108,12 @@ TEST(Finish, FindsTheMediaOfLights) {
                   PointLight{{0, 0, 0}, Rgb(1)},
                   BeamLight{{0, 5, 0}, {0, -1, 0}, 0.1f, Rgb(1)},
                   SpotLight{{0, 3, 0}, {0, -1, 0}, 0.9f, 0.8f, Rgb(1)},
-                  SphereLight{{0, 0, 0}, 2.0f, Rgb(1)},
+                  SphereLight{{0, 0, 0}, 2.0f, Rgb(1)},  // boundaries within its bounds: decided photon by photon
                   QuadLight{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}, Rgb(1)},  // on the outer box's lid, facing down
                   QuadLight{{-1, 4, -1}, {0, 0, 2}, {2, 0, 0}, Rgb(1)},  // facing up
                   DirectionalLight{}};
   finish(scene);
-  EXPECT_EQ(scene.light_medium, (std::vector<MediumId>{2, kVacuum, 0, 1, 1, 1, 0, 0}));
+  EXPECT_EQ(scene.light_medium, (std::vector<MediumId>{2, kVacuum, 0, 1, kSeveralMedia, 1, 0, 0}));
 }
 
 TEST(Finish, ChoosesLightsByMeanPower) {

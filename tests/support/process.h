@@ -1,4 +1,5 @@
-// Running a program from a test: what it prints, how it ends, what memory it takes, under limits of time and address space.
+// Running a program from a test: what it prints, how it ends, what memory it takes, under limits of time and address
+// space.
 #pragma once
 
 #include <fcntl.h>
@@ -20,9 +21,9 @@ namespace vpm {
 
 /// What a program may use before it is stopped.
 struct ProcessLimits {
-  double seconds = 120.0;        // then it is killed, and the test fails
-  uint64_t address_space = 0;    // bytes, the program itself included; 0: no limit
-  std::string folder = ".";      // where it runs
+  double seconds = 120.0;      // then it is killed, and the test fails
+  uint64_t address_space = 0;  // bytes, the program itself included; 0: no limit
+  std::string folder = ".";    // where it runs
 };
 
 /// How a program ended.

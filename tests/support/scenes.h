@@ -29,7 +29,7 @@ uint32_t add_shape(Scene& scene, const Surface& surface, const Material& materia
   shape.light = light;
   scene.materials.push_back(material);
   scene.shapes.push_back(shape);
-  return scene.geometry.add(surface, is_boundary(material) ? Layer::boundary : Layer::surface);
+  return scene.geometry.add(surface, layer_of(shape, material));
 }
 
 /// A medium inside the boundary box [-1, 1]^3, vacuum around it.

@@ -140,13 +140,14 @@ TEST(Lambertian, ScattersByTheCosineToTheSideItCameFrom) {
   }
 }
 
-TEST(Materials, KnowGreySpecularAndBoundary) {
+TEST(Materials, KnowGreyDiffuseAndBoundary) {
   EXPECT_TRUE(is_grey(Material(Lambertian{})));
   EXPECT_FALSE(is_grey(Material(Lambertian{Rgb(0.1f, 0.2f, 0.1f)})));
   EXPECT_FALSE(is_grey(Material(Mirror{Rgb(0.1f, 0.2f, 0.1f)})));
   EXPECT_TRUE(is_grey(Material(Dielectric{})) && is_grey(Material(Boundary{})));
-  EXPECT_TRUE(is_specular(Dielectric{}) && is_specular(Mirror{}) && !is_specular(Lambertian{}) &&
-              !is_specular(Boundary{}));
+  EXPECT_TRUE(is_diffuse(Lambertian{}));
+  EXPECT_FALSE(is_diffuse(Lambertian{Rgb(0.0f)}) || is_diffuse(Mirror{}) || is_diffuse(Dielectric{}) || is_diffuse(Boundary{}));
+  EXPECT_TRUE(is_boundary(Boundary{}) && !is_boundary(Dielectric{}));
 }
 
 }  // namespace

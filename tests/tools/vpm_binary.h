@@ -28,7 +28,9 @@ class VpmBinary : public ::testing::Test {
   ~VpmBinary() override { std::filesystem::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(path(name), std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
   std::string read(const std::string& name) const {
     std::ifstream file(path(name), std::ios::binary);
     EXPECT_TRUE(file) << "there is no file " << name;
@@ -39,7 +41,8 @@ class VpmBinary : public ::testing::Test {
   /// The names of all files in the folder, sorted.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
   }
@@ -49,7 +52,8 @@ class VpmBinary : public ::testing::Test {
     return arguments;
   }
   /// Runs vpm in the folder.
-  ProcessResult vpm(const std::vector<std::string>& arguments, double seconds = 120.0, uint64_t address_space = 0) const {
+  ProcessResult vpm(const std::vector<std::string>& arguments, double seconds = 120.0,
+                    uint64_t address_space = 0) const {
     return run_program(command(arguments), {seconds, address_space, folder_.string()});
   }
   /// Runs vpm, which must succeed.
@@ -58,14 +62,17 @@ class VpmBinary : public ::testing::Test {
     EXPECT_EQ(result.status, 0) << result.err;
     return result;
   }
-  /// Runs vpm, which must refuse within 10 s: exit status 2, nothing on stdout, each of `words` on stderr, no file made.
-  void vpm_refuses(const std::vector<std::string>& arguments, const std::vector<std::string>& words, uint64_t address_space = 0) const {
+  /// Runs vpm, which must refuse within 10 s: exit status 2, nothing on stdout, each of `words` on stderr, no file
+  /// made.
+  void vpm_refuses(const std::vector<std::string>& arguments, const std::vector<std::string>& words,
+                   uint64_t address_space = 0) const {
     const std::vector<std::string> before = files();
     const ProcessResult result = vpm(arguments, 10.0, address_space);
     const ::testing::ScopedTrace trace(__FILE__, __LINE__, "vpm " + ::testing::PrintToString(arguments));
     EXPECT_EQ(result.status, 2);
     EXPECT_EQ(result.out, "");
-    for (const std::string& word : words) EXPECT_NE(result.err.find(word), std::string::npos) << "expected: " << word << "\n" << result.err;
+    for (const std::string& word : words)
+      EXPECT_NE(result.err.find(word), std::string::npos) << "expected: " << word << "\n" << result.err;
     EXPECT_EQ(files(), before);
     EXPECT_LT(result.peak_memory, uint64_t{1} << 30);
   }

@@ -1,7 +1,8 @@
-// Awkward .vdb files through the program: what can be a density renders, everything else is refused soon, clearly and without absurd memory.
+// Awkward .vdb files through the program: what can be a density renders, everything else is refused soon, clearly and
+// without absurd memory.
+#include <fmt/format.h>
 #include <atomic>
 #include <filesystem>
-#include <fmt/format.h>
 
 #include "image/exr.h"
 #include "input/scene_file.h"
@@ -15,12 +16,14 @@ namespace {
 constexpr int kWidth = 32, kHeight = 24;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr uint64_t kAddressSpace = 0;  // the sanitizer reserves terabytes; the peak of resident memory is looked at either way
+constexpr uint64_t kAddressSpace =
+    0;  // the sanitizer reserves terabytes; the peak of resident memory is looked at either way
 #else
 constexpr uint64_t kAddressSpace = uint64_t{1} << 30;  // bytes, the program's own included
 #endif
 
-/// A scene that shows something of width `size` at `centre` in black space, lit by a lamp from the upper right. `medium` has the keys of its fog.
+/// A scene that shows something of width `size` at `centre` in black space, lit by a lamp from the upper right.
+/// `medium` has the keys of its fog.
 std::string view_of(const Vec3d& centre, double size, const std::string& medium) {
   const Vec3d camera = centre + Vec3d(0.0, 0.0, 1.6 * size), lamp = centre + size * Vec3d(0.8, 1.0, 0.8);
   const auto text = [](const Vec3d& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); };
@@ -47,11 +50,13 @@ radius = {}
 direct = "shadow-rays"
 [media.fog]
 {})",
-                     text(camera), text(centre), kWidth, kHeight, text(lamp), text(centre), size * size, 0.03 * size, medium);
+                     text(camera), text(centre), kWidth, kHeight, text(lamp), text(centre), size * size, 0.03 * size,
+                     medium);
 }
 
 std::string grid_medium(const std::string& file, const std::string& grid, double sigma_t) {
-  return fmt::format("type = \"grid\"\npath = \"{}\"\ngrid = \"{}\"\nsigma_t = {}\nalbedo = 0.9\n", file, grid, sigma_t);
+  return fmt::format("type = \"grid\"\npath = \"{}\"\ngrid = \"{}\"\nsigma_t = {}\nalbedo = 0.9\n", file, grid,
+                     sigma_t);
 }
 
 bool is_lit(const Image& image, int x, int y) { return !is_black(image.at(x, y)); }
@@ -96,7 +101,8 @@ class VpmFiles : public VpmBinary {
 };
 
 TEST_F(VpmFiles, ARotatedGridRenders) {
-  const Image image = render(view_of({-2.9, 4.9, 2.4}, 22.0, grid_medium(edge("affine_rotated_dragon.vdb"), "density", 1.0)));
+  const Image image =
+      render(view_of({-2.9, 4.9, 2.4}, 22.0, grid_medium(edge("affine_rotated_dragon.vdb"), "density", 1.0)));
   EXPECT_TRUE(border_is_black(image));
   EXPECT_GT(lit_pixels(image), 30);
   EXPECT_LT(lit_pixels(image), kWidth * kHeight / 2);
@@ -109,15 +115,18 @@ TEST_F(VpmFiles, ADoubleGridRenders) {
 }
 
 TEST_F(VpmFiles, AGridOfAnotherNameRenders) {
-  const Image image = render(view_of({-5.85, 0.0, 4.64}, 9.0, grid_medium(edge("other_name_voxel_fog_density.vdb"), "voxel_fog_density", 0.05)));
+  const Image image = render(view_of({-5.85, 0.0, 4.64}, 9.0,
+                                     grid_medium(edge("other_name_voxel_fog_density.vdb"), "voxel_fog_density", 0.05)));
   EXPECT_TRUE(border_is_black(image));
   EXPECT_TRUE(is_lit(image, kWidth / 2, kHeight / 2));
 }
 
 TEST_F(VpmFiles, OneOfSeveralGridsOfANameRenders) {
-  // Seen from before the second grid, about x = 2; the first lies to the right, at x = 4, the third to the left, at x = 0.
+  // Seen from before the second grid, about x = 2; the first lies to the right, at x = 4, the third to the left, at x =
+  // 0.
   const auto middle = [&](const std::string& grid, int x) {
-    return is_lit(render(view_of({2.0, 0.0, 0.0}, 3.0, grid_medium(edge("duplicate_names.vdb"), grid, 2.0))), x, kHeight / 2);
+    return is_lit(render(view_of({2.0, 0.0, 0.0}, 3.0, grid_medium(edge("duplicate_names.vdb"), grid, 2.0))), x,
+                  kHeight / 2);
   };
   const int left = kWidth / 2 - 12, right = kWidth / 2 + 12;  // pixels of 0.165 m at the grids' distance
   EXPECT_TRUE(middle("density[1]", kWidth / 2));
@@ -138,11 +147,13 @@ inside = "fog"
 
 TEST_F(VpmFiles, ABackgroundFillsTheShapeAroundIt) {
   // The values are 1 and so is the background: within a box, the grid is a homogeneous medium.
-  const std::string grid = view_of(Vec3d(0.0), 4.0, grid_medium(edge("background_one_box.vdb"), "density", 0.8)) + kShell;
+  const std::string grid =
+      view_of(Vec3d(0.0), 4.0, grid_medium(edge("background_one_box.vdb"), "density", 0.8)) + kShell;
   const std::string same = view_of(Vec3d(0.0), 4.0, "type = \"homogeneous\"\nsigma_t = 0.8\nalbedo = 0.9\n") + kShell;
   const Image image = render(grid);
   EXPECT_TRUE(border_is_black(image));
-  EXPECT_TRUE(is_lit(image, kWidth / 2 + 4, kHeight / 2));  // 0.8 m beside the middle: outside the grid's own box of 1 m
+  EXPECT_TRUE(
+      is_lit(image, kWidth / 2 + 4, kHeight / 2));  // 0.8 m beside the middle: outside the grid's own box of 1 m
 
   const std::atomic<bool> stop{false};
   const auto totals = [&](const std::string& name, const std::string& text, uint64_t seed) {
@@ -152,7 +163,8 @@ TEST_F(VpmFiles, ABackgroundFillsTheShapeAroundIt) {
     Moments moments;
     for (int pass = 0; pass < 32; ++pass) {
       double total = 0.0;
-      for (const Rgb& c : render_photon_pass(loaded.scene, loaded.settings, 0, stop, ProgressMode::never).image.pixels) total += c.g;
+      for (const Rgb& c : render_photon_pass(loaded.scene, loaded.settings, 0, stop, ProgressMode::never).image.pixels)
+        total += c.g;
       moments.add(total);
       ++loaded.settings.seed;
     }
@@ -160,15 +172,20 @@ TEST_F(VpmFiles, ABackgroundFillsTheShapeAroundIt) {
   };
   const Moments a = totals("grid.toml", grid, 1), b = totals("same.toml", same, 1001);
   const double error = std::sqrt(a.variance_of_mean() + b.variance_of_mean());
-  EXPECT_LT(std::abs(a.mean() - b.mean()), normal_quantile(1e-5) * error) << a.mean() << " and " << b.mean() << " +- " << error;
+  EXPECT_LT(std::abs(a.mean() - b.mean()), normal_quantile(1e-5) * error)
+      << a.mean() << " and " << b.mean() << " +- " << error;
   EXPECT_LT(error, 0.01 * a.mean());
 }
 
-TEST_F(VpmFiles, ABackgroundWithoutAShapeIsRefused) { refuses(edge("background_one_box.vdb"), "density", {"background", "shape", "holds: density (float, fog volume)"}); }
+TEST_F(VpmFiles, ABackgroundWithoutAShapeIsRefused) {
+  refuses(edge("background_one_box.vdb"), "density", {"background", "shape", "holds: density (float, fog volume)"});
+}
 
 TEST_F(VpmFiles, AmbiguousAndUnknownNamesAreRefusedWithTheList) {
   for (const char* name : {"density", "density[3]", "smoke"})
-    refuses(edge("duplicate_names.vdb"), name, {name, "holds: density[0] (float, fog volume), density[1] (float, fog volume), density[2] (float, fog volume)"});
+    refuses(edge("duplicate_names.vdb"), name,
+            {name,
+             "holds: density[0] (float, fog volume), density[1] (float, fog volume), density[2] (float, fog volume)"});
   refuses(edge("other_name_voxel_fog_density.vdb"), "density", {"'density'", "holds: voxel_fog_density (float"});
 }
 
@@ -177,13 +194,17 @@ TEST_F(VpmFiles, WhatIsNoDensityIsRefusedWithTheList) {
   refuses(edge("vec3_only_Cd.vdb"), "Cd", {"vec3s", "float or double"});
   refuses(edge("pointdata_only.vdb"), "density", {"'density'", "holds: points (ptdataidx32"});
   refuses(edge("pointdata_only.vdb"), "points", {"ptdataidx32", "float or double"});
-  refuses(edge("empty_density.vdb"), "density", {"no active voxels", "holds: density (float", "velocity (vec3s", "obstacles (int32"});
+  refuses(edge("empty_density.vdb"), "density",
+          {"no active voxels", "holds: density (float", "velocity (vec3s", "obstacles (int32"});
   refuses(edge("empty_density.vdb"), "obstacles", {"int32", "float or double"});
-  refuses(edge("../ls_sphere.vdb"), "ls_sphere", {"level set", "from_level_set", "holds: ls_sphere (float stored as half, level set)"});
+  refuses(edge("../ls_sphere.vdb"), "ls_sphere",
+          {"level set", "from_level_set", "holds: ls_sphere (float stored as half, level set)"});
 }
 
 TEST_F(VpmFiles, DamagedFilesAreRefused) {
-  const std::vector<std::pair<std::string, std::string>> bombs{{"damaged_bad-bbox-bomb_40ba.vdb", "bomb"}, {"damaged_bad-bbox-huge_2258.vdb", "huge"}, {"damaged_bad-bbox-inverted_3691.vdb", "inverted"}};
+  const std::vector<std::pair<std::string, std::string>> bombs{{"damaged_bad-bbox-bomb_40ba.vdb", "bomb"},
+                                                               {"damaged_bad-bbox-huge_2258.vdb", "huge"},
+                                                               {"damaged_bad-bbox-inverted_3691.vdb", "inverted"}};
   for (const auto& [file, grid] : bombs) {
     refuses(edge(file), "density", {"'density'", "holds: " + grid + " (float"});
     refuses(edge(file), grid, {"'" + grid + "'", "no active voxels", "holds: " + grid + " (float"});
@@ -193,7 +214,8 @@ TEST_F(VpmFiles, DamagedFilesAreRefused) {
 }
 
 TEST_F(VpmFiles, ALevelSetBecomesAFogOnRequest) {
-  const Image image = render(view_of(Vec3d(0.0), 8.0, grid_medium(edge("../ls_sphere.vdb"), "ls_sphere", 1.0) + "from_level_set = true\n"));
+  const Image image = render(
+      view_of(Vec3d(0.0), 8.0, grid_medium(edge("../ls_sphere.vdb"), "ls_sphere", 1.0) + "from_level_set = true\n"));
   EXPECT_TRUE(border_is_black(image));
   EXPECT_TRUE(is_lit(image, kWidth / 2, kHeight / 2));
 }

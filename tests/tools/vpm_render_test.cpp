@@ -1,4 +1,5 @@
-// The program from outside: the same picture from the same seed, interruption, refusals before any work, what it prints and where.
+// The program from outside: the same picture from the same seed, interruption, refusals before any work, what it prints
+// and where.
 #include <signal.h>
 #include <sys/mount.h>
 
@@ -62,13 +63,15 @@ class VpmRender : public VpmBinary {
 /// A report without what may differ between two runs: times, memory in use, threads, the image's name.
 Json without_circumstances(Json report) {
   for (const char* key : {"times", "threads", "image"}) report.erase(key);
-  for (const char* key : {"emitted_per_second", "emitted_per_second_and_thread", "stored_per_second"}) report["photons"].erase(key);
+  for (const char* key : {"emitted_per_second", "emitted_per_second_and_thread", "stored_per_second"})
+    report["photons"].erase(key);
   report["memory"].erase("peak_of_process");
   return report;
 }
 
 bool same_pixels(const Image& a, const Image& b) {
-  return a.pixels.size() == b.pixels.size() && std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0;
+  return a.pixels.size() == b.pixels.size() &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0;
 }
 
 double sum(const Image& image) {
@@ -102,8 +105,13 @@ TEST_P(VpmSameSeed, GivesTheSameBytesOnAnyNumberOfThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gathers, VpmSameSeed,
-                         ::testing::Combine(::testing::Values("radius", "nearest"), ::testing::Values("density-at-query", "density-at-photon")),
-                         [](const auto& test) { return std::get<0>(test.param) + std::string(std::get<1>(test.param) == std::string("density-at-query") ? "AtQuery" : "AtPhoton"); });
+                         ::testing::Combine(::testing::Values("radius", "nearest"),
+                                            ::testing::Values("density-at-query", "density-at-photon")),
+                         [](const auto& test) {
+                           return std::get<0>(test.param) +
+                                  std::string(std::get<1>(test.param) == std::string("density-at-query") ? "AtQuery"
+                                                                                                         : "AtPhoton");
+                         });
 
 TEST_F(VpmRender, OptionsOverruleTheScene) {
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "3", "--seed", "5"});
@@ -120,13 +128,15 @@ TEST_F(VpmRender, TheImageIsNamedAfterTheSceneInTheCurrentFolder) {
   std::filesystem::create_directory(path("scenes"));
   write("scenes/plume.toml", kScene);
   vpm_succeeds({"render", "scenes/plume.toml", "--set", "media.smoke.path=smoke.vdb"});
-  EXPECT_EQ(files(), (std::vector<std::string>{"plume.exr", "plume.json", "plume.png", "scene.toml", "scenes", "smoke.vdb"}));
+  EXPECT_EQ(files(),
+            (std::vector<std::string>{"plume.exr", "plume.json", "plume.png", "scene.toml", "scenes", "smoke.vdb"}));
 }
 
 TEST_F(VpmRender, TheImageTellsWhereItIsFrom) {
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr"});
   const ExrChannels exr = read_exr_channels(path("a.exr"));
-  for (const char* channel : {"R", "G", "B", "variance.R", "variance.G", "variance.B"}) EXPECT_EQ(exr.planes.count(channel), 1u) << channel;
+  for (const char* channel : {"R", "G", "B", "variance.R", "variance.G", "variance.B"})
+    EXPECT_EQ(exr.planes.count(channel), 1u) << channel;
   EXPECT_EQ(exr.metadata.at("vpm.passes"), "2");
   EXPECT_EQ(exr.metadata.at("vpm.seed"), "1");
   EXPECT_EQ(exr.metadata.at("vpm.sceneHash"), report("a.json")["scene_hash"]);
@@ -143,7 +153,8 @@ ProcessResult interrupt(Process& process, int signal, const std::string& sign) {
 
 TEST_F(VpmRender, AnInterruptedRenderKeepsItsFinishedPasses) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    Process process(command({"render", "scene.toml", "-o", "a.exr", "--passes", "1000000000", "--progress", "always"}), {60.0, 0, folder_.string()});
+    Process process(command({"render", "scene.toml", "-o", "a.exr", "--passes", "1000000000", "--progress", "always"}),
+                    {60.0, 0, folder_.string()});
     const ProcessResult result = interrupt(process, signal, " left");  // the time left is told once a pass is finished
     EXPECT_EQ(result.status, 130) << result.err;
     const int passes = report("a.json")["passes"];
@@ -151,14 +162,16 @@ TEST_F(VpmRender, AnInterruptedRenderKeepsItsFinishedPasses) {
     EXPECT_EQ(read_exr_channels(path("a.exr")).metadata.at("vpm.passes"), std::to_string(passes));
     vpm_succeeds({"render", "scene.toml", "-o", "whole.exr", "--passes", std::to_string(passes)});
     EXPECT_TRUE(read("a.exr") == read("whole.exr"));
-    EXPECT_EQ(files(), (std::vector<std::string>{"a.exr", "a.json", "a.png", "scene.toml", "smoke.vdb", "whole.exr", "whole.json", "whole.png"}));
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.exr", "a.json", "a.png", "scene.toml", "smoke.vdb", "whole.exr",
+                                                 "whole.json", "whole.png"}));
   }
 }
 
 TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
   const std::vector<std::string> before = files();
   for (const char* slow : {"render.samples_per_pixel=64", "photons.emitted=4_000_000_000"}) {
-    Process process(command({"render", "scene.toml", "-o", "a.exr", "--set", slow, "--set", "film.width=1024", "--set", "film.height=1024", "--progress", "always"}),
+    Process process(command({"render", "scene.toml", "-o", "a.exr", "--set", slow, "--set", "film.width=1024", "--set",
+                             "film.height=1024", "--progress", "always"}),
                     {20.0, 0, folder_.string()});
     const ProcessResult result = interrupt(process, SIGINT, "passes");
     EXPECT_EQ(result.status, 130) << result.err;
@@ -207,7 +220,9 @@ class TinyDisk {
 TEST_F(VpmRender, AFullDiskIsRefusedBeforeRendering) {
   const TinyDisk disk(path("disk"));
   if (!disk.mounted()) GTEST_SKIP() << "only root outside of containers can make a small disk";
-  vpm_refuses({"render", "scene.toml", "--passes", "1000000000", "--set", "film.width=400", "--set", "film.height=400", "-o", "disk/a.exr"}, {"MiB free"});
+  vpm_refuses({"render", "scene.toml", "--passes", "1000000000", "--set", "film.width=400", "--set", "film.height=400",
+               "-o", "disk/a.exr"},
+              {"MiB free"});
   EXPECT_TRUE(std::filesystem::is_empty(path("disk")));
 }
 
@@ -220,8 +235,10 @@ TEST_F(VpmRender, BadCommandLinesAreRefused) {
   vpm_refuses({"render", "scene.toml", "--passes", "0"}, {"--passes"});
   vpm_refuses({"render", "scene.toml", "--passes", "2.5"}, {"--passes"});
   vpm_refuses({"render", "scene.toml", "--passes", "2", "--time", "1"}, {"--time"});
-  for (const char* seconds : {"0", "-1", "nan", "inf"}) vpm_refuses({"render", "scene.toml", "--time", seconds}, {"--time"});
-  for (const char* seed : {"-1", "1.5", "x", "18446744073709551616"}) vpm_refuses({"render", "scene.toml", "--seed", seed}, {"--seed"});
+  for (const char* seconds : {"0", "-1", "nan", "inf"})
+    vpm_refuses({"render", "scene.toml", "--time", seconds}, {"--time"});
+  for (const char* seed : {"-1", "1.5", "x", "18446744073709551616"})
+    vpm_refuses({"render", "scene.toml", "--seed", seed}, {"--seed"});
   vpm_refuses({"render", "scene.toml", "--threads", "-1"}, {"--threads"});
   vpm_refuses({"render", "scene.toml", "--threads", "5000"}, {"--threads"});
   vpm_refuses({"render", "scene.toml", "--progress", "perhaps"}, {"--progress"});
@@ -257,16 +274,21 @@ TEST_F(VpmRender, SaysWhereTheOutputsAre) {
 }
 
 void expect_words(const std::string& text, const std::vector<std::string>& words) {
-  for (const std::string& word : words) EXPECT_NE(text.find(word), std::string::npos) << "expected: " << word << "\n" << text;
+  for (const std::string& word : words)
+    EXPECT_NE(text.find(word), std::string::npos) << "expected: " << word << "\n" << text;
 }
 
 TEST_F(VpmRender, InfoTellsWhatFilesHold) {
   expect_words(vpm_succeeds({"info", "scene.toml"}).out,
-               {"40 x 24 pixels", "medium smoke: grid", "sigma_t 30 1/m", "mean free path", "around everything: vacuum", "light 0: power 10 W",
-                "runs volume photon map", "runs surface photon map", "skips shadow rays in media", "coefficients differ between channels"});
-  expect_words(vpm_succeeds({"info", "scene.toml", "--set", "media.smoke.albedo=0.5", "--set", "volume.direct=shadow-rays"}).out,
-               {"all coefficients are grey", "runs shadow rays in media"});
-  expect_words(vpm_succeeds({"info", "smoke.vdb"}).out, {"grid density", "type float, class fog volume", "voxel size", "active voxels", "world box", "mean", "background 0", "memory"});
+               {"40 x 24 pixels", "medium smoke: grid", "sigma_t 30 1/m", "mean free path", "around everything: vacuum",
+                "light 0: power 10 W", "runs volume photon map", "runs surface photon map",
+                "skips shadow rays in media", "coefficients differ between channels"});
+  expect_words(
+      vpm_succeeds({"info", "scene.toml", "--set", "media.smoke.albedo=0.5", "--set", "volume.direct=shadow-rays"}).out,
+      {"all coefficients are grey", "runs shadow rays in media"});
+  expect_words(vpm_succeeds({"info", "smoke.vdb"}).out,
+               {"grid density", "type float, class fog volume", "voxel size", "active voxels", "world box", "mean",
+                "background 0", "memory"});
   vpm_refuses({"info", "missing.vdb"}, {"missing.vdb"});
   vpm_refuses({"info", "missing.toml"}, {"missing.toml"});
   vpm_refuses({"info", "smoke.bin"}, {"smoke.bin"});

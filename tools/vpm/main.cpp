@@ -16,6 +16,7 @@ namespace {
 using namespace vpm;
 using namespace vpm::tools;
 
+constexpr int kFailed = 1;    // not the input's fault: no memory, a library gave up
 constexpr int kBadInput = 2;
 
 /// The whole of the text as a number, or `otherwise`.
@@ -91,8 +92,11 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const InputError& error) {
     fmt::print(stderr, "vpm: {}\n", error.what());
+    return kBadInput;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "vpm: out of memory\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "vpm: {}\n", error.what());
   }
-  return kBadInput;
+  return kFailed;
 }

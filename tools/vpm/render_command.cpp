@@ -14,6 +14,7 @@
 #include "image/exr.h"
 #include "image/png.h"
 #include "input/scene_file.h"
+#include "render/photon_pass.h"
 #include "render/render.h"
 #include "report.h"
 
@@ -98,6 +99,9 @@ void print_warnings(const LoadedScene& loaded, const RenderStatistics& s) {
   const auto warn = [](uint64_t count, const char* what) {
     if (count > 0) fmt::print(stderr, "warning: {} {}\n", count, what);
   };
+  const Stages stages = plan_stages(loaded.scene, loaded.settings);
+  if (stages.volume_map && s.volume_photons == 0) fmt::print(stderr, "warning: the volume photon map is empty: no photon scattered in a medium\n");
+  if (stages.surface_map && s.surface_photons == 0) fmt::print(stderr, "warning: the surface photon map is empty: no photon to store met a diffuse surface\n");
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");

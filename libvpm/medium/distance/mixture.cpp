@@ -42,9 +42,12 @@ Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& 
     numerator = sigma_t * static_cast<double>(flight.density);
     factor = rates;
   }
+  const Rgbd mixed = shares * factor;
   for (int c = 0; c < 3; ++c) {
-    const Rgbd ratio = glm::exp(sigma_t[c] * std::min(crossed.value, kEndless) - rates * length);
-    flight.weight[c] = static_cast<float>(numerator[c] / glm::dot(shares * factor, ratio));
+    double density = 0.0;  // of the mixture over the transmittance of channel c
+    for (int j = 0; j < 3; ++j)
+      if (mixed[j] > 0.0) density += mixed[j] * std::exp(sigma_t[c] * std::min(crossed.value, kEndless) - rates[j] * length);
+    flight.weight[c] = static_cast<float>(numerator[c] / density);
   }
   return flight;
 }

@@ -16,7 +16,7 @@ Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& in
   Flight flight;
   flight.t = interval.t1;
   double crossed = 0.0;
-  for (double t = inside.t0; t < inside.t1; t += length) {
+  for (double t = inside.t0; t < inside.t1 && sigma_t > 0.0; t += length) {
     const double end = std::min(t + length, static_cast<double>(inside.t1));
     const double density = medium.density(ray.at(static_cast<float>(std::isinf(end) ? t : 0.5 * (t + end))));
     ++flight.lookups;

@@ -1,0 +1,123 @@
+// Media along paths: coinciding boundaries, surfaces on boundaries, lights across boundaries.
+#include "path/walk.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "path/direct_light.h"
+#include "support/scenes.h"
+
+namespace vpm {
+namespace {
+
+Mat4d some_rotation() { return glm::rotate(Mat4d(1.0), 0.9, glm::normalize(Vec3d(1.0, 2.0, -0.7))); }
+
+TriangleMesh turned(TriangleMesh mesh, const Mat4d& m) {
+  for (Vec3& p : mesh.positions) p = Vec3(m * glm::dvec4(Vec3d(p), 1.0));
+  return mesh;
+}
+
+/// The optical thickness of a ray, by its direct transmittance.
+double optical_thickness(const Scene& scene, const Ray& ray, float distance, MediumId start, WalkCounters& counters) {
+  Rng rng(1, 0, 0);
+  const auto regular = make_transmittance_estimator({});
+  return -std::log(visibility(scene, *regular, ray, distance, -2, start, rng, counters).r);
+}
+
+TEST(Walk, MediaThatTouchAreBothCrossedInAnyOrderOfShapes) {
+  // Four slabs of 1 m across x, touching: sigma_t 0.1, 0.4, none, 0.2. A ray along x sees their sum, turned any way.
+  const float sigma[] = {0.1f, 0.4f, 0.2f};
+  for (const bool turn : {false, true})
+    for (int order = 0; order < 6; ++order) {
+      const Mat4d m = turn ? some_rotation() : Mat4d(1.0);
+      Scene scene;
+      for (const float s : sigma) scene.media.push_back(make_medium(nullptr, Rgb(s)));
+      const int permutations[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+      const float begin[] = {0.0f, 1.0f, 3.0f};
+      for (const int i : permutations[order]) {
+        const Interface media{i, kVacuum};
+        add_shape(scene, turned(box_mesh(Vec3(begin[i], -1, -1), Vec3(begin[i] + 1, 1, 1)), m), Boundary{}, &media);
+      }
+      scene.geometry.commit();
+      WalkCounters counters;
+      for (int k = 0; k < 50; ++k) {
+        const Vec3d from(-1.0, -0.9 + 0.036 * k, 0.9 - 0.031 * k), to(5.0, 0.9 - 0.03 * k, -0.8 + 0.03 * k);
+        const Vec3 a(m * glm::dvec4(from, 1.0)), b(m * glm::dvec4(to, 1.0));
+        const double stretch = glm::distance(from, to) / 6.0;
+        const double forth = optical_thickness(scene, {a, glm::normalize(b - a)}, glm::distance(a, b), kVacuum, counters);
+        const double back = optical_thickness(scene, {b, glm::normalize(a - b)}, glm::distance(a, b), kVacuum, counters);
+        EXPECT_NEAR(forth, 0.7 * stretch, 1e-5) << order;
+        EXPECT_NEAR(back, 0.7 * stretch, 1e-5) << order;
+      }
+      EXPECT_EQ(counters.medium_mismatches, 0u);
+      for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(medium_at(scene, Vec3(m * glm::dvec4(begin[i] + 0.5, 0.2, 0.1, 1.0))), i) << order;
+      EXPECT_EQ(medium_at(scene, Vec3(m * glm::dvec4(2.5, 0.2, 0.1, 1.0))), kVacuum);
+    }
+}
+
+TEST(Walk, ANestedMediumMayShareItsFloorWithTheOuterOne) {
+  for (const bool inner_first : {false, true})
+    for (const bool turn : {false, true}) {
+      const Mat4d m = turn ? some_rotation() : Mat4d(1.0);
+      Scene scene;
+      scene.media.push_back(make_medium(nullptr, Rgb(0.3f)));
+      scene.media.push_back(make_medium(nullptr, Rgb(1.1f)));
+      const Interface outer{0, kVacuum}, inner{1, 0};
+      const TriangleMesh large = turned(box_mesh(Vec3(-2, 0, -2), Vec3(2, 3, 2)), m), small = turned(box_mesh(Vec3(-1, 0, -1), Vec3(1, 1, 1)), m);
+      if (inner_first) add_shape(scene, small, Boundary{}, &inner);
+      add_shape(scene, large, Boundary{}, &outer);
+      if (!inner_first) add_shape(scene, small, Boundary{}, &inner);
+      scene.geometry.commit();
+      WalkCounters counters;
+      const Vec3 a(m * glm::dvec4(0.3, -1.0, 0.2, 1.0)), b(m * glm::dvec4(0.3, 4.0, 0.2, 1.0));
+      EXPECT_NEAR(optical_thickness(scene, {a, glm::normalize(b - a)}, 5.0f, kVacuum, counters), 1.1 + 0.6, 1e-5);
+      EXPECT_NEAR(optical_thickness(scene, {b, glm::normalize(a - b)}, 5.0f, kVacuum, counters), 1.1 + 0.6, 1e-5);
+      EXPECT_EQ(counters.medium_mismatches, 0u);
+    }
+}
+
+TEST(Walk, SurfacesInTheFaceOfALargeBoxAreMetFromOutsideAndNeverTwice) {
+  // A tile in the lower face of a large turned box: rays down on it stop there, rays that leave it upwards are free.
+  for (const float half : {2.0f, 50.0f, 500.0f}) {
+    const Mat4d m = some_rotation();
+    Scene scene;
+    scene.media.push_back(make_medium(nullptr, Rgb(1e-9f)));
+    const Interface media{0, kVacuum};
+    add_shape(scene, turned(box_mesh(Vec3(-half, 0, -half), Vec3(half, 2 * half, half)), m), Boundary{}, &media);
+    add_shape(scene, turned(quad_mesh(Vec3(-1, 0, 1), Vec3(2, 0, 0), Vec3(0, 0, -2)), m), Lambertian{});
+    scene.geometry.commit();
+    const Vec3 up(m * glm::dvec4(0, 1, 0, 0));
+    int slipped = 0, again = 0;
+    for (int i = 0; i < 2000; ++i) {
+      Rng rng(1, rng_stream(RngUse::test, 0), static_cast<uint64_t>(i));
+      const Vec3 on(m * glm::dvec4(1.8 * rng.uniform() - 0.9, 0.0, 1.8 * rng.uniform() - 0.9, 1.0));
+      const Vec3 sideways(m * glm::dvec4(rng.uniform() - 0.5, 0.0, rng.uniform() - 0.5, 0.0));
+      const Vec3 d = glm::normalize(up + 3.0f * sideways);
+      const Encounter down = scene.geometry.encounter({on + 0.5f * d, -d});
+      slipped += !down.surface;
+      if (!down.surface) continue;
+      const Encounter leaving = scene.geometry.encounter({leave_surface(down.hits[0], d), d});
+      again += leaving.surface;
+    }
+    EXPECT_EQ(slipped, 0) << half;
+    EXPECT_EQ(again, 0) << half;
+  }
+}
+
+TEST(Walk, PhotonsOfALampAcrossABoundaryStartInTheirOwnMedium) {
+  Scene scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(50.0f), 0.0f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, box_mesh(Vec3(-1, -1, 0), Vec3(1, 1, 1)), Boundary{}, &media);
+  scene.lights.push_back(QuadLight{Vec3(-0.3f, 0.0f, -0.5f), Vec3(0, 0, 1.0f), Vec3(0.6f, 0, 0), Rgb(1.0f)});
+  scene.lights.push_back(QuadLight{Vec3(-0.3f, 0.0f, -0.5f), Vec3(0, 0, 0.3f), Vec3(0.6f, 0, 0), Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  EXPECT_EQ(scene.light_medium[0], kSeveralMedia);
+  EXPECT_EQ(scene.light_medium[1], kVacuum);
+}
+
+}  // namespace
+}  // namespace vpm
