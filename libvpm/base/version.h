@@ -5,8 +5,8 @@
 
 namespace vpm {
 
-/// "0.1.0 (1a2b3c4d5e6f)": the release, and the git commit it was built from where known, "-modified" where files differ
-/// from it.
+/// "0.1.0 (1a2b3c4d5e6f)": the release, and the git commit it was built from where known, "-modified" where files
+/// differ from it.
 std::string_view version();
 
 }  // namespace vpm

@@ -12,8 +12,9 @@ enum class GatherMode { radius, nearest };
 
 struct GatherSettings {
   GatherMode mode = GatherMode::radius;
-  float radius = 0.0f;   // m, > 0: of the first pass (radius mode), or the largest allowed (nearest mode); 0: chosen by the scene's size
-  uint32_t count = 50;   // nearest mode: k >= 2
+  float radius = 0.0f;  // m, > 0: of the first pass (radius mode), or the largest allowed (nearest mode); 0: chosen by
+                        // the scene's size
+  uint32_t count = 50;  // nearest mode: k >= 2
   KernelKind kernel = KernelKind::epanechnikov;
 };
 

@@ -1,7 +1,7 @@
 // The sum every density estimate shares: kernel-weighted photons around a point, over a map or a plain list of photons.
 //
-// Each photon's contribution is value(travel, power) K_r; what differs between volumes and surfaces is `value`, the photons that
-// count, and the dimension of the kernel.
+// Each photon's contribution is value(travel, power) K_r; what differs between volumes and surfaces is `value`, the
+// photons that count, and the dimension of the kernel.
 #pragma once
 
 #include <algorithm>
@@ -22,16 +22,20 @@ float kernel_norm(KernelKind kind, float r) {
 template <class F>
 auto with_kernel(KernelKind kind, F&& f) {
   switch (kind) {
-    case KernelKind::constant: return f([](float q) { return kernel_profile<KernelKind::constant>(q); });
-    case KernelKind::epanechnikov: return f([](float q) { return kernel_profile<KernelKind::epanechnikov>(q); });
-    case KernelKind::biweight: break;
+    case KernelKind::constant:
+      return f([](float q) { return kernel_profile<KernelKind::constant>(q); });
+    case KernelKind::epanechnikov:
+      return f([](float q) { return kernel_profile<KernelKind::epanechnikov>(q); });
+    case KernelKind::biweight:
+      break;
   }
   return f([](float q) { return kernel_profile<KernelKind::biweight>(q); });
 }
 
 /// Sum over the photons within the map's radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept, Value&& value) {
+Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
+               Value&& value) {
   const float r = map.radius();
   const float inverse = 1.0f / (r * r);
   return with_kernel(settings.kernel, [&](auto profile) {
@@ -44,10 +48,12 @@ Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3&
   });
 }
 
-/// Sum over the k nearest photons that `accept` takes. The k-th sets the radius and is not counted: k - 1 photons over the ball that reaches it, which is
-/// unbiased; kernels that vanish there leave it out by themselves. Where fewer than k lie within the largest radius, all count over that one.
+/// Sum over the k nearest photons that `accept` takes. The k-th sets the radius and is not counted: k - 1 photons over
+/// the ball that reaches it, which is unbiased; kernels that vanish there leave it out by themselves. Where fewer than
+/// k lie within the largest radius, all count over that one.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept, Value&& value) {
+Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
+               Value&& value) {
   static thread_local Neighbours neighbours(0);
   neighbours.reserve(settings.count);
   map.find(point, settings.radius, neighbours,
@@ -55,7 +61,8 @@ Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3
   const float r2 = neighbours.limit();
   return with_kernel(settings.kernel, [&](auto profile) {
     Rgb sum(0.0f);
-    for (size_t i = neighbours.full() ? 1 : 0; i < neighbours.entries().size(); ++i) {  // the heap's first is the farthest
+    for (size_t i = neighbours.full() ? 1 : 0; i < neighbours.entries().size();
+         ++i) {  // the heap's first is the farthest
       const auto [d2, index] = neighbours.entries()[i];
       const Photon& p = map.photon(index);
       sum += value(p.travel.unpack(), p.power) * profile(d2 / r2);
@@ -66,13 +73,14 @@ Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3
 
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const PhotonMap& map, const Vec3& point, Accept&& accept, Value&& value) {
-  return std::visit([&](const auto& index) { return kernel_sum<Dimension>(index, map.settings, point, accept, value); }, map.index);
+  return std::visit([&](const auto& index) { return kernel_sum<Dimension>(index, map.settings, point, accept, value); },
+                    map.index);
 }
 
 /// The brute-force twin of both: looks at every photon of a plain list. Powers are divided by `emitted` here.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& settings, uint64_t emitted, const Vec3& point, Accept&& accept,
-               Value&& value) {
+Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& settings, uint64_t emitted, const Vec3& point,
+               Accept&& accept, Value&& value) {
   std::vector<std::pair<float, const Photon*>> near;
   for (const Photon& p : photons) {
     const Vec3 offset = p.position - point;

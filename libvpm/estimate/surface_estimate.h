@@ -5,13 +5,15 @@
 
 namespace vpm {
 
-/// How far off the plane through the point photons may lie: a share of the radius, and a share of their distance within the plane.
-/// Leaves out most photons of other surfaces, and keeps those of surfaces curved with a radius of curvature above twice the gather radius.
+/// How far off the plane through the point photons may lie: a share of the radius, and a share of their distance within
+/// the plane. Leaves out most photons of other surfaces, and keeps those of surfaces curved with a radius of curvature
+/// above twice the gather radius.
 inline constexpr float kFlatness = 0.05f;
 inline constexpr float kSlope = 0.3f;
 
-/// Irradiance, W/m^2, on the side of a surface that `normal` (unit) points to: sum_p Phi_p K_r over the discs of photons that
-/// arrive at that side. A Lambertian surface of that reflectance sends out reflectance/pi times it. `Photons` are a PhotonMap, or a plain list for the brute-force twin.
+/// Irradiance, W/m^2, on the side of a surface that `normal` (unit) points to: sum_p Phi_p K_r over the discs of
+/// photons that arrive at that side. A Lambertian surface of that reflectance sends out reflectance/pi times it.
+/// `Photons` are a PhotonMap, or a plain list for the brute-force twin.
 template <class... Photons>
 Rgb surface_irradiance(const Vec3& point, const Vec3& normal, float radius, const Photons&... photons) {
   const auto arrives = [&](const Vec3& travel, const Vec3& offset) {

@@ -6,8 +6,9 @@
 
 namespace vpm {
 
-/// sum_p p(travel_p . towards) Phi_p K_r(x - x_p), K_r over 3D balls, W/(m^3 sr). `towards` is the direction the scattered light leaves
-/// to (unit; towards the eye). `Photons` are a PhotonMap, or a plain list for the brute-force twin.
+/// sum_p p(travel_p . towards) Phi_p K_r(x - x_p), K_r over 3D balls, W/(m^3 sr). `towards` is the direction the
+/// scattered light leaves to (unit; towards the eye). `Photons` are a PhotonMap, or a plain list for the brute-force
+/// twin.
 ///
 /// With the photons' powers as their VolumeForm says, the source of radiance at x is
 ///   density at the photon:  j = albedo sum                   (Phi_p is the flux that collided)
@@ -17,7 +18,9 @@ Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const
   const auto all = [](const Vec3&, const Vec3&) { return true; };
   return std::visit(
       [&](const auto& p) {
-        const auto value = [&](const Vec3& travel, const Rgb& power) { return power * p.value(glm::dot(travel, towards)); };
+        const auto value = [&](const Vec3& travel, const Rgb& power) {
+          return power * p.value(glm::dot(travel, towards));
+        };
         return kernel_sum<3>(photons..., point, all, value);
       },
       phase);

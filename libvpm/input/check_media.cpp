@@ -9,7 +9,7 @@
 namespace vpm {
 namespace {
 
-constexpr uint64_t kRays = 64;      // through each shape
+constexpr uint64_t kRays = 64;         // through each shape
 constexpr int kMostEncounters = 1000;  // along one ray
 
 struct Tally {
@@ -18,14 +18,17 @@ struct Tally {
   MediaContradiction last;
 };
 
-/// Counts the encounter for its first shape. Returns the medium behind all of them, or nothing where they contradict `current`.
-std::optional<MediumId> follow(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current, std::vector<Tally>& tallies) {
+/// Counts the encounter for its first shape. Returns the medium behind all of them, or nothing where they contradict
+/// `current`.
+std::optional<MediumId> follow(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current,
+                               std::vector<Tally>& tallies) {
   const Hit& first = met.hits[0];
   Tally& tally = tallies[first.shape];
   ++tally.hits;
   bool agrees = false;
   for (int i = 0; i < met.count; ++i)
-    agrees = agrees || medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, -direction, current) == current;
+    agrees =
+        agrees || medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, -direction, current) == current;
   if (agrees) return medium_after(scene, met, direction, current);
   ++tally.contradictions;
   const MediumId declared = medium_beyond(scene.shapes[first.shape], first.normal, -direction, current);

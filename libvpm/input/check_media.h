@@ -16,9 +16,9 @@ struct MediaContradiction {
   MediumId declared = kVacuum;  // the medium that the shape says is there
 };
 
-/// Sends rays through every shape that separates media and follows the media along them, from the world's medium outside the scene: a nested
-/// shape that forgets the medium around it and media that overlap in part are found. A few rays in a hundred may err at edges and are
-/// forgiven. Of several shapes that err the last is told.
+/// Sends rays through every shape that separates media and follows the media along them, from the world's medium
+/// outside the scene: a nested shape that forgets the medium around it and media that overlap in part are found. A few
+/// rays in a hundred may err at edges and are forgiven. Of several shapes that err the last is told.
 std::optional<MediaContradiction> find_media_contradiction(const Scene& scene);
 
 }  // namespace vpm

@@ -185,11 +185,15 @@ void add_shapes(ScenePlan& plan, LoadedScene& loaded) {
 void check_media(const Scene& scene, const ScenePlan& plan) {
   const std::optional<MediaContradiction> found = find_media_contradiction(scene);
   if (!found) return;
-  const auto title = [&](MediumId id) { return id == kVacuum ? std::string("vacuum") : "'" + scene.media[id].name + "'"; };
+  const auto title = [&](MediumId id) {
+    return id == kVacuum ? std::string("vacuum") : "'" + scene.media[id].name + "'";
+  };
   fail_at(plan.shapes[found->shape].place,
-          "shape '" + scene.shapes[found->shape].name + "' has " + title(found->declared) + (found->outside ? " outside" : " inside") +
-              ", but the shapes around it say that " + title(found->found) + " is there",
-          "name on both sides of every shape the media that are there; media fill closed shapes and may be nested, not overlap in part");
+          "shape '" + scene.shapes[found->shape].name + "' has " + title(found->declared) +
+              (found->outside ? " outside" : " inside") + ", but the shapes around it say that " + title(found->found) +
+              " is there",
+          "name on both sides of every shape the media that are there; media fill closed shapes and may be nested, not "
+          "overlap in part");
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // Building density grids and looking them up at points.
 #include "medium/density_grid.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cassert>
 #include <cstring>
-#include <fmt/format.h>
 
 #include "base/error.h"
 
@@ -25,7 +25,8 @@ double owned_sum(const float* values) {
   double sum = 0.0;
   for (int z = 0; z < DensityGrid::kCells; ++z)
     for (int y = 0; y < DensityGrid::kCells; ++y)
-      for (int x = 0; x < DensityGrid::kCells; ++x) sum += values[(z * DensityGrid::kValues + y) * DensityGrid::kValues + x];
+      for (int x = 0; x < DensityGrid::kCells; ++x)
+        sum += values[(z * DensityGrid::kValues + y) * DensityGrid::kValues + x];
   return sum;
 }
 
@@ -40,8 +41,9 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
   }
   const double count = double(brick_count_.x) * brick_count_.y * brick_count_.z;
   if (count > kMaxBricks)
-    throw InputError(fmt::format("a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.25 GiB",
-                                 brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
+    throw InputError(fmt::format(
+        "a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.25 GiB",
+        brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
   bricks_.resize(static_cast<size_t>(count));
   double sum = 0.0;
   float values[kBrickValues];
@@ -70,7 +72,8 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
   const double surplus = bricks_extent.x * bricks_extent.y * bricks_extent.z - support.x * support.y * support.z;
   mean_density_ = std::max(0.0, sum - surplus * frame.background) / (support.x * support.y * support.z);
   const Mat3d axes(frame.index_to_world);
-  voxel_size_ = static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
+  voxel_size_ =
+      static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
 }
 
 float DensityGrid::density(const Vec3& world) const {
@@ -104,13 +107,15 @@ Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {
   return t1 > t0 ? Interval{static_cast<float>(t0), static_cast<float>(t1)} : Interval{interval.t0, interval.t0};
 }
 
-void DensityGrid::cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step, DensityPiece& piece) const {
+void DensityGrid::cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
+                             DensityPiece& piece) const {
   const float* v = values + (cell.z * kValues + cell.y) * kValues + cell.x;
   if (frame_.interpolation == Interpolation::nearest) {
     piece.c0 = *v;
     return;
   }
-  // The trilinear polynomial in (x, y, z), each linear in the distance s: x = local.x + s step.x, ... Multiplied out one axis at a time.
+  // The trilinear polynomial in (x, y, z), each linear in the distance s: x = local.x + s step.x, ... Multiplied out
+  // one axis at a time.
   constexpr int kY = kValues;
   constexpr int kZ = kValues * kValues;
   const double x = local.x, y = local.y, z = local.z;

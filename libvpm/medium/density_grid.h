@@ -1,8 +1,8 @@
 // A density field on a regular lattice: sparse bricks of 8^3 cells with their extrema, looked up and walked along rays.
 //
-// A voxel's value sits AT its integer index coordinates (as in OpenVDB). Trilinear interpolation: the cell with lower corner
-// (i, j, k) spans [i, i+1]^3. Nearest: the value of voxel (i, j, k) fills [i-1/2, i+1/2]^3. Stored values are dimensionless
-// densities; a medium multiplies them by its coefficients per unit density.
+// A voxel's value sits AT its integer index coordinates (as in OpenVDB). Trilinear interpolation: the cell with lower
+// corner (i, j, k) spans [i, i+1]^3. Nearest: the value of voxel (i, j, k) fills [i-1/2, i+1/2]^3. Stored values are
+// dimensionless densities; a medium multiplies them by its coefficients per unit density.
 #pragma once
 
 #include <cstdint>
@@ -22,21 +22,22 @@ struct GridFrame {
   Mat4d index_to_world{1.0};  // affine, invertible
   Vec3i lo{0}, hi{0};         // index box of the voxels with a value of their own, both ends included
   Interpolation interpolation = Interpolation::trilinear;
-  float background = 0.0f;    // density outside the index box, >= 0
+  float background = 0.0f;  // density outside the index box, >= 0
 };
 
 class DensityGrid {
  public:
-  static constexpr int kCells = 8;             // cells along a brick's edge
-  static constexpr int kValues = kCells + 1;   // voxels along it: one more on the upper side, so a cell never leaves its brick
+  static constexpr int kCells = 8;  // cells along a brick's edge
+  static constexpr int kValues =
+      kCells + 1;  // voxels along it: one more on the upper side, so a cell never leaves its brick
   static constexpr int kBrickValues = kValues * kValues * kValues;
 
   /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]; called from
   /// one thread. All must be finite and >= 0.
   using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
 
-  /// Builds the bricks that cover the frame's index box and its interpolation's reach. Bricks of one value store that value
-  /// only. Throws InputError where the table of bricks alone would take over 256 MiB.
+  /// Builds the bricks that cover the frame's index box and its interpolation's reach. Bricks of one value store that
+  /// value only. Throws InputError where the table of bricks alone would take over 256 MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill);
 
   /// Density at a point of the world.
@@ -73,7 +74,8 @@ class DensityGrid {
   const Brick& brick(const Vec3i& b) const {
     return bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
   }
-  void cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step, DensityPiece& piece) const;
+  void cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
+                  DensityPiece& piece) const;
   template <class Visit>
   bool visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& direction, double t0, double t1, uint32_t& read,
                    Visit& visit) const;

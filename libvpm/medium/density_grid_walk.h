@@ -4,8 +4,8 @@
 
 namespace vpm {
 
-/// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at t0. Every plane
-/// is met at its own quotient, so that no error builds up along the way.
+/// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at
+/// t0. Every plane is met at its own quotient, so that no error builds up along the way.
 class LatticeWalk {
  public:
   LatticeWalk(const Vec3d& origin, const Vec3d& direction, double spacing, double t0, const Vec3i& lo, const Vec3i& hi)
@@ -38,7 +38,8 @@ class LatticeWalk {
 };
 
 /// The part of [t0, t1] in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 where there is none.
-inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d& lo, const Vec3d& hi, double& t0, double& t1) {
+inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d& lo, const Vec3d& hi, double& t0,
+                        double& t1) {
   for (int a = 0; a < 3; ++a) {
     if (direction[a] == 0.0) {
       if (origin[a] < lo[a] || origin[a] > hi[a]) t1 = t0;
@@ -52,8 +53,8 @@ inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d
 }
 
 template <class Visit>
-bool DensityGrid::visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& direction, double t0, double t1, uint32_t& read,
-                              Visit& visit) const {
+bool DensityGrid::visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& direction, double t0, double t1,
+                              uint32_t& read, Visit& visit) const {
   const Brick& brick_here = brick(b - brick_lo_);
   if (brick_here.max == 0.0f) return true;
   if (brick_here.uniform()) {

@@ -14,8 +14,8 @@ int pick_light(const Scene& scene, float u) {
   return picked;
 }
 
-Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light, MediumId medium,
-               Rng& rng, WalkCounters& counters) {
+Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,
+               MediumId medium, Rng& rng, WalkCounters& counters) {
   Rgb result(1.0f);
   for (;;) {
     const Encounter met = meet(scene, ray, distance, medium, counters);
@@ -32,13 +32,14 @@ Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, 
   }
 }
 
-DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEstimator& transmittance, const Vec3& point, const Vec3& facing,
-                           MediumId medium, Rng& rng, WalkCounters& counters) {
+DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEstimator& transmittance,
+                           const Vec3& point, const Vec3& facing, MediumId medium, Rng& rng, WalkCounters& counters) {
   const std::optional<Incident> incident = sample_towards(scene.lights[light], point, rng);
   if (!incident) return {};
   DirectSample sample{incident->direction, incident->irradiance};
   if (is_black(sample.irradiance) || (facing != Vec3(0.0f) && glm::dot(facing, incident->direction) <= 0.0f)) return {};
-  sample.irradiance *= visibility(scene, transmittance, {point, incident->direction}, incident->distance, light, medium, rng, counters);
+  sample.irradiance *=
+      visibility(scene, transmittance, {point, incident->direction}, incident->distance, light, medium, rng, counters);
   return sample;
 }
 

@@ -12,15 +12,15 @@ struct DirectSample {
   Rgb irradiance{0.0f};  // on a surface that faces it, W/m^2; its mean over samples is that of the source
 };
 
-/// Estimates what light number `light` sends to `point` in medium `medium`. With a normal, `facing`, only light from its side counts; zero:
-/// light from everywhere. A point on a surface must be just off it (leave_surface()).
-DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEstimator& transmittance, const Vec3& point, const Vec3& facing,
-                           MediumId medium, Rng& rng, WalkCounters& counters);
+/// Estimates what light number `light` sends to `point` in medium `medium`. With a normal, `facing`, only light from
+/// its side counts; zero: light from everywhere. A point on a surface must be just off it (leave_surface()).
+DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEstimator& transmittance,
+                           const Vec3& point, const Vec3& facing, MediumId medium, Rng& rng, WalkCounters& counters);
 
-/// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface stands between
-/// that is neither the light's own nor a boundary.
-Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light, MediumId medium,
-               Rng& rng, WalkCounters& counters);
+/// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface
+/// stands between that is neither the light's own nor a boundary.
+Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,
+               MediumId medium, Rng& rng, WalkCounters& counters);
 
 /// The number of the light that a uniform number picks, by power (Scene::light_probability).
 int pick_light(const Scene& scene, float u);

@@ -20,7 +20,8 @@ void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, Medium
   ray.origin = leave_surfaces(met, ray.direction);
 }
 
-Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng, WalkCounters& counters) {
+Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
+                 WalkCounters& counters) {
   for (;;) {
     const Encounter met = meet(scene, state.ray, kInfinity, state.medium, counters);
     if (state.medium != kVacuum) {
@@ -59,7 +60,8 @@ bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rn
   const float survival = std::min(1.0f, max_channel(after) / max_channel(state.power));
   if (!(rng.uniform() < survival)) return false;
   state.power = after / survival;
-  if (scatter.transmitted) state.medium = medium_beyond(scene.shapes[hit.shape], hit.normal, scatter.direction, state.medium);
+  if (scatter.transmitted)
+    state.medium = medium_beyond(scene.shapes[hit.shape], hit.normal, scatter.direction, state.medium);
   state.ray = {leave_surface(hit, scatter.direction), scatter.direction};
   return true;
 }

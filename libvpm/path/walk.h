@@ -26,9 +26,9 @@ struct Event {
 
 /// What a walk counts.
 struct WalkCounters {
-  uint64_t lookups = 0;             // of density
-  uint64_t crossings = 0;           // of boundaries between media
-  uint64_t medium_mismatches = 0;   // corrections of a path's medium by meet()
+  uint64_t lookups = 0;            // of density
+  uint64_t crossings = 0;          // of boundaries between media
+  uint64_t medium_mismatches = 0;  // corrections of a path's medium by meet()
 
   void merge(const WalkCounters& other) {
     lookups += other.lookups;
@@ -37,23 +37,27 @@ struct WalkCounters {
   }
 };
 
-/// What the ray meets first, with t < t_max. `medium` becomes what the shapes there say it is, and the world's where nothing is met at
-/// all: rounding at edges can then not carry a medium astray.
+/// What the ray meets first, with t < t_max. `medium` becomes what the shapes there say it is, and the world's where
+/// nothing is met at all: rounding at edges can then not carry a medium astray.
 Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters);
 
-/// Passes straight through all boundaries of an encounter: moves the ray's origin just beyond them and enters the medium there.
+/// Passes straight through all boundaries of an encounter: moves the ray's origin just beyond them and enters the
+/// medium there.
 void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, MediumId& medium, WalkCounters& counters);
 
-/// Flies to the next collision in a medium, scattering surface, or out of the scene, through any number of boundaries on the way.
-/// Multiplies the power by the flights' weights.
-Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng, WalkCounters& counters);
+/// Flies to the next collision in a medium, scattering surface, or out of the scene, through any number of boundaries
+/// on the way. Multiplies the power by the flights' weights.
+Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
+                 WalkCounters& counters);
 
-/// The outcome of a collision: scatters with probability q = sum(albedo power) / sum(power), multiplying the power by albedo / q and choosing a new
-/// direction; returns false where the path is absorbed. Grey media: power unchanged [Jarosz2008, eq. 7.8].
+/// The outcome of a collision: scatters with probability q = sum(albedo power) / sum(power), multiplying the power by
+/// albedo / q and choosing a new direction; returns false where the path is absorbed. Grey media: power unchanged
+/// [Jarosz2008, eq. 7.8].
 bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
 
-/// The outcome at a surface: samples the material and plays Russian roulette, surviving with the ratio of largest channels
-/// after and before, at most 1. The path goes on from just off the surface, in the medium there. False where absorbed.
+/// The outcome at a surface: samples the material and plays Russian roulette, surviving with the ratio of largest
+/// channels after and before, at most 1. The path goes on from just off the surface, in the medium there. False where
+/// absorbed.
 bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter);
 
 }  // namespace vpm

@@ -1,4 +1,5 @@
-// Phase functions: how a medium scatters. Each offers value, sample and mean cosine; all are normalised over the sphere.
+// Phase functions: how a medium scatters. Each offers value, sample and mean cosine; all are normalised over the
+// sphere.
 //
 // Convention: `cosine` is the dot product of the directions of TRAVEL before and after scattering, so g > 0 is forward.
 #pragma once

@@ -15,7 +15,8 @@ float kernel_profile(float q) {
   if constexpr (K == KernelKind::biweight) return (1.0f - q) * (1.0f - q);
 }
 
-/// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m^2 or 1/m^3 [Silverman1986, sec. 4.2].
+/// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m^2 or 1/m^3 [Silverman1986,
+/// sec. 4.2].
 inline float kernel_norm_2d(KernelKind kind, float r) {
   const float n = kind == KernelKind::constant ? 1.0f : kind == KernelKind::epanechnikov ? 2.0f : 3.0f;
   return n / (kPi * r * r);

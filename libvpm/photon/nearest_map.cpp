@@ -11,8 +11,8 @@ bool nearer(const Neighbours::Entry& a, const Neighbours::Entry& b) { return a.d
 
 /// The size of the left subtree of a left-balanced tree of n nodes.
 size_t left_size(size_t n) {
-  const size_t full = std::bit_floor(n + 1) - 1;   // nodes of the complete levels
-  const size_t last = n - full;                    // on the level below
+  const size_t full = std::bit_floor(n + 1) - 1;  // nodes of the complete levels
+  const size_t last = n - full;                   // on the level below
   return (full - 1) / 2 + std::min(last, (full + 1) / 2);
 }
 

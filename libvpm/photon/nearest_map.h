@@ -1,4 +1,5 @@
-// The photon map for k nearest neighbours: a left-balanced kd-tree laid out as a heap, without pointers [Jensen2001, ch. 6].
+// The photon map for k nearest neighbours: a left-balanced kd-tree laid out as a heap, without pointers [Jensen2001,
+// ch. 6].
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,8 @@
 
 namespace vpm {
 
-/// The photons a k-nearest query found: a bounded max-heap on the squared distance. Reused between queries, so that no query allocates.
+/// The photons a k-nearest query found: a bounded max-heap on the squared distance. Reused between queries, so that no
+/// query allocates.
 class Neighbours {
  public:
   struct Entry {
@@ -46,8 +48,9 @@ class NearestMap {
   /// Balances the photons, with powers multiplied by `scale`: 1/emitted.
   NearestMap(std::vector<Photon> photons, float scale);
 
-  /// The k nearest photons within `max_radius` (m; may be infinite) of `point` among those for which accept(const Photon&, offset from
-  /// `point`) holds, k as the neighbours were made for. When full, the farthest is at sqrt(limit()).
+  /// The k nearest photons within `max_radius` (m; may be infinite) of `point` among those for which accept(const
+  /// Photon&, offset from `point`) holds, k as the neighbours were made for. When full, the farthest is at
+  /// sqrt(limit()).
   template <class Accept>
   void find(const Vec3& point, float max_radius, Neighbours& neighbours, Accept&& accept) const;
 
@@ -59,8 +62,8 @@ class NearestMap {
  private:
   void balance(std::vector<Photon>& photons, size_t begin, size_t end, size_t node, Box box);
 
-  std::vector<Photon> tree_;     // children of node i: 2 i + 1 and 2 i + 2
-  std::vector<uint8_t> axis_;    // that splits at node i
+  std::vector<Photon> tree_;   // children of node i: 2 i + 1 and 2 i + 2
+  std::vector<uint8_t> axis_;  // that splits at node i
   Box bounds_;
 };
 

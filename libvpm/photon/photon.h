@@ -36,15 +36,15 @@ class PackedDirection {
   int16_t u_ = 0, v_ = 0;
 };
 
-/// The two ways to use the volumetric radiance estimate in a heterogeneous medium: with the density where the ray is, or where the
-/// photon is. They agree as the radius goes to 0.
+/// The two ways to use the volumetric radiance estimate in a heterogeneous medium: with the density where the ray is,
+/// or where the photon is. They agree as the radius goes to 0.
 enum class VolumeForm { density_at_query, density_at_photon };
 
 /// A photon as a map stores it.
 struct Photon {
-  Vec3 position{0.0f};      // m
-  PackedDirection travel;   // direction of travel when it arrived
-  Rgb power{0.0f};          // W; or W times 1 over density, see VolumeForm
+  Vec3 position{0.0f};     // m
+  PackedDirection travel;  // direction of travel when it arrived
+  Rgb power{0.0f};         // W; or W times 1 over density, see VolumeForm
 };
 
 static_assert(sizeof(Photon) == 28);

@@ -49,7 +49,8 @@ RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float sca
 }
 
 size_t RadiusMap::memory_bytes() const {
-  return sizeof(*this) + first_.capacity() * sizeof(uint32_t) + 3 * x_.capacity() * sizeof(float) + payload_.capacity() * sizeof(Payload);
+  return sizeof(*this) + first_.capacity() * sizeof(uint32_t) + 3 * x_.capacity() * sizeof(float) +
+         payload_.capacity() * sizeof(Payload);
 }
 
 }  // namespace vpm

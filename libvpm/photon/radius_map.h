@@ -1,7 +1,7 @@
 // The photon map for fixed radii: photons sorted into a uniform grid, found by scanning short rows of cells.
 //
-// The grid's cells are half a radius wide unless that would make more than two cells a photon. Rows run along x, so that the
-// photons of neighbouring cells lie side by side and distances are computed in blocks.
+// The grid's cells are half a radius wide unless that would make more than two cells a photon. Rows run along x, so
+// that the photons of neighbouring cells lie side by side and distances are computed in blocks.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ class RadiusMap {
   /// Sorts the photons for queries of `radius` (m, > 0), with powers multiplied by `scale`: 1/emitted.
   RadiusMap(const std::vector<Photon>& photons, float radius, float scale);
 
-  /// Calls visit(const Payload&, offset from `point`, squared distance) for the photons nearer to `point` than the radius, in a
-  /// fixed order.
+  /// Calls visit(const Payload&, offset from `point`, squared distance) for the photons nearer to `point` than the
+  /// radius, in a fixed order.
   template <class Visit>
   void for_each_near(const Vec3& point, Visit&& visit) const;
 
@@ -78,7 +78,8 @@ void RadiusMap::for_each_near(const Vec3& point, Visit&& visit) const {
   const float cell = 1.0f / per_cell_;
   const int z_end = cell_along(2, point.z + radius_);
   for (int z = cell_along(2, point.z - radius_); z <= z_end; ++z) {
-    // The nearest distance of the slab of cells to the point, less a hair for rounding; border cells hold all that lies beyond.
+    // The nearest distance of the slab of cells to the point, less a hair for rounding; border cells hold all that lies
+    // beyond.
     const auto gap = [&](int axis, int index) {
       const float lo = bounds_.lo[axis] + static_cast<float>(index) * cell;
       return std::max(0.0f, std::max(lo - point[axis], point[axis] - (lo + cell)) - 1e-3f * cell);
@@ -94,7 +95,8 @@ void RadiusMap::for_each_near(const Vec3& point, Visit&& visit) const {
       if (rest < 0.0f) continue;
       const float reach_x = std::sqrt(rest);
       const size_t row = (static_cast<size_t>(z) * count_.y + y) * count_.x;
-      scan(first_[row + cell_along(0, point.x - reach_x)], first_[row + cell_along(0, point.x + reach_x) + 1], point, visit);
+      scan(first_[row + cell_along(0, point.x - reach_x)], first_[row + cell_along(0, point.x + reach_x) + 1], point,
+           visit);
     }
   }
 }

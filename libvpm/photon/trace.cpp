@@ -1,8 +1,8 @@
 // The photon pass: photons in fixed chunks, joined in their order.
 #include "photon/trace.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -12,11 +12,11 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 4096;         // photons traced one after another
-constexpr size_t kFirstWave = 4;        // chunks traced before the first look at how many are stored
-constexpr size_t kLargestWave = 64;     // chunks whose records wait to be joined
+constexpr size_t kChunk = 4096;          // photons traced one after another
+constexpr size_t kFirstWave = 4;         // chunks traced before the first look at how many are stored
+constexpr size_t kLargestWave = 64;      // chunks whose records wait to be joined
 constexpr uint64_t kHopeless = 1 << 22;  // photons emitted without storing one
-constexpr double kRouletteWeight = 0.1; // photons lighter than this share of what was emitted play roulette
+constexpr double kRouletteWeight = 0.1;  // photons lighter than this share of what was emitted play roulette
 
 /// One photon on its way, and where it leaves its traces.
 class PhotonPath {
@@ -84,8 +84,8 @@ class PhotonPath {
     const Medium& medium = scene_.media[state_.medium];
     if (settings_.keep_volume && medium.scatters() && (settings_.keep_direct_volume || !direct_)) {
       const bool at_query = settings_.volume_form == VolumeForm::density_at_query;
-      out_.volume[state_.medium].push_back(
-          {state_.ray.origin, PackedDirection(state_.ray.direction), at_query ? state_.power / event.density : state_.power});
+      out_.volume[state_.medium].push_back({state_.ray.origin, PackedDirection(state_.ray.direction),
+                                            at_query ? state_.power / event.density : state_.power});
     }
     deposit(out_.ledger.absorbed_in_media, Rgbd(state_.power * (Rgb(1.0f) - medium.albedo())));
     direct_ = false;
@@ -94,7 +94,8 @@ class PhotonPath {
 
   void meet_surface(const Hit& hit, Rng& rng) {
     ++out_.ledger.surface_hits;
-    out_.ledger.largest_weight = std::max<double>(out_.ledger.largest_weight, sum_channels(state_.power) / emitted_power_);
+    out_.ledger.largest_weight =
+        std::max<double>(out_.ledger.largest_weight, sum_channels(state_.power) / emitted_power_);
     alive_ = max_channel(state_.power) > 0.0f;
     if (!alive_) return;
     if (settings_.keep_surface && is_diffuse(scene_.material_of(hit)) && (settings_.keep_direct_surface || !direct_))
@@ -144,21 +145,25 @@ bool is_full(const TracedPhotons& photons, const TraceSettings& settings) {
          (settings.stored > 0 && stored_count(photons) >= settings.stored);
 }
 
-/// How many photons to trace before looking again. Any answer gives the same result: what lies beyond a full map is dropped.
+/// How many photons to trace before looking again. Any answer gives the same result: what lies beyond a full map is
+/// dropped.
 uint64_t next_wave(const TracedPhotons& photons, const TraceSettings& settings, uint64_t traced) {
   const uint64_t most = settings.emitted > 0 ? settings.emitted - traced : kChunk * kLargestWave;
   if (settings.stored == 0) return std::min<uint64_t>(most, kChunk * kLargestWave);
   const size_t stored = stored_count(photons);
   if (stored == 0) return std::min<uint64_t>(most, kChunk * (traced == 0 ? kFirstWave : kLargestWave));
-  const double missing = static_cast<double>(settings.stored - stored) * static_cast<double>(traced) / static_cast<double>(stored);
-  return std::min<uint64_t>(most, kChunk * std::clamp<uint64_t>(static_cast<uint64_t>(missing / kChunk) + 1, 1, kLargestWave));
+  const double missing =
+      static_cast<double>(settings.stored - stored) * static_cast<double>(traced) / static_cast<double>(stored);
+  return std::min<uint64_t>(
+      most, kChunk * std::clamp<uint64_t>(static_cast<uint64_t>(missing / kChunk) + 1, 1, kLargestWave));
 }
 
 bool is_stopped(const TraceSettings& settings) { return settings.stop && *settings.stop; }
 
 }  // namespace
 
-TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, Progress& progress) {
+TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,
+                            Progress& progress) {
   TracedPhotons all;
   all.volume.resize(scene.media.size());
   for (uint64_t first = 0; !is_full(all, settings) && !is_stopped(settings);) {
@@ -175,7 +180,9 @@ TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy
       if (!is_full(all, settings)) append(all, part);
     first += wave;
     if (settings.emitted == 0 && first >= kHopeless && stored_count(all) == 0)
-      throw InputError(fmt::format("no photon map can be filled: none of the first {} photons met a medium or a surface that stores photons", first));
+      throw InputError(fmt::format(
+          "no photon map can be filled: none of the first {} photons met a medium or a surface that stores photons",
+          first));
   }
   return all;
 }

@@ -35,10 +35,12 @@ struct TracedPhotons {
 
 /// Traces photons in parallel. Photon i depends on (seed, pass, i) alone, and the records stand in the photons' order.
 ///
-/// A volume photon is stored at every collision, before the choice between absorption and scattering (photons that weighted strategies made
-/// lighter than a tenth of what was emitted first play roulette). Its power is the flux Phi that collides
-/// (density at the photon) or Phi / density there (density at the query), so that the estimates only multiply by what belongs to the query.
-/// A photon is direct until its first scattering, reflection or refraction; crossing a boundary is none.
-TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, Progress& progress);
+/// A volume photon is stored at every collision, before the choice between absorption and scattering (photons that
+/// weighted strategies made lighter than a tenth of what was emitted first play roulette). Its power is the flux Phi
+/// that collides (density at the photon) or Phi / density there (density at the query), so that the estimates only
+/// multiply by what belongs to the query. A photon is direct until its first scattering, reflection or refraction;
+/// crossing a boundary is none.
+TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,
+                            Progress& progress);
 
 }  // namespace vpm

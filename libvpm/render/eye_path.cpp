@@ -11,7 +11,12 @@ namespace {
 class EyePath {
  public:
   EyePath(const EyeContext& context, const Ray& ray, Marcher& marcher, Rng& rng, EyeCounters& counters)
-      : c_(context), ray_(ray), marcher_(marcher), rng_(rng), counters_(counters), medium_(context.scene.camera_medium) {}
+      : c_(context),
+        ray_(ray),
+        marcher_(marcher),
+        rng_(rng),
+        counters_(counters),
+        medium_(context.scene.camera_medium) {}
 
   Rgb follow() {
     ++counters_.rays;
@@ -20,7 +25,8 @@ class EyePath {
       cross_segment({0.0f, met ? met.hits[0].t : kInfinity});
       if (is_black(throughput_)) return radiance_;
       if (!met) {
-        for (const Light& light : c_.scene.lights) radiance_ += throughput_ * environment_radiance(light, ray_.direction);
+        for (const Light& light : c_.scene.lights)
+          radiance_ += throughput_ * environment_radiance(light, ray_.direction);
         return radiance_;
       }
       if (!pass_shapes(met)) return radiance_;
@@ -41,7 +47,8 @@ class EyePath {
       throughput_ *= transmittance(medium, attenuate(medium, segment));
       return;
     }
-    // Fine steps where there are photons to gather; elsewhere only single scattering is left to find, in steps of optical thickness.
+    // Fine steps where there are photons to gather; elsewhere only single scattering is left to find, in steps of
+    // optical thickness.
     const Interval near = map ? clip(segment, map->bounds(), map->settings.radius) : Interval{segment.t1, segment.t1};
     if (near.empty()) {
       march_media(medium, segment, nullptr);
@@ -61,15 +68,16 @@ class EyePath {
     }
     const StepLimits limits{map ? map->settings.radius : kInfinity, c_.settings.max_optical_step};
     const glm::bvec3 matters = glm::greaterThan(throughput_ * medium.sigma_s, Rgb(0.0f));
-    const Marched marched = marcher_.march(medium, ray_, interval, limits, matters, rng_, [&](const Vec3& point, const Rgb& weight) {
-      Rgb source(0.0f);
-      if (map) {
-        ++counters_.volume_queries;
-        source += medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, *map);
-      }
-      if (c_.stages.volume_shadow_rays) source += medium.sigma_s * single_scattering(medium, point);
-      radiance_ += throughput_ * weight * source;
-    });
+    const Marched marched =
+        marcher_.march(medium, ray_, interval, limits, matters, rng_, [&](const Vec3& point, const Rgb& weight) {
+          Rgb source(0.0f);
+          if (map) {
+            ++counters_.volume_queries;
+            source += medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, *map);
+          }
+          if (c_.stages.volume_shadow_rays) source += medium.sigma_s * single_scattering(medium, point);
+          radiance_ += throughput_ * weight * source;
+        });
     counters_.steps += marched.steps;
     counters_.walk.lookups += marched.lookups;
     throughput_ *= transmittance(medium, marched.column);
@@ -85,13 +93,15 @@ class EyePath {
   Rgb single_scattering(const Medium& medium, const Vec3& point) {
     ++counters_.shadow_rays;
     const int picked = pick_light(c_.scene, rng_.uniform());
-    const DirectSample light = sample_direct(c_.scene, picked, *c_.transmittance, point, Vec3(0.0f), medium_, rng_, counters_.walk);
+    const DirectSample light =
+        sample_direct(c_.scene, picked, *c_.transmittance, point, Vec3(0.0f), medium_, rng_, counters_.walk);
     if (is_black(light.irradiance)) return Rgb(0.0f);
-    return light.irradiance * phase_value(medium.phase, glm::dot(light.direction, ray_.direction)) / c_.scene.light_probability[picked];
+    return light.irradiance * phase_value(medium.phase, glm::dot(light.direction, ray_.direction)) /
+           c_.scene.light_probability[picked];
   }
 
-  /// The estimate with the density at the photon: photons of any medium count wherever they lie within the radius of the ray, also
-  /// where the ray itself is in empty space or outside the medium.
+  /// The estimate with the density at the photon: photons of any medium count wherever they lie within the radius of
+  /// the ray, also where the ray itself is in empty space or outside the medium.
   void gather_photon_densities(const Interval& segment) {
     const Medium* around = medium_ == kVacuum ? nullptr : &c_.scene.media[medium_];
     for (size_t m = 0; m < c_.volume.size(); ++m) {
@@ -101,10 +111,11 @@ class EyePath {
       if (map.size() == 0 || near.empty()) continue;
       const double before = around ? attenuate(*around, {segment.t0, near.t0}) : 0.0;
       const Medium& medium = c_.scene.media[m];
-      counters_.walk.lookups += march_evenly(around, ray_, near, before, r, rng_, [&](const Vec3& point, const Rgb& weight) {
-        ++counters_.volume_queries;
-        radiance_ += throughput_ * weight * medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, map);
-      });
+      counters_.walk.lookups +=
+          march_evenly(around, ray_, near, before, r, rng_, [&](const Vec3& point, const Rgb& weight) {
+            ++counters_.volume_queries;
+            radiance_ += throughput_ * weight * medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, map);
+          });
     }
   }
 
@@ -120,7 +131,8 @@ class EyePath {
     const Hit& hit = met.hits[0];
     const Shape& shape = c_.scene.shapes[hit.shape];
     const Material& material = c_.scene.materials[shape.material];
-    if (shape.light >= 0) radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
+    if (shape.light >= 0)
+      radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
     if (is_boundary(material)) {
       cross_boundaries(c_.scene, met, ray_, medium_, counters_.walk);
       return true;
@@ -138,7 +150,8 @@ class EyePath {
     return true;
   }
 
-  /// Irradiance on the eye's side of a surface: direct light by a shadow ray to each light, the rest from the photon map.
+  /// Irradiance on the eye's side of a surface: direct light by a shadow ray to each light, the rest from the photon
+  /// map.
   Rgb irradiance(const Hit& hit) {
     const Vec3 normal = glm::dot(hit.normal, ray_.direction) < 0.0f ? hit.normal : -hit.normal;
     Rgb result(0.0f);
@@ -146,7 +159,8 @@ class EyePath {
       const Vec3 point = leave_surface(hit, normal);
       for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
         ++counters_.shadow_rays;
-        const DirectSample light = sample_direct(c_.scene, i, *c_.transmittance, point, normal, medium_, rng_, counters_.walk);
+        const DirectSample light =
+            sample_direct(c_.scene, i, *c_.transmittance, point, normal, medium_, rng_, counters_.walk);
         result += light.irradiance * std::max(0.0f, glm::dot(light.direction, normal));
       }
     }

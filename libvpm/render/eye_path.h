@@ -19,8 +19,9 @@ struct EyeContext {
   std::unique_ptr<TransmittanceEstimator> transmittance;
 };
 
-/// Follows a camera ray: through boundaries and specular surfaces; media add the ray-marched volumetric radiance estimate [Jarosz2008, eq. 7.9]; the first
-/// diffuse surface adds direct light and the surface radiance estimate and ends the path. W/(m^2 sr).
+/// Follows a camera ray: through boundaries and specular surfaces; media add the ray-marched volumetric radiance
+/// estimate [Jarosz2008, eq. 7.9]; the first diffuse surface adds direct light and the surface radiance estimate and
+/// ends the path. W/(m^2 sr).
 Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters);
 
 }  // namespace vpm

@@ -1,8 +1,9 @@
 // Marching an eye ray through a medium, so that the step size may change cost and noise but never exposure.
 //
-// The integral of Tr(t) density(t) f(t) over the ray is cut into steps. Each step takes ONE sample of f, at a point drawn inside
-// the step in proportion to the transmitted density, and weighs it with the step's exact integral. Columns come from the exact
-// quartics of the cells, so the result is unbiased for any step, and f = 1 gives (1 - Tr)/sigma_t with no noise at all.
+// The integral of Tr(t) density(t) f(t) over the ray is cut into steps. Each step takes ONE sample of f, at a point
+// drawn inside the step in proportion to the transmitted density, and weighs it with the step's exact integral. Columns
+// come from the exact quartics of the cells, so the result is unbiased for any step, and f = 1 gives (1 - Tr)/sigma_t
+// with no noise at all.
 #pragma once
 
 #include <algorithm>
@@ -22,20 +23,21 @@ struct StepLimits {
 
 /// The outcome of a march.
 struct Marched {
-  double column = 0.0;      // of the whole interval, m: exact
-  uint32_t lookups = 0;     // of density
+  double column = 0.0;   // of the whole interval, m: exact
+  uint32_t lookups = 0;  // of density
   uint32_t steps = 0;
 };
 
 /// Marches eye rays. Keeps its buffers between calls: one for each thread.
 class Marcher {
  public:
-  /// Calls add(point, weight) for each step; the sum of weight * f(point), per channel, estimates the integral of Tr density f over the
-  /// interval (weights are in m). `matters` tells the channels whose f is not 0: where the transmittance of all of these is below 1 %
-  /// the march goes on by Russian roulette, so that it ends in endless media.
+  /// Calls add(point, weight) for each step; the sum of weight * f(point), per channel, estimates the integral of Tr
+  /// density f over the interval (weights are in m). `matters` tells the channels whose f is not 0: where the
+  /// transmittance of all of these is below 1 % the march goes on by Russian roulette, so that it ends in endless
+  /// media.
   template <class Add>
-  Marched march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits, const glm::bvec3& matters, Rng& rng,
-               Add&& add);
+  Marched march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits,
+                const glm::bvec3& matters, Rng& rng, Add&& add);
 
  private:
   /// The stretch of a piece that lies in the present step.
@@ -52,7 +54,8 @@ class Marcher {
   double column_ = 0.0;  // of the step so far, m
 };
 
-/// The integral of exp(-sigma c) over c in [0, column]: (1 - exp(-sigma column))/sigma, whose limit for sigma -> 0 is the column.
+/// The integral of exp(-sigma c) over c in [0, column]: (1 - exp(-sigma column))/sigma, whose limit for sigma -> 0 is
+/// the column.
 inline double attenuated_column(double sigma, double column) {
   return sigma * column > 1e-8 ? -std::expm1(-sigma * column) / sigma : column;
 }
@@ -62,10 +65,12 @@ inline double draw_attenuated(double sigma, double column, double u) {
   return sigma * column > 1e-8 ? -std::log1p(u * std::expm1(-sigma * column)) / sigma : u * column;
 }
 
-/// Calls add(point, weight) for one point in each stretch of `length` m of the interval, drawn uniformly; the sum of weight * f(point) estimates the
-/// integral of Tr f over the interval (which must be finite). `column_before`, m, is what lies between the eye and the interval's start.
+/// Calls add(point, weight) for one point in each stretch of `length` m of the interval, drawn uniformly; the sum of
+/// weight * f(point) estimates the integral of Tr f over the interval (which must be finite). `column_before`, m, is
+/// what lies between the eye and the interval's start.
 template <class Add>
-uint32_t march_evenly(const Medium* medium, const Ray& ray, const Interval& interval, double column_before, float length, Rng& rng, Add&& add) {
+uint32_t march_evenly(const Medium* medium, const Ray& ray, const Interval& interval, double column_before,
+                      float length, Rng& rng, Add&& add) {
   const auto strata = static_cast<uint32_t>(std::max(1.0f, std::ceil(interval.length() / length)));
   const double width = static_cast<double>(interval.length()) / strata;
   const Rgb sigma_t = medium ? medium->sigma_t : Rgb(0.0f);
@@ -97,8 +102,8 @@ inline double Marcher::locate(double column) const {
 }
 
 template <class Add>
-Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits, const glm::bvec3& matters,
-                       Rng& rng, Add&& add) {
+Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits,
+                       const glm::bvec3& matters, Rng& rng, Add&& add) {
   constexpr double kRouletteBelow = 0.01;
   const Rgbd sigma_t(medium.sigma_t);
   const double thickest = std::max(sigma_t.r, std::max(sigma_t.g, sigma_t.b));

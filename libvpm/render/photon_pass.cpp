@@ -11,8 +11,8 @@
 namespace vpm {
 namespace {
 
-constexpr int kTile = 16;               // pixels along an edge; a tile is a chunk of parallel work
-constexpr float kDefaultRadius = 0.01f; // of the diagonal of what the map covers
+constexpr int kTile = 16;                // pixels along an edge; a tile is a chunk of parallel work
+constexpr float kDefaultRadius = 0.01f;  // of the diagonal of what the map covers
 
 class Stopwatch {
  public:
@@ -22,7 +22,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-TraceSettings trace_settings(const RenderSettings& settings, const Stages& stages, int pass, const std::atomic<bool>& stop) {
+TraceSettings trace_settings(const RenderSettings& settings, const Stages& stages, int pass,
+                             const std::atomic<bool>& stop) {
   TraceSettings trace;
   trace.seed = settings.seed;
   trace.pass = static_cast<uint64_t>(pass);
@@ -39,7 +40,8 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
 }
 
 /// The settings of a map in this pass: radii shrink in radius mode; the largest radius of the nearest mode stays.
-GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dimension, const RenderSettings& settings, int pass) {
+GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dimension, const RenderSettings& settings,
+                              int pass) {
   const bool shrinks = settings.shrink_radii && gather.mode == GatherMode::radius;
   gather.radius = shrinks ? radius_of_pass(first_radius, dimension, pass) : first_radius;
   return gather;
@@ -63,13 +65,14 @@ void make_maps(EyeContext& context, const TraceSettings& trace, ProgressMode pro
   for (size_t m = 0; m < scene.media.size(); ++m) {
     const float first = first_volume_radius(scene, settings, scene.media[m]);
     statistics.volume_photons += photons.volume[m].size();
-    context.volume.push_back(
-        make_photon_map(std::move(photons.volume[m]), gather_in_pass(settings.volume, first, 3, settings, pass), emitted));
+    context.volume.push_back(make_photon_map(std::move(photons.volume[m]),
+                                             gather_in_pass(settings.volume, first, 3, settings, pass), emitted));
     statistics.last_volume_radius = std::max(statistics.last_volume_radius, context.volume.back().settings.radius);
     statistics.photon_map_bytes += context.volume.back().memory_bytes();
   }
   const float first = first_surface_radius(scene, settings);
-  context.surface = make_photon_map(std::move(photons.surface), gather_in_pass(settings.surface, first, 2, settings, pass), emitted);
+  context.surface =
+      make_photon_map(std::move(photons.surface), gather_in_pass(settings.surface, first, 2, settings, pass), emitted);
   statistics.last_surface_radius = context.surface.settings.radius;
   statistics.photon_map_bytes += context.surface.memory_bytes();
   statistics.build_seconds = building.seconds();
@@ -93,7 +96,8 @@ Rgb render_pixel(const EyeContext& context, int x, int y, int pass, Marcher& mar
   return Rgb(sum / static_cast<double>(samples));
 }
 
-void render_image(const EyeContext& context, int pass, const std::atomic<bool>& stop, ProgressMode progress, Pass& result) {
+void render_image(const EyeContext& context, int pass, const std::atomic<bool>& stop, ProgressMode progress,
+                  Pass& result) {
   const Camera& camera = context.scene.camera;
   const int tiles_x = (camera.width + kTile - 1) / kTile;
   const int tiles_y = (camera.height + kTile - 1) / kTile;
@@ -133,11 +137,14 @@ float first_surface_radius(const Scene& scene, const RenderSettings& settings) {
   return settings.surface.radius > 0.0f ? settings.surface.radius : kDefaultRadius * 2.0f * scene.sphere.radius;
 }
 
-Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop, ProgressMode progress) {
+Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
+                        ProgressMode progress) {
   Pass result{Image(scene.camera.width, scene.camera.height), {}};
   result.statistics.passes = 1;
-  EyeContext context{scene, settings, plan_stages(scene, settings), {}, {}, make_transmittance_estimator(settings.transmittance)};
-  if (context.stages.photons()) make_maps(context, trace_settings(settings, context.stages, pass, stop), progress, result.statistics);
+  EyeContext context{scene, settings, plan_stages(scene, settings),
+                     {},    {},       make_transmittance_estimator(settings.transmittance)};
+  if (context.stages.photons())
+    make_maps(context, trace_settings(settings, context.stages, pass, stop), progress, result.statistics);
   const Stopwatch seeing;
   render_image(context, pass, stop, progress, result);
   result.statistics.eye_seconds = seeing.seconds();

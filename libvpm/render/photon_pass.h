@@ -21,7 +21,8 @@ struct Stages {
 };
 Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 
-/// The radius of a map in the first pass: the settings', or where that is 0 one hundredth of the diagonal of the medium's bounds (grids) or of the scene.
+/// The radius of a map in the first pass: the settings', or where that is 0 one hundredth of the diagonal of the
+/// medium's bounds (grids) or of the scene.
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium);
 float first_surface_radius(const Scene& scene, const RenderSettings& settings);
 
@@ -31,6 +32,7 @@ struct Pass {
 };
 
 /// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.
-Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop, ProgressMode progress);
+Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
+                        ProgressMode progress);
 
 }  // namespace vpm

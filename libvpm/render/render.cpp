@@ -8,7 +8,8 @@
 
 namespace vpm {
 
-RenderResult render(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop, ProgressMode progress) {
+RenderResult render(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop,
+                    ProgressMode progress) {
   using Clock = std::chrono::steady_clock;
   RenderResult result{Film(scene.camera.width, scene.camera.height), {}, 0.0};
   const Clock::time_point start = Clock::now();

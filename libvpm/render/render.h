@@ -17,8 +17,9 @@ struct RenderResult {
   double seconds = 0.0;  // wall clock
 };
 
-/// Renders passes 0, 1, ... until settings.passes are done or settings.seconds have passed (at least one pass then), or `stop` is set: passes under way are
-/// then dropped, those finished are kept.
-RenderResult render(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop, ProgressMode progress);
+/// Renders passes 0, 1, ... until settings.passes are done or settings.seconds have passed (at least one pass then), or
+/// `stop` is set: passes under way are then dropped, those finished are kept.
+RenderResult render(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop,
+                    ProgressMode progress);
 
 }  // namespace vpm

@@ -16,24 +16,25 @@ enum class DirectLight { photons, shadow_rays };
 struct RenderSettings {
   std::string integrator = "photon";
   uint64_t seed = 1;
-  int passes = 16;               // >= 1; ignored where seconds > 0
-  double seconds = 0.0;          // > 0: as many passes as fit
-  int samples_per_pixel = 1;     // camera rays per pixel and pass, >= 1
+  int passes = 16;            // >= 1; ignored where seconds > 0
+  double seconds = 0.0;       // > 0: as many passes as fit
+  int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
 
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
-  uint64_t photons_stored = 0;         // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
-  int max_events = 100'000;            // of one photon or eye path, a guard against endless paths; what it cuts is counted
+  uint64_t photons_stored =
+      0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
+  int max_events = 100'000;  // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
-  DistanceSettings distance;           // how photons fly
-  TransmittanceSettings transmittance; // towards lights
+  DistanceSettings distance;            // how photons fly
+  TransmittanceSettings transmittance;  // towards lights
 
-  GatherSettings volume;               // volumetric radiance estimate
-  GatherSettings surface;              // surface radiance estimate
-  bool shrink_radii = true;            // progressive passes [Knaus2011]; false: every pass has the first one's radii
+  GatherSettings volume;     // volumetric radiance estimate
+  GatherSettings surface;    // surface radiance estimate
+  bool shrink_radii = true;  // progressive passes [Knaus2011]; false: every pass has the first one's radii
   VolumeForm volume_form = VolumeForm::density_at_query;
-  DirectLight volume_direct = DirectLight::photons;        // single scattering
+  DirectLight volume_direct = DirectLight::photons;  // single scattering
   DirectLight surface_direct = DirectLight::shadow_rays;
-  float max_optical_step = 0.5f;       // of a marching step, in optical thickness, > 0
+  float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0
 };
 
 }  // namespace vpm

@@ -18,7 +18,9 @@ const Vec3 kProbes[] = {glm::normalize(Vec3(0.5470f, 0.7316f, 0.4071f)),
 
 /// The near side of a shape that is no other one's far side: what a ray of unknown past comes out of.
 MediumId near_side(const Scene& scene, const Encounter& met, const Vec3& direction) {
-  const auto side = [&](int i, const Vec3& d) { return medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, d, kVacuum); };
+  const auto side = [&](int i, const Vec3& d) {
+    return medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, d, kVacuum);
+  };
   for (int i = 0; i < met.count; ++i) {
     bool entered = false;
     for (int j = 0; j < met.count; ++j) entered = entered || (j != i && side(j, direction) == side(i, -direction));
@@ -69,7 +71,8 @@ Box bounds_of(const Light& light) {
     box.add(beam->position + beam->radius);
   }
   if (const auto* quad = std::get_if<QuadLight>(&light))
-    for (const Vec3& p : {Vec3(0.0f), quad->edge_u, quad->edge_v, quad->edge_u + quad->edge_v}) box.add(quad->corner + p);
+    for (const Vec3& p : {Vec3(0.0f), quad->edge_u, quad->edge_v, quad->edge_u + quad->edge_v})
+      box.add(quad->corner + p);
   if (const auto* sphere = std::get_if<SphereLight>(&light)) {
     box.add(sphere->centre - sphere->radius);
     box.add(sphere->centre + sphere->radius);
@@ -95,8 +98,8 @@ Vec3 point_before(const Light& light) {
   return leave_surface_at(point_on(shape, normal), normal, normal, sphere_slack(shape));
 }
 
-/// Does a boundary between media cut the box? Judged by segments between random points in it: a cut that parts off a share f of
-/// the box is overlooked with probability about (1 - 2 f)^256.
+/// Does a boundary between media cut the box? Judged by segments between random points in it: a cut that parts off a
+/// share f of the box is overlooked with probability about (1 - 2 f)^256.
 bool is_cut(const Scene& scene, const Box& box) {
   constexpr uint64_t kSegments = 256;
   for (uint64_t i = 0; i < kSegments; ++i) {
@@ -121,7 +124,8 @@ MediumId medium_of(const Scene& scene, const Light& light) {
 
 MediumId medium_before(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current) {
   for (int i = 0; i < (met.surface ? 1 : met.count); ++i)
-    if (medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, -direction, current) == current) return current;
+    if (medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, -direction, current) == current)
+      return current;
   return near_side(scene, met, direction);
 }
 

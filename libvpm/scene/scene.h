@@ -48,7 +48,7 @@ struct Scene {
   SceneSphere sphere;                    // around all shapes; without any, radius 1 m about the origin
   bool grey = false;                     // one channel carries everything
   std::vector<float> light_probability;  // of emitting the next photon, by power; sums to 1
-  std::vector<MediumId> light_medium;    // that a light's photons start in; kSeveralMedia where a boundary cuts the light
+  std::vector<MediumId> light_medium;  // that a light's photons start in; kSeveralMedia where a boundary cuts the light
 
   const Material& material_of(const Hit& hit) const { return materials[shapes[hit.shape].material]; }
 };
@@ -59,10 +59,11 @@ inline MediumId medium_beyond(const Shape& shape, const Vec3& normal, const Vec3
   return glm::dot(direction, normal) > 0.0f ? shape.media.outside : shape.media.inside;
 }
 
-/// The medium in which a ray along `direction` comes to an encounter: `current` where one of the shapes has it on the near side, or none
-/// separates media; otherwise the near side that is no other shape's far side.
+/// The medium in which a ray along `direction` comes to an encounter: `current` where one of the shapes has it on the
+/// near side, or none separates media; otherwise the near side that is no other shape's far side.
 MediumId medium_before(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current);
-/// The medium in which the ray goes on once it has crossed all of the encounter's shapes: each in turn whose near side is the medium so far.
+/// The medium in which the ray goes on once it has crossed all of the encounter's shapes: each in turn whose near side
+/// is the medium so far.
 MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current);
 
 /// What a shape of that material is to rays, for Geometry::add().

@@ -77,7 +77,8 @@ struct Query {
   const Encounter& without;
 
   bool leaves_out(unsigned shape) const {
-    return std::any_of(without.hits.begin(), without.hits.begin() + without.count, [&](const Hit& h) { return h.shape == shape; });
+    return std::any_of(without.hits.begin(), without.hits.begin() + without.count,
+                       [&](const Hit& h) { return h.shape == shape; });
   }
 };
 
@@ -86,7 +87,8 @@ void leave_out(const RTCFilterFunctionNArguments* args) {
   if (reinterpret_cast<const Query*>(args->context)->leaves_out(RTCHitN_geomID(args->hit, 1, 0))) args->valid[0] = 0;
 }
 
-/// How far along the ray others may coincide with a hit, m: as far as leave_surface() takes the ray past it, and the rounding of distances.
+/// How far along the ray others may coincide with a hit, m: as far as leave_surface() takes the ray past it, and the
+/// rounding of distances.
 float coincidence(const Hit& hit, const Vec3& direction) {
   const float skipped = glm::distance(leave_surface(hit, direction), hit.position);
   return skipped / std::max(1e-6f, std::abs(glm::dot(hit.normal, direction))) + 0x1p-20f * hit.t;
@@ -225,7 +227,8 @@ uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
   rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
   const double radius = sphere.radius;
-  return impl_->attach(geometry, 4.0 * kPiD * radius * radius, {sphere.centre - sphere.radius, sphere.centre + sphere.radius}, layer);
+  return impl_->attach(geometry, 4.0 * kPiD * radius * radius,
+                       {sphere.centre - sphere.radius, sphere.centre + sphere.radius}, layer);
 }
 
 void Geometry::commit() {
@@ -234,7 +237,9 @@ void Geometry::commit() {
   impl_->committed = true;
 }
 
-std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const { return intersect(ray, t_max, kAllLayers, {}); }
+std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
+  return intersect(ray, t_max, kAllLayers, {});
+}
 
 Encounter Geometry::encounter(const Ray& ray, float t_max) const {
   Encounter found;
@@ -254,7 +259,8 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
 }
 
 Encounter Geometry::division(const Ray& ray) const {
-  constexpr uint32_t kBetweenMedia = static_cast<uint32_t>(Layer::dividing_surface) | static_cast<uint32_t>(Layer::boundary);
+  constexpr uint32_t kBetweenMedia =
+      static_cast<uint32_t>(Layer::dividing_surface) | static_cast<uint32_t>(Layer::boundary);
   Encounter found;
   float beyond = kInfinity;
   while (const std::optional<Hit> hit = intersect(ray, beyond, kBetweenMedia, found)) {

@@ -31,12 +31,12 @@ struct Hit {
   float slack = 0.0f;   // m, by how much rounding may displace the surface from `position` in later queries
 };
 
-/// What a shape is to a ray: a surface that light scatters at, with one medium around it or with different ones on its two sides, or a
-/// boundary between media that light passes.
+/// What a shape is to a ray: a surface that light scatters at, with one medium around it or with different ones on its
+/// two sides, or a boundary between media that light passes.
 enum class Layer : uint32_t { surface = 1, dividing_surface = 2, boundary = 4 };
 
-/// The hits of a ray at one place; none: the ray meets nothing. Boundaries stand in the order of distance, a surface that coincides with
-/// them stands first.
+/// The hits of a ray at one place; none: the ray meets nothing. Boundaries stand in the order of distance, a surface
+/// that coincides with them stands first.
 struct Encounter {
   static constexpr int kMost = 4;
   std::array<Hit, kMost> hits;
@@ -65,8 +65,8 @@ class Geometry {
   /// The nearest hit with 0 < t < t_max, seen from either side. Allocates nothing.
   std::optional<Hit> intersect(const Ray& ray, float t_max = kInfinity) const;
 
-  /// The nearest hit, and where it is of a boundary all others within the distance by which the ray is moved off it: what the ray meets
-  /// at one place. A surface among them stops the ray, so that smoke can stand on a floor.
+  /// The nearest hit, and where it is of a boundary all others within the distance by which the ray is moved off it:
+  /// what the ray meets at one place. A surface among them stops the ray, so that smoke can stand on a floor.
   Encounter encounter(const Ray& ray, float t_max = kInfinity) const;
   /// The same of the shapes between media alone, none of which stops the ray: for finding out which medium is where.
   Encounter division(const Ray& ray) const;

@@ -343,8 +343,9 @@ TEST(SceneFile, ShapesBoundAGrid) {
   const std::string shell =
       "[[shapes]]\nname = 'shell'\ntype = 'sphere'\nmaterial = { type = 'boundary' }\ncenter = [0, 0, 0]\nradius = 3\n";
   EXPECT_EQ(load_with(medium + ball + "outside = 'smoke'\n" + shell + "inside = 'smoke'\n").scene.shapes.size(), 2u);
-  EXPECT_NE(message_of([&] { load_with(medium + ball + "outside = 'smoke'\n", {"media.smoke.boundary=shapes"}); })
-                .find("say that vacuum is there"),
+  EXPECT_NE(message_of([&] {
+              load_with(medium + ball + "outside = 'smoke'\n", {"media.smoke.boundary=shapes"});
+            }).find("say that vacuum is there"),
             std::string::npos);
   EXPECT_NO_THROW(load_with(medium, {"world.medium=smoke"}));
   const std::string empty_outside = shared_grid("usd_smoke3.vdb");

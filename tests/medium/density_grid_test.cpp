@@ -45,7 +45,8 @@ std::shared_ptr<const DensityGrid> noise_grid(const GridFrame& frame) {
 
 class DensityGridTest : public testing::TestWithParam<std::tuple<Interpolation, float>> {};
 INSTANTIATE_TEST_SUITE_P(All, DensityGridTest,
-                         testing::Combine(testing::Values(Interpolation::trilinear, Interpolation::nearest), testing::Values(0.0f, 0.7f)));
+                         testing::Combine(testing::Values(Interpolation::trilinear, Interpolation::nearest),
+                                          testing::Values(0.0f, 0.7f)));
 
 TEST_P(DensityGridTest, LookUpsFollowTheDefinition) {
   const GridFrame frame = frame_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
@@ -69,7 +70,8 @@ TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
   const Mat4d to_index = glm::inverse(frame.index_to_world);
   Rng rng(1, rng_stream(RngUse::test, 1), 0);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 target = Vec3(frame.index_to_world * glm::dvec4(-10.0 + 20.0 * rng.uniform(), 5.0 + 15.0 * rng.uniform(), 16.0 * rng.uniform(), 1.0));
+    const Vec3 target = Vec3(frame.index_to_world * glm::dvec4(-10.0 + 20.0 * rng.uniform(), 5.0 + 15.0 * rng.uniform(),
+                                                               16.0 * rng.uniform(), 1.0));
     const Ray ray{target - 3.0f * uniform_sphere(rng.uniform2()), {}};
     const Ray aimed{ray.origin, glm::normalize(target - ray.origin)};
     const Interval interval{0.2f, 5.5f};
@@ -104,7 +106,8 @@ TEST(DensityGrid, RaysAlongFacesAndEdgesOfCellsSeeTheField) {
   frame.lo = Vec3i(0);
   frame.hi = Vec3i(20);
   const auto grid = make_grid(frame, [](int x, int y, int z) { return 1.0 + 0.1 * x + 0.01 * y + 0.001 * z; });
-  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+  for (const Vec3& direction :
+       {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
     for (const Vec3& through : {Vec3(8.0f, 8.0f, 8.0f), Vec3(8.0f, 3.0f, 16.0f), Vec3(5.5f, 16.0f, 8.0f)}) {
       const Ray ray{through - 100.0f * direction, direction};
       double total = 0.0;
@@ -126,7 +129,8 @@ TEST(DensityGrid, KnowsItsExtremesAndMean) {
   frame.hi = Vec3i(30, 5, 9);
   frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.5, 0.25, 2.0));
   double sum = 0.0;
-  const auto grid = make_grid(frame, [&](int x, int y, int z) { return x == 4 && y == 1 && z == 2 ? 9.0 : lattice_noise(x, y, z); });
+  const auto grid =
+      make_grid(frame, [&](int x, int y, int z) { return x == 4 && y == 1 && z == 2 ? 9.0 : lattice_noise(x, y, z); });
   for (int z = -3; z <= 9; ++z)
     for (int y = -3; y <= 5; ++y)
       for (int x = -3; x <= 30; ++x) sum += x == 4 && y == 1 && z == 2 ? 9.0 : lattice_noise(x, y, z);
@@ -141,7 +145,8 @@ TEST(DensityGrid, EmptySpaceCostsNoLookUps) {
   frame.hi = Vec3i(511);
   const auto grid = make_grid(frame, [](int x, int, int) { return x == 500 ? 1.0 : 0.0; });
   int pieces = 0;
-  const uint32_t read = grid->visit_pieces({Vec3(-5, 100, 100), Vec3(1, 0, 0)}, {}, [&](const DensityPiece&) { return ++pieces; });
+  const uint32_t read =
+      grid->visit_pieces({Vec3(-5, 100, 100), Vec3(1, 0, 0)}, {}, [&](const DensityPiece&) { return ++pieces; });
   EXPECT_LE(read, 9u);
   EXPECT_LT(grid->memory_bytes(), 24u << 20);
 }

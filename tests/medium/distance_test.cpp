@@ -41,7 +41,8 @@ struct Deposits {
   double weight = 0.0, squares = 0.0;
 };
 
-std::array<Deposits, 3> fly(const Medium& medium, const DistanceStrategy& strategy, int flights, const Rgb& power, uint64_t stream) {
+std::array<Deposits, 3> fly(const Medium& medium, const DistanceStrategy& strategy, int flights, const Rgb& power,
+                            uint64_t stream) {
   std::array<Deposits, 3> result;
   for (int i = 0; i < flights; ++i) {
     Rng rng(7, rng_stream(RngUse::test, stream), static_cast<uint64_t>(i));
@@ -75,7 +76,8 @@ void expect_exact(const Medium& medium, const DistanceSettings& settings, const 
       // The exact variance of a count bounds the estimate's where a rare bin saw too few.
       const double error = std::sqrt(std::max(m.variance_of_mean(), exact * (1.0 - exact) / kFlights));
       EXPECT_LT(std::abs(m.mean() - exact), normal_quantile(kFalseAlarms) * error + 1e-7)
-          << settings.strategy << " on " << field << ", channel " << c << ", bin " << b << ": " << m.mean() << " against " << exact;
+          << settings.strategy << " on " << field << ", channel " << c << ", bin " << b << ": " << m.mean()
+          << " against " << exact;
     }
   }
 }
@@ -92,7 +94,8 @@ TEST(DistanceStrategy, EveryUnbiasedOneFollowsTheExactTransmittance) {
 }
 
 TEST(DistanceStrategy, RayMarchErrsWithTheSquareOfTheStep) {
-  // Equal random numbers make the same target column for both strategies, so the error of each flight is seen without noise.
+  // Equal random numbers make the same target column for both strategies, so the error of each flight is seen without
+  // noise.
   const Medium medium = make_medium(fields()[4].grid, Rgb(3.0f));
   const auto exact = make_distance_strategy({});
   const auto error = [&](float step) {
@@ -126,13 +129,15 @@ TEST(DistanceStrategy, HomogeneousEqualsAConstantGridFlightByFlight) {
     const Medium constant = make_medium(grid, sigma_t);
     const Medium homogeneous = make_medium(nullptr, sigma_t);
     for (const StrategyInfo& info : distance_strategies()) {
-      // The mean over the grid's support counts the voxel over which the density fades, so that strategy's rate is not the medium's.
+      // The mean over the grid's support counts the voxel over which the density fades, so that strategy's rate is not
+      // the medium's.
       if (!info.heterogeneous || info.name == "mean-extinction") continue;
       DistanceSettings settings;
       settings.strategy = info.name;
       for (uint64_t i = 0; i < 2000; ++i) {
         Rng a(3, rng_stream(RngUse::test, 3), i), b(3, rng_stream(RngUse::test, 3), i);
-        const Flight x = make_distance_strategy({.strategy = "homogeneous"})->sample(homogeneous, {}, inside, Rgb(1, 2, 3), a);
+        const Flight x =
+            make_distance_strategy({.strategy = "homogeneous"})->sample(homogeneous, {}, inside, Rgb(1, 2, 3), a);
         const Flight y = make_distance_strategy(settings)->sample(constant, {}, inside, Rgb(1, 2, 3), b);
         ASSERT_EQ(x.collided, y.collided) << info.name;
         ASSERT_NEAR(x.t, y.t, 1e-4) << info.name;
@@ -161,7 +166,8 @@ TEST(DistanceStrategy, EndlessAndEmptyMediaGiveFiniteWeights) {
       const Medium medium = make_medium(nullptr, sigma_t);
       for (uint64_t i = 0; i < 200; ++i) {
         Rng rng(3, rng_stream(RngUse::test, 5), i);
-        const Flight f = make_distance_strategy({.strategy = std::string(info.name)})->sample(medium, {}, endless, Rgb(1.0f), rng);
+        const Flight f =
+            make_distance_strategy({.strategy = std::string(info.name)})->sample(medium, {}, endless, Rgb(1.0f), rng);
         EXPECT_TRUE(is_finite(f.weight)) << info.name << " sigma_t " << sigma_t.r;
         EXPECT_EQ(f.collided, f.t < kInfinity) << info.name;
         EXPECT_FALSE(is_black(sigma_t) && f.collided) << info.name;

@@ -55,7 +55,8 @@ TEST(Transmittance, EndsWithTheInterval) {
     const auto estimator = make_transmittance_estimator({.estimator = std::string(info.name)});
     EXPECT_FLOAT_EQ(estimator->estimate(medium, kRay, {1.0f, 1.5f}, rng).value.r, std::exp(-1.0f)) << info.name;
     EXPECT_EQ(estimator->estimate(medium, kRay, {1.0f, kInfinity}, rng).value.r, 0.0f) << info.name;
-    EXPECT_EQ(estimator->estimate(make_medium(blob(), Rgb(2.0f)), kRay, {10.0f, kInfinity}, rng).value.r, 1.0f) << info.name;
+    EXPECT_EQ(estimator->estimate(make_medium(blob(), Rgb(2.0f)), kRay, {10.0f, kInfinity}, rng).value.r, 1.0f)
+        << info.name;
   }
 }
 

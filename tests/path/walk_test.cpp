@@ -45,8 +45,10 @@ TEST(Walk, MediaThatTouchAreBothCrossedInAnyOrderOfShapes) {
         const Vec3d from(-1.0, -0.9 + 0.036 * k, 0.9 - 0.031 * k), to(5.0, 0.9 - 0.03 * k, -0.8 + 0.03 * k);
         const Vec3 a(m * glm::dvec4(from, 1.0)), b(m * glm::dvec4(to, 1.0));
         const double stretch = glm::distance(from, to) / 6.0;
-        const double forth = optical_thickness(scene, {a, glm::normalize(b - a)}, glm::distance(a, b), kVacuum, counters);
-        const double back = optical_thickness(scene, {b, glm::normalize(a - b)}, glm::distance(a, b), kVacuum, counters);
+        const double forth =
+            optical_thickness(scene, {a, glm::normalize(b - a)}, glm::distance(a, b), kVacuum, counters);
+        const double back =
+            optical_thickness(scene, {b, glm::normalize(a - b)}, glm::distance(a, b), kVacuum, counters);
         EXPECT_NEAR(forth, 0.7 * stretch, 1e-5) << order;
         EXPECT_NEAR(back, 0.7 * stretch, 1e-5) << order;
       }
@@ -65,7 +67,8 @@ TEST(Walk, ANestedMediumMayShareItsFloorWithTheOuterOne) {
       scene.media.push_back(make_medium(nullptr, Rgb(0.3f)));
       scene.media.push_back(make_medium(nullptr, Rgb(1.1f)));
       const Interface outer{0, kVacuum}, inner{1, 0};
-      const TriangleMesh large = turned(box_mesh(Vec3(-2, 0, -2), Vec3(2, 3, 2)), m), small = turned(box_mesh(Vec3(-1, 0, -1), Vec3(1, 1, 1)), m);
+      const TriangleMesh large = turned(box_mesh(Vec3(-2, 0, -2), Vec3(2, 3, 2)), m),
+                         small = turned(box_mesh(Vec3(-1, 0, -1), Vec3(1, 1, 1)), m);
       if (inner_first) add_shape(scene, small, Boundary{}, &inner);
       add_shape(scene, large, Boundary{}, &outer);
       if (!inner_first) add_shape(scene, small, Boundary{}, &inner);

@@ -10,8 +10,9 @@
 namespace vpm {
 namespace {
 
-const std::vector<Phase> kPhases{Isotropic{},          HenyeyGreenstein{0.0f},  HenyeyGreenstein{0.5f}, HenyeyGreenstein{-0.7f},
-                                 HenyeyGreenstein{0.95f}, Rayleigh{}};
+const std::vector<Phase> kPhases{
+    Isotropic{}, HenyeyGreenstein{0.0f}, HenyeyGreenstein{0.5f}, HenyeyGreenstein{-0.7f}, HenyeyGreenstein{0.95f},
+    Rayleigh{}};
 
 /// The integral of value(mu) f(mu) over the sphere between two cosines, by the midpoint rule.
 template <class F>
@@ -45,9 +46,7 @@ TEST(Phase, SamplesFollowTheValue) {
     for (int c = 0; c < kCosines; ++c)
       bin[c] = integrate(phase, -1 + 2.0 * c / kCosines, -1 + 2.0 * (c + 1) / kCosines, [](double) { return 1.0; });
     for (int c = 0; c < kCosines; ++c)
-      for (int a = 0; a < kAzimuths; ++a)
-        probabilities[c * kAzimuths + a] =
-            bin[c] / kAzimuths;
+      for (int a = 0; a < kAzimuths; ++a) probabilities[c * kAzimuths + a] = bin[c] / kAzimuths;
     double total = 0.0;
     for (const double p : probabilities) total += p;
     for (double& p : probabilities) p /= total;

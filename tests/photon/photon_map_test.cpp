@@ -57,8 +57,10 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
           const PhotonMap map = make_photon_map(all, settings, 1000);
           for (uint64_t i = 0; i < 20; ++i) {
             Rng rng(4, rng_stream(RngUse::test, 10), i);
-            const Vec3 at = all[static_cast<size_t>(rng.uniform() * 5000)].position + 0.3f * radius * uniform_sphere(rng.uniform2());
-            expect_near(volume_sum(phase, at, towards, map), volume_sum(phase, at, towards, all, settings, uint64_t{1000}), "volume");
+            const Vec3 at = all[static_cast<size_t>(rng.uniform() * 5000)].position +
+                            0.3f * radius * uniform_sphere(rng.uniform2());
+            expect_near(volume_sum(phase, at, towards, map),
+                        volume_sum(phase, at, towards, all, settings, uint64_t{1000}), "volume");
             expect_near(surface_irradiance(at, Vec3(0, 1, 0), radius, map),
                         surface_irradiance(at, Vec3(0, 1, 0), radius, all, settings, uint64_t{1000}), "surface");
           }
@@ -79,7 +81,8 @@ TEST(PhotonMap, SmallAndEmptyMapsAnswer) {
 }
 
 TEST(PhotonMap, KNearestIsUnbiasedInUniformPhotons) {
-  // 2000 photons of power 1/2000 uniform in the unit cube: the density at its middle is 1. With k counted instead of k - 1 the mean would be k/(k-1).
+  // 2000 photons of power 1/2000 uniform in the unit cube: the density at its middle is 1. With k counted instead of k
+  // - 1 the mean would be k/(k-1).
   for (const KernelKind kernel : {KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight}) {
     Moments density;
     for (uint64_t trial = 0; trial < 1000; ++trial) {
@@ -88,7 +91,9 @@ TEST(PhotonMap, KNearestIsUnbiasedInUniformPhotons) {
       for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
       const NearestMap map(all, 1.0f / 2000.0f);
       const GatherSettings settings{GatherMode::nearest, 10.0f, 12, kernel};
-      density.add(kernel_sum<3>(map, settings, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; }).r);
+      density.add(kernel_sum<3>(
+                      map, settings, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; })
+                      .r);
     }
     expect_mean(density, 1.0, 1e-6, "density");
   }
@@ -101,7 +106,9 @@ TEST(PhotonMap, FixedRadiusMeanIsTheSmoothedDensity) {
     std::vector<Photon> all(500);
     for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
     const PhotonMap map = make_photon_map(all, {GatherMode::radius, 0.3f, 0, KernelKind::biweight}, 500);
-    density.add(kernel_sum<3>(map, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; }).r);
+    density.add(kernel_sum<3>(
+                    map, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; })
+                    .r);
   }
   expect_mean(density, 1.0, 1e-6, "density");
 }

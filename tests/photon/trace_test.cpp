@@ -17,7 +17,8 @@ constexpr int kBoxes = 3;              // along an edge of [-1, 1]^3
 constexpr int kBatches = 100;
 
 /// A spot from above that grazes the box's side, so that photons enter by several faces.
-const Light kSpot = SpotLight{Vec3(-1.5f, 2.5f, 0.4f), glm::normalize(Vec3(0.5f, -1.0f, -0.1f)), 0.97f, 0.9f, Rgb(4.0f, 2.0f, 1.0f)};
+const Light kSpot =
+    SpotLight{Vec3(-1.5f, 2.5f, 0.4f), glm::normalize(Vec3(0.5f, -1.0f, -0.1f)), 0.97f, 0.9f, Rgb(4.0f, 2.0f, 1.0f)};
 
 TracedPhotons trace(const Scene& scene, const std::string& strategy, TraceSettings settings) {
   Progress silent("photons", 0, false);
@@ -56,13 +57,15 @@ Tally tally(const Scene& scene, const std::string& strategy, uint64_t seed) {
 /// z-tests of all boxes; nothing is determined where a weighted strategy's sample is too small.
 void expect_equal(const Tally& a, const Tally& b, const std::string& what) {
   if (std::min(a.effective_sample_size, b.effective_sample_size) < 1000.0) {
-    std::printf("%s: not determined, effective sample sizes %.0f and %.0f\n", what.c_str(), a.effective_sample_size, b.effective_sample_size);
+    std::printf("%s: not determined, effective sample sizes %.0f and %.0f\n", what.c_str(), a.effective_sample_size,
+                b.effective_sample_size);
     return;
   }
   for (size_t i = 0; i < a.values.size(); ++i) {
     const double error = std::sqrt(a.values[i].variance_of_mean() + b.values[i].variance_of_mean());
     EXPECT_LE(std::abs(a.values[i].mean() - b.values[i].mean()), normal_quantile(kFalseAlarms) * error + 1e-9)
-        << what << ", value " << i << ": " << a.values[i].mean() << " against " << b.values[i].mean() << " +- " << error;
+        << what << ", value " << i << ": " << a.values[i].mean() << " against " << b.values[i].mean() << " +- "
+        << error;
   }
 }
 
@@ -90,12 +93,14 @@ TEST(PhotonTracing, AConstantGridEqualsTheHomogeneousMedium) {
     const Tally expected = tally(boxed_medium(plain, kSpot), "homogeneous", 1);
     uint64_t seed = 2;
     for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march", "regular"})
-      expect_equal(tally(boxed_medium(in_grid, kSpot), strategy, seed++), expected, strategy + std::string(grey ? ", grey" : ", RGB"));
+      expect_equal(tally(boxed_medium(in_grid, kSpot), strategy, seed++), expected,
+                   strategy + std::string(grey ? ", grey" : ", RGB"));
   }
 }
 
 TEST(PhotonTracing, TheStrategiesAgreeOnASmoothGrid) {
-  const auto smooth = grid_over_box([](int x, int y, int z) { return 0.25 + std::exp(-0.015 * ((x - 2) * (x - 2) + y * y + z * z)); });
+  const auto smooth =
+      grid_over_box([](int x, int y, int z) { return 0.25 + std::exp(-0.015 * ((x - 2) * (x - 2) + y * y + z * z)); });
   for (const bool grey : {true, false}) {
     const Scene scene = boxed_medium(grey ? make_medium(smooth, Rgb(1.5f), 0.8f) : colourful(smooth), kSpot);
     const Tally exact = tally(scene, "regular", 11);
@@ -131,7 +136,8 @@ TEST(PhotonTracing, TheLedgerCloses) {
     // Each channel, too: the channels' mixtures must conserve every one of them.
     const double n = static_cast<double>(ledger.emitted_count);
     const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(gone[c] / ledger.emitted[c], 1.0, 20.0 / std::sqrt(n)) << strategy << " channel " << c;
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(gone[c] / ledger.emitted[c], 1.0, 20.0 / std::sqrt(n)) << strategy << " channel " << c;
     EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene.sphere).g, 0.2) << strategy;
     EXPECT_EQ(ledger.non_finite, 0u);
     EXPECT_EQ(ledger.cut_count, 0u);
@@ -151,8 +157,12 @@ TEST(PhotonTracing, IsTheSameForAnyNumberOfThreads) {
   ASSERT_GT(results[0].volume[0].size(), 30000u);
   for (size_t i = 1; i < results.size(); ++i) {
     ASSERT_EQ(results[i].volume[0].size(), results[0].volume[0].size());
-    EXPECT_EQ(std::memcmp(results[i].volume[0].data(), results[0].volume[0].data(), results[0].volume[0].size() * sizeof(Photon)), 0);
-    EXPECT_EQ(std::memcmp(results[i].surface.data(), results[0].surface.data(), results[0].surface.size() * sizeof(Photon)), 0);
+    EXPECT_EQ(std::memcmp(results[i].volume[0].data(), results[0].volume[0].data(),
+                          results[0].volume[0].size() * sizeof(Photon)),
+              0);
+    EXPECT_EQ(
+        std::memcmp(results[i].surface.data(), results[0].surface.data(), results[0].surface.size() * sizeof(Photon)),
+        0);
     EXPECT_EQ(results[i].ledger.escaped, results[0].ledger.escaped);
   }
 }
@@ -194,7 +204,8 @@ TEST(PhotonTracing, LeavesOutWhatIsNotAskedFor) {
 }
 
 TEST(PhotonTracing, PhotonsThroughABoundaryStayDirect) {
-  Medium medium = make_medium(nullptr, Rgb(100.0f), 1e-6f);  // all but black: every stored photon is at its first collision
+  Medium medium =
+      make_medium(nullptr, Rgb(100.0f), 1e-6f);  // all but black: every stored photon is at its first collision
   const Scene scene = boxed_medium(medium, kSpot);
   TraceSettings settings;
   settings.emitted = 2000;
@@ -205,7 +216,8 @@ TEST(PhotonTracing, PhotonsThroughABoundaryStayDirect) {
 
 TEST(PhotonTracing, PowerStaysEvenInColour) {
   // The channel mixture keeps the sum over channels as it was, flight by flight and collision by collision.
-  const Scene scene = boxed_medium(colourful(grid_over_box([](int x, int y, int z) { return lattice_noise(x, y, z); })), kSpot);
+  const Scene scene =
+      boxed_medium(colourful(grid_over_box([](int x, int y, int z) { return lattice_noise(x, y, z); })), kSpot);
   TraceSettings settings;
   settings.emitted = 20000;
   const Ledger ledger = trace(scene, "regular", settings).ledger;

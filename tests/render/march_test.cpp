@@ -19,7 +19,8 @@ Medium noise_medium(const Rgb& sigma_t) {
   frame.lo = Vec3i(-10);
   frame.hi = Vec3i(10);
   frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.1));
-  return make_medium(make_grid(frame, [](int x, int y, int z) { return x % 5 == 0 ? 0.0 : 2.0 * lattice_noise(x, y, z); }), sigma_t);
+  return make_medium(
+      make_grid(frame, [](int x, int y, int z) { return x % 5 == 0 ? 0.0 : 2.0 * lattice_noise(x, y, z); }), sigma_t);
 }
 
 TEST(March, IntegratesAConstantWithoutNoise) {
@@ -29,7 +30,8 @@ TEST(March, IntegratesAConstantWithoutNoise) {
       Marcher marcher;
       Rng rng(1, 0, 0);
       double sum = 0.0;
-      const Marched marched = marcher.march(medium, kRay, {0.0f, 4.0f}, limits, glm::bvec3(true), rng, [&](const Vec3&, const Rgb& w) { sum += w.r; });
+      const Marched marched = marcher.march(medium, kRay, {0.0f, 4.0f}, limits, glm::bvec3(true), rng,
+                                            [&](const Vec3&, const Rgb& w) { sum += w.r; });
       const double crossed = column(medium, kRay, {0.0f, 4.0f}).value;
       EXPECT_NEAR(marched.column, crossed, 1e-12);
       if (std::exp(-sigma * crossed) < 0.01) continue;  // roulette
@@ -57,7 +59,8 @@ double reference(const Medium& medium, float sigma, float t1, bool times_density
 TEST(March, IsUnbiasedForAnyStep) {
   const Rgb sigma(0.2f, 1.0f, 6.0f);
   const Medium medium = noise_medium(sigma);
-  for (const StepLimits limits : {StepLimits{0.06f, 0.5f}, StepLimits{0.8f, 1e9f}, StepLimits{50.0f, 0.7f}, StepLimits{50.0f, 1e9f}}) {
+  for (const StepLimits limits :
+       {StepLimits{0.06f, 0.5f}, StepLimits{0.8f, 1e9f}, StepLimits{50.0f, 0.7f}, StepLimits{50.0f, 1e9f}}) {
     std::array<Moments, 3> sums;
     Marcher marcher;
     for (uint64_t i = 0; i < 20000; ++i) {
@@ -79,7 +82,8 @@ TEST(March, EndsInEndlessMedia) {
   for (uint64_t i = 0; i < 4000; ++i) {
     Rng rng(1, rng_stream(RngUse::test, 1), i);
     double sum = 0.0;
-    marcher.march(medium, kRay, {}, {0.5f, 0.3f}, glm::bvec3(true), rng, [&](const Vec3&, const Rgb& w) { sum += w.r; });
+    marcher.march(medium, kRay, {}, {0.5f, 0.3f}, glm::bvec3(true), rng,
+                  [&](const Vec3&, const Rgb& w) { sum += w.r; });
     sums.add(sum);
   }
   expect_mean(sums, 2.0, kFalseAlarms, "endless");
@@ -89,7 +93,8 @@ TEST(March, EndsInEndlessMediaThatAreClearInOneChannel) {
   const Medium medium = make_medium(nullptr, Rgb(0.5f, 0.0f, 0.2f));
   Marcher marcher;
   Rng rng(1, rng_stream(RngUse::test, 3), 0);
-  const Marched marched = marcher.march(medium, kRay, {}, {0.5f, 0.3f}, glm::bvec3(true, false, true), rng, [](auto&&...) {});
+  const Marched marched =
+      marcher.march(medium, kRay, {}, {0.5f, 0.3f}, glm::bvec3(true, false, true), rng, [](auto&&...) {});
   EXPECT_LT(marched.steps, 1000u);
   EXPECT_EQ(transmittance(medium, marched.column), Rgb(0.0f, 1.0f, 0.0f));
 }
@@ -100,7 +105,8 @@ TEST(March, EvenStepsAreUnbiasedToo) {
   for (uint64_t i = 0; i < 20000; ++i) {
     Rng rng(1, rng_stream(RngUse::test, 2), i);
     double sum = 0.0;
-    march_evenly(&medium, kRay, {0.0f, 4.0f}, 0.0, 0.3f, rng, [&](const Vec3& p, const Rgb& w) { sum += w.r * probe(p); });
+    march_evenly(&medium, kRay, {0.0f, 4.0f}, 0.0, 0.3f, rng,
+                 [&](const Vec3& p, const Rgb& w) { sum += w.r * probe(p); });
     sums.add(sum);
   }
   expect_mean(sums, reference(medium, 1.0f, 4.0f, false), kFalseAlarms, "even steps");

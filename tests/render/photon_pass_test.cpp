@@ -1,4 +1,5 @@
-// The whole path from lights to pixels: identities that need no reference, and ways to the same picture that must agree.
+// The whole path from lights to pixels: identities that need no reference, and ways to the same picture that must
+// agree.
 #include "render/photon_pass.h"
 
 #include <gtest/gtest.h>
@@ -113,9 +114,11 @@ TEST(PhotonPass, AWhiteFurnaceIsUniform) {
         settings.volume_direct = direct;
         settings.volume_form = form;
         const Moments mean = pass_means(scene, settings, 16);
-        // The camera looks at the ball's middle half: the kernel's darkening within 0.1 m of its surface takes below 1 %.
+        // The camera looks at the ball's middle half: the kernel's darkening within 0.1 m of its surface takes below 1
+        // %.
         EXPECT_NEAR(mean.mean(), 1.0, 0.012 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean()))
-            << (density ? "grid" : "homogeneous") << ", direct " << static_cast<int>(direct) << ", form " << static_cast<int>(form);
+            << (density ? "grid" : "homogeneous") << ", direct " << static_cast<int>(direct) << ", form "
+            << static_cast<int>(form);
       }
 }
 
@@ -164,7 +167,8 @@ TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {
 }
 
 TEST(PhotonPass, AMediumStandsOnAFloor) {
-  // The boundary's lower face coincides with the floor: light and sight must meet the floor, not slip through between the two.
+  // The boundary's lower face coincides with the floor: light and sight must meet the floor, not slip through between
+  // the two.
   Scene scene;
   scene.media.push_back(make_medium(nullptr, Rgb(1e-6f)));
   const Interface media{0, kVacuum};
@@ -177,7 +181,8 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
   RenderSettings settings = settings_of(1000, 0.05f);
   const double exact = 0.5 / kPiD * 1.0 / std::sqrt(1.05);
   static const std::atomic<bool> kGoOn{false};
-  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn, ProgressMode::never).image.pixels) EXPECT_NEAR(pixel.r, exact, 1e-4);
+  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn, ProgressMode::never).image.pixels)
+    EXPECT_NEAR(pixel.r, exact, 1e-4);
 }
 
 TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {

@@ -44,7 +44,8 @@ inline Mat4d awkward_transform() {
 
 /// A cheap hash of a lattice point in [0, 1).
 inline double lattice_noise(int x, int y, int z) {
-  uint32_t h = static_cast<uint32_t>(x) * 73856093u ^ static_cast<uint32_t>(y) * 19349663u ^ static_cast<uint32_t>(z) * 83492791u;
+  uint32_t h = static_cast<uint32_t>(x) * 73856093u ^ static_cast<uint32_t>(y) * 19349663u ^
+               static_cast<uint32_t>(z) * 83492791u;
   h = (h ^ (h >> 13)) * 0x5bd1e995u;
   return (h ^ (h >> 15)) * 0x1p-32;
 }

@@ -5,8 +5,9 @@
 
 namespace vpm {
 
-/// Fluence of a 1 W source at distance r in a medium of sigma_t = 1/m and albedo c < 1, W/m^2: the discrete mode plus the
-/// integral over the continuum [Case1953], (1/4 pi r) {D exp(-k0 r) + int_0^1 exp(-r/nu) nu^-2 / [(1 - c nu atanh nu)^2 + (pi c nu/2)^2] dnu}.
+/// Fluence of a 1 W source at distance r in a medium of sigma_t = 1/m and albedo c < 1, W/m^2: the discrete mode plus
+/// the integral over the continuum [Case1953], (1/4 pi r) {D exp(-k0 r) + int_0^1 exp(-r/nu) nu^-2 / [(1 - c nu atanh
+/// nu)^2 + (pi c nu/2)^2] dnu}.
 inline double point_source_fluence(double c, double r) {
   double lo = 1e-9, hi = 1.0 - 1e-15;  // k0: c atanh(k0) = k0
   for (int i = 0; i < 200; ++i) {
@@ -26,8 +27,8 @@ inline double point_source_fluence(double c, double r) {
   return (d * std::exp(-k0 * r) + sum) / (4.0 * M_PI * r);
 }
 
-/// The same, averaged over the ball of radius h about a point at distance r with Epanechnikov's kernel: what a photon map with that
-/// kernel has for its mean.
+/// The same, averaged over the ball of radius h about a point at distance r with Epanechnikov's kernel: what a photon
+/// map with that kernel has for its mean.
 inline double smoothed_point_source_fluence(double c, double r, double h) {
   // Over a sphere of radius s about the point, a radial field has the mean int_{r-s}^{r+s} phi(u) u du / (2 r s).
   constexpr int kShells = 24, kAlong = 24;

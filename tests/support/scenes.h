@@ -9,8 +9,10 @@ namespace vpm {
 /// Twelve outward triangles around the box.
 inline TriangleMesh box_mesh(const Vec3& lo, const Vec3& hi) {
   TriangleMesh mesh;
-  for (int c = 0; c < 8; ++c) mesh.positions.push_back(Vec3(c & 1 ? hi.x : lo.x, c & 2 ? hi.y : lo.y, c & 4 ? hi.z : lo.z));
-  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+  for (int c = 0; c < 8; ++c)
+    mesh.positions.push_back(Vec3(c & 1 ? hi.x : lo.x, c & 2 ? hi.y : lo.y, c & 4 ? hi.z : lo.z));
+  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
   return mesh;
 }
 
@@ -21,7 +23,8 @@ inline TriangleMesh quad_mesh(const Vec3& corner, const Vec3& u, const Vec3& v) 
 
 /// Adds a shape of a material of its own; separates media where `media` is given.
 template <class Surface>
-uint32_t add_shape(Scene& scene, const Surface& surface, const Material& material, const Interface* media = nullptr, int light = -1) {
+uint32_t add_shape(Scene& scene, const Surface& surface, const Material& material, const Interface* media = nullptr,
+                   int light = -1) {
   Shape shape;
   shape.material = static_cast<uint32_t>(scene.materials.size());
   shape.separates_media = media != nullptr;

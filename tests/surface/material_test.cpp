@@ -146,7 +146,8 @@ TEST(Materials, KnowGreyDiffuseAndBoundary) {
   EXPECT_FALSE(is_grey(Material(Mirror{Rgb(0.1f, 0.2f, 0.1f)})));
   EXPECT_TRUE(is_grey(Material(Dielectric{})) && is_grey(Material(Boundary{})));
   EXPECT_TRUE(is_diffuse(Lambertian{}));
-  EXPECT_FALSE(is_diffuse(Lambertian{Rgb(0.0f)}) || is_diffuse(Mirror{}) || is_diffuse(Dielectric{}) || is_diffuse(Boundary{}));
+  EXPECT_FALSE(is_diffuse(Lambertian{Rgb(0.0f)}) || is_diffuse(Mirror{}) || is_diffuse(Dielectric{}) ||
+               is_diffuse(Boundary{}));
   EXPECT_TRUE(is_boundary(Boundary{}) && !is_boundary(Dielectric{}));
 }
 

@@ -19,7 +19,8 @@ struct RenderOptions {
   std::optional<uint64_t> seed;
   ProgressMode progress = ProgressMode::automatic;
 };
-/// Renders a scene to an EXR file, with a PNG preview and a JSON report beside it. 130 when interrupted: the finished passes are written.
+/// Renders a scene to an EXR file, with a PNG preview and a JSON report beside it. 130 when interrupted: the finished
+/// passes are written.
 int render_command(const RenderOptions& options);
 
 struct InfoOptions {

@@ -1,6 +1,6 @@
 // vpm info: what a file holds.
-#include <filesystem>
 #include <fmt/format.h>
+#include <filesystem>
 
 #include "base/error.h"
 #include "commands.h"
@@ -15,9 +15,12 @@ namespace {
 std::string text(const Vec3d& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
 std::string text(const Vec3& v) { return text(Vec3d(v)); }
 std::string text(const Rgb& c, const char* unit) {
-  return is_grey(c) ? fmt::format("{:.6g} {}", c.r, unit) : fmt::format("({:.6g}, {:.6g}, {:.6g}) {}", c.r, c.g, c.b, unit);
+  return is_grey(c) ? fmt::format("{:.6g} {}", c.r, unit)
+                    : fmt::format("({:.6g}, {:.6g}, {:.6g}) {}", c.r, c.g, c.b, unit);
 }
-std::string mebibytes(uint64_t bytes) { return fmt::format("{:.2f} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0)); }
+std::string mebibytes(uint64_t bytes) {
+  return fmt::format("{:.2f} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
 
 void print_grid(const GridSummary& g) {
   fmt::print("grid {}\n  type {}, class {}\n", g.name, g.value_type, g.grid_class);
@@ -30,9 +33,10 @@ void print_grid(const GridSummary& g) {
   }
   fmt::print("  active voxels {}, of these in {} tiles\n", g.active_voxels, g.active_tiles);
   if (g.lo.x <= g.hi.x)
-    fmt::print("  index box ({}, {}, {}) to ({}, {}, {}), world box {} to {} m\n", g.lo.x, g.lo.y, g.lo.z, g.hi.x, g.hi.y, g.hi.z,
-               text(g.world_box.lo), text(g.world_box.hi));
-  if (g.values) fmt::print("  active values {:.6g} to {:.6g}, mean {:.6g}\n", g.values->min, g.values->max, g.values->mean);
+    fmt::print("  index box ({}, {}, {}) to ({}, {}, {}), world box {} to {} m\n", g.lo.x, g.lo.y, g.lo.z, g.hi.x,
+               g.hi.y, g.hi.z, text(g.world_box.lo), text(g.world_box.hi));
+  if (g.values)
+    fmt::print("  active values {:.6g} to {:.6g}, mean {:.6g}\n", g.values->min, g.values->max, g.values->mean);
   if (g.background) fmt::print("  background {:.6g}\n", *g.background);
   if (g.memory_bytes > 0) fmt::print("  memory {}\n", mebibytes(g.memory_bytes));
 }
@@ -42,13 +46,16 @@ void print_medium(const Medium& m, const Scene& scene, const RenderSettings& set
              text(m.sigma_s, "1/m"), text(m.sigma_t, "1/m"), text(m.albedo(), ""));
   if (m.grid) {
     const Box box = m.grid->bounds();
-    fmt::print("  bounds {} to {} m, voxel {:.6g} m, density mean {:.6g}, max {:.6g}, memory {}\n", text(box.lo), text(box.hi),
-               m.grid->voxel_size(), m.grid->mean_density(), m.grid->max_density(), mebibytes(m.grid->memory_bytes()));
+    fmt::print("  bounds {} to {} m, voxel {:.6g} m, density mean {:.6g}, max {:.6g}, memory {}\n", text(box.lo),
+               text(box.hi), m.grid->voxel_size(), m.grid->mean_density(), m.grid->max_density(),
+               mebibytes(m.grid->memory_bytes()));
   }
   const double densest = m.grid ? m.grid->max_density() : 1.0;
-  fmt::print("  mean free path {:.6g} m at the mean density, {:.6g} m at the largest\n  gather radius of the first pass {:.6g} m\n",
-             1.0 / (mean_channel(m.sigma_t) * m.mean_density()), 1.0 / (mean_channel(m.sigma_t) * densest),
-             first_volume_radius(scene, settings, m));
+  fmt::print(
+      "  mean free path {:.6g} m at the mean density, {:.6g} m at the largest\n  gather radius of the first pass "
+      "{:.6g} m\n",
+      1.0 / (mean_channel(m.sigma_t) * m.mean_density()), 1.0 / (mean_channel(m.sigma_t) * densest),
+      first_volume_radius(scene, settings, m));
 }
 
 void print_scene(const InfoOptions& options) {
@@ -57,13 +64,15 @@ void print_scene(const InfoOptions& options) {
   const Box box = scene.geometry.bounds();
   fmt::print("scene {}, hash {}\n", options.file, loaded.hash);
   for (const std::string& note : loaded.notes) fmt::print("note: {}\n", note);
-  fmt::print("camera at {} m, {} x {} pixels, in {}\n", text(scene.camera.position), scene.camera.width, scene.camera.height,
+  fmt::print("camera at {} m, {} x {} pixels, in {}\n", text(scene.camera.position), scene.camera.width,
+             scene.camera.height,
              scene.camera_medium == kVacuum ? "vacuum" : "medium " + scene.media[scene.camera_medium].name);
   fmt::print("{} shapes in {} to {} m\n", scene.shapes.size(), text(box.lo), text(box.hi));
-  fmt::print("around everything: {}\n", scene.world_medium == kVacuum ? "vacuum" : "medium " + scene.media[scene.world_medium].name);
+  fmt::print("around everything: {}\n",
+             scene.world_medium == kVacuum ? "vacuum" : "medium " + scene.media[scene.world_medium].name);
   for (size_t i = 0; i < scene.lights.size(); ++i)
-    fmt::print("light {}: power {}, chosen with probability {:.4g}\n", i, text(light_power(scene.lights[i], scene.sphere), "W"),
-               scene.light_probability[i]);
+    fmt::print("light {}: power {}, chosen with probability {:.4g}\n", i,
+               text(light_power(scene.lights[i], scene.sphere), "W"), scene.light_probability[i]);
   for (const Medium& m : scene.media) print_medium(m, scene, loaded.settings);
   for (const std::string& line : stage_lines(scene, loaded.settings)) fmt::print("{}\n", line);
 }

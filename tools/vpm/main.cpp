@@ -1,9 +1,9 @@
 // The command line of vpm: options into structs, errors into exit status 2.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <fmt/format.h>
 #include <limits>
 #include <new>
 
@@ -16,7 +16,7 @@ namespace {
 using namespace vpm;
 using namespace vpm::tools;
 
-constexpr int kFailed = 1;    // not the input's fault: no memory, a library gave up
+constexpr int kFailed = 1;  // not the input's fault: no memory, a library gave up
 constexpr int kBadInput = 2;
 
 /// The whole of the text as a number, or `otherwise`.
@@ -41,21 +41,28 @@ std::string check_seconds(const std::string& text) {
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
   command->add_option("scene", options.scene, "Scene file (.toml)")->required();
-  command->add_option("-o,--output", options.output, "Image to write (.exr); default: the scene's name in the current folder");
-  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")->allow_extra_args(false);
+  command->add_option("-o,--output", options.output,
+                      "Image to write (.exr); default: the scene's name in the current folder");
+  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
-  CLI::Option* passes = command->add_option("--passes", options.passes, "Passes to render")->check(CLI::Range(1, 1'000'000'000));
-  command->add_option("--time", options.seconds, "Render passes until this many seconds are over")->check(check_seconds)->excludes(passes);
+  CLI::Option* passes =
+      command->add_option("--passes", options.passes, "Passes to render")->check(CLI::Range(1, 1'000'000'000));
+  command->add_option("--time", options.seconds, "Render passes until this many seconds are over")
+      ->check(check_seconds)
+      ->excludes(passes);
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
   const std::map<std::string, ProgressMode> modes{
       {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
-  command->add_option("--progress", options.progress, "Progress bar: auto (on a terminal), always, never")->transform(CLI::CheckedTransformer(modes));
+  command->add_option("--progress", options.progress, "Progress bar: auto (on a terminal), always, never")
+      ->transform(CLI::CheckedTransformer(modes));
 }
 
 void add_info(CLI::App& app, InfoOptions& options) {
   CLI::App* command = app.add_subcommand("info", "Tell what a scene or a .vdb file holds, and what a scene would run");
   command->add_option("file", options.file, "Scene (.toml) or grid file (.vdb)")->required();
-  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")->allow_extra_args(false);
+  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
+      ->allow_extra_args(false);
 }
 
 void add_media(CLI::App& app, MediaOptions& options) {

@@ -1,9 +1,9 @@
 // vpm render: scene file in, picture and report out.
+#include <fmt/format.h>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 
 #include "base/atomic_file.h"
@@ -42,8 +42,10 @@ struct Outputs {
 
 Outputs output_paths(const RenderOptions& options) {
   namespace fs = std::filesystem;
-  const fs::path exr = options.output.empty() ? fs::path(options.scene).filename().replace_extension(".exr") : fs::path(options.output);
-  if (exr.extension() != ".exr") throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
+  const fs::path exr =
+      options.output.empty() ? fs::path(options.scene).filename().replace_extension(".exr") : fs::path(options.output);
+  if (exr.extension() != ".exr")
+    throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
   return {exr, fs::path(exr).replace_extension(".png"), fs::path(exr).replace_extension(".json")};
 }
 
@@ -73,7 +75,8 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   file.commit();
 }
 
-void write_outputs(const Outputs& outputs, const RenderOptions& options, const LoadedScene& loaded, const RenderResult& result) {
+void write_outputs(const Outputs& outputs, const RenderOptions& options, const LoadedScene& loaded,
+                   const RenderResult& result) {
   const Image mean = result.film.mean();
   const std::vector<std::pair<std::string, std::string>> metadata{
       {"vpm.version", std::string(version())},
@@ -100,17 +103,21 @@ void print_warnings(const LoadedScene& loaded, const RenderStatistics& s) {
     if (count > 0) fmt::print(stderr, "warning: {} {}\n", count, what);
   };
   const Stages stages = plan_stages(loaded.scene, loaded.settings);
-  if (stages.volume_map && s.volume_photons == 0) fmt::print(stderr, "warning: the volume photon map is empty: no photon scattered in a medium\n");
-  if (stages.surface_map && s.surface_photons == 0) fmt::print(stderr, "warning: the surface photon map is empty: no photon to store met a diffuse surface\n");
+  if (stages.volume_map && s.volume_photons == 0)
+    fmt::print(stderr, "warning: the volume photon map is empty: no photon scattered in a medium\n");
+  if (stages.surface_map && s.surface_photons == 0)
+    fmt::print(stderr, "warning: the surface photon map is empty: no photon to store met a diffuse surface\n");
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");
   warn(s.eye.cut_paths, "eye paths were cut at render.max_events");
-  // Rays through the very edges of boundaries need a correction now and then: some in 1e7. More means media that overlap.
+  // Rays through the very edges of boundaries need a correction now and then: some in 1e7. More means media that
+  // overlap.
   WalkCounters walk = s.ledger.walk;
   walk.merge(s.eye.walk);
   if (walk.medium_mismatches > 100 + walk.crossings / 1'000'000)
-    warn(walk.medium_mismatches, "boundaries were met from a medium that is not the one before them: check that media do not overlap");
+    warn(walk.medium_mismatches,
+         "boundaries were met from a medium that is not the one before them: check that media do not overlap");
 }
 
 }  // namespace
@@ -129,8 +136,8 @@ int render_command(const RenderOptions& options) {
     return kInterrupted;
   }
   write_outputs(outputs, options, loaded, result);
-  fmt::print("{}: {} passes in {:.1f} s; preview {}, report {}\n", outputs.exr.string(), result.film.passes(), result.seconds,
-             outputs.png.string(), outputs.json.string());
+  fmt::print("{}: {} passes in {:.1f} s; preview {}, report {}\n", outputs.exr.string(), result.film.passes(),
+             result.seconds, outputs.png.string(), outputs.json.string());
   return stop_requested ? kInterrupted : 0;
 }
 

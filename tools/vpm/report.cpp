@@ -2,8 +2,8 @@
 #include "report.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
 #include "base/version.h"
@@ -20,7 +20,11 @@ double per_second(uint64_t count, double seconds) { return seconds > 0.0 ? stati
 
 Json times(const RenderResult& result) {
   const RenderStatistics& s = result.statistics;
-  return {{"unit", "s, wall clock"}, {"total", result.seconds}, {"photon_tracing", s.trace_seconds}, {"map_building", s.build_seconds}, {"eye_pass", s.eye_seconds}};
+  return {{"unit", "s, wall clock"},
+          {"total", result.seconds},
+          {"photon_tracing", s.trace_seconds},
+          {"map_building", s.build_seconds},
+          {"eye_pass", s.eye_seconds}};
 }
 
 Json photons(const RenderStatistics& s) {
@@ -40,7 +44,8 @@ Json photons(const RenderStatistics& s) {
           {"dropped_non_finite", s.ledger.non_finite}};
 }
 
-/// Flows of energy per second, each summed where it happens; `imbalance` is their difference from what was emitted, in standard errors.
+/// Flows of energy per second, each summed where it happens; `imbalance` is their difference from what was emitted, in
+/// standard errors.
 Json ledger(const Ledger& l) {
   const double n = static_cast<double>(std::max<uint64_t>(1, l.emitted_count));
   const double error = std::sqrt(l.imbalance.variance_of_mean());
@@ -74,17 +79,19 @@ Json memory(const Scene& scene, const RenderStatistics& s) {
   const uint64_t stored = (s.volume_photons + s.surface_photons) / std::max(1, s.passes);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return {{"unit", "bytes"},
-          {"grids", grids},
-          {"geometry", scene.geometry.memory_bytes()},
-          {"largest_photon_maps", s.photon_map_bytes},
-          {"per_stored_photon", stored > 0 ? static_cast<double>(s.photon_map_bytes) / static_cast<double>(stored) : 0.0},
-          {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
+  return {
+      {"unit", "bytes"},
+      {"grids", grids},
+      {"geometry", scene.geometry.memory_bytes()},
+      {"largest_photon_maps", s.photon_map_bytes},
+      {"per_stored_photon", stored > 0 ? static_cast<double>(s.photon_map_bytes) / static_cast<double>(stored) : 0.0},
+      {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
 }
 
 }  // namespace
 
-std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded, const RenderResult& result) {
+std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded,
+                          const RenderResult& result) {
   const RenderStatistics& s = result.statistics;
   const Camera& camera = loaded.scene.camera;
   Json report{{"program", fmt::format("vpm {}", version())},
@@ -106,7 +113,9 @@ std::string render_report(const std::string& scene_path, const std::string& imag
               {"photons", photons(s)},
               {"energy", ledger(s.ledger)},
               {"eye", eye(s)},
-              {"boundaries", {{"crossings", s.ledger.walk.crossings + s.eye.walk.crossings}, {"met_in_another_medium", s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches}}},
+              {"boundaries",
+               {{"crossings", s.ledger.walk.crossings + s.eye.walk.crossings},
+                {"met_in_another_medium", s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches}}},
               {"memory", memory(loaded.scene, s)}};
   return report.dump(2) + "\n";
 }
@@ -119,15 +128,16 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   };
   bool grids = false;
   for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
-  return {line(stages.photons(), "photon tracing, distances by " + settings.distance.strategy, "nothing stores photons"),
-          line(stages.volume_map, "volume photon map", no_medium),
-          line(stages.surface_map, "surface photon map", "no diffuse surface"),
-          line(stages.volume_shadow_rays, "shadow rays in media, transmittance by " + settings.transmittance.estimator,
-               stages.volume_map ? "single scattering comes from the photon map" : no_medium),
-          line(stages.surface_shadow_rays, "shadow rays at surfaces, transmittance by " + settings.transmittance.estimator,
-               stages.surface_map ? "direct light comes from the photon map" : "no diffuse surface"),
-          line(grids, "grid look-ups", "all media are homogeneous"),
-          scene.grey ? "all coefficients are grey" : "coefficients differ between channels"};
+  return {
+      line(stages.photons(), "photon tracing, distances by " + settings.distance.strategy, "nothing stores photons"),
+      line(stages.volume_map, "volume photon map", no_medium),
+      line(stages.surface_map, "surface photon map", "no diffuse surface"),
+      line(stages.volume_shadow_rays, "shadow rays in media, transmittance by " + settings.transmittance.estimator,
+           stages.volume_map ? "single scattering comes from the photon map" : no_medium),
+      line(stages.surface_shadow_rays, "shadow rays at surfaces, transmittance by " + settings.transmittance.estimator,
+           stages.surface_map ? "direct light comes from the photon map" : "no diffuse surface"),
+      line(grids, "grid look-ups", "all media are homogeneous"),
+      scene.grey ? "all coefficients are grey" : "coefficients differ between channels"};
 }
 
 }  // namespace vpm::tools

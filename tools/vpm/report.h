@@ -9,7 +9,8 @@
 namespace vpm::tools {
 
 /// The report as JSON text. `image` is the path of the image it belongs to.
-std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded, const RenderResult& result);
+std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded,
+                          const RenderResult& result);
 
 /// What stages a render of the scene runs, which it skips, and why: one line each, "runs ..." or "skips ...".
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings);

@@ -6,7 +6,8 @@
 
 namespace vpm {
 
-Flight Homogeneous::sample(const Medium& medium, const Ray&, const Interval& interval, const Rgb& power, Rng& rng) const {
+Flight Homogeneous::sample(const Medium& medium, const Ray&, const Interval& interval, const Rgb& power,
+                           Rng& rng) const {
   assert(medium.homogeneous());
   const Rgb shares = channel_shares(power);
   const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());

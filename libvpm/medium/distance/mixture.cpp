@@ -19,7 +19,8 @@ Rgb analog_weight(const Medium& medium, const Rgb& shares, double column, bool c
   return Rgb(value / glm::dot(Rgbd(shares), value));
 }
 
-Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& rate, const Rgb& power, Rng& rng) {
+Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& rate,
+                          const Rgb& power, Rng& rng) {
   const Rgbd shares(channel_shares(power));
   const double drawn = pick_channel(rate, Rgb(shares), rng.uniform());
   const double target = -std::log1p(-rng.uniform_double());
@@ -46,7 +47,8 @@ Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& 
   for (int c = 0; c < 3; ++c) {
     double density = 0.0;  // of the mixture over the transmittance of channel c
     for (int j = 0; j < 3; ++j)
-      if (mixed[j] > 0.0) density += mixed[j] * std::exp(sigma_t[c] * std::min(crossed.value, kEndless) - rates[j] * length);
+      if (mixed[j] > 0.0)
+        density += mixed[j] * std::exp(sigma_t[c] * std::min(crossed.value, kEndless) - rates[j] * length);
     flight.weight[c] = static_cast<float>(numerator[c] / density);
   }
   return flight;

@@ -1,5 +1,6 @@
 // The one-sample mixture over colour channels that keeps chromatic media free of fireflies: a distance is drawn for a
-// channel chosen by its share of the photon's power, and weighted by the mixture of all channels' densities [Wilkie2014].
+// channel chosen by its share of the photon's power, and weighted by the mixture of all channels' densities
+// [Wilkie2014].
 #pragma once
 
 #include "base/rng.h"
@@ -20,10 +21,13 @@ inline float pick_channel(const Rgb& values, const Rgb& shares, float u) {
   return u < shares.r + shares.g ? values.g : values.b;
 }
 
-/// The weight of a flight whose distance was drawn from the medium's own transmittance, for the column it crossed. 1 in a grey medium.
+/// The weight of a flight whose distance was drawn from the medium's own transmittance, for the column it crossed. 1 in
+/// a grey medium.
 Rgb analog_weight(const Medium& medium, const Rgb& shares, double column, bool collided);
 
-/// A flight whose distance is drawn from exp(-rate d), rates per channel in 1/m, with the weights that correct it for the medium's transmittance.
-Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& rate, const Rgb& power, Rng& rng);
+/// A flight whose distance is drawn from exp(-rate d), rates per channel in 1/m, with the weights that correct it for
+/// the medium's transmittance.
+Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& rate,
+                          const Rgb& power, Rng& rng);
 
 }  // namespace vpm

@@ -1,13 +1,15 @@
 // `ray-march`: transmittance is accumulated in fixed steps until it reaches the random number [Jarosz2008, sec. 7.4.1].
 //
-// Each step takes the density at its middle and the flight's end is solved for inside the step, so the bias is O(step^2); taking
-// the first sample beyond the random number, as printed, would leave O(step). Known failure: spikes thinner than a step are missed.
+// Each step takes the density at its middle and the flight's end is solved for inside the step, so the bias is
+// O(step^2); taking the first sample beyond the random number, as printed, would leave O(step). Known failure: spikes
+// thinner than a step are missed.
 #include "medium/distance/mixture.h"
 #include "medium/distance/strategies.h"
 
 namespace vpm {
 
-Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng) const {
+Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
+                        Rng& rng) const {
   const Rgb shares = channel_shares(power);
   const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
   const double target = -std::log1p(-rng.uniform_double()) / sigma_t;

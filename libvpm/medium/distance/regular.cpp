@@ -1,11 +1,12 @@
-// `regular`: the exact flight through any density: the ray's cells are walked, and the quartic column of the cell where the
-// flight ends is inverted [Novak2018, sec. 4.1]. Needs no majorant.
+// `regular`: the exact flight through any density: the ray's cells are walked, and the quartic column of the cell where
+// the flight ends is inverted [Novak2018, sec. 4.1]. Needs no majorant.
 #include "medium/distance/mixture.h"
 #include "medium/distance/strategies.h"
 
 namespace vpm {
 
-Flight Regular::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng) const {
+Flight Regular::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
+                       Rng& rng) const {
   const Rgb shares = channel_shares(power);
   const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
   const double target = -std::log1p(-rng.uniform_double()) / sigma_t;  // column to cross; infinite at sigma_t = 0

@@ -11,7 +11,9 @@ std::span<const StrategyInfo> distance_strategies() {
   static constexpr std::array<StrategyInfo, 5> kStrategies{{
       {.name = "regular", .summary = "exact in any medium: cells walked, the quartic column inverted"},
       {.name = "homogeneous", .summary = "exact in a medium of constant density", .heterogeneous = false},
-      {.name = "local-extinction", .summary = "exponential at the rate where the segment starts", .bounded_weight = false},
+      {.name = "local-extinction",
+       .summary = "exponential at the rate where the segment starts",
+       .bounded_weight = false},
       {.name = "mean-extinction", .summary = "exponential at the medium's mean rate", .bounded_weight = false},
       {.name = "ray-march", .summary = "marched until the transmittance reaches the random number", .unbiased = false},
   }};

@@ -14,20 +14,23 @@ namespace vpm {
 
 /// A free flight through one medium.
 struct Flight {
-  float t = 0.0f;          // m along the ray: the collision's, or the interval's end
+  float t = 0.0f;  // m along the ray: the collision's, or the interval's end
   bool collided = false;
-  float density = 0.0f;    // that the collision was drawn from: sigma_t there is medium.sigma_t * density > 0 unless the weight is black
-  Rgb weight{1.0f};        // the photon's power is multiplied by it
-  uint32_t lookups = 0;    // of density
+  float density = 0.0f;  // that the collision was drawn from: sigma_t there is medium.sigma_t * density > 0 unless the
+                         // weight is black
+  Rgb weight{1.0f};      // the photon's power is multiplied by it
+  uint32_t lookups = 0;  // of density
 };
 
-/// Samples where a photon collides next. Its weight makes the photon's power the right one whatever the distances' density: at a
-/// collision at distance d sigma_t(x) Tr(d) / pdf(d), at the interval's end Tr(D) / P(d > D) [Jarosz2008, alg. 7.3, corrected]. Chromatic media are
-/// sampled by the mixture of the channels' densities, each with the share of the photon's power in it.
+/// Samples where a photon collides next. Its weight makes the photon's power the right one whatever the distances'
+/// density: at a collision at distance d sigma_t(x) Tr(d) / pdf(d), at the interval's end Tr(D) / P(d > D) [Jarosz2008,
+/// alg. 7.3, corrected]. Chromatic media are sampled by the mixture of the channels' densities, each with the share of
+/// the photon's power in it.
 class DistanceStrategy {
  public:
   virtual ~DistanceStrategy() = default;
-  virtual Flight sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng) const = 0;
+  virtual Flight sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
+                        Rng& rng) const = 0;
 };
 
 struct DistanceSettings {

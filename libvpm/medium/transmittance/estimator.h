@@ -21,7 +21,8 @@ struct TransmittanceEstimate {
 class TransmittanceEstimator {
  public:
   virtual ~TransmittanceEstimator() = default;
-  virtual TransmittanceEstimate estimate(const Medium& medium, const Ray& ray, const Interval& interval, Rng& rng) const = 0;
+  virtual TransmittanceEstimate estimate(const Medium& medium, const Ray& ray, const Interval& interval,
+                                         Rng& rng) const = 0;
 };
 
 struct TransmittanceSettings {

@@ -3,7 +3,8 @@
 
 namespace vpm {
 
-TransmittanceEstimate RegularTransmittance::estimate(const Medium& medium, const Ray& ray, const Interval& interval, Rng&) const {
+TransmittanceEstimate RegularTransmittance::estimate(const Medium& medium, const Ray& ray, const Interval& interval,
+                                                     Rng&) const {
   const Column crossed = column(medium, ray, interval);
   return {transmittance(medium, crossed.value), crossed.lookups};
 }
