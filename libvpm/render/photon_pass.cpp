@@ -48,12 +48,12 @@ GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dim
 }
 
 /// Traces the photons and sorts them into the context's maps.
-void make_maps(EyeContext& context, const TraceSettings& trace, ProgressMode progress, RenderStatistics& statistics) {
+void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgress& progress, RenderStatistics& statistics) {
   const int pass = static_cast<int>(trace.pass);
   const auto& [scene, settings, stages, volume, surface, transmittance] = context;
   const Stopwatch tracing;
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
-  Progress bar("photons", settings.photons_emitted, progress_enabled(progress));
+  Progress bar("photons", settings.photons_emitted, progress.stages);
   TracedPhotons photons = trace_photons(scene, *strategy, trace, bar);
   bar.finish();
   statistics.trace_seconds = tracing.seconds();
@@ -96,14 +96,13 @@ Rgb render_pixel(const EyeContext& context, int x, int y, int pass, Marcher& mar
   return Rgb(sum / static_cast<double>(samples));
 }
 
-void render_image(const EyeContext& context, int pass, const std::atomic<bool>& stop, ProgressMode progress,
+void render_image(const EyeContext& context, int pass, const std::atomic<bool>& stop, const PassProgress& progress,
                   Pass& result) {
   const Camera& camera = context.scene.camera;
   const int tiles_x = (camera.width + kTile - 1) / kTile;
-  const int tiles_y = (camera.height + kTile - 1) / kTile;
-  const auto tiles = static_cast<size_t>(tiles_x) * tiles_y;
+  const uint64_t tiles = tile_count(camera);
   std::vector<EyeCounters> counters(tiles);
-  Progress bar("image", tiles, progress_enabled(progress));
+  Progress bar("image", tiles, progress.stages);
   parallel_for_chunks(tiles, 1, [&](size_t tile, size_t, size_t) {
     if (stop) return;
     static thread_local Marcher marcher;
@@ -112,11 +111,16 @@ void render_image(const EyeContext& context, int pass, const std::atomic<bool>& 
       for (int x = x0; x < std::min(x0 + kTile, camera.width); ++x)
         result.image.at(x, y) = render_pixel(context, x, y, pass, marcher, counters[tile]);
     bar.advance();
+    if (progress.tiles) progress.tiles->advance();
   });
   for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
 }
 
 }  // namespace
+
+uint64_t tile_count(const Camera& camera) {
+  return static_cast<uint64_t>((camera.width + kTile - 1) / kTile) * ((camera.height + kTile - 1) / kTile);
+}
 
 Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
   bool scatters = false, diffuse = false;
@@ -138,7 +142,7 @@ float first_surface_radius(const Scene& scene, const RenderSettings& settings) {
 }
 
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-                        ProgressMode progress) {
+                        const PassProgress& progress) {
   Pass result{Image(scene.camera.width, scene.camera.height), {}};
   result.statistics.passes = 1;
   EyeContext context{scene, settings, plan_stages(scene, settings),

@@ -31,8 +31,16 @@ struct Pass {
   RenderStatistics statistics;
 };
 
+/// Where a pass tells how far it is. Either may be missing.
+struct PassProgress {
+  bool stages = false;        // a bar for each stage of the pass
+  Progress* tiles = nullptr;  // advanced by tile_count() in the course of the pass
+};
+/// The units of work of a pass's image.
+uint64_t tile_count(const Camera& camera);
+
 /// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-                        ProgressMode progress);
+                        const PassProgress& progress = {});
 
 }  // namespace vpm

@@ -18,7 +18,7 @@ Moments pass_means(const Scene& scene, const RenderSettings& settings, int passe
   static const std::atomic<bool> kGoOn{false};
   Moments means;
   for (int pass = 0; pass < passes; ++pass) {
-    const Image image = render_photon_pass(scene, settings, pass, kGoOn, ProgressMode::never).image;
+    const Image image = render_photon_pass(scene, settings, pass, kGoOn).image;
     double sum = 0.0;
     for (const Rgb& p : image.pixels) sum += sum_channels(p) / 3.0;
     means.add(sum / static_cast<double>(image.pixels.size()));
@@ -181,7 +181,7 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
   RenderSettings settings = settings_of(1000, 0.05f);
   const double exact = 0.5 / kPiD * 1.0 / std::sqrt(1.05);
   static const std::atomic<bool> kGoOn{false};
-  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn, ProgressMode::never).image.pixels)
+  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn).image.pixels)
     EXPECT_NEAR(pixel.r, exact, 1e-4);
 }
 

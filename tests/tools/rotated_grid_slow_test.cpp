@@ -81,7 +81,7 @@ std::vector<Moments> block_moments(const LoadedScene& loaded) {
   const int columns = kWidth / kBlock;
   std::vector<Moments> moments(1 + columns * (kHeight / kBlock));
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Image image = render_photon_pass(loaded.scene, loaded.settings, pass, stop, ProgressMode::never).image;
+    const Image image = render_photon_pass(loaded.scene, loaded.settings, pass, stop).image;
     std::vector<double> means(moments.size());
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {

@@ -50,11 +50,12 @@ Outputs output_paths(const RenderOptions& options) {
 }
 
 void check_outputs(const Outputs& outputs, const Camera& camera) {
-  const uint64_t pixels = static_cast<uint64_t>(camera.width) * camera.height;
   constexpr uint64_t kReportBytes = 1 << 16;
-  check_writable(outputs.exr, pixels * 6 * sizeof(float));
-  check_writable(outputs.png, pixels * 3);
-  check_writable(outputs.json, kReportBytes);
+  const uint64_t pixels = static_cast<uint64_t>(camera.width) * camera.height;
+  const uint64_t bytes = pixels * (6 * sizeof(float) + 3) + kReportBytes;  // of all three, which share a folder
+  check_writable(outputs.exr, bytes);
+  check_writable(outputs.png, bytes);
+  check_writable(outputs.json, bytes);
 }
 
 void apply_options(const RenderOptions& options, RenderSettings& settings) {
