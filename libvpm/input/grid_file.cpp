@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetUtil.h>
-#include <type_traits>
 
 #include "base/error.h"
 #include "input/vdb_layout.h"
@@ -30,20 +29,6 @@ struct VdbFile {
     throw InputError(fmt::format("{}: grid '{}' {}; {}", cursor.path(), grid, why, layout.listing()));
   }
 };
-
-/// Runs `read`; whatever OpenVDB or the system throws becomes an InputError about the grid.
-template <class Read>
-auto guarded(const VdbFile& file, const std::string& grid, Read&& read) {
-  try {
-    return read();
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    file.refuse(grid, "needs more memory than there is");
-  } catch (const std::exception& e) {
-    file.refuse(grid, fmt::format("cannot be read: {}", e.what()));
-  }
-}
 
 /// Calls use(typename Grid::Ptr) with an empty grid of the entry's type, which is scalar.
 template <class Use>
@@ -86,7 +71,7 @@ void read_tree(VdbFile& file, const VdbGridEntry& entry, Grid& grid) {
 }
 
 // Summaries
-// --------------------------------------------------------------------------------------------------------------------------
+// ----------------------------------------------------------------------------------------------------
 
 Vec3i to_vec(const Coord& c) { return {c.x(), c.y(), c.z()}; }
 
@@ -98,8 +83,8 @@ ValueRange active_range(const Tree& tree) {
   for (auto it = tree.cbeginValueOn(); it; ++it) {
     const double value = static_cast<double>(*it);
     const double count = static_cast<double>(it.getVoxelCount());
-    range.min = std::min(value, range.min);  // a NaN shows in the mean
-    range.max = std::max(value, range.max);
+    range.min = std::min(range.min, value);  // passes over a NaN, which shows in the mean
+    range.max = std::max(range.max, value);
     sum += value * count;
     voxels += count;
   }
@@ -160,7 +145,7 @@ GridSummary summarize(VdbFile& file, const VdbGridEntry& entry) {
 }
 
 // Densities
-// --------------------------------------------------------------------------------------------------------------------------
+// ----------------------------------------------------------------------------------------------------
 
 /// The values of one kind that a grid should not have.
 struct Fault {
@@ -391,13 +376,19 @@ std::vector<GridSummary> list_grids(const std::string& path) {
 LoadedGrid load_grid(const GridRequest& request) {
   VdbFile file(request.path);
   const VdbGridEntry& entry = find_density(file, request);
-  return guarded(file, entry.name, [&] {
+  try {
     const DensitySource source{file, entry, request, world_matrix(file, entry, request)};
     return with_grid_type(entry, [&](auto grid) {
       read_tree(file, entry, *grid);
       return make_density(source, *grid);
     });
-  });
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    file.refuse(entry.name, "needs more memory than there is");
+  } catch (const std::exception& e) {
+    file.refuse(entry.name, fmt::format("cannot be read: {}", e.what()));
+  }
 }
 
 }  // namespace vpm

@@ -1,7 +1,6 @@
 // Changing a parsed scene file by `key.path=value` options.
 #include <charconv>
 
-#include "base/error.h"
 #include "input/toml_node.h"
 
 namespace vpm {

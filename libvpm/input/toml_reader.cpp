@@ -1,7 +1,6 @@
 // The one file that knows toml++: text in, nodes with their places out.
 #include <algorithm>
 
-#include "base/error.h"
 #include "input/toml_node.h"
 
 #include <toml++/toml.h>

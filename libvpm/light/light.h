@@ -1,7 +1,6 @@
 // Light sources: the closed set. Each tells its power, emits photons, and can be sampled from a point.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <variant>

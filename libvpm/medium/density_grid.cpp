@@ -16,7 +16,10 @@ int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 /// The most bricks a table may hold: 256 MiB of them, which span 2200^3 voxels.
 constexpr double kMaxBricks = double(1u << 28) / 12.0;
 
+/// Bit by bit, for speed: a zero of either sign beside the other counts as unequal, and its brick is found uniform by
+/// its extrema.
 bool all_equal(const float* values) {
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   return std::memcmp(values, values + 1, (DensityGrid::kBrickValues - 1) * sizeof(float)) == 0;
 }
 
@@ -100,8 +103,7 @@ float DensityGrid::density(const Vec3& world) const {
 
 Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {
   if (frame_.background > 0.0f) return interval;
-  const Vec3d origin(world_to_index_ * glm::dvec4(Vec3d(ray.origin), 1.0));
-  const Vec3d direction(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0));
+  const auto [origin, direction] = to_index(ray);
   double t0 = interval.t0, t1 = interval.t1;
   clip_to_box(origin, direction, support_lo(), support_hi(), t0, t1);
   return t1 > t0 ? Interval{static_cast<float>(t0), static_cast<float>(t1)} : Interval{interval.t0, interval.t0};

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "base/vec.h"
@@ -70,6 +69,14 @@ class DensityGrid {
     bool uniform() const { return min == max; }
   };
 
+  /// A ray in index coordinates; its parameter is still metres of the world.
+  struct IndexRay {
+    Vec3d origin, direction;
+  };
+  IndexRay to_index(const Ray& ray) const {
+    return {Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.origin), 1.0)),
+            Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0))};
+  }
   double lattice_shift() const { return frame_.interpolation == Interpolation::nearest ? 0.5 : 0.0; }
   const Brick& brick(const Vec3i& b) const {
     return bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
@@ -77,8 +84,7 @@ class DensityGrid {
   void cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
                   DensityPiece& piece) const;
   template <class Visit>
-  bool visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& direction, double t0, double t1, uint32_t& read,
-                   Visit& visit) const;
+  bool visit_brick(const Vec3i& b, const IndexRay& ray, double t0, double t1, uint32_t& read, Visit& visit) const;
 
   GridFrame frame_;
   Mat4d world_to_index_{1.0};

@@ -53,8 +53,8 @@ inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d
 }
 
 template <class Visit>
-bool DensityGrid::visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& direction, double t0, double t1,
-                              uint32_t& read, Visit& visit) const {
+bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, double t1, uint32_t& read,
+                              Visit& visit) const {
   const Brick& brick_here = brick(b - brick_lo_);
   if (brick_here.max == 0.0f) return true;
   if (brick_here.uniform()) {
@@ -62,10 +62,9 @@ bool DensityGrid::visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& 
     return visit(DensityPiece{t0, t1, brick_here.min, 0.0, 0.0, 0.0});
   }
   const float* values = values_.data() + static_cast<size_t>(brick_here.first) * kBrickValues;
-  const Vec3d brick_origin = Vec3d(b * kCells);
-  const Vec3d inside = origin - brick_origin;  // brick coordinates: 0 to 8
-  LatticeWalk walk(inside, direction, 1.0, t0, Vec3i(0), Vec3i(kCells - 1));
-  const Vec3 step(direction);
+  const Vec3d inside = ray.origin - Vec3d(b * kCells);  // brick coordinates: 0 to 8
+  LatticeWalk walk(inside, ray.direction, 1.0, t0, Vec3i(0), Vec3i(kCells - 1));
+  const Vec3 step(ray.direction);
   for (double t = t0; t < t1; walk.advance()) {
     const Vec3i cell = walk.cell();
     if (static_cast<unsigned>(cell.x | cell.y | cell.z) >= static_cast<unsigned>(kCells)) break;
@@ -74,7 +73,7 @@ bool DensityGrid::visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& 
       DensityPiece piece;
       piece.t0 = t;
       piece.t1 = end;
-      cell_piece(values, cell, Vec3(inside + t * direction - Vec3d(cell)), step, piece);
+      cell_piece(values, cell, Vec3(inside + t * ray.direction - Vec3d(cell)), step, piece);
       ++read;
       if (!visit(piece)) return false;
       t = end;
@@ -85,8 +84,9 @@ bool DensityGrid::visit_brick(const Vec3i& b, const Vec3d& origin, const Vec3d& 
 
 template <class Visit>
 uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
-  const Vec3d origin = Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.origin), 1.0)) + lattice_shift();
-  const Vec3d direction = Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0));
+  IndexRay lattice_ray = to_index(ray);
+  lattice_ray.origin += lattice_shift();
+  const auto& [origin, direction] = lattice_ray;
   const Vec3d lo = Vec3d(brick_lo_ * kCells);
   const Vec3d hi = lo + Vec3d(brick_count_ * kCells);
   double t0 = interval.t0;
@@ -108,7 +108,7 @@ uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Vis
     if (glm::any(glm::lessThan(b, Vec3i(0))) || glm::any(glm::greaterThanEqual(b, brick_count_))) break;
     const double end = std::min(walk.exit(), t1);
     if (end > t) {
-      if (!visit_brick(walk.cell(), origin, direction, t, end, read, visit)) return read;
+      if (!visit_brick(walk.cell(), lattice_ray, t, end, read, visit)) return read;
       t = end;
     }
   }

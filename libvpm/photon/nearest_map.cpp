@@ -41,7 +41,7 @@ NearestMap::NearestMap(std::vector<Photon> photons, float scale) {
   if (!photons.empty()) balance(photons, 0, photons.size(), 0, bounds_);
 }
 
-void NearestMap::balance(std::vector<Photon>& photons, size_t begin, size_t end, size_t node, Box box) {
+void NearestMap::balance(std::vector<Photon>& photons, size_t begin, size_t end, size_t node, const Box& box) {
   const size_t median = begin + left_size(end - begin);
   const int axis = longest_axis(box.extent());
   const auto at = [&](size_t i) { return photons.begin() + static_cast<std::ptrdiff_t>(i); };

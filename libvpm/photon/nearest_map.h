@@ -60,7 +60,7 @@ class NearestMap {
   size_t memory_bytes() const;
 
  private:
-  void balance(std::vector<Photon>& photons, size_t begin, size_t end, size_t node, Box box);
+  void balance(std::vector<Photon>& photons, size_t begin, size_t end, size_t node, const Box& box);
 
   std::vector<Photon> tree_;   // children of node i: 2 i + 1 and 2 i + 2
   std::vector<uint8_t> axis_;  // that splits at node i

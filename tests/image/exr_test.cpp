@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <limits>
 
 #include "base/error.h"
 #include "base/rng.h"

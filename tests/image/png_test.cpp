@@ -13,7 +13,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "image/metrics.h"
 
 namespace vpm {
 namespace {

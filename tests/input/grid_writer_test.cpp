@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "base/error.h"
-#include "base/rng.h"
 #include "input/grid_file.h"
 #include "medium/procedural.h"
 

@@ -181,8 +181,7 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
   RenderSettings settings = settings_of(1000, 0.05f);
   const double exact = 0.5 / kPiD * 1.0 / std::sqrt(1.05);
   static const std::atomic<bool> kGoOn{false};
-  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn).image.pixels)
-    EXPECT_NEAR(pixel.r, exact, 1e-4);
+  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn).image.pixels) EXPECT_NEAR(pixel.r, exact, 1e-4);
 }
 
 TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {

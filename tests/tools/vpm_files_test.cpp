@@ -163,8 +163,7 @@ TEST_F(VpmFiles, ABackgroundFillsTheShapeAroundIt) {
     Moments moments;
     for (int pass = 0; pass < 32; ++pass) {
       double total = 0.0;
-      for (const Rgb& c : render_photon_pass(loaded.scene, loaded.settings, 0, stop).image.pixels)
-        total += c.g;
+      for (const Rgb& c : render_photon_pass(loaded.scene, loaded.settings, 0, stop).image.pixels) total += c.g;
       moments.add(total);
       ++loaded.settings.seed;
     }

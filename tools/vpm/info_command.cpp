@@ -14,10 +14,7 @@ namespace {
 
 std::string text(const Vec3d& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
 std::string text(const Vec3& v) { return text(Vec3d(v)); }
-std::string text(const Rgb& c, const char* unit) {
-  return is_grey(c) ? fmt::format("{:.6g} {}", c.r, unit)
-                    : fmt::format("({:.6g}, {:.6g}, {:.6g}) {}", c.r, c.g, c.b, unit);
-}
+std::string rgb(const Rgb& c) { return is_grey(c) ? fmt::format("{:.6g}", c.r) : text(c); }
 std::string mebibytes(uint64_t bytes) {
   return fmt::format("{:.2f} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
 }
@@ -30,6 +27,9 @@ void print_grid(const GridSummary& g) {
   } else {
     fmt::print("  voxel size {} m, translation {} m, axes {}\n", text(g.voxel_size), text(g.translation),
                g.axis_aligned ? "along the world's" : "rotated or sheared");
+    const Mat3d steps(*g.index_to_world);
+    fmt::print("  transform: a step along the axes of the grid is {}, {}, {} m\n", text(steps[0]), text(steps[1]),
+               text(steps[2]));
   }
   fmt::print("  active voxels {}, of these in {} tiles\n", g.active_voxels, g.active_tiles);
   if (g.lo.x <= g.hi.x)
@@ -42,8 +42,8 @@ void print_grid(const GridSummary& g) {
 }
 
 void print_medium(const Medium& m, const Scene& scene, const RenderSettings& settings) {
-  fmt::print("medium {}: {}\n  sigma_s {}, sigma_t {}, albedo {}\n", m.name, m.homogeneous() ? "homogeneous" : "grid",
-             text(m.sigma_s, "1/m"), text(m.sigma_t, "1/m"), text(m.albedo(), ""));
+  fmt::print("medium {}: {}\n  sigma_s {} 1/m, sigma_t {} 1/m, albedo {}\n", m.name,
+             m.homogeneous() ? "homogeneous" : "grid", rgb(m.sigma_s), rgb(m.sigma_t), rgb(m.albedo()));
   if (m.grid) {
     const Box box = m.grid->bounds();
     fmt::print("  bounds {} to {} m, voxel {:.6g} m, density mean {:.6g}, max {:.6g}, memory {}\n", text(box.lo),
@@ -67,12 +67,15 @@ void print_scene(const InfoOptions& options) {
   fmt::print("camera at {} m, {} x {} pixels, in {}\n", text(scene.camera.position), scene.camera.width,
              scene.camera.height,
              scene.camera_medium == kVacuum ? "vacuum" : "medium " + scene.media[scene.camera_medium].name);
-  fmt::print("{} shapes in {} to {} m\n", scene.shapes.size(), text(box.lo), text(box.hi));
+  if (box.empty())
+    fmt::print("no shapes\n");
+  else
+    fmt::print("{} shapes in {} to {} m\n", scene.shapes.size(), text(box.lo), text(box.hi));
   fmt::print("around everything: {}\n",
              scene.world_medium == kVacuum ? "vacuum" : "medium " + scene.media[scene.world_medium].name);
   for (size_t i = 0; i < scene.lights.size(); ++i)
-    fmt::print("light {}: power {}, chosen with probability {:.4g}\n", i,
-               text(light_power(scene.lights[i], scene.sphere), "W"), scene.light_probability[i]);
+    fmt::print("light {}: power {} W, chosen with probability {:.4g}\n", i,
+               rgb(light_power(scene.lights[i], scene.sphere)), scene.light_probability[i]);
   for (const Medium& m : scene.media) print_medium(m, scene, loaded.settings);
   for (const std::string& line : stage_lines(scene, loaded.settings)) fmt::print("{}\n", line);
 }

@@ -1,5 +1,6 @@
 // vpm render: scene file in, picture and report out.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -83,10 +84,11 @@ void write_outputs(const Outputs& outputs, const RenderOptions& options, const L
       {"vpm.version", std::string(version())},
       {"vpm.scene", std::filesystem::path(options.scene).filename().string()},
       {"vpm.sceneHash", loaded.hash},
+      {"vpm.overrides", fmt::format("{}", fmt::join(options.overrides, " "))},
+      {"vpm.settings", settings_line(loaded.settings)},
       {"vpm.quantity", "radiance, W/(m^2 sr); variance.*: variance of the mean of passes"},
       {"vpm.seed", std::to_string(loaded.settings.seed)},
-      {"vpm.passes", std::to_string(result.film.passes())},
-      {"vpm.distance", loaded.settings.distance.strategy}};
+      {"vpm.passes", std::to_string(result.film.passes())}};
   if (result.film.passes() > 1) {
     const Image variance = result.film.variance_of_mean();
     write_exr(outputs.exr, mean, &variance, metadata);

@@ -16,6 +16,14 @@ using Json = nlohmann::ordered_json;
 
 Json rgb(const Rgbd& c) { return Json::array({c.r, c.g, c.b}); }
 
+/// A strategy or an estimator with what its list says of it: "regular (exact in any medium: ...)".
+template <class Info>
+std::string described(const std::string& name, std::span<const Info> infos) {
+  for (const Info& info : infos)
+    if (info.name == name) return fmt::format("{} ({})", name, info.summary);
+  return name;
+}
+
 double per_second(uint64_t count, double seconds) { return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0; }
 
 Json times(const RenderResult& result) {
@@ -104,8 +112,7 @@ std::string render_report(const std::string& scene_path, const std::string& imag
               {"seed", loaded.settings.seed},
               {"threads", thread_count()},
               {"passes", s.passes},
-              {"distance_strategy", loaded.settings.distance.strategy},
-              {"transmittance_estimator", loaded.settings.transmittance.estimator},
+              {"settings", settings_line(loaded.settings)},
               {"stages", stage_lines(loaded.scene, loaded.settings)},
               {"notes", loaded.notes},
               {"clamped_density_values", loaded.clamped_density_values},
@@ -120,24 +127,44 @@ std::string render_report(const std::string& scene_path, const std::string& imag
   return report.dump(2) + "\n";
 }
 
+std::string settings_line(const RenderSettings& s) {
+  const auto gather = [](const GatherSettings& g) {
+    const char* kernels[] = {"constant", "epanechnikov", "biweight"};
+    const std::string kernel = kernels[static_cast<int>(g.kernel)];
+    return g.mode == GatherMode::radius ? fmt::format("radius:{}:{}", g.radius, kernel)
+                                        : fmt::format("nearest:{}:{}:{}", g.count, g.radius, kernel);
+  };
+  const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
+  return fmt::format(
+      "integrator={} samples_per_pixel={} emitted={} stored={} distance={} transmittance={} volume={} form={} "
+      "volume_direct={} "
+      "surface={} surface_direct={} shrink_radii={} max_optical_step={} max_events={}",
+      s.integrator, s.samples_per_pixel, s.photons_emitted, s.photons_stored, s.distance.strategy,
+      s.transmittance.estimator, gather(s.volume),
+      s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", direct(s.volume_direct),
+      gather(s.surface), direct(s.surface_direct), s.shrink_radii, s.max_optical_step, s.max_events);
+}
+
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings) {
   const Stages stages = plan_stages(scene, settings);
   const std::string no_medium = scene.media.empty() ? "no medium" : "no medium scatters";
   const auto line = [](bool runs, const std::string& what, const std::string& why) {
     return runs ? "runs " + what : "skips " + what + ": " + why;
   };
+  const std::string distances = "distances by " + described(settings.distance.strategy, distance_strategies());
+  const std::string transmittance =
+      "transmittance by " + described(settings.transmittance.estimator, transmittance_estimators());
   bool grids = false;
   for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
-  return {
-      line(stages.photons(), "photon tracing, distances by " + settings.distance.strategy, "nothing stores photons"),
-      line(stages.volume_map, "volume photon map", no_medium),
-      line(stages.surface_map, "surface photon map", "no diffuse surface"),
-      line(stages.volume_shadow_rays, "shadow rays in media, transmittance by " + settings.transmittance.estimator,
-           stages.volume_map ? "single scattering comes from the photon map" : no_medium),
-      line(stages.surface_shadow_rays, "shadow rays at surfaces, transmittance by " + settings.transmittance.estimator,
-           stages.surface_map ? "direct light comes from the photon map" : "no diffuse surface"),
-      line(grids, "grid look-ups", "all media are homogeneous"),
-      scene.grey ? "all coefficients are grey" : "coefficients differ between channels"};
+  return {line(stages.photons(), "photon tracing, " + distances, "nothing stores photons"),
+          line(stages.volume_map, "volume photon map", no_medium),
+          line(stages.surface_map, "surface photon map", "no diffuse surface"),
+          line(stages.volume_shadow_rays, "shadow rays in media, " + transmittance,
+               stages.volume_map ? "single scattering comes from the photon map" : no_medium),
+          line(stages.surface_shadow_rays, "shadow rays at surfaces, " + transmittance,
+               stages.surface_map ? "direct light comes from the photon map" : "no diffuse surface"),
+          line(grids, "grid look-ups", "all media are homogeneous"),
+          scene.grey ? "all coefficients are grey" : "coefficients differ between channels"};
 }
 
 }  // namespace vpm::tools

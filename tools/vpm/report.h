@@ -12,6 +12,9 @@ namespace vpm::tools {
 std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded,
                           const RenderResult& result);
 
+/// The settings that decide what is estimated, in one line of key=value.
+std::string settings_line(const RenderSettings& settings);
+
 /// What stages a render of the scene runs, which it skips, and why: one line each, "runs ..." or "skips ...".
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings);
 

@@ -12,10 +12,14 @@ std::span<const StrategyInfo> distance_strategies() {
       {.name = "regular", .summary = "exact in any medium: cells walked, the quartic column inverted"},
       {.name = "homogeneous", .summary = "exact in a medium of constant density", .heterogeneous = false},
       {.name = "local-extinction",
-       .summary = "exponential at the rate where the segment starts",
+       .summary = "exponential at the rate where the segment starts; weights without bound",
        .bounded_weight = false},
-      {.name = "mean-extinction", .summary = "exponential at the medium's mean rate", .bounded_weight = false},
-      {.name = "ray-march", .summary = "marched until the transmittance reaches the random number", .unbiased = false},
+      {.name = "mean-extinction",
+       .summary = "exponential at the medium's mean rate; weights without bound",
+       .bounded_weight = false},
+      {.name = "ray-march",
+       .summary = "marched until the transmittance reaches the random number; bias falls as step^2",
+       .unbiased = false},
   }};
   return kStrategies;
 }
