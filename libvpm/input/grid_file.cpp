@@ -354,7 +354,7 @@ const VdbGridEntry& find_density(const VdbFile& file, const GridRequest& request
 }
 
 Mat4d world_matrix(VdbFile& file, const VdbGridEntry& entry, const GridRequest& request) {
-  const Mat4d m = request.object_to_world * index_to_world(*read_transform(file, entry));
+  Mat4d m = request.object_to_world * index_to_world(*read_transform(file, entry));
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
       if (!std::isfinite(m[i][j])) file.refuse(entry.name, "has a transform that is not finite");

@@ -185,8 +185,8 @@ class PlyReader {
 
   uint64_t next_length(const Property& property) {
     const double length = next(*property.count_type);
-    const size_t bytes = binary_ ? property.type->bytes : 1;
-    if (!(length >= 0.0 && length <= static_cast<double>(rest_.size() / bytes)))
+    const size_t most = rest_.size() / (binary_ ? property.type->bytes : 1);
+    if (!(length >= 0.0 && length <= static_cast<double>(most)))
       fail("a list '" + property.name + "' has an impossible length");
     return static_cast<uint64_t>(length);
   }

@@ -113,7 +113,7 @@ std::string read_path(TableReader& table, const std::string& key) {
   const Source& source = *table.place_of(key).source;
   const bool from_option = source.lines.empty();
   const std::filesystem::path folder = from_option ? "" : std::filesystem::path(source.name).parent_path();
-  const std::string found = (folder / path).string();
+  std::string found = (folder / path).string();
   std::error_code ignored;
   if (!std::filesystem::exists(found, ignored)) table.fail(key, "there is no file '" + found + "'");
   return found;

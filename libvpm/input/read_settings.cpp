@@ -129,6 +129,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
         "form",
         {{"density-at-query", VolumeForm::density_at_query}, {"density-at-photon", VolumeForm::density_at_photon}},
         s.volume_form);
+    s.density_floor = table.number("density_floor", kFraction, s.density_floor);
     s.volume_direct = read_direct(table, s.volume_direct);
   });
   read_section(root, "surface", [&](TableReader& table) {

@@ -28,8 +28,7 @@ Mat4d read_matrix(TableReader& step) {
     step.fail("matrix", "the last row of a matrix must be 0, 0, 0, 1",
               "write it row by row: the translation is the fourth column");
   Mat4d matrix(1.0);
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column) matrix[column][row] = m[static_cast<size_t>(4 * row + column)];
+  for (size_t i = 0; i < m.size(); ++i) matrix[static_cast<int>(i % 4)][static_cast<int>(i / 4)] = m[i];
   return matrix;
 }
 

@@ -24,6 +24,7 @@ struct Medium {
   float density(const Vec3& p) const { return grid ? grid->density(p) : 1.0f; }
   /// The mean density over the grid's support, empty voxels included.
   double mean_density() const { return grid ? grid->mean_density() : 1.0; }
+  float max_density() const { return grid ? grid->max_density() : 1.0f; }
   /// The shortest distance between voxels, m; infinite in a homogeneous medium.
   float voxel_size() const { return grid ? grid->voxel_size() : kInfinity; }
   /// The part of the interval in which the density may differ from zero.

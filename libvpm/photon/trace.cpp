@@ -83,9 +83,10 @@ class PhotonPath {
     if (!alive_) return;
     const Medium& medium = scene_.media[state_.medium];
     if (settings_.keep_volume && medium.scatters() && (settings_.keep_direct_volume || !direct_)) {
-      const bool at_query = settings_.volume_form == VolumeForm::density_at_query;
-      out_.volume[state_.medium].push_back({state_.ray.origin, PackedDirection(state_.ray.direction),
-                                            at_query ? state_.power / event.density : state_.power});
+      const Rgb power = state_.power / (settings_.volume_form == VolumeForm::density_at_query
+                                            ? std::max(event.density, settings_.density_floor * medium.max_density())
+                                            : 1.0f);
+      out_.volume[state_.medium].push_back({state_.ray.origin, PackedDirection(state_.ray.direction), power});
     }
     deposit(out_.ledger.absorbed_in_media, Rgbd(state_.power * (Rgb(1.0f) - medium.albedo())));
     direct_ = false;

@@ -35,6 +35,7 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
   trace.keep_direct_volume = !stages.volume_shadow_rays;
   trace.keep_direct_surface = !stages.surface_shadow_rays;
   trace.volume_form = settings.volume_form;
+  trace.density_floor = settings.density_floor;
   trace.stop = &stop;
   return trace;
 }

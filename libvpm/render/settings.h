@@ -32,6 +32,7 @@ struct RenderSettings {
   GatherSettings surface;    // surface radiance estimate
   bool shrink_radii = true;  // progressive passes [Knaus2011]; false: every pass has the first one's radii
   VolumeForm volume_form = VolumeForm::density_at_query;
+  float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]
   DirectLight volume_direct = DirectLight::photons;  // single scattering
   DirectLight surface_direct = DirectLight::shadow_rays;
   float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0

@@ -203,6 +203,28 @@ TEST(PhotonTracing, LeavesOutWhatIsNotAskedFor) {
   EXPECT_TRUE(none.volume[0].empty() && none.surface.empty());
 }
 
+TEST(PhotonTracing, ADensityFloorBoundsThePowersAndNothingElse) {
+  const auto sparse = grid_over_box([](int x, int y, int z) { return std::pow(lattice_noise(x, y, z), 8.0); });
+  const Scene scene = boxed_medium(make_medium(sparse, Rgb(4.0f)), kSpot);
+  const auto strategy = make_distance_strategy({});
+  Progress silent("photons", 0, false);
+  TraceSettings settings;
+  settings.emitted = 20000;
+  const std::vector<Photon> bare = trace_photons(scene, *strategy, settings, silent).volume[0];
+  settings.density_floor = 0.05f;
+  const std::vector<Photon> floored = trace_photons(scene, *strategy, settings, silent).volume[0];
+  ASSERT_EQ(bare.size(), floored.size());
+  const float emitted = light_power(kSpot, scene.sphere).r;
+  const float bound = 1.001f * emitted / (0.05f * sparse->max_density());
+  int heavy = 0;
+  for (size_t i = 0; i < bare.size(); ++i) {
+    heavy += bare[i].power.r > bound;
+    ASSERT_TRUE(bare[i].power.r >= 0.999f * bound || floored[i].power == bare[i].power);
+    ASSERT_LE(floored[i].power.r, bound);
+  }
+  EXPECT_GT(heavy, 100);
+}
+
 TEST(PhotonTracing, PhotonsThroughABoundaryStayDirect) {
   Medium medium =
       make_medium(nullptr, Rgb(100.0f), 1e-6f);  // all but black: every stored photon is at its first collision

@@ -137,33 +137,35 @@ std::string settings_line(const RenderSettings& s) {
   const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
   return fmt::format(
       "integrator={} samples_per_pixel={} emitted={} stored={} distance={} transmittance={} volume={} form={} "
+      "density_floor={} "
       "volume_direct={} "
       "surface={} surface_direct={} shrink_radii={} max_optical_step={} max_events={}",
       s.integrator, s.samples_per_pixel, s.photons_emitted, s.photons_stored, s.distance.strategy,
       s.transmittance.estimator, gather(s.volume),
-      s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", direct(s.volume_direct),
-      gather(s.surface), direct(s.surface_direct), s.shrink_radii, s.max_optical_step, s.max_events);
+      s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
+      direct(s.volume_direct), gather(s.surface), direct(s.surface_direct), s.shrink_radii, s.max_optical_step,
+      s.max_events);
 }
 
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings) {
   const Stages stages = plan_stages(scene, settings);
   const std::string no_medium = scene.media.empty() ? "no medium" : "no medium scatters";
-  const auto line = [](bool runs, const std::string& what, const std::string& why) {
-    return runs ? "runs " + what : "skips " + what + ": " + why;
+  const auto line = [](bool runs, const std::string& what, const std::string& how, const std::string& why_not) {
+    return runs ? "runs " + what + how : "skips " + what + ": " + why_not;
   };
-  const std::string distances = "distances by " + described(settings.distance.strategy, distance_strategies());
+  const std::string distances = ", distances by " + described(settings.distance.strategy, distance_strategies());
   const std::string transmittance =
-      "transmittance by " + described(settings.transmittance.estimator, transmittance_estimators());
+      ", transmittance by " + described(settings.transmittance.estimator, transmittance_estimators());
   bool grids = false;
   for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
-  return {line(stages.photons(), "photon tracing, " + distances, "nothing stores photons"),
-          line(stages.volume_map, "volume photon map", no_medium),
-          line(stages.surface_map, "surface photon map", "no diffuse surface"),
-          line(stages.volume_shadow_rays, "shadow rays in media, " + transmittance,
+  return {line(stages.photons(), "photon tracing", distances, "nothing stores photons"),
+          line(stages.volume_map, "volume photon map", "", no_medium),
+          line(stages.surface_map, "surface photon map", "", "no diffuse surface"),
+          line(stages.volume_shadow_rays, "shadow rays in media", transmittance,
                stages.volume_map ? "single scattering comes from the photon map" : no_medium),
-          line(stages.surface_shadow_rays, "shadow rays at surfaces, " + transmittance,
+          line(stages.surface_shadow_rays, "shadow rays at surfaces", transmittance,
                stages.surface_map ? "direct light comes from the photon map" : "no diffuse surface"),
-          line(grids, "grid look-ups", "all media are homogeneous"),
+          line(grids, "grid look-ups", "", "all media are homogeneous"),
           scene.grey ? "all coefficients are grey" : "coefficients differ between channels"};
 }
 
