@@ -6,7 +6,7 @@
 namespace vpm {
 
 Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters) {
-  const Encounter met = scene.geometry.encounter(ray, t_max);
+  Encounter met = scene.geometry.encounter(ray, t_max);
   if (!met && t_max < kInfinity) return met;
   const MediumId known = met ? medium_before(scene, met, ray.direction, medium) : scene.world_medium;
   if (known != medium) ++counters.medium_mismatches;

@@ -19,6 +19,7 @@ void Ledger::merge(const Ledger& other) {
   largest_weight = std::max(largest_weight, other.largest_weight);
   collisions += other.collisions;
   surface_hits += other.surface_hits;
+  floored += other.floored;
   non_finite += other.non_finite;
   walk.merge(other.walk);
 }

@@ -24,6 +24,7 @@ struct Ledger {
   double largest_weight = 0.0;  // power over emitted power that any photon carried
   uint64_t collisions = 0;
   uint64_t surface_hits = 0;
+  uint64_t floored = 0;     // stored photons whose density was below TraceSettings::density_floor
   uint64_t non_finite = 0;  // photons dropped because their power was not finite
   WalkCounters walk;
 

@@ -83,14 +83,21 @@ class PhotonPath {
     if (!alive_) return;
     const Medium& medium = scene_.media[state_.medium];
     if (settings_.keep_volume && medium.scatters() && (settings_.keep_direct_volume || !direct_)) {
-      const Rgb power = state_.power / (settings_.volume_form == VolumeForm::density_at_query
-                                            ? std::max(event.density, settings_.density_floor * medium.max_density())
-                                            : 1.0f);
+      const Rgb power = state_.power /
+                        (settings_.volume_form == VolumeForm::density_at_query ? divisor(medium, event.density) : 1.0f);
       out_.volume[state_.medium].push_back({state_.ray.origin, PackedDirection(state_.ray.direction), power});
     }
     deposit(out_.ledger.absorbed_in_media, Rgbd(state_.power * (Rgb(1.0f) - medium.albedo())));
     direct_ = false;
     alive_ = scatter_in_medium(medium, state_, rng);
+  }
+
+  /// The density that a photon's power is divided by: its own, or the floor. Counts the floor's use.
+  float divisor(const Medium& medium, float density) {
+    const float floor = settings_.density_floor * medium.max_density();
+    if (density >= floor) return density;
+    ++out_.ledger.floored;
+    return floor;
   }
 
   void meet_surface(const Hit& hit, Rng& rng) {

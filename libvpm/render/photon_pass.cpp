@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kTile = 16;                // pixels along an edge; a tile is a chunk of parallel work
 constexpr float kDefaultRadius = 0.01f;  // of the diagonal of what the map covers
+constexpr float kDefaultSearch = 0.1f;   // the same, as the largest radius of the nearest mode
 
 class Stopwatch {
  public:
@@ -48,8 +49,13 @@ GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dim
   return gather;
 }
 
+float default_share(const GatherSettings& gather) {
+  return gather.mode == GatherMode::radius ? kDefaultRadius : kDefaultSearch;
+}
+
 /// Traces the photons and sorts them into the context's maps.
-void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgress& progress, RenderStatistics& statistics) {
+void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgress& progress,
+               RenderStatistics& statistics) {
   const int pass = static_cast<int>(trace.pass);
   const auto& [scene, settings, stages, volume, surface, transmittance] = context;
   const Stopwatch tracing;
@@ -135,11 +141,12 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
 
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium) {
   if (settings.volume.radius > 0.0f) return settings.volume.radius;
-  return kDefaultRadius * (medium.grid ? medium.grid->bounds().diagonal() : 2.0f * scene.sphere.radius);
+  return default_share(settings.volume) * (medium.grid ? medium.grid->bounds().diagonal() : 2.0f * scene.sphere.radius);
 }
 
 float first_surface_radius(const Scene& scene, const RenderSettings& settings) {
-  return settings.surface.radius > 0.0f ? settings.surface.radius : kDefaultRadius * 2.0f * scene.sphere.radius;
+  return settings.surface.radius > 0.0f ? settings.surface.radius
+                                        : default_share(settings.surface) * 2.0f * scene.sphere.radius;
 }
 
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

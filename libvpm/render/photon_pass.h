@@ -21,8 +21,8 @@ struct Stages {
 };
 Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 
-/// The radius of a map in the first pass: the settings', or where that is 0 one hundredth of the diagonal of the
-/// medium's bounds (grids) or of the scene.
+/// The radius of a map in the first pass: the settings', or where that is 0 one hundredth (the largest radius of the
+/// nearest mode: a tenth) of the diagonal of the medium's bounds (grids) or of the scene.
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium);
 float first_surface_radius(const Scene& scene, const RenderSettings& settings);
 

@@ -17,7 +17,7 @@ struct RenderSettings {
   std::string integrator = "photon";
   uint64_t seed = 1;
   int passes = 16;            // >= 1; ignored where seconds > 0
-  double seconds = 0.0;       // > 0: as many passes as fit
+  double seconds = 0.0;       // > 0: passes start until that time is over
   int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
 
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides

@@ -9,12 +9,13 @@
 #include <fstream>
 
 #include "input/expectations.h"
+#include "support/test_file.h"
 
 namespace vpm {
 namespace {
 
 std::string write_file(const std::string& name, const std::string& text) {
-  const std::string path = ::testing::TempDir() + name;
+  const std::string path = test_file(name);
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }

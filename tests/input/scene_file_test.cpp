@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "input/expectations.h"
+#include "support/test_file.h"
 
 namespace vpm {
 namespace {
@@ -16,7 +17,7 @@ const std::string kLight = "[[lights]]\ntype = \"point\"\nposition = [0, 2, 0]\n
 const std::string kGrey = "[materials.grey]\ntype = \"lambertian\"\nreflectance = 0.5\n";
 
 std::string write_scene(const std::string& text) {
-  const std::string path = ::testing::TempDir() + "scene.toml";
+  const std::string path = test_file("scene.toml");
   std::ofstream(path) << text;
   return path;
 }
@@ -113,8 +114,7 @@ TEST(SceneFile, RefusesBadOptions) {
 
 TEST(SceneFile, FindsFilesFromTheSceneAndFromTheCurrentFolder) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(::testing::TempDir()) / "folder";
-  fs::create_directories(folder);
+  const fs::path folder = fs::path(test_file("scene.toml")).parent_path();
   std::ofstream(folder / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\n";
   std::ofstream(folder / "scene.toml") << kCamera << kLight << kGrey
                                        << "[[shapes]]\ntype = \"mesh\"\nmaterial = \"grey\"\npath = \"one.obj\"\n";

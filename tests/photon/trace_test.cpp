@@ -212,7 +212,8 @@ TEST(PhotonTracing, ADensityFloorBoundsThePowersAndNothingElse) {
   settings.emitted = 20000;
   const std::vector<Photon> bare = trace_photons(scene, *strategy, settings, silent).volume[0];
   settings.density_floor = 0.05f;
-  const std::vector<Photon> floored = trace_photons(scene, *strategy, settings, silent).volume[0];
+  const TracedPhotons with_floor = trace_photons(scene, *strategy, settings, silent);
+  const std::vector<Photon>& floored = with_floor.volume[0];
   ASSERT_EQ(bare.size(), floored.size());
   const float emitted = light_power(kSpot, scene.sphere).r;
   const float bound = 1.001f * emitted / (0.05f * sparse->max_density());
@@ -223,6 +224,7 @@ TEST(PhotonTracing, ADensityFloorBoundsThePowersAndNothingElse) {
     ASSERT_LE(floored[i].power.r, bound);
   }
   EXPECT_GT(heavy, 100);
+  EXPECT_NEAR(static_cast<double>(with_floor.ledger.floored), heavy, 0.01 * heavy);
 }
 
 TEST(PhotonTracing, PhotonsThroughABoundaryStayDirect) {

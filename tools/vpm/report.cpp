@@ -48,6 +48,7 @@ Json photons(const RenderStatistics& s) {
           {"density_lookups", s.ledger.walk.lookups},
           {"largest_weight", s.ledger.largest_weight},
           {"effective_sample_size", s.ledger.effective_sample_size()},
+          {"below_density_floor", s.ledger.floored},
           {"paths_cut_at_max_events", s.ledger.cut_count},
           {"dropped_non_finite", s.ledger.non_finite}};
 }
@@ -136,12 +137,13 @@ std::string settings_line(const RenderSettings& s) {
   };
   const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
   return fmt::format(
-      "integrator={} samples_per_pixel={} emitted={} stored={} distance={} transmittance={} volume={} form={} "
+      "integrator={} samples_per_pixel={} emitted={} stored={} distance={}:step={}:floor={} transmittance={}:step={} "
+      "volume={} form={} "
       "density_floor={} "
       "volume_direct={} "
       "surface={} surface_direct={} shrink_radii={} max_optical_step={} max_events={}",
-      s.integrator, s.samples_per_pixel, s.photons_emitted, s.photons_stored, s.distance.strategy,
-      s.transmittance.estimator, gather(s.volume),
+      s.integrator, s.samples_per_pixel, s.photons_emitted, s.photons_stored, s.distance.strategy, s.distance.step,
+      s.distance.extinction_floor, s.transmittance.estimator, s.transmittance.step, gather(s.volume),
       s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
       direct(s.volume_direct), gather(s.surface), direct(s.surface_direct), s.shrink_radii, s.max_optical_step,
       s.max_events);
