@@ -70,8 +70,10 @@ TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
   const Mat4d to_index = glm::inverse(frame.index_to_world);
   Rng rng(1, rng_stream(RngUse::test, 1), 0);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 target = Vec3(frame.index_to_world * glm::dvec4(-10.0 + 20.0 * rng.uniform(), 5.0 + 15.0 * rng.uniform(),
-                                                               16.0 * rng.uniform(), 1.0));
+    // Every other ray may miss the grid.
+    const Vec3d spread = Vec3d(20.0, 15.0, 16.0) * (i % 2 ? 3.0 : 1.0);
+    const Vec3d middle = Vec3d(0.0, 12.5, 8.0) + spread * (Vec3d(rng.uniform(), rng.uniform(), rng.uniform()) - 0.5);
+    const Vec3 target(frame.index_to_world * glm::dvec4(middle, 1.0));
     const Ray ray{target - 3.0f * uniform_sphere(rng.uniform2()), {}};
     const Ray aimed{ray.origin, glm::normalize(target - ray.origin)};
     const Interval interval{0.2f, 5.5f};
@@ -88,6 +90,8 @@ TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
       return true;
     });
     EXPECT_LE(end, interval.t1 + 1e-9);
+    EXPECT_TRUE(frame.background == 0.0f || std::abs(end - interval.t1) < 1e-9);
+    if (i >= 20) continue;  // quadrature is slow
     double sum = 0.0;
     constexpr int kSteps = 20000;
     for (int k = 0; k < kSteps; ++k) {
@@ -97,7 +101,6 @@ TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
     }
     const double tolerance = frame.interpolation == Interpolation::trilinear ? 2e-5 : 5e-3;
     ASSERT_NEAR(total, sum * interval.length() / kSteps, tolerance);
-    if (i == 20) break;  // quadrature is slow; the pieces of the other rays are checked above
   }
 }
 
@@ -129,14 +132,19 @@ TEST(DensityGrid, KnowsItsExtremesAndMean) {
   frame.hi = Vec3i(30, 5, 9);
   frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.5, 0.25, 2.0));
   double sum = 0.0;
-  const auto grid =
-      make_grid(frame, [&](int x, int y, int z) { return x == 4 && y == 1 && z == 2 ? 9.0 : lattice_noise(x, y, z); });
+  const auto field = [](int x, int y, int z) { return x == 4 && y == 1 && z == 2 ? 9.0 : lattice_noise(x, y, z); };
+  const auto grid = make_grid(frame, field);
   for (int z = -3; z <= 9; ++z)
     for (int y = -3; y <= 5; ++y)
-      for (int x = -3; x <= 30; ++x) sum += x == 4 && y == 1 && z == 2 ? 9.0 : lattice_noise(x, y, z);
+      for (int x = -3; x <= 30; ++x) sum += field(x, y, z);
   EXPECT_EQ(grid->max_density(), 9.0f);
   EXPECT_NEAR(grid->mean_density(), sum / (35.0 * 10.0 * 14.0), 1e-6);
   EXPECT_FLOAT_EQ(grid->voxel_size(), 0.25f);
+  frame.background = 0.7f;  // fills what the support has beyond the voxels
+  const auto in_haze = make_grid(frame, field);
+  const double beyond = 35.0 * 10.0 * 14.0 - 34.0 * 9.0 * 13.0;
+  EXPECT_NEAR(in_haze->mean_density(), (sum + 0.7f * beyond) / (35.0 * 10.0 * 14.0), 1e-6);
+  EXPECT_EQ(make_grid(frame, [](int, int, int) { return 0.7; })->max_density(), 0.7f);
 }
 
 TEST(DensityGrid, EmptySpaceCostsNoLookUps) {

@@ -124,7 +124,7 @@ TEST(DistanceStrategy, HomogeneousEqualsAConstantGridFlightByFlight) {
   frame.lo = Vec3i(-50);
   frame.hi = Vec3i(50);
   const auto grid = make_grid(frame, [](int, int, int) { return 1.0; });
-  const Interval inside{0.0f, 40.0f};
+  const Interval inside{2.0f, 40.0f};
   for (const Rgb& sigma_t : {Rgb(0.1f), Rgb(0.02f, 0.1f, 0.4f)}) {
     const Medium constant = make_medium(grid, sigma_t);
     const Medium homogeneous = make_medium(nullptr, sigma_t);
@@ -156,6 +156,30 @@ TEST(DistanceStrategy, GreyWeightsOfAnalogStrategiesAreExactlyOne) {
       const auto strategy = make_distance_strategy({.strategy = std::string(info.name)});
       EXPECT_EQ(strategy->sample(medium, kRay, kReach, Rgb(1.0f), rng).weight, Rgb(1.0f)) << info.name;
     }
+  }
+}
+
+TEST(DistanceStrategy, ExponentialFlightsHaveTheirStatedRates) {
+  // Weights forgive any rate: only the share of flights that collide tells it.
+  const Medium medium = make_medium(fields()[1].grid, Rgb(1.5f));
+  const double mean = medium.mean_density();
+  struct Case {
+    const char* strategy;
+    float t0;  // m; at 0 the ray is before the grid
+    double density;
+  };
+  for (const Case& c : {Case{"mean-extinction", 1.3f, mean}, Case{"local-extinction", 0.0f, 0.3 * mean},
+                        Case{"local-extinction", 1.3f, medium.density(kRay.at(1.3f))}}) {
+    const auto strategy = make_distance_strategy({.strategy = c.strategy, .extinction_floor = 0.3f});
+    const Interval reach{c.t0, c.t0 + 0.9f};
+    Moments collided;
+    for (uint64_t i = 0; i < 40000; ++i) {
+      Rng rng(3, rng_stream(RngUse::test, 6), i);
+      const Flight flight = strategy->sample(medium, kRay, reach, Rgb(1.0f), rng);
+      EXPECT_TRUE(flight.t >= reach.t0 && flight.t <= reach.t1);
+      collided.add(flight.collided ? 1.0 : 0.0);
+    }
+    expect_mean(collided, 1.0 - std::exp(-1.5 * c.density * reach.length()), kFalseAlarms, c.strategy);
   }
 }
 

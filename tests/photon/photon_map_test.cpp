@@ -68,6 +68,30 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
   }
 }
 
+TEST(PhotonMap, OnePhotonCountsAsTheEstimatesSay) {
+  // A photon of 1 W among 4 emitted, off the point by 0.3 radii; Epanechnikov kernels of radius 0.1 m.
+  const Vec3 at(1.0f, 2.0f, 3.0f), travel = glm::normalize(Vec3(0.0f, -0.8f, 0.6f)), up(0.0f, 1.0f, 0.0f);
+  const GatherSettings settings{GatherMode::radius, 0.1f, 0, KernelKind::epanechnikov};
+  const auto map = [&](const Vec3& off, const Vec3& d) {
+    return make_photon_map({{at + off, PackedDirection(d), Rgb(1.0f)}}, settings, 4);
+  };
+  const float ball = 15.0f / (8.0f * kPi * 1e-3f) * 0.91f / 4.0f, disc = 2.0f / (kPi * 1e-2f) * 0.91f / 4.0f;
+  const PhotonMap beside = map(Vec3(0.03f, 0.0f, 0.0f), travel);
+  // Forward scattering: most goes on along the photon's direction of travel.
+  const HenyeyGreenstein phase{0.6f};
+  EXPECT_NEAR(volume_sum(phase, at, travel, beside).r / (phase.value(1.0f) * ball), 1.0f, 1e-3f);
+  EXPECT_NEAR(volume_sum(phase, at, -travel, beside).r / (phase.value(-1.0f) * ball), 1.0f, 1e-3f);
+  expect_near(fluence(Rgb(0.5f, 1.0f, 2.0f), at, beside), Rgb(2.0f, 1.0f, 0.5f) * ball, "fluence");
+  // Surfaces: photons that arrive at the normal's side, near the plane.
+  expect_near(surface_irradiance(at, up, 0.1f, beside), Rgb(disc), "from before");
+  expect_near(surface_irradiance(at, -up, 0.1f, beside), Rgb(0.0f), "from behind");
+  const float low = 0.01f, high = 0.02f;
+  expect_near(surface_irradiance(at, up, 0.1f, map(Vec3(std::sqrt(9e-4f - low * low), low, 0.0f), travel)), Rgb(disc),
+              "near the plane");
+  expect_near(surface_irradiance(at, up, 0.1f, map(Vec3(std::sqrt(9e-4f - high * high), high, 0.0f), travel)),
+              Rgb(0.0f), "off the plane");
+}
+
 TEST(PhotonMap, SmallAndEmptyMapsAnswer) {
   for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
     for (const size_t count : {0u, 1u, 2u, 3u, 39u, 40u, 41u}) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "base/parallel.h"
@@ -110,15 +111,16 @@ TEST(PhotonTracing, TheStrategiesAgreeOnASmoothGrid) {
   }
 }
 
-/// A scene with everything a photon can meet: fog, a glass ball, a mirror, coloured walls.
-Scene full_scene() {
+/// A scene with everything a photon can meet: fog, a glass ball, a mirror, coloured walls. The fog is around the ball
+/// or in it.
+Scene full_scene(bool fog_in_glass = false) {
   Scene scene;
   scene.media.push_back(colourful(nullptr));
-  scene.world_medium = 0;
+  scene.world_medium = fog_in_glass ? kVacuum : 0;
   add_shape(scene, quad_mesh(Vec3(-2, -1, 2), Vec3(4, 0, 0), Vec3(0, 0, -4)), Lambertian{Rgb(0.8f, 0.5f, 0.2f)});
   add_shape(scene, quad_mesh(Vec3(-2, -1, -2), Vec3(4, 0, 0), Vec3(0, 3, 0)), Mirror{Rgb(0.9f, 0.8f, 0.7f)});
-  const Interface vacuum_inside{kVacuum, 0};
-  add_shape(scene, SphereShape{Vec3(0.0f, -0.2f, 0.0f), 0.6f}, Dielectric{1.5f}, &vacuum_inside);
+  const Interface media = fog_in_glass ? Interface{0, kVacuum} : Interface{kVacuum, 0};
+  add_shape(scene, SphereShape{Vec3(0.0f, -0.2f, 0.0f), 0.6f}, Dielectric{1.5f}, &media);
   scene.lights.push_back(PointLight{Vec3(0.3f, 1.2f, 0.1f), Rgb(1.0f, 2.0f, 0.5f)});
   scene.lights.push_back(kSpot);
   scene.geometry.commit();
@@ -127,20 +129,23 @@ Scene full_scene() {
 }
 
 TEST(PhotonTracing, TheLedgerCloses) {
-  const Scene scene = full_scene();
+  const Scene in_fog = full_scene(), fog_in_glass = full_scene(true);
   TraceSettings settings;
   settings.emitted = 50000;
-  for (const char* strategy : {"homogeneous", "local-extinction", "mean-extinction", "ray-march", "regular"}) {
-    const Ledger ledger = trace(scene, strategy, settings).ledger;
+  for (const auto& [scene, strategy] : {std::pair(&in_fog, "homogeneous"), std::pair(&in_fog, "local-extinction"),
+                                        std::pair(&in_fog, "mean-extinction"), std::pair(&in_fog, "ray-march"),
+                                        std::pair(&in_fog, "regular"), std::pair(&fog_in_glass, "homogeneous")}) {
+    const Ledger ledger = trace(*scene, strategy, settings).ledger;
     EXPECT_LT(std::abs(ledger.imbalance.mean()), 5.0 * std::sqrt(ledger.imbalance.variance_of_mean())) << strategy;
     // Each channel, too: the channels' mixtures must conserve every one of them.
     const double n = static_cast<double>(ledger.emitted_count);
     const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(gone[c] / ledger.emitted[c], 1.0, 20.0 / std::sqrt(n)) << strategy << " channel " << c;
-    EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene.sphere).g, 0.2) << strategy;
+    EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene->sphere).g, 0.2) << strategy;
     EXPECT_EQ(ledger.non_finite, 0u);
     EXPECT_EQ(ledger.cut_count, 0u);
+    EXPECT_EQ(ledger.walk.medium_mismatches, 0u);
   }
 }
 
@@ -186,6 +191,42 @@ TEST(PhotonTracing, FillsTheMapAndDividesByTheEmitted) {
   EXPECT_LT(std::abs(stored[0].mean() - stored[1].mean()), normal_quantile(kFalseAlarms) * error);
 }
 
+TEST(PhotonTracing, StopsWhenEitherMapIsFullAndTracesNoPhotonTwice) {
+  TraceSettings settings;
+  settings.stored = 100000;
+  for (const bool fog_in_glass : {false, true}) {  // fills the volume map, the surface map
+    const TracedPhotons photons = trace(full_scene(fog_in_glass), "homogeneous", settings);
+    EXPECT_GE((fog_in_glass ? photons.surface : photons.volume[0]).size(), settings.stored);
+    EXPECT_LT((fog_in_glass ? photons.volume[0] : photons.surface).size(), settings.stored);
+    std::vector<std::array<float, 3>> places;
+    for (const Photon& p : photons.volume[0]) places.push_back({p.position.x, p.position.y, p.position.z});
+    std::sort(places.begin(), places.end());
+    EXPECT_EQ(std::adjacent_find(places.begin(), places.end()), places.end());
+  }
+}
+
+TEST(PhotonTracing, LightPhotonsEndOrBecomeATenth) {
+  // The photons' power alone tells: without the division by the survival some would stay lighter.
+  const auto checker = grid_over_box([](int x, int y, int z) { return ((x ^ y ^ z) & 4) ? 4.0 : 0.1; });
+  const Scene scene = boxed_medium(make_medium(checker, Rgb(1.5f), 0.9f), kSpot);
+  TraceSettings settings;
+  settings.emitted = 5000;
+  const TracedPhotons photons = trace(scene, "mean-extinction", settings);
+  const double tenth = 0.1 * sum_channels(light_power(kSpot, scene.sphere));
+  int at_the_limit = 0;
+  double collided = 0.0;
+  for (const Photon& p : photons.volume[0]) {
+    const double power = sum_channels(p.power);
+    ASSERT_GT(power, 0.9999 * tenth);
+    at_the_limit += power < 1.0001 * tenth;
+    collided += power;
+  }
+  EXPECT_GT(at_the_limit, 50);
+  // What is stored is what collided: the medium absorbs 1 - albedo of it.
+  const Rgbd absorbed = photons.ledger.absorbed_in_media;
+  EXPECT_NEAR(0.1 * collided / (absorbed.r + absorbed.g + absorbed.b), 1.0, 1e-4);
+}
+
 TEST(PhotonTracing, LeavesOutWhatIsNotAskedFor) {
   const Scene scene = full_scene();
   TraceSettings settings;
@@ -197,6 +238,7 @@ TEST(PhotonTracing, LeavesOutWhatIsNotAskedFor) {
   EXPECT_LT(indirect.volume[0].size(), all.volume[0].size());
   EXPECT_LT(indirect.surface.size(), all.surface.size());
   EXPECT_EQ(indirect.ledger.collisions, all.ledger.collisions);
+  for (const Photon& p : all.surface) EXPECT_NEAR(p.position.y, -1.0f, 1e-6f);  // the mirror keeps none
   settings.keep_volume = false;
   settings.keep_surface = false;
   const TracedPhotons none = trace(scene, "homogeneous", settings);

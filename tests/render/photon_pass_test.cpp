@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/radius_schedule.h"
 #include "render/render.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
@@ -41,7 +42,7 @@ RenderSettings settings_of(uint64_t photons, float radius) {
   return settings;
 }
 
-/// A lamp over a floor, seen from above, in vacuum or fog.
+/// A lamp over a floor, seen from above, in vacuum or fog. In fog the floor is black, so that only the fog is seen.
 Scene lamp_and_floor(const Medium* fog) {
   Scene scene;
   if (fog) {
@@ -51,7 +52,8 @@ Scene lamp_and_floor(const Medium* fog) {
   const QuadLight lamp{Vec3(-0.2f, 1.5f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f), Rgb(10.0f, 5.0f, 2.0f)};
   scene.lights.push_back(lamp);
   add_shape(scene, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 0);
-  add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), Lambertian{Rgb(0.6f, 0.5f, 0.4f)});
+  const Lambertian floor{fog ? Rgb(0.0f) : Rgb(0.6f, 0.5f, 0.4f)};
+  add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), floor);
   scene.camera = make_camera(Vec3(1.5f, 1.2f, 1.5f), Vec3(0.2f, 0.0f, 0.2f), Vec3(0, 1, 0), 30.0f, 12, 12, {});
   scene.camera_medium = scene.world_medium;
   scene.geometry.commit();
@@ -144,10 +146,106 @@ TEST(PhotonPass, AClosedDiffuseFurnaceIsUniform) {
     for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
       RenderSettings settings = settings_of(20000, 0.12f);
       settings.surface_direct = direct;
+      settings.volume_direct = direct;
       const Moments mean = pass_means(scene, settings, 12);
       EXPECT_NEAR(mean.mean(), 2.0, 0.01 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean())) << foggy;
     }
   }
+}
+
+TEST(PhotonPass, AWhiteFurnaceIsUniformThroughGlass) {
+  // Scattering glass of IOR 1.5: inside, radiance is 1.5^2 times as large, and must shrink again on its way out.
+  Scene scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(1.0f), 1.0f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Dielectric{1.5f}, &media);
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 16.0f, 10, 10, {});
+  scene.geometry.commit();
+  finish(scene);
+  for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+    RenderSettings settings = settings_of(10000, 0.1f);
+    settings.volume_form = form;
+    const Moments mean = pass_means(scene, settings, 12);
+    // As above, the kernel's darkening at the surface.
+    EXPECT_NEAR(mean.mean(), 1.0, 0.02 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean()))
+        << static_cast<int>(form);
+  }
+}
+
+/// Fog of next to no albedo, in which a thin cone of light falls on black ground 2 m before the camera; a faint panel 2
+/// m beyond it.
+Scene cone_in_fog(float panel_radiance) {
+  Scene scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(0.4f, 0.6f, 0.9f), 1e-15f));
+  scene.world_medium = 0;
+  scene.camera_medium = 0;
+  scene.lights.push_back(SpotLight{Vec3(0.0f, 1.0f, 0.0f), Vec3(0, -1, 0), 0.99f, 0.985f, Rgb(1.0f)});
+  const QuadLight panel{Vec3(-1, -1, -2), Vec3(2, 0, 0), Vec3(0, 2, 0), Rgb(panel_radiance)};
+  scene.lights.push_back(panel);
+  add_shape(scene, quad_mesh(panel.corner, panel.edge_u, panel.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 1);
+  add_shape(scene, quad_mesh(Vec3(-1, -1, 1), Vec3(2, 0, 0), Vec3(0, 0, -2)), Lambertian{Rgb(0.0f)});
+  scene.camera = make_camera(Vec3(0, 0, 2), Vec3(0.0f), Vec3(0, 1, 0), 4.0f, 10, 10, {});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+TEST(PhotonPass, FogDimsBeforeAndBehindThePhotons) {
+  const Scene scene = cone_in_fog(1e-7f);  // too faint to send photons of its own, bright against what the fog scatters
+  static const std::atomic<bool> kGoOn{false};
+  for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
+    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+      RenderSettings settings = settings_of(1000, 0.05f);
+      settings.volume_direct = direct;
+      settings.volume_form = form;
+      const Image image = render_photon_pass(scene, settings, 0, kGoOn).image;
+      for (const Rgb& pixel : image.pixels)
+        for (int c = 0; c < 3; ++c) {
+          // 4 m to the panel, up to 0.1 % more at the corners.
+          const double exact = 1e-7 * std::exp(-4.0 * scene.media[0].sigma_t[c]);
+          EXPECT_NEAR(pixel[c], exact, 0.02 * exact) << static_cast<int>(direct) << static_cast<int>(form);
+        }
+    }
+}
+
+TEST(PhotonPass, LightFarFromTheEyeIsDimmedOnItsWay) {
+  const Scene scene = cone_in_fog(0.0f);
+  RenderSettings settings = settings_of(20000, 0.03f);
+  settings.volume_direct = DirectLight::shadow_rays;
+  const Moments rays = pass_means(scene, settings, 12);
+  settings.volume_direct = DirectLight::photons;
+  for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+    settings.volume_form = form;
+    expect_same(pass_means(scene, settings, 12), rays, 0.01, "a cone of light 2 m away");
+  }
+}
+
+TEST(PhotonPass, OnlyTheDensityAtThePhotonSpreadsBeyondItsMedium) {
+  // Seen along a face of the medium, from outside but within the radius of photons inside.
+  Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 0.8f),
+                             SpotLight{Vec3(0, 3, 0), Vec3(0, -1, 0), 0.9f, 0.9f, Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(1.05f, 0, 4), Vec3(1.05f, 0, 0), Vec3(0, 1, 0), 0.5f, 4, 4, {});
+  RenderSettings settings = settings_of(10000, 0.2f);
+  settings.volume_form = VolumeForm::density_at_query;
+  EXPECT_EQ(pass_means(scene, settings, 1).mean(), 0.0);
+  settings.volume_form = VolumeForm::density_at_photon;
+  EXPECT_GT(pass_means(scene, settings, 1).mean(), 0.0);
+}
+
+TEST(PhotonPass, RadiiShrinkFromPassToPass) {
+  Medium fog = make_medium(nullptr, Rgb(0.5f));
+  const Scene scene = lamp_and_floor(&fog);
+  static const std::atomic<bool> kGoOn{false};
+  const auto radii = [&](const RenderSettings& settings, int pass) {
+    const RenderStatistics s = render_photon_pass(scene, settings, pass, kGoOn).statistics;
+    return Vec2(s.last_volume_radius, s.last_surface_radius);
+  };
+  RenderSettings settings = settings_of(100, 0.1f);
+  settings.surface.radius = 0.2f;
+  EXPECT_EQ(radii(settings, 7), Vec2(0.1f, 0.2f));
+  settings.shrink_radii = true;
+  EXPECT_EQ(radii(settings, 7), Vec2(radius_of_pass(0.1f, 3, 7), radius_of_pass(0.2f, 2, 7)));
 }
 
 TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {
@@ -199,7 +297,9 @@ TEST(Render, StopsByCountAndByTime) {
   const std::atomic<bool> go_on{false}, stop{true};
   RenderSettings settings = settings_of(500, 0.1f);
   settings.passes = 3;
-  EXPECT_EQ(render(scene, settings, go_on, ProgressMode::never).film.passes(), 3);
+  const Film film = render(scene, settings, go_on, ProgressMode::never).film;
+  EXPECT_EQ(film.passes(), 3);
+  for (const Rgb& v : film.variance_of_mean().pixels) EXPECT_GT(v.g, 0.0f);  // every pass has random numbers of its own
   EXPECT_EQ(render(scene, settings, stop, ProgressMode::never).film.passes(), 0);
   settings.seconds = 0.3;
   const RenderResult timed = render(scene, settings, go_on, ProgressMode::never);
