@@ -141,6 +141,7 @@ struct Geometry::Impl {
   std::vector<double> areas;     // m^2
   std::vector<Box> bounds;
   std::vector<Layer> layers;
+  float largest_boundary = 0.0f;  // diagonal of its box, m
   bool committed = false;
   std::atomic<int64_t> bytes{0};
   std::string error;
@@ -176,6 +177,7 @@ struct Geometry::Impl {
   uint32_t attach(RTCGeometry geometry, double area, const Box& box, Layer layer) {
     const auto number = static_cast<uint32_t>(areas.size());
     layers.push_back(layer);
+    if (layer == Layer::boundary) largest_boundary = std::max(largest_boundary, box.diagonal());
     rtcSetGeometryMask(geometry, static_cast<uint32_t>(layer));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, number);
@@ -244,7 +246,11 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
 Encounter Geometry::encounter(const Ray& ray, float t_max) const {
   Encounter found;
   std::optional<Hit> hit = intersect(ray, t_max);
-  for (float beyond = 0.0f; hit; hit = intersect(ray, beyond, kAllLayers, found)) {
+  // A large boundary may be found behind a small one by its own rounding: the search reaches further than the hits so
+  // far do.
+  const float margin = 0x1p-18f * impl_->largest_boundary;
+  for (float beyond = kInfinity; hit; hit = intersect(ray, std::min(t_max, beyond + margin), kAllLayers, found)) {
+    if (hit->t - coincidence(*hit, ray.direction) > beyond) break;
     found.hits[found.count++] = *hit;
     if (impl_->layers[hit->shape] != Layer::boundary) {
       found.surface = true;
@@ -253,7 +259,8 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
       break;
     }
     if (found.count == Encounter::kMost) break;
-    beyond = std::max(beyond, std::min(t_max, hit->t + coincidence(*hit, ray.direction)));
+    const float reach = hit->t + coincidence(*hit, ray.direction);
+    beyond = found.count == 1 ? reach : std::max(beyond, reach);
   }
   return found;
 }

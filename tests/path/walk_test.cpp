@@ -63,7 +63,8 @@ TEST(Walk, MediaThatTouchAreBothCrossedInAnyOrderOfShapes) {
 
 TEST(Walk, ANestedMediumMayShareItsFloorWithTheOuterOne) {
   for (const bool inner_first : {false, true})
-    for (const auto& [turn, w] : {std::pair(false, 2.0f), std::pair(true, 2.0f), std::pair(true, 15.0f)}) {
+    for (const auto& [turn, w] :
+         {std::pair(false, 2.0f), std::pair(true, 2.0f), std::pair(true, 15.0f), std::pair(true, 60.0f)}) {
       const Mat4d m = turn ? some_rotation() : Mat4d(1.0);
       Scene scene;
       scene.media.push_back(make_medium(nullptr, Rgb(0.3f)));
