@@ -77,12 +77,16 @@ TEST(Walk, ANestedMediumMayShareItsFloorWithTheOuterOne) {
       if (!inner_first) add_shape(scene, small, Boundary{}, &inner);
       scene.geometry.commit();
       WalkCounters counters;
+      const double tolerance = w > 2.0f ? 1e-4 : 1e-5;  // rays stand off larger boundaries by more
       for (int k = 0; k < 100; ++k) {
         const double x = 0.9 - 0.017 * k, z = 0.015 * k - 0.8;
         const Vec3 a(m * glm::dvec4(x, -1.0, z, 1.0)), b(m * glm::dvec4(x, 4.0, z, 1.0));
-        EXPECT_NEAR(optical_thickness(scene, {a, glm::normalize(b - a)}, 5.0f, kVacuum, counters), 1.1 + 0.6, 1e-4);
-        EXPECT_NEAR(optical_thickness(scene, {a, glm::normalize(b - a)}, 3.0f, kVacuum, counters), 1.1 + 0.3, 1e-4);
-        EXPECT_NEAR(optical_thickness(scene, {b, glm::normalize(a - b)}, 5.0f, kVacuum, counters), 1.1 + 0.6, 1e-4);
+        EXPECT_NEAR(optical_thickness(scene, {a, glm::normalize(b - a)}, 5.0f, kVacuum, counters), 1.1 + 0.6,
+                    tolerance);
+        EXPECT_NEAR(optical_thickness(scene, {a, glm::normalize(b - a)}, 3.0f, kVacuum, counters), 1.1 + 0.3,
+                    tolerance);
+        EXPECT_NEAR(optical_thickness(scene, {b, glm::normalize(a - b)}, 5.0f, kVacuum, counters), 1.1 + 0.6,
+                    tolerance);
       }
       EXPECT_EQ(counters.medium_mismatches, 0u);
     }
