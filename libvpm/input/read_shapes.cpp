@@ -38,15 +38,11 @@ uint32_t read_shape_material(TableReader& table, const Names& names, std::vector
 
 SphereShape read_sphere(TableReader& table) { return {table.vector("center"), table.number("radius", kPositive)}; }
 
-/// Corner, corner + u, corner + u + v, corner + v.
 TriangleMesh read_quad(TableReader& table) {
   const Vec3d corner(table.vector("corner")), u(table.vector("edge_u")), v(table.vector("edge_v"));
   if (!(glm::length(glm::cross(u, v)) > 1e-6 * glm::length(u) * glm::length(v)))
     table.fail("edge_v", "the edges of " + table.title() + " are parallel, or one is zero");
-  TriangleMesh mesh;
-  mesh.positions = {Vec3(corner), Vec3(corner + u), Vec3(corner + u + v), Vec3(corner + v)};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
+  return quad_mesh(corner, u, v);
 }
 
 TriangleMesh read_box(TableReader& table) {
@@ -124,15 +120,6 @@ void transform_mesh(const Mat4d& transform, TriangleMesh& mesh) {
   for (Vec3& p : mesh.positions) p = Vec3(transform * glm::dvec4(Vec3d(p), 1.0));
   if (glm::determinant(Mat3d(transform)) > 0.0) return;
   for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // a mirror turns triangles round: outward stays outward
-}
-
-TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.positions.emplace_back(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
-  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
-  return mesh;
 }
 
 std::vector<Material> read_materials(TableReader& section) {

@@ -11,6 +11,7 @@
 #include "input/table_reader.h"
 #include "render/settings.h"
 #include "scene/scene.h"
+#include "surface/mesh.h"
 
 namespace vpm {
 
@@ -51,8 +52,6 @@ struct ShapePlan {
 std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
                                    MediumId world, std::vector<Material>& materials);
 
-/// The box [lo, hi] as triangles with normals outward.
-TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi);
 /// Moves a mesh by an affine map. Its normals stay outward under mirrors too.
 void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);
 

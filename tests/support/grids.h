@@ -2,36 +2,10 @@
 #pragma once
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <memory>
 
-#include "medium/medium.h"
+#include "medium/make_grid.h"
 
 namespace vpm {
-
-/// A grid whose voxel (i, j, k) in lo..hi has the value f(i, j, k); the background elsewhere.
-template <class F>
-std::shared_ptr<const DensityGrid> make_grid(const GridFrame& frame, F&& f) {
-  return std::make_shared<const DensityGrid>(frame, [&](const Vec3i& origin, float* values) {
-    for (int z = 0, n = 0; z < DensityGrid::kValues; ++z)
-      for (int y = 0; y < DensityGrid::kValues; ++y)
-        for (int x = 0; x < DensityGrid::kValues; ++x, ++n) {
-          const Vec3i p = origin + Vec3i(x, y, z);
-          const bool inside = glm::all(glm::greaterThanEqual(p, frame.lo)) && glm::all(glm::lessThanEqual(p, frame.hi));
-          values[n] = inside ? static_cast<float>(f(p.x, p.y, p.z)) : frame.background;
-        }
-  });
-}
-
-/// A medium over a grid, isotropic.
-inline Medium make_medium(std::shared_ptr<const DensityGrid> grid, const Rgb& sigma_t, float albedo = 0.5f) {
-  Medium medium;
-  medium.name = "test";
-  medium.sigma_t = sigma_t;
-  medium.sigma_s = albedo * sigma_t;
-  medium.phase = Isotropic{};
-  medium.grid = std::move(grid);
-  return medium;
-}
 
 /// A rotated, sheared, mirrored transform with anisotropic voxels away from the origin.
 inline Mat4d awkward_transform() {

@@ -1,0 +1,14 @@
+// The simplest meshes: boxes and quads.
+#pragma once
+
+#include "surface/geometry.h"
+
+namespace vpm {
+
+/// The box [lo, hi] as twelve triangles with normals outward.
+TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi);
+
+/// The parallelogram of a corner and two edges as two triangles, with the normal cross(u, v).
+TriangleMesh quad_mesh(const Vec3d& corner, const Vec3d& u, const Vec3d& v);
+
+}  // namespace vpm
