@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <fstream>
 #include <string>
 #include <system_error>
 
@@ -90,6 +91,15 @@ void check_writable(const fs::path& target, uint64_t bytes) {
     refuse(target, "the disk has " + std::to_string(free_bytes >> 20) + " MiB free, " +
                        std::to_string((bytes >> 20) + 1) + " MiB are needed");
   }
+}
+
+void write_text(const std::filesystem::path& target, const std::string& text) {
+  TemporaryFile file(target);
+  std::ofstream stream(file.path(), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw InputError("cannot write '" + target.string() + "': is the disk full?");
+  file.commit();
 }
 
 }  // namespace vpm

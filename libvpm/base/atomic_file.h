@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace vpm {
 
@@ -31,5 +32,8 @@ class TemporaryFile {
 /// Throws InputError where a file of `bytes` bytes could not be written to `target` now: what TemporaryFile refuses,
 /// and a disk with too little space. The target itself is not touched.
 void check_writable(const std::filesystem::path& target, uint64_t bytes);
+
+/// Writes a file of that text. Throws InputError where that fails; the target is then what it was.
+void write_text(const std::filesystem::path& target, const std::string& text);
 
 }  // namespace vpm

@@ -105,4 +105,36 @@ inline double chi2_tail(double statistic, double dof) {
   return std::isnan(statistic) ? statistic : upper_gamma_fraction(0.5 * dof, 0.5 * statistic);
 }
 
+/// Probability that Student's t variable with `dof` > 0 degrees of freedom lies further from 0 than `t` (either side):
+/// the p-value of a test of a mean whose variance is estimated from dof + 1 samples. It is the regularised incomplete
+/// beta function I_x(dof / 2, 1 / 2) at x = dof / (dof + t^2) [Olver2010, eq. 8.17.2], by its continued fraction
+/// [Olver2010, eq. 8.17.22] on the side of its symmetry where that converges fast.
+inline double student_tail(double t, double dof) {
+  assert(dof > 0.0);
+  if (std::isnan(t)) return t;
+  if (dof > 1e7) return normal_tail(t);
+  const double square = t * t, x = dof / (dof + square), rest = square / (dof + square);
+  const auto fraction = [](double a, double b, double y) {
+    double c = 1.0, d = 1.0 - (a + b) * y / (a + 1.0);
+    d = 1.0 / d;
+    double value = d, change = 0.0;
+    for (double m = 1.0; std::fabs(change - 1.0) > 1e-15 && m < 1e4; m += 1.0) {
+      const double even = m * (b - m) * y / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
+      d = 1.0 / (1.0 + even * d);
+      c = 1.0 + even / c;
+      value *= d * c;
+      const double odd = -(a + m) * (a + b + m) * y / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
+      d = 1.0 / (1.0 + odd * d);
+      c = 1.0 + odd / c;
+      value *= change = d * c;
+    }
+    return value;
+  };
+  const double a = 0.5 * dof, b = 0.5;
+  const double factor =
+      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log(rest));
+  if (square == 0.0) return 1.0;
+  return x < (a + 1.0) / (a + b + 2.0) ? factor * fraction(a, b, x) / a : 1.0 - factor * fraction(b, a, rest) / b;
+}
+
 }  // namespace vpm

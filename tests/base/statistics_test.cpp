@@ -140,5 +140,25 @@ TEST(Chi2Tail, FallsSteadilyWhereTheTwoFormulasMeet) {
   }
 }
 
+TEST(StudentTail, ClosedFormsOfFewDegrees) {
+  for (const double t : {0.0, 0.01, 0.5, 1.0, 2.0, 5.0, 40.0}) {
+    const double sine = t / std::sqrt(10.0 + t * t), square = 10.0 / (10.0 + t * t);
+    const double ten = sine * (1 + square / 2 * (1 + square * 3 / 4 * (1 + square * 5 / 6 * (1 + square * 7 / 8))));
+    EXPECT_NEAR(student_tail(t, 1.0), 1.0 - 2.0 / M_PI * std::atan(t), 1e-14) << t;
+    EXPECT_NEAR(student_tail(-t, 2.0), 1.0 - t / std::sqrt(2.0 + t * t), 1e-14) << t;
+    EXPECT_NEAR(student_tail(t, 10.0), 1.0 - ten, 1e-14) << t;
+  }
+}
+
+TEST(StudentTail, BecomesNormal) {
+  // the quantile's expansion in 1 / dof starts z + (z^3 + z) / (4 dof)
+  for (const double z : {0.5, 1.0, 3.0, 5.0}) {
+    const double dof = 1e5, t = z + (z * z * z + z) / (4.0 * dof);
+    EXPECT_NEAR(student_tail(t, dof) / normal_tail(z), 1.0, 1e-8 * z * z * z * z * z) << z;
+  }
+  EXPECT_EQ(student_tail(2.0, 1e9), normal_tail(2.0));
+  EXPECT_TRUE(std::isnan(student_tail(kNaN, 7.0)));
+}
+
 }  // namespace
 }  // namespace vpm

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/statistics.h"
+#include "study/validate/check.h"
 
 namespace vpm {
 
@@ -23,29 +23,9 @@ inline void expect_mean(const Moments& samples, double expected, double false_al
 /// fewer than 10 are pooled; a cell of probability 0 must be empty.
 inline void expect_distribution(const std::vector<double>& counts, const std::vector<double>& probabilities,
                                 double false_alarm_rate, const char* what = "") {
-  ASSERT_EQ(counts.size(), probabilities.size());
-  double draws = 0.0;
-  for (const double c : counts) draws += c;
-  double statistic = 0.0, pooled_count = 0.0, pooled_expected = 0.0;
-  int cells = 0;
-  const auto add_cell = [&](double count, double expected) {
-    statistic += (count - expected) * (count - expected) / expected;
-    ++cells;
-  };
-  for (size_t i = 0; i < counts.size(); ++i) {
-    const double expected = draws * probabilities[i];
-    if (expected >= 10.0) {
-      add_cell(counts[i], expected);
-    } else {
-      EXPECT_TRUE(expected > 0.0 || counts[i] == 0.0) << what << ": cell " << i << " must be empty";
-      pooled_count += counts[i];
-      pooled_expected += expected;
-    }
-  }
-  if (pooled_expected > 0.0) add_cell(pooled_count, pooled_expected);
-  ASSERT_GT(cells, 1) << what;
-  EXPECT_GT(chi2_tail(statistic, cells - 1), false_alarm_rate)
-      << what << ": chi-square " << statistic << " over " << cells << " cells";
+  const Check check = check_distribution(what, counts, probabilities);
+  EXPECT_GE(check.p, false_alarm_rate) << what << ": chi-square " << check.value << " for " << check.exact << ", "
+                                       << check.note;
 }
 
 }  // namespace vpm

@@ -38,4 +38,16 @@ struct MediaOptions {
 /// Writes one of our own generated grids.
 int media_command(const MediaOptions& options);
 
+struct ValidateOptions {
+  std::optional<int> level;  // 0 to 4; none: all
+  bool full = false;         // tight errors
+  uint64_t seed = 1;
+  double rate = 0.01;  // of false alarms, of the whole run
+  int threads = 0;     // 0: all
+  std::string json;    // file to write; empty: none
+  ProgressMode progress = ProgressMode::automatic;
+};
+/// Runs the ladder of validation and prints every check with its verdict. 1 where one fails.
+int validate_command(const ValidateOptions& options);
+
 }  // namespace vpm::tools

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "commands.h"
+#include "study/validate/ladder.h"
 
 namespace {
 
@@ -38,6 +39,18 @@ std::string check_seconds(const std::string& text) {
   return seconds > 0.0 && std::isfinite(seconds) ? "" : fmt::format("{} is not a number of seconds above 0", text);
 }
 
+std::string check_rate(const std::string& text) {
+  const double rate = parse(text, 0.0);
+  return rate > 0.0 && rate < 1.0 ? "" : fmt::format("{} is not a probability between 0 and 1", text);
+}
+
+void add_progress(CLI::App* command, ProgressMode& mode) {
+  const std::map<std::string, ProgressMode> modes{
+      {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
+  command->add_option("--progress", mode, "Progress bar: auto (on a terminal), always, never")
+      ->transform(CLI::CheckedTransformer(modes));
+}
+
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
   command->add_option("scene", options.scene, "Scene file (.toml)")->required();
@@ -52,10 +65,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->check(check_seconds)
       ->excludes(passes);
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  const std::map<std::string, ProgressMode> modes{
-      {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
-  command->add_option("--progress", options.progress, "Progress bar: auto (on a terminal), always, never")
-      ->transform(CLI::CheckedTransformer(modes));
+  add_progress(command, options.progress);
 }
 
 void add_info(CLI::App& app, InfoOptions& options) {
@@ -72,6 +82,24 @@ void add_media(CLI::App& app, MediaOptions& options) {
   command->add_option("-o,--output", options.output, "File to write (.vdb); default: NAME.vdb in the current folder");
 }
 
+void add_validate(CLI::App& app, ValidateOptions& options) {
+  CLI::App* command = app.add_subcommand("validate", "Check vpm's numbers against identities and transport theory");
+  command
+      ->add_option("--level", options.level,
+                   "Only this level: 0 distributions, 1 identities, 2 transport theory, "
+                   "3 agreement, 4 convergence")
+      ->check(CLI::Range(0, kLevels - 1));
+  CLI::Option* quick = command->add_flag("--quick", std::string("Within about a minute (the default)"));
+  command->add_flag("--full", options.full, "Tight errors, within 20 minutes")->excludes(quick);
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
+  command->add_option("--rate", options.rate, "Probability that right code fails the run")
+      ->check(check_rate)
+      ->capture_default_str();
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
+  command->add_option("--json", options.json, "Write every check to this file");
+  add_progress(command, options.progress);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("vpm: volumetric photon mapping", "vpm");
   app.set_version_flag("--version", fmt::format("vpm {}", version()));
@@ -79,9 +107,11 @@ int run(int argc, char** argv) {
   RenderOptions render;
   InfoOptions info;
   MediaOptions media;
+  ValidateOptions validate;
   add_render(app, render);
   add_info(app, info);
   add_media(app, media);
+  add_validate(app, validate);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -89,6 +119,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("render")) return render_command(render);
   if (app.got_subcommand("info")) return info_command(info);
+  if (app.got_subcommand("validate")) return validate_command(validate);
   return media_command(media);
 }
 

@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -66,15 +65,6 @@ void apply_options(const RenderOptions& options, RenderSettings& settings) {
     settings.seconds = 0.0;
   }
   if (options.seconds) settings.seconds = *options.seconds;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  TemporaryFile file(path);
-  std::ofstream stream(file.path(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw InputError(fmt::format("cannot write '{}': is the disk full?", path.string()));
-  file.commit();
 }
 
 void write_outputs(const Outputs& outputs, const RenderOptions& options, const LoadedScene& loaded,

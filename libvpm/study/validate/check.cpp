@@ -1,0 +1,101 @@
+// p-values and verdicts.
+#include "study/validate/check.h"
+
+#include <cassert>
+#include <limits>
+
+namespace vpm {
+
+namespace {
+
+Check statistical(std::string name, double value, double exact, double error, double p) {
+  return {CheckKind::statistical, std::move(name), value, exact, error, p, "", Verdict::undetermined};
+}
+
+/// The p-value of a t-test; without any error, equality decides.
+double tail_of(double difference, double error, double dof) {
+  if (error == 0.0) return difference == 0.0 ? 1.0 : 0.0;
+  return student_tail(difference / error, dof);
+}
+
+}  // namespace
+
+Check check_mean(std::string name, const Moments& samples, double exact, double exact_error) {
+  assert(samples.count() >= 2);
+  const double error = std::sqrt(samples.variance_of_mean() + exact_error * exact_error);
+  const double p = tail_of(samples.mean() - exact, error, static_cast<double>(samples.count() - 1));
+  return statistical(std::move(name), samples.mean(), exact, error, p);
+}
+
+Check check_value(std::string name, double value, double standard_error, double exact) {
+  const double p = tail_of(value - exact, standard_error, std::numeric_limits<double>::infinity());
+  return statistical(std::move(name), value, exact, standard_error, p);
+}
+
+Check check_same(std::string name, const Moments& a, const Moments& b) {
+  assert(a.count() >= 2 && b.count() >= 2);
+  const double va = a.variance_of_mean(), vb = b.variance_of_mean();
+  const double dof = (va + vb) * (va + vb) /
+                     (va * va / static_cast<double>(a.count() - 1) + vb * vb / static_cast<double>(b.count() - 1));
+  const double error = std::sqrt(va + vb);
+  return statistical(std::move(name), a.mean(), b.mean(), error, tail_of(a.mean() - b.mean(), error, dof));
+}
+
+Check check_distribution(std::string name, const std::vector<double>& counts,
+                         const std::vector<double>& probabilities) {
+  assert(counts.size() == probabilities.size());
+  constexpr double kFewest = 10.0;  // expected in a cell
+  double draws = 0.0;
+  for (const double c : counts) draws += c;
+  double statistic = 0.0, pooled_count = 0.0, pooled_expected = 0.0;
+  int cells = 0;
+  const auto add_cell = [&](double count, double expected) {
+    statistic += (count - expected) * (count - expected) / expected;
+    ++cells;
+  };
+  bool impossible = false;
+  for (size_t i = 0; i < counts.size(); ++i) {
+    const double expected = draws * probabilities[i];
+    impossible |= expected == 0.0 && counts[i] > 0.0;
+    if (expected >= kFewest) {
+      add_cell(counts[i], expected);
+    } else {
+      pooled_count += counts[i];
+      pooled_expected += expected;
+    }
+  }
+  if (pooled_expected > 0.0) add_cell(pooled_count, pooled_expected);
+  assert(cells > 1);
+  const double dof = cells - 1;
+  Check check = statistical(std::move(name), statistic, dof, std::sqrt(2.0 * dof), chi2_tail(statistic, dof));
+  check.note = "chi-square, its mean, its standard deviation";
+  if (impossible) {
+    check.p = 0.0;
+    check.note = "a cell of probability 0 was hit";
+  }
+  return check;
+}
+
+Check check_bound(std::string name, double value, double exact, double bound) {
+  return {CheckKind::bounded, std::move(name), value, exact, bound, 1.0, "", Verdict::undetermined};
+}
+
+Check not_determined(std::string name, double value, double exact, std::string why) {
+  return {CheckKind::undetermined, std::move(name), value, exact, 0.0, 1.0, std::move(why), Verdict::undetermined};
+}
+
+double judge(std::vector<Check>& checks, double rate) {
+  assert(rate > 0.0 && rate < 1.0);
+  size_t tests = 0;
+  for (const Check& check : checks) tests += check.kind == CheckKind::statistical;
+  const double threshold = tests > 0 ? -std::expm1(std::log1p(-rate) / static_cast<double>(tests)) : rate;
+  for (Check& check : checks) {
+    if (check.kind == CheckKind::undetermined) continue;
+    const bool passes = check.kind == CheckKind::statistical ? check.p >= threshold
+                                                             : std::fabs(check.value - check.exact) <= check.error;
+    check.verdict = passes ? Verdict::pass : Verdict::fail;
+  }
+  return threshold;
+}
+
+}  // namespace vpm

@@ -1,0 +1,151 @@
+// vpm validate: the ladder, check by check.
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "base/parallel.h"
+#include "base/version.h"
+#include "commands.h"
+#include "study/validate/ladder.h"
+
+namespace vpm::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A check with where it stands.
+struct Line {
+  int level = 0;
+  std::string experiment;
+};
+
+struct Outcome {
+  std::vector<Check> checks;  // judged
+  std::vector<Line> lines;    // one for each check
+  double threshold = 0.0;     // p-values below it fail
+  double seconds = 0.0;
+
+  size_t count(Verdict verdict) const {
+    return static_cast<size_t>(
+        std::count_if(checks.begin(), checks.end(), [&](const Check& c) { return c.verdict == verdict; }));
+  }
+};
+
+const char* word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return "pass";
+    case Verdict::fail:
+      return "FAIL";
+    case Verdict::undetermined:
+      break;
+  }
+  return "not determined";
+}
+
+Outcome climb(const ValidateOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const Effort effort{options.seed, options.full};
+  const std::vector<Experiment> all = experiments(options.level.value_or(-1));
+  Outcome outcome;
+  Progress bar("validate", all.size(), progress_enabled(options.progress));
+  for (const Experiment& experiment : all) {
+    for (Check& check : experiment.run(effort)) {
+      outcome.checks.push_back(std::move(check));
+      outcome.lines.push_back({experiment.level, experiment.name});
+    }
+    bar.advance();
+  }
+  bar.finish();
+  outcome.threshold = judge(outcome.checks, options.rate);
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
+/// value, exact, deviation, p, verdict.
+std::string row(const Check& check) {
+  const std::string note = check.note.empty() ? "" : "  (" + check.note + ")";
+  const std::string numbers = fmt::format("{:>13.7g} {:>13.7g}", check.value, check.exact);
+  switch (check.kind) {
+    case CheckKind::statistical:
+      return fmt::format("{} {:>10.2g} {:>+7.2f} s.e. {:>8.2g}  {}{}", numbers, check.error, check.deviation(), check.p,
+                         word(check.verdict), note);
+    case CheckKind::bounded:
+      return fmt::format("{} {:>10.2g} {:>+7.2f} bound {:>7}  {}{}", numbers, check.error, check.deviation(), "-",
+                         word(check.verdict), note);
+    case CheckKind::undetermined:
+      break;
+  }
+  return fmt::format("{} {:>10} {:>12} {:>8}  {}{}", numbers, "-", "-", "-", word(check.verdict), note);
+}
+
+void print(const Outcome& outcome, const ValidateOptions& options) {
+  size_t width = 0;
+  for (const Check& check : outcome.checks) width = std::max(width, check.name.size());
+  for (size_t i = 0; i < outcome.checks.size(); ++i) {
+    const Line& line = outcome.lines[i];
+    if (i == 0 || line.level != outcome.lines[i - 1].level)
+      fmt::print("\nLevel {}: {}\n", line.level, level_title(line.level));
+    if (i == 0 || line.experiment != outcome.lines[i - 1].experiment)
+      fmt::print("  {:<{}} {:>13} {:>13} {:>10} {:>12} {:>8}\n", line.experiment, width + 2, "value", "exact", "error",
+                 "deviation", "p");
+    fmt::print("    {:<{}} {}\n", outcome.checks[i].name, width, row(outcome.checks[i]));
+  }
+  fmt::print("\n{} checks: {} passed, {} FAILED, {} not determined; {:.1f} s, {} thread(s), seed {}\n",
+             outcome.checks.size(), outcome.count(Verdict::pass), outcome.count(Verdict::fail),
+             outcome.count(Verdict::undetermined), outcome.seconds, thread_count(), options.seed);
+  fmt::print("a check fails where p < {:.3g}: right code fails one run in {:.0f}\n", outcome.threshold,
+             1.0 / options.rate);
+}
+
+/// A number as JSON has it: an infinity or a NaN becomes text.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
+
+std::string json_report(const Outcome& outcome, const ValidateOptions& options) {
+  Json checks = Json::array();
+  for (size_t i = 0; i < outcome.checks.size(); ++i) {
+    const Check& c = outcome.checks[i];
+    Json line{{"level", outcome.lines[i].level},
+              {"experiment", outcome.lines[i].experiment},
+              {"name", c.name},
+              {"value", number(c.value)},
+              {"exact", number(c.exact)},
+              {"error", number(c.error)}};
+    line["error_is"] = c.kind == CheckKind::statistical ? "standard error"
+                       : c.kind == CheckKind::bounded   ? "bound"
+                                                        : "not known";
+    line["deviation"] = number(c.kind == CheckKind::undetermined ? 0.0 : c.deviation());
+    if (c.kind == CheckKind::statistical) line["p"] = number(c.p);
+    line["verdict"] = c.verdict == Verdict::fail ? "fail" : word(c.verdict);
+    line["note"] = c.note;
+    checks.push_back(std::move(line));
+  }
+  const Json report{{"vpm", version()},
+                    {"mode", options.full ? "full" : "quick"},
+                    {"seed", options.seed},
+                    {"threads", thread_count()},
+                    {"seconds", outcome.seconds},
+                    {"false_alarm_rate_of_the_run", options.rate},
+                    {"p_threshold", outcome.threshold},
+                    {"failed", outcome.count(Verdict::fail)},
+                    {"not_determined", outcome.count(Verdict::undetermined)},
+                    {"checks", std::move(checks)}};
+  return report.dump(2) + "\n";
+}
+
+}  // namespace
+
+int validate_command(const ValidateOptions& options) {
+  set_threads(options.threads);
+  if (!options.json.empty()) check_writable(options.json, 1 << 20);
+  const Outcome outcome = climb(options);
+  print(outcome, options);
+  if (!options.json.empty()) write_text(options.json, json_report(outcome, options));
+  return outcome.count(Verdict::fail) == 0 ? 0 : 1;
+}
+
+}  // namespace vpm::tools
