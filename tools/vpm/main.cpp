@@ -89,7 +89,8 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
                    "Only this level: 0 distributions, 1 identities, 2 transport theory, "
                    "3 agreement, 4 convergence")
       ->check(CLI::Range(0, kLevels - 1));
-  CLI::Option* quick = command->add_flag("--quick", std::string("Within about a minute (the default)"));
+  CLI::Option* quick = command->add_flag_callback(
+      "--quick", [&options] { options.full = false; }, "Within about a minute (the default)");
   command->add_flag("--full", options.full, "Tight errors, within 20 minutes")->excludes(quick);
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
   command->add_option("--rate", options.rate, "Probability that right code fails the run")
