@@ -48,7 +48,8 @@ std::string read_listed(TableReader& table, const std::string& key, std::span<co
 }
 
 void read_render(TableReader& table, RenderSettings& s) {
-  s.integrator = table.choice<std::string>("integrator", {{"photon", "photon"}}, s.integrator);
+  s.integrator = table.choice<Integrator>("integrator", {{"photon", Integrator::photon}, {"path", Integrator::path}},
+                                          s.integrator);
   s.passes = small_integer(table, "passes", 1'000'000'000, s.passes);
   s.seconds = table.number("seconds", kNotNegative, static_cast<float>(s.seconds));
   s.seed = table.integer("seed", 0, kMaxInteger, s.seed);

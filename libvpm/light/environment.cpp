@@ -110,4 +110,10 @@ std::optional<Incident> incident_from(const EnvironmentMap& light, const Vec3&, 
   return Incident{s.direction, kInfinity, s.radiance / s.pdf, s.pdf};
 }
 
+float pdf_of(const ConstantEnvironment&, const Vec3&, const Vec3&, float) { return 1.0f / (4.0f * kPi); }
+
+float pdf_of(const EnvironmentMap& light, const Vec3&, const Vec3& direction, float) {
+  return light.image->pdf(direction);
+}
+
 }  // namespace vpm

@@ -35,6 +35,12 @@ std::optional<Incident> incident_from(const DirectionalLight& light, const Vec3&
 std::optional<Incident> incident_from(const ConstantEnvironment& light, const Vec3& point, Rng& rng);
 std::optional<Incident> incident_from(const EnvironmentMap& light, const Vec3& point, Rng& rng);
 
+// incident_pdf(), of the lights that can be seen
+float pdf_of(const QuadLight& light, const Vec3& point, const Vec3& direction, float distance);
+float pdf_of(const SphereLight& light, const Vec3& point, const Vec3& direction, float distance);
+float pdf_of(const ConstantEnvironment& light, const Vec3& point, const Vec3& direction, float distance);
+float pdf_of(const EnvironmentMap& light, const Vec3& point, const Vec3& direction, float distance);
+
 /// Where parallel light from infinity starts: uniform over the disc across `direction` that touches the scene's sphere
 /// from the side the light comes from; its area is pi radius^2.
 Ray ray_from_infinity(const Vec3& direction, const SceneSphere& scene, const Vec2& u);

@@ -26,6 +26,17 @@ std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rn
   return std::visit([&](const auto& l) { return incident_from(l, point, rng); }, light);
 }
 
+float incident_pdf(const Light& light, const Vec3& point, const Vec3& direction, float distance) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (requires { pdf_of(l, point, direction, distance); })
+          return pdf_of(l, point, direction, distance);
+        else
+          return 0.0f;
+      },
+      light);
+}
+
 bool is_grey(const Light& light) {
   return std::visit(Overloads{[](const PointLight& l) { return is_grey(l.intensity); },
                               [](const SpotLight& l) { return is_grey(l.intensity); },

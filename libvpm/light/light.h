@@ -122,6 +122,11 @@ struct Incident {
 /// Samples the light that reaches `point`; nothing where none can. A point inside a sphere light gets nothing.
 std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rng& rng);
 
+/// The density of sample_towards() from `point` at the unit `direction`, in which the light's surface is seen at
+/// `distance` (environments: any), 1/sr; 0 where it never samples that direction, and for lights of one direction only.
+/// For multiple importance sampling [Veach1997, ch. 9].
+float incident_pdf(const Light& light, const Vec3& point, const Vec3& direction, float distance);
+
 /// Radiance of an environment seen along `direction`, W/(m^2 sr); black for other lights.
 Rgb environment_radiance(const Light& light, const Vec3& direction);
 /// Radiance that an area light's surface of outward normal `normal` emits against `travel`, the direction of the ray

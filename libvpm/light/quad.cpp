@@ -46,4 +46,9 @@ std::optional<Incident> incident_from(const QuadLight& light, const Vec3& point,
   return Incident{towards / distance, distance, light.radiance / pdf, pdf};
 }
 
+float pdf_of(const QuadLight& light, const Vec3&, const Vec3& direction, float distance) {
+  const float facing = -glm::dot(Vec3(area_vector(light)), direction);  // area * cosine
+  return facing > 0.0f ? distance * distance / facing : 0.0f;
+}
+
 }  // namespace vpm

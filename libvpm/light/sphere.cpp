@@ -5,6 +5,16 @@
 
 namespace vpm {
 
+namespace {
+
+/// 1 - cosine of the cone in which the sphere is seen from a point at that distance from its centre; 0 from inside.
+float cone_of(const SphereLight& light, double distance) {
+  const double sine = light.radius / distance;
+  return sine < 1.0 ? static_cast<float>(sine * sine / (1.0 + std::sqrt((1.0 - sine) * (1.0 + sine)))) : 0.0f;
+}
+
+}  // namespace
+
 Rgb power_of(const SphereLight& light, const SceneSphere&) {
   return 4.0f * kPi * kPi * light.radius * light.radius * light.radiance;
 }
@@ -20,9 +30,8 @@ Emission emit_from(const SphereLight& light, const SceneSphere& scene, Rng& rng)
 std::optional<Incident> incident_from(const SphereLight& light, const Vec3& point, Rng& rng) {
   const Vec3d to_centre = Vec3d(light.centre) - Vec3d(point);
   const double distance = glm::length(to_centre);
-  const double sine = light.radius / distance;  // of the angle that the sphere's radius subtends
-  if (!(sine < 1.0)) return std::nullopt;
-  const auto away = static_cast<float>(sine * sine / (1.0 + std::sqrt((1.0 - sine) * (1.0 + sine))));  // 1 - cos
+  const float away = cone_of(light, distance);
+  if (away == 0.0f) return std::nullopt;
   const Vec3 direction = uniform_cone(Vec3(to_centre / distance), away, rng.uniform2());
   const double along = glm::dot(to_centre, Vec3d(direction));
   const Vec3d off_axis = to_centre - along * Vec3d(direction);
@@ -31,6 +40,11 @@ std::optional<Incident> incident_from(const SphereLight& light, const Vec3& poin
       std::sqrt(std::max(0.0, double{light.radius} * light.radius - glm::dot(off_axis, off_axis)));
   const float pdf = 1.0f / (2.0f * kPi * away);
   return Incident{direction, static_cast<float>(along - half_chord), light.radiance / pdf, pdf};
+}
+
+float pdf_of(const SphereLight& light, const Vec3& point, const Vec3&, float) {
+  const float away = cone_of(light, glm::length(Vec3d(light.centre) - Vec3d(point)));
+  return away > 0.0f ? 1.0f / (2.0f * kPi * away) : 0.0f;
 }
 
 }  // namespace vpm

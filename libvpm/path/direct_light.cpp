@@ -36,7 +36,7 @@ DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEst
                            const Vec3& point, const Vec3& facing, MediumId medium, Rng& rng, WalkCounters& counters) {
   const std::optional<Incident> incident = sample_towards(scene.lights[light], point, rng);
   if (!incident) return {};
-  DirectSample sample{incident->direction, incident->irradiance};
+  DirectSample sample{incident->direction, incident->irradiance, incident->pdf};
   if (is_black(sample.irradiance) || (facing != Vec3(0.0f) && glm::dot(facing, incident->direction) <= 0.0f)) return {};
   sample.irradiance *=
       visibility(scene, transmittance, {point, incident->direction}, incident->distance, light, medium, rng, counters);

@@ -10,6 +10,7 @@ namespace vpm {
 struct DirectSample {
   Vec3 direction{0.0f};  // towards the light, unit
   Rgb irradiance{0.0f};  // on a surface that faces it, W/m^2; its mean over samples is that of the source
+  float pdf = 0.0f;      // of the direction, 1/sr; 0 where the light has one direction only
 };
 
 /// Estimates what light number `light` sends to `point` in medium `medium`. With a normal, `facing`, only light from

@@ -44,6 +44,15 @@ Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState
   }
 }
 
+bool survive_roulette(double weight, PathState& state, Rng& rng) {
+  constexpr double kBelow = 0.1;
+  if (weight >= kBelow) return true;
+  const double survival = weight / kBelow;
+  if (!(rng.uniform_double() < survival)) return false;
+  state.power /= static_cast<float>(survival);
+  return true;
+}
+
 bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng) {
   const Rgb albedo = medium.albedo();
   const float q = is_grey(albedo) ? albedo.r : glm::dot(albedo, channel_shares(state.power));

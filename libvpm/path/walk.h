@@ -50,6 +50,11 @@ void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, Medium
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
                  WalkCounters& counters);
 
+/// Ends paths whose weight (power over what they started with) weighted strategies have made small, before they cost
+/// as much as heavy ones: below 0.1 a path survives with probability weight / 0.1, and its power is divided by that.
+/// False where it ends.
+bool survive_roulette(double weight, PathState& state, Rng& rng);
+
 /// The outcome of a collision: scatters with probability q = sum(albedo power) / sum(power), multiplying the power by
 /// albedo / q and choosing a new direction; returns false where the path is absorbed. Grey media: power unchanged
 /// [Jarosz2008, eq. 7.8].

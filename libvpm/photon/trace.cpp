@@ -16,7 +16,6 @@ constexpr size_t kChunk = 4096;          // photons traced one after another
 constexpr size_t kFirstWave = 4;         // chunks traced before the first look at how many are stored
 constexpr size_t kLargestWave = 64;      // chunks whose records wait to be joined
 constexpr uint64_t kHopeless = 1 << 22;  // photons emitted without storing one
-constexpr double kRouletteWeight = 0.1;  // photons lighter than this share of what was emitted play roulette
 
 /// One photon on its way, and where it leaves its traces.
 class PhotonPath {
@@ -79,7 +78,7 @@ class PhotonPath {
     out_.ledger.weight_sum += weight;
     out_.ledger.weight_squares += weight * weight;
     out_.ledger.largest_weight = std::max(out_.ledger.largest_weight, weight);
-    alive_ = weight > 0.0 && roulette(weight, rng);
+    alive_ = weight > 0.0 && survive_roulette(weight, state_, rng);
     if (!alive_) return;
     const Medium& medium = scene_.media[state_.medium];
     if (settings_.keep_volume && medium.scatters() && (settings_.keep_direct_volume || !direct_)) {
@@ -113,15 +112,6 @@ class PhotonPath {
     direct_ = false;
     alive_ = scatter_at_surface(scene_, hit, state_, rng, scatter);
     deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight)));
-  }
-
-  /// Ends light photons (weighted strategies make them) before they cost as much as heavy ones; unbiased.
-  bool roulette(double weight, Rng& rng) {
-    if (weight >= kRouletteWeight) return true;
-    const double survival = weight / kRouletteWeight;
-    if (rng.uniform_double() >= survival) return false;
-    state_.power /= static_cast<float>(survival);
-    return true;
   }
 
   const Scene& scene_;

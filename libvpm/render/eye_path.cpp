@@ -19,7 +19,6 @@ class EyePath {
         medium_(context.scene.camera_medium) {}
 
   Rgb follow() {
-    ++counters_.rays;
     for (int events = 0; events < c_.settings.max_events; ++events) {
       const Encounter met = meet(c_.scene, ray_, kInfinity, medium_, counters_.walk);
       cross_segment({0.0f, met ? met.hits[0].t : kInfinity});

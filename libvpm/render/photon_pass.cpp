@@ -11,7 +11,6 @@
 namespace vpm {
 namespace {
 
-constexpr int kTile = 16;                // pixels along an edge; a tile is a chunk of parallel work
 constexpr float kDefaultRadius = 0.01f;  // of the diagonal of what the map covers
 constexpr float kDefaultSearch = 0.1f;   // the same, as the largest radius of the nearest mode
 
@@ -85,51 +84,10 @@ void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgre
   statistics.build_seconds = building.seconds();
 }
 
-/// The mean radiance of a pixel's samples. Samples that are not finite are counted and left out as black.
-Rgb render_pixel(const EyeContext& context, int x, int y, int pass, Marcher& marcher, EyeCounters& counters) {
-  const Camera& camera = context.scene.camera;
-  const int samples = context.settings.samples_per_pixel;
-  Rgbd sum(0.0);
-  for (int s = 0; s < samples; ++s) {
-    const uint64_t index = (static_cast<uint64_t>(y) * camera.width + x) * samples + s;
-    Rng rng(context.settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)), index);
-    const Vec2 film = Vec2(x + 0.5f, y + 0.5f) + sample_filter(camera.filter, rng.uniform2());
-    const Rgb radiance = eye_radiance(context, camera.ray(film), marcher, rng, counters);
-    if (is_finite(radiance))
-      sum += Rgbd(radiance);
-    else
-      ++counters.non_finite;
-  }
-  return Rgb(sum / static_cast<double>(samples));
-}
-
-void render_image(const EyeContext& context, int pass, const std::atomic<bool>& stop, const PassProgress& progress,
-                  Pass& result) {
-  const Camera& camera = context.scene.camera;
-  const int tiles_x = (camera.width + kTile - 1) / kTile;
-  const uint64_t tiles = tile_count(camera);
-  std::vector<EyeCounters> counters(tiles);
-  Progress bar("image", tiles, progress.stages);
-  parallel_for_chunks(tiles, 1, [&](size_t tile, size_t, size_t) {
-    if (stop) return;
-    static thread_local Marcher marcher;
-    const int x0 = static_cast<int>(tile % tiles_x) * kTile, y0 = static_cast<int>(tile / tiles_x) * kTile;
-    for (int y = y0; y < std::min(y0 + kTile, camera.height); ++y)
-      for (int x = x0; x < std::min(x0 + kTile, camera.width); ++x)
-        result.image.at(x, y) = render_pixel(context, x, y, pass, marcher, counters[tile]);
-    bar.advance();
-    if (progress.tiles) progress.tiles->advance();
-  });
-  for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
-}
-
 }  // namespace
 
-uint64_t tile_count(const Camera& camera) {
-  return static_cast<uint64_t>((camera.width + kTile - 1) / kTile) * ((camera.height + kTile - 1) / kTile);
-}
-
 Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
+  if (settings.integrator == Integrator::path) return {};
   bool scatters = false, diffuse = false;
   for (const Medium& medium : scene.media) scatters |= medium.scatters();
   for (const Shape& shape : scene.shapes) diffuse |= is_diffuse(scene.materials[shape.material]);
@@ -151,15 +109,17 @@ float first_surface_radius(const Scene& scene, const RenderSettings& settings) {
 
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress) {
-  Pass result{Image(scene.camera.width, scene.camera.height), {}};
-  result.statistics.passes = 1;
+  RenderStatistics statistics;
   EyeContext context{scene, settings, plan_stages(scene, settings),
                      {},    {},       make_transmittance_estimator(settings.transmittance)};
   if (context.stages.photons())
-    make_maps(context, trace_settings(settings, context.stages, pass, stop), progress, result.statistics);
-  const Stopwatch seeing;
-  render_image(context, pass, stop, progress, result);
-  result.statistics.eye_seconds = seeing.seconds();
+    make_maps(context, trace_settings(settings, context.stages, pass, stop), progress, statistics);
+  const RayRadiance radiance = [&](const Ray& ray, Rng& rng, EyeCounters& counters) {
+    static thread_local Marcher marcher;
+    return eye_radiance(context, ray, marcher, rng, counters);
+  };
+  Pass result = render_image(scene, settings, pass, radiance, stop, progress);
+  result.statistics.merge(statistics);
   return result;
 }
 

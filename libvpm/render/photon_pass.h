@@ -1,13 +1,7 @@
 // One pass of photon mapping: a pure function of scene, settings and pass number.
 #pragma once
 
-#include <atomic>
-
-#include "base/progress.h"
-#include "image/image.h"
-#include "render/settings.h"
-#include "render/statistics.h"
-#include "scene/scene.h"
+#include "render/image_pass.h"
 
 namespace vpm {
 
@@ -25,19 +19,6 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 /// nearest mode: a tenth) of the diagonal of the medium's bounds (grids) or of the scene.
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium);
 float first_surface_radius(const Scene& scene, const RenderSettings& settings);
-
-struct Pass {
-  Image image;  // radiance, W/(m^2 sr)
-  RenderStatistics statistics;
-};
-
-/// Where a pass tells how far it is. Either may be missing.
-struct PassProgress {
-  bool stages = false;        // a bar for each stage of the pass
-  Progress* tiles = nullptr;  // advanced by tile_count() in the course of the pass
-};
-/// The units of work of a pass's image.
-uint64_t tile_count(const Camera& camera);
 
 /// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

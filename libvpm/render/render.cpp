@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "render/path_tracer.h"
 #include "render/photon_pass.h"
 
 namespace vpm {
@@ -21,8 +22,9 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, const st
   const uint64_t tiles = tile_count(scene.camera);
   Progress bar("render", timed ? 1000 : tiles * static_cast<uint64_t>(settings.passes), shown && !single);
   const PassProgress pass_progress{shown && single, timed ? nullptr : &bar};
+  const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
   for (int pass = 0; timed ? pass == 0 || elapsed() < settings.seconds : pass < settings.passes; ++pass) {
-    const Pass done = render_photon_pass(scene, settings, pass, stop, pass_progress);
+    const Pass done = render_pass(scene, settings, pass, stop, pass_progress);
     if (stop) break;
     result.film.add(done.image);
     result.statistics.merge(done.statistics);

@@ -13,8 +13,11 @@ namespace vpm {
 /// Where light that has not scattered yet comes from: the photon map, or rays towards the lights.
 enum class DirectLight { photons, shadow_rays };
 
+/// What estimates radiance: photon maps, or the path tracer that referees them.
+enum class Integrator { photon, path };
+
 struct RenderSettings {
-  std::string integrator = "photon";
+  Integrator integrator = Integrator::photon;
   uint64_t seed = 1;
   int passes = 16;            // >= 1; ignored where seconds > 0
   double seconds = 0.0;       // > 0: passes start until that time is over

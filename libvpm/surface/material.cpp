@@ -67,6 +67,16 @@ Scatter sample(const Dielectric& m, const Vec3& normal, const Vec3& travel, floa
 
 Scatter sample(const Boundary&, const Vec3&, const Vec3& travel, float, const Vec2&) { return passed(travel); }
 
+ScatterValue value(const Lambertian& m, const Vec3& normal, const Vec3& travel, const Vec3& direction) {
+  const float cosine = glm::dot(incidence(normal, travel).normal, direction);
+  if (!(cosine > 0.0f)) return {};
+  return {m.reflectance * (cosine / kPi), cosine / kPi};
+}
+template <class Specular>
+ScatterValue value(const Specular&, const Vec3&, const Vec3&, const Vec3&) {
+  return {};
+}
+
 bool grey(const Lambertian& m) { return is_grey(m.reflectance); }
 bool grey(const Mirror& m) { return is_grey(m.reflectance); }
 bool grey(const Dielectric&) { return true; }
@@ -81,6 +91,10 @@ bool is_grey(const Material& material) {
 Scatter sample_scatter(const Material& material, const Vec3& normal, const Vec3& travel, float u_choice,
                        const Vec2& u) {
   return std::visit([&](const auto& m) { return sample(m, normal, travel, u_choice, u); }, material);
+}
+
+ScatterValue scatter_value(const Material& material, const Vec3& normal, const Vec3& travel, const Vec3& direction) {
+  return std::visit([&](const auto& m) { return value(m, normal, travel, direction); }, material);
 }
 
 float fresnel_dielectric(float cos_incident, float eta) {

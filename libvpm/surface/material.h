@@ -49,6 +49,15 @@ struct Scatter {
 /// dielectric of ior 1, pass the direction unchanged to the last bit.
 Scatter sample_scatter(const Material& material, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 
+/// How much light a material scatters from `travel` into `direction` (both of travel, unit), and how likely
+/// sample_scatter() does so: for shadow rays and multiple importance sampling. Black for mirrors, dielectrics and
+/// boundaries, whose directions no ray finds by chance.
+struct ScatterValue {
+  Rgb value{0.0f};   // BSDF times the cosine to the normal of `direction`, 1/sr
+  float pdf = 0.0f;  // of sample_scatter(), 1/sr
+};
+ScatterValue scatter_value(const Material& material, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+
 /// Fresnel reflectance of unpolarised light for the cosine of incidence in [0, 1] and eta = ior on the far side over
 /// ior on the near side; 1 at total internal reflection [Pharr2023, sec. 9.3.5].
 float fresnel_dielectric(float cos_incident, float eta);

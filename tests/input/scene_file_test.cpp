@@ -259,7 +259,7 @@ TEST(SceneFile, ReadsEverySetting) {
           "'density-at-photon'\ndirect = 'shadow-rays'\n"
           "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n")
           .settings;
-  EXPECT_EQ(s.integrator, "photon");
+  EXPECT_EQ(s.integrator, Integrator::photon);
   EXPECT_EQ(s.passes, 3);
   EXPECT_EQ(s.seconds, 1.5);
   EXPECT_EQ(s.seed, 9u);

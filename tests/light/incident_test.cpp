@@ -163,5 +163,23 @@ TEST(Lights, KnowGreyAndInfinite) {
   EXPECT_TRUE(is_grey(Light(PointLight{})) && is_grey(Light(SphereLight{})) && is_grey(Light(QuadLight{})));
 }
 
+// What sample_towards() says of its own density is what incident_pdf() says of the same direction.
+TEST(Incident, TheDensityOfADirectionIsThatOfItsSample) {
+  Rng rng = test_rng(20);
+  const Vec3 point(0.3f, -0.4f, 0.2f);
+  for (const Light& light : test_lights()) {
+    int different = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const auto in = sample_towards(light, point, rng);
+      if (in)
+        different += std::abs(incident_pdf(light, point, in->direction, in->distance) - in->pdf) > 1e-4f * in->pdf;
+    }
+    // A direction at the border of two texels may be rounded into the other one.
+    EXPECT_LE(different, std::holds_alternative<EnvironmentMap>(light) ? 5 : 0) << light.index();
+  }
+  EXPECT_EQ(incident_pdf(SphereLight{{0, 0, 0}, 1.0f, Rgb(1)}, {0.5f, 0, 0}, {1, 0, 0}, 0.5f), 0.0f) << "inside";
+  EXPECT_EQ(incident_pdf(QuadLight{}, {0.5f, 0.5f, -1.0f}, {0, 0, 1}, 1.0f), 0.0f) << "behind";
+}
+
 }  // namespace
 }  // namespace vpm

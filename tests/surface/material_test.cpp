@@ -151,5 +151,20 @@ TEST(Materials, KnowGreyDiffuseAndBoundary) {
   EXPECT_TRUE(is_boundary(Boundary{}) && !is_boundary(Dielectric{}));
 }
 
+// weight pdf = value for every sampled direction, on both sides; nothing is scattered to the other side.
+TEST(Lambertian, ValueIsWeightTimesDensity) {
+  Rng rng(9, static_cast<uint64_t>(RngUse::test), 0);
+  const Material diffuse = Lambertian{Rgb(0.2f, 0.5f, 0.9f)};
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 travel = uniform_sphere(rng.uniform2());
+    const Scatter s = sample_scatter(diffuse, kNormal, travel, rng.uniform(), rng.uniform2());
+    const ScatterValue v = scatter_value(diffuse, kNormal, travel, s.direction);
+    EXPECT_FLOAT_EQ(v.pdf, std::abs(glm::dot(kNormal, s.direction)) / kPi);
+    EXPECT_LT(glm::length(v.value - s.weight * v.pdf), 1e-6f);
+    EXPECT_EQ(scatter_value(diffuse, kNormal, travel, -s.direction).pdf, 0.0f);
+  }
+  EXPECT_EQ(scatter_value(Mirror{}, kNormal, -kNormal, kNormal).value, Rgb(0.0f));
+}
+
 }  // namespace
 }  // namespace vpm

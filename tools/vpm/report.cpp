@@ -142,8 +142,9 @@ std::string settings_line(const RenderSettings& s) {
       "density_floor={} "
       "volume_direct={} "
       "surface={} surface_direct={} shrink_radii={} max_optical_step={} max_events={}",
-      s.integrator, s.samples_per_pixel, s.photons_emitted, s.photons_stored, s.distance.strategy, s.distance.step,
-      s.distance.extinction_floor, s.transmittance.estimator, s.transmittance.step, gather(s.volume),
+      s.integrator == Integrator::path ? "path" : "photon", s.samples_per_pixel, s.photons_emitted, s.photons_stored,
+      s.distance.strategy, s.distance.step, s.distance.extinction_floor, s.transmittance.estimator,
+      s.transmittance.step, gather(s.volume),
       s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
       direct(s.volume_direct), gather(s.surface), direct(s.surface_direct), s.shrink_radii, s.max_optical_step,
       s.max_events);
@@ -160,6 +161,10 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
       ", transmittance by " + described(settings.transmittance.estimator, transmittance_estimators());
   bool grids = false;
   for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
+  const std::string channels = scene.grey ? "all coefficients are grey" : "coefficients differ between channels";
+  if (settings.integrator == Integrator::path)
+    return {line(true, "path tracing", distances + transmittance, ""),
+            line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
   return {line(stages.photons(), "photon tracing", distances, "nothing stores photons"),
           line(stages.volume_map, "volume photon map", "", no_medium),
           line(stages.surface_map, "surface photon map", "", "no diffuse surface"),
@@ -168,7 +173,7 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
           line(stages.surface_shadow_rays, "shadow rays at surfaces", transmittance,
                stages.surface_map ? "direct light comes from the photon map" : "no diffuse surface"),
           line(grids, "grid look-ups", "", "all media are homogeneous"),
-          scene.grey ? "all coefficients are grey" : "coefficients differ between channels"};
+          channels};
 }
 
 }  // namespace vpm::tools

@@ -1,0 +1,37 @@
+// One pass over the pixels, in tiles, whatever estimates a ray's radiance.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "base/progress.h"
+#include "base/rng.h"
+#include "image/image.h"
+#include "render/settings.h"
+#include "render/statistics.h"
+#include "scene/scene.h"
+
+namespace vpm {
+
+struct Pass {
+  Image image;  // radiance, W/(m^2 sr)
+  RenderStatistics statistics;
+};
+
+/// Where a pass tells how far it is. Either may be missing.
+struct PassProgress {
+  bool stages = false;        // a bar for each stage of the pass
+  Progress* tiles = nullptr;  // advanced by tile_count() in the course of the pass
+};
+/// The units of work of a pass's image.
+uint64_t tile_count(const Camera& camera);
+
+/// Estimates the radiance along a camera ray, W/(m^2 sr). Called from many threads.
+using RayRadiance = std::function<Rgb(const Ray& ray, Rng& rng, EyeCounters& counters)>;
+
+/// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel. Samples that are not finite
+/// are counted and left out as black. Once `stop` is set it returns as soon as it can, with an image of no use.
+Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
+                  const std::atomic<bool>& stop, const PassProgress& progress = {});
+
+}  // namespace vpm

@@ -1,0 +1,109 @@
+// The referee against closed forms. What it says of whole scenes is compared with the photon maps by `vpm validate`.
+#include "render/path_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scenes.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kFalseAlarms = 1e-6;  // of each comparison
+
+/// Samples of the radiance along a ray from outside all shapes, one channel.
+Moments samples(const Scene& scene, const Ray& ray, int count, const RenderSettings& settings = {}, int channel = 0) {
+  const PathContext context = make_path_context(scene, settings);
+  EyeCounters counters;
+  Moments moments;
+  for (int i = 0; i < count; ++i) {
+    Rng rng(5, rng_stream(RngUse::test, 0), static_cast<uint64_t>(i));
+    moments.add(path_radiance(context, ray, scene.world_medium, rng, counters)[channel]);
+  }
+  EXPECT_EQ(counters.cut_paths, 0u);
+  return moments;
+}
+
+// A ball that absorbs nothing in uniform light is invisible, whatever the phase function; in the chromatic one every
+// channel is.
+TEST(PathTracer, WhiteFurnace) {
+  for (const Phase& phase : {Phase(Isotropic{}), Phase(HenyeyGreenstein{0.8f}), Phase(Rayleigh{})}) {
+    Scene scene;
+    Medium medium = make_medium(nullptr, Rgb(1.0f, 3.0f, 8.0f), 1.0f);
+    medium.phase = phase;
+    scene.media.push_back(medium);
+    const Interface media{0, kVacuum};
+    add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Boundary{}, &media);
+    scene.lights.push_back(ConstantEnvironment{Rgb(0.7f)});
+    scene.geometry.commit();
+    finish(scene);
+    for (int c = 0; c < 3; ++c)
+      expect_mean(samples(scene, {Vec3(0.3f, 0, 5), Vec3(0, 0, -1)}, 20000, {}, c), 0.7, kFalseAlarms, "furnace");
+  }
+}
+
+/// A floor, and above it a lamp that faces it. `lamp`: a QuadLight or a SphereLight.
+template <class Lamp, class Surface>
+Scene lit_floor(const Lamp& lamp, const Surface& surface) {
+  Scene scene;
+  scene.lights.push_back(lamp);
+  add_shape(scene, surface, Lambertian{Rgb(0.0f)}, nullptr, 0);
+  add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), Lambertian{Rgb(0.6f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+const Ray kAtFloor{Vec3(0.0f, 0.2f, 2.0f), glm::normalize(Vec3(0.0f, -0.2f, -2.0f))};  // meets it at the origin
+
+// The irradiance under a sphere of radiance 1 is pi sin^2 of its half angle, in whatever shares shadow rays and
+// scattered rays find it: a small lamp is nearly all the former's, one that fills the sky nearly all the latter's.
+TEST(PathTracer, LampsOfAllSizes) {
+  for (const float radius : {0.01f, 0.3f, 0.9f}) {
+    const SphereLight lamp{Vec3(0, 1, 0), radius, Rgb(1.0f)};
+    const Moments seen = samples(lit_floor(lamp, SphereShape{lamp.centre, radius}), kAtFloor, 40000);
+    expect_mean(seen, 0.6 * radius * radius, kFalseAlarms, "sphere");
+  }
+  // Under the centre of a parallel square of half edge h at height 1: the polygon formula with its four equal edges.
+  for (const float h : {0.02f, 1.5f}) {
+    const QuadLight lamp{Vec3(-h, 1, -h), Vec3(2 * h, 0, 0), Vec3(0, 0, 2 * h), Rgb(1.0f)};
+    const double s = h / std::sqrt(1.0 + h * h), exact = 4.0 / M_PI * s * std::atan(s);
+    const Moments seen = samples(lit_floor(lamp, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v)), kAtFloor, 40000);
+    expect_mean(seen, 0.6 * exact, kFalseAlarms, "quad");
+  }
+}
+
+// Without multiple importance sampling, a strongly forward medium before a small bright lamp is noise. With it the
+// variance of one sample stays near the squared mean.
+TEST(PathTracer, TheTwoWaysShare) {
+  Medium medium = make_medium(nullptr, Rgb(0.5f), 0.9f);
+  medium.phase = HenyeyGreenstein{0.97f};
+  const SphereLight lamp{Vec3(0, 0, -3), 0.25f, Rgb(10.0f)};
+  Scene scene;
+  scene.media.push_back(medium);
+  const Interface media{0, kVacuum};
+  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
+  scene.lights.push_back(lamp);
+  add_shape(scene, SphereShape{lamp.centre, lamp.radius}, Lambertian{Rgb(0.0f)}, nullptr, 0);
+  scene.geometry.commit();
+  finish(scene);
+  const Moments seen = samples(scene, {Vec3(0, 0.35f, 3), Vec3(0, 0, -1)}, 40000);
+  EXPECT_LT(seen.variance(), 10.0 * seen.mean() * seen.mean());
+}
+
+TEST(PathTracer, SpecularPathsFindLampsByThemselves) {
+  // A lamp seen in a mirror, behind a pane of IOR 1: its radiance times the mirror's reflectance, without noise.
+  Scene scene;
+  const QuadLight lamp{Vec3(-1, 1, -1), Vec3(2, 0, 0), Vec3(0, 0, 2), Rgb(3.0f)};
+  scene.lights.push_back(lamp);
+  add_shape(scene, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 0);
+  add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), Mirror{Rgb(1.0f)});
+  add_shape(scene, quad_mesh(Vec3(-3, 0.5f, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), Dielectric{1.0f});
+  scene.geometry.commit();
+  finish(scene);
+  const Moments seen = samples(scene, {Vec3(0, 0.8f, 0), glm::normalize(Vec3(0.1f, -0.8f, 0))}, 100);
+  EXPECT_EQ(seen.mean(), 3.0);
+  EXPECT_EQ(seen.variance(), 0.0);
+}
+
+}  // namespace
+}  // namespace vpm
