@@ -1,0 +1,38 @@
+// Means of quantities over many independent samples, on all threads.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/rng.h"
+#include "base/statistics.h"
+
+namespace vpm {
+
+/// The moments of `quantities` numbers over `count` samples. sample(Rng&, double* out) adds what one sample is to
+/// out[0 .. quantities - 1], which are 0 before; sample i has the random numbers (seed, i). The same for any number of
+/// threads.
+template <class Sample>
+std::vector<Moments> sample_moments(size_t quantities, uint64_t count, uint64_t seed, Sample&& sample) {
+  constexpr size_t kChunk = 1024;
+  std::vector<std::vector<Moments>> parts(chunk_count(count, kChunk));
+  parallel_for_chunks(count, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+    std::vector<Moments>& part = parts[chunk];
+    part.resize(quantities);
+    std::vector<double> out(quantities);
+    for (size_t i = begin; i < end; ++i) {
+      Rng rng(seed, rng_stream(RngUse::test, 0), i);
+      std::fill(out.begin(), out.end(), 0.0);
+      sample(rng, out.data());
+      for (size_t q = 0; q < quantities; ++q) part[q].add(out[q]);
+    }
+  });
+  std::vector<Moments> all(quantities);
+  for (const std::vector<Moments>& part : parts)
+    for (size_t q = 0; q < quantities; ++q) all[q].merge(part[q]);
+  return all;
+}
+
+}  // namespace vpm
