@@ -1,8 +1,225 @@
-// Level: agreement.
+// Level 3: every way to the same picture. The mean radiance of a small film, by the referee and by photon maps with
+// every strategy, form and gathering, must agree.
+//
+// Photon maps have a kernel's bias, which is no error of theirs. Each pass is rendered with two radii and extrapolated
+// to radius 0: where the photons' density is smooth the bias goes with r^2, where a sphere sticks out of the medium
+// with r [Silverman1986, sec. 3.3; Jarosz2008, sec. 7.5.3].
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "render/path_tracer.h"
+#include "render/photon_pass.h"
+#include "study/sample_moments.h"
 #include "study/validate/ladder.h"
+#include "study/validate/small_scenes.h"
 
 namespace vpm {
+namespace {
 
-std::vector<Experiment> agreement_experiments() { return {}; }
+constexpr double kEnough = 1000.0;  // effective samples, below which a test of heavy-tailed weights says nothing
+
+/// A way to the mean radiance of the film: per channel, with the effective number of samples.
+struct Measured {
+  std::vector<Moments> channels;
+  double effective = 0.0;
+};
+
+/// Rays through random places of the film.
+Measured by_referee(const Scene& scene, const RenderSettings& settings, uint64_t rays) {
+  const PathContext context = make_path_context(scene, settings);
+  // The last quantity is the square of the sum over channels, for the effective sample size.
+  Measured measured{sample_moments(4, rays, settings.seed, [&](Rng& rng, double* out) {
+    const Vec2 film = rng.uniform2() * Vec2(scene.camera.width, scene.camera.height);
+    EyeCounters counters;
+    const Rgb radiance = path_radiance(context, scene.camera.ray(film), scene.camera_medium, rng, counters);
+    for (int c = 0; c < 3; ++c) out[c] = radiance[c];
+    out[3] = double{sum_channels(radiance)} * sum_channels(radiance);
+  })};
+  double sum = 0.0;
+  for (int c = 0; c < 3; ++c) sum += measured.channels[c].mean();
+  const double squares = measured.channels[3].mean();
+  measured.channels.pop_back();
+  measured.effective = squares > 0.0 ? static_cast<double>(rays) * sum * sum / squares : 0.0;
+  return measured;
+}
+
+/// How a kernel's bias vanishes with its radius, for the extrapolation to radius 0.
+enum class BiasOrder { edges = 1, smooth = 2 };
+
+Rgbd film_mean(const Image& image) {
+  Rgbd sum(0.0);
+  for (const Rgb& pixel : image.pixels) sum += Rgbd(pixel);
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+/// Photon maps: extrapolated passes.
+Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order, int passes) {
+  static const std::atomic<bool> kGoOn{false};
+  const double half = order == BiasOrder::smooth ? 4.0 / 3.0 : 2.0;  // the weight of half the radius
+  settings.shrink_radii = false;
+  RenderSettings halved = settings;
+  halved.volume.radius *= 0.5f;
+  halved.surface.radius *= 0.5f;
+  std::vector<Rgbd> means(static_cast<size_t>(passes));
+  std::vector<double> effective(means.size());
+  parallel_for_chunks(means.size(), 1, [&](size_t i, size_t, size_t) {
+    const int pass = static_cast<int>(i);
+    const Pass coarse = render_photon_pass(scene, settings, 2 * pass, kGoOn);
+    const Pass fine = render_photon_pass(scene, halved, 2 * pass + 1, kGoOn);
+    means[i] = half * film_mean(fine.image) + (1.0 - half) * film_mean(coarse.image);
+    const Ledger& ledger = fine.statistics.ledger;
+    effective[i] = ledger.collisions > 0 ? ledger.effective_sample_size() : kEnough;
+  });
+  Measured measured{std::vector<Moments>(3)};
+  for (size_t i = 0; i < means.size(); ++i) {
+    for (int c = 0; c < 3; ++c) measured.channels[c].add(means[i][c]);
+    measured.effective += effective[i];
+  }
+  return measured;
+}
+
+/// One check per channel (one where all are alike); none determined where the effective sample size is small.
+void compare(std::vector<Check>& checks, const std::string& name, const Measured& measured, const Measured& reference,
+             bool grey) {
+  static constexpr const char* kChannels[] = {", red", ", green", ", blue"};
+  for (int c = 0; c < (grey ? 1 : 3); ++c) {
+    const std::string full = name + (grey ? "" : kChannels[c]);
+    const Moments &value = measured.channels[c], &exact = reference.channels[c];
+    if (measured.effective < kEnough)
+      checks.push_back(not_determined(full, value.mean(), exact.mean(),
+                                      fmt::format("effective sample size {:.0f}", measured.effective)));
+    else
+      checks.push_back(check_same(full, value, exact));
+  }
+}
+
+/// A scene with the radius its photon maps need.
+struct Subject {
+  std::string name;
+  std::function<Scene()> make;
+  BiasOrder order;
+  float radius;  // m, of the coarser map
+};
+
+RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
+  RenderSettings settings;
+  settings.photons_emitted = photons;
+  settings.volume.radius = settings.surface.radius = subject.radius;
+  return settings;
+}
+
+/// The forms of gathering: in media by both forms and both ways to single scattering, in both modes.
+std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSettings& base, bool media) {
+  std::vector<std::pair<std::string, RenderSettings>> all;
+  for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
+    const std::string by = direct == DirectLight::photons ? "photons" : "shadow rays";
+    RenderSettings settings = base;
+    settings.volume_direct = settings.surface_direct = direct;
+    all.emplace_back(fmt::format("{}, direct light by {}", media ? "density at the query" : "surface map", by),
+                     settings);
+    if (!media) continue;
+    settings.volume_form = VolumeForm::density_at_photon;
+    all.emplace_back(fmt::format("density at the photon, direct light by {}", by), settings);
+  }
+  RenderSettings nearest = base;
+  for (GatherSettings* gather : {&nearest.volume, &nearest.surface}) {
+    gather->mode = GatherMode::nearest;
+    gather->count = 200'000;  // more than lie within the radius, so that this is what bounds the search
+  }
+  all.emplace_back("k nearest within the radius", nearest);
+  return all;
+}
+
+std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effort) {
+  const Scene scene = subject.make();
+  const bool media = !scene.media.empty();
+  RenderSettings referee;
+  referee.seed = effort.seed_of(subject.name + " referee");
+  const Measured reference = by_referee(scene, referee, effort.count(40'000, 1'500'000));
+  std::vector<Check> checks;
+  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(6'000, 40'000)), media)) {
+    settings.seed = effort.seed_of(subject.name + name);
+    const int passes = static_cast<int>(effort.count(24, 120));
+    compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
+  }
+  return checks;
+}
+
+/// Every strategy, for photons and for the referee's paths, and every estimator of transmittance.
+std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
+  const Scene scene = subject.make();
+  RenderSettings base = photon_settings(subject, effort.count(6'000, 40'000));
+  base.distance.step = base.transmittance.step = 0.1f;  // voxels: the bias of marching is far below the noise
+  base.seed = effort.seed_of(subject.name + " reference");
+  const uint64_t rays = effort.count(40'000, 1'500'000);
+  const Measured reference = by_referee(scene, base, rays);
+  bool grids = false;
+  for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
+  std::vector<Check> checks;
+  for (const StrategyInfo& strategy : distance_strategies()) {
+    if (grids && !strategy.heterogeneous) continue;
+    RenderSettings settings = base;
+    settings.distance.strategy = strategy.name;
+    settings.distance.extinction_floor = 1.0f;
+    settings.seed = effort.seed_of(fmt::format("{} {} paths", subject.name, strategy.name));
+    compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
+            scene.grey);
+    settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
+    const int passes = static_cast<int>(effort.count(24, 120));
+    compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
+            reference, scene.grey);
+  }
+  for (const EstimatorInfo& estimator : transmittance_estimators()) {
+    RenderSettings settings = base;
+    settings.transmittance.estimator = estimator.name;
+    settings.seed = effort.seed_of(fmt::format("{} {}", subject.name, estimator.name));
+    compare(checks, fmt::format("shadow rays by {}", estimator.name), by_referee(scene, settings, rays), reference,
+            scene.grey);
+  }
+  return checks;
+}
+
+/// The same box as a homogeneous medium and as a constant grid.
+std::vector<Check> constant_grid(const Effort& effort) {
+  const Scene plain = filled_box(false), grid = filled_box(true);
+  std::vector<Check> checks;
+  RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(6'000, 40'000));
+  const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
+    settings.seed = effort.seed_of(name);
+    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(24, 120)))
+                   : by_referee(scene, settings, effort.count(40'000, 1'500'000));
+  };
+  const Measured reference = measure(plain, "plain", false);
+  compare(checks, "constant grid, paths", measure(grid, "grid", false), reference, false);
+  compare(checks, "constant grid, photons", measure(grid, "grid photons", true), measure(plain, "plain photons", true),
+          false);
+  compare(checks, "homogeneous, photons", measure(plain, "plain photons again", true), reference, false);
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Experiment> agreement_experiments() {
+  const auto seen_from = [](Viewpoint viewpoint) { return [=] { return puff(viewpoint, 2.0f); }; };
+  const std::vector<Subject> by_gathering{
+      {"a lamp in chromatic fog, seen from inside", foggy_lamp, BiasOrder::smooth, 0.2f},
+      {"a puff from outside", seen_from(Viewpoint::outside), BiasOrder::smooth, 0.3f},
+      {"a puff from its border", seen_from(Viewpoint::border), BiasOrder::smooth, 0.3f},
+      {"a puff from inside", seen_from(Viewpoint::inside), BiasOrder::smooth, 0.3f},
+      {"a floor beside a wall", [] { return lit_corner(); }, BiasOrder::smooth, 0.08f},
+      {"a floor under a ball of glass", [] { return lit_corner(1.5f); }, BiasOrder::smooth, 0.03f},
+      {"a floor under a ball of IOR 1", [] { return lit_corner(1.0f); }, BiasOrder::smooth, 0.08f},
+      {"a floor in fog", foggy_floor, BiasOrder::edges, 0.06f}};
+  const std::vector<Subject> by_strategy{
+      {"strategies in a puff", [] { return puff(Viewpoint::outside, 1.0f); }, BiasOrder::smooth, 0.3f},
+      {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.2f}};
+  std::vector<Experiment> all;
+  for (const Subject& s : by_gathering)
+    all.push_back({3, s.name, [s](const Effort& effort) { return compare_gatherings(s, effort); }});
+  for (const Subject& s : by_strategy)
+    all.push_back({3, s.name, [s](const Effort& effort) { return compare_strategies(s, effort); }});
+  all.push_back({3, "a constant grid is a homogeneous medium", constant_grid});
+  return all;
+}
 
 }  // namespace vpm

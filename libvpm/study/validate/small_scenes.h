@@ -1,0 +1,29 @@
+// The small scenes on which ways to the same picture are compared.
+#pragma once
+
+#include <string>
+
+#include "scene/build.h"
+
+namespace vpm {
+
+/// A chromatic, forward scattering fog everywhere, a glowing ball in it; seen from inside.
+Scene foggy_lamp();
+
+/// Where the puff is seen from.
+enum class Viewpoint { outside, border, inside };
+/// A grid whose density falls smoothly to 0 at the faces of [-1, 1]^3, lit by a spot light from outside. `contrast`:
+/// the largest optical thickness across it.
+Scene puff(Viewpoint viewpoint, float contrast);
+
+/// The box [-1, 1]^3 of one density, as a homogeneous medium or as a constant grid, under a lamp.
+Scene filled_box(bool grid);
+
+/// A floor and a coloured wall under a lamp, in vacuum; seen is the floor. With a ball of glass of that index of
+/// refraction above it where `ior` > 0.
+Scene lit_corner(float ior = 0.0f);
+
+/// A floor in a fog, under a lamp; seen is the floor.
+Scene foggy_floor();
+
+}  // namespace vpm
