@@ -1,8 +1,14 @@
-// Level: distributions.
-#include "study/validate/ladder.h"
+// Level 0: single draws follow their laws.
+#include "study/validate/groups.h"
 
 namespace vpm {
 
-std::vector<Experiment> distribution_experiments() { return {}; }
+std::vector<Experiment> distribution_experiments() {
+  std::vector<Experiment> all;
+  for (const auto& group : {flight_experiments(), transmittance_experiments(), phase_experiments(),
+                            emission_experiments(), irradiance_experiments(), photon_map_experiments()})
+    all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
 
 }  // namespace vpm

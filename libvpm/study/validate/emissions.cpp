@@ -1,0 +1,188 @@
+// Light sources: where their photons start, which way they fly and what they carry, against each light's definition.
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "light/light.h"
+#include "study/sample_moments.h"
+#include "study/validate/directions.h"
+#include "study/validate/groups.h"
+#include "study/validate/lights.h"
+
+namespace vpm {
+
+namespace {
+
+/// A light, its power by definition, and the cells of emission with the share of power that falls in each.
+struct EmissionLaw {
+  std::string name;
+  Light light;
+  Rgbd power{0.0};  // W
+  std::function<size_t(const Ray&)> cell;
+  std::vector<std::array<double, 3>> shares;  // by cell and channel
+};
+
+std::vector<std::array<double, 3>> equal_cells(size_t count) {
+  const double share = 1.0 / static_cast<double>(count);
+  return std::vector<std::array<double, 3>>(count, {share, share, share});
+}
+
+constexpr size_t kRings = 6;  // of equal probability
+
+/// Rings of the disc of `radius` about the axis through `centre` along `axis`, and sectors.
+size_t disc_cell(const Ray& ray, const Vec3& centre, const Vec3& axis, double radius) {
+  const Vec3d across = Vec3d(ray.origin - centre) - glm::dot(Vec3d(ray.origin - centre), Vec3d(axis)) * Vec3d(axis);
+  const Vec3 direction(glm::normalize(across));
+  return cell_of(glm::dot(across, across) / (radius * radius), kRings) * kSectors + sector_about(axis, direction);
+}
+
+/// Rings of equal flux under the cosine law about the unit normal, and sectors.
+size_t cosine_law_cell(const Vec3& normal, const Vec3& direction) {
+  const double cosine = 1.0 - away_from(normal, direction);
+  return cell_of(cosine * cosine, kRings) * kSectors + sector_about(normal, direction);
+}
+
+EmissionLaw point_law() {
+  const PointLight light{{0.3f, 1.0f, 0.2f}, kColour};
+  return {"point", light, 4.0 * kPiD * Rgbd(kColour),
+          [](const Ray& ray) {
+            return cell_of(0.5 * away_from(kAxis, ray.direction), kRings) * kSectors +
+                   sector_about(kAxis, ray.direction);
+          },
+          equal_cells(kRings * kSectors)};
+}
+
+EmissionLaw spot_law() {
+  const SpotLight light{{0.0f, 1.5f, 0.0f}, kAxis, 0.95f, 0.7f, kColour};
+  const double inner = 1.0 - double{light.cos_inner}, rim = double{light.cos_inner} - light.cos_outer;
+  // Over the rim the intensity is 3 x^2 - 2 x^3 in x, the part of the way from the outer cosine to the inner one.
+  const auto integral = [](double x) { return x * x * x - 0.5 * x * x * x * x; };
+  std::vector<std::array<double, 3>> shares;
+  const double all = inner + 0.5 * rim;
+  for (size_t ring = 0; ring < kRings; ++ring) {
+    const double share = inner / all / (kRings * kSectors);
+    shares.insert(shares.end(), kSectors, {share, share, share});
+  }
+  for (size_t ring = 0; ring < kRings; ++ring) {
+    const double x = 1.0 - static_cast<double>(ring) / kRings, next = x - 1.0 / kRings;
+    const double share = rim * (integral(x) - integral(next)) / all / kSectors;
+    shares.insert(shares.end(), kSectors, {share, share, share});
+  }
+  return {"spot", light, 2.0 * kPiD * all * Rgbd(kColour),
+          [=](const Ray& ray) {
+            const double away = away_from(kAxis, ray.direction);
+            const size_t ring =
+                away < inner ? cell_of(away / inner, kRings) : kRings + cell_of((away - inner) / rim, kRings);
+            return ring * kSectors + sector_about(kAxis, ray.direction);
+          },
+          shares};
+}
+
+EmissionLaw beam_law() {
+  const BeamLight light{{-0.1f, 1.5f, -0.2f}, kAxis, 0.8f, kColour};
+  return {"beam", light, Rgbd(kColour),
+          [=](const Ray& ray) { return disc_cell(ray, light.position, kAxis, light.radius); },
+          equal_cells(kRings * kSectors)};
+}
+
+EmissionLaw quad_law() {
+  const QuadLight light = test_quad();
+  const Vec3d u(light.edge_u), v(light.edge_v), across = glm::cross(u, v);
+  constexpr size_t kAlong = 3;
+  return {"quad", light, kPiD * glm::length(across) * Rgbd(kColour),
+          [=](const Ray& ray) {
+            const Vec3d from_corner = Vec3d(ray.origin) - Vec3d(light.corner);
+            const double square = glm::dot(across, across);
+            const double a = glm::dot(glm::cross(from_corner, v), across) / square;
+            const double b = glm::dot(glm::cross(u, from_corner), across) / square;
+            const size_t place = cell_of(a, kAlong) * kAlong + cell_of(b, kAlong);
+            return place * kRings * kSectors + cosine_law_cell(Vec3(glm::normalize(across)), ray.direction);
+          },
+          equal_cells(kAlong * kAlong * kRings * kSectors)};
+}
+
+EmissionLaw sphere_law() {
+  const SphereLight light = test_sphere();
+  constexpr size_t kZones = 4;
+  return {"sphere", light, 4.0 * kPiD * kPiD * light.radius * light.radius * Rgbd(kColour),
+          [=](const Ray& ray) {
+            const Vec3 normal = glm::normalize(ray.origin - light.centre);
+            return cell_of(0.5 * away_from(kAxis, normal), kZones) * kRings * kSectors +
+                   cosine_law_cell(normal, ray.direction);
+          },
+          equal_cells(kZones * kRings * kSectors)};
+}
+
+EmissionLaw directional_law() {
+  const double radius = kLitSphere.radius;
+  return {"directional", DirectionalLight{kAxis, kColour}, kPiD * radius * radius * Rgbd(kColour),
+          [=](const Ray& ray) { return disc_cell(ray, kLitSphere.centre, ray.direction, radius); },
+          equal_cells(kRings * kSectors)};
+}
+
+EmissionLaw constant_law() {
+  const double radius = kLitSphere.radius;
+  return {"constant environment", ConstantEnvironment{kColour}, 4.0 * kPiD * kPiD * radius * radius * Rgbd(kColour),
+          [=](const Ray& ray) {
+            return cell_of(0.5 * away_from(kAxis, ray.direction), kRings) * kRings * kSectors +
+                   disc_cell(ray, kLitSphere.centre, ray.direction, radius);
+          },
+          equal_cells(kRings * kRings * kSectors)};
+}
+
+EmissionLaw map_law() {
+  const TexelMap map = test_map();
+  const double radius = kLitSphere.radius;
+  Rgbd total(0.0);
+  for (size_t i = 0; i < map.texels.size(); ++i) total += map.solid_angle(i) * Rgbd(map.texels[i]);
+  std::vector<std::array<double, 3>> shares;
+  for (size_t i = 0; i < map.texels.size(); ++i) {
+    const Rgbd share = map.solid_angle(i) * Rgbd(map.texels[i]) / total;
+    shares.push_back({share.r, share.g, share.b});
+  }
+  return {"environment map", map.light(), kPiD * radius * radius * total,
+          [map](const Ray& ray) { return map.texel_at(-ray.direction); }, shares};
+}
+
+std::vector<Check> check_emission(const EmissionLaw& law, const Effort& effort) {
+  const Rgbd stated(light_power(law.light, kLitSphere));
+  const double power = law.power.r + law.power.g + law.power.b;
+  const bool chromatic = law.shares[0][0] != law.shares[0][1];
+  const size_t channels = chromatic ? 3 : 1, cells = law.shares.size();
+  const auto samples =
+      sample_moments(3 * cells, effort.count(100'000, 4'000'000), effort.seed_of(law.name), [&](Rng& rng, double* out) {
+        const Emission emission = emit(law.light, kLitSphere, rng);
+        const size_t cell = law.cell(emission.ray);
+        for (size_t c = 0; c < channels; ++c) {
+          const auto channel = static_cast<int>(c);
+          out[c * cells + cell] = emission.power[channel] / law.power[channel];
+        }
+      });
+  static constexpr std::array<const char*, 3> kChannels{", red", ", green", ", blue"};
+  std::vector<Check> checks;
+  for (size_t c = 0; c < channels; ++c) {
+    std::vector<double> shares;
+    for (const auto& share : law.shares) shares.push_back(share[c]);
+    const auto first = samples.begin() + static_cast<ptrdiff_t>(c * cells);
+    checks.push_back(check_weights(law.name + ", photons' power" + (chromatic ? kChannels[c] : ""),
+                                   {first, first + static_cast<ptrdiff_t>(cells)}, shares));
+  }
+  checks.push_back(
+      check_bound(law.name + ", power of all channels", stated.r + stated.g + stated.b, power, 1e-6 * power));
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Experiment> emission_experiments() {
+  return {{0, "light emitted", [](const Effort& effort) {
+             std::vector<Check> checks;
+             for (const EmissionLaw& law : {point_law(), spot_law(), beam_law(), quad_law(), sphere_law(),
+                                            directional_law(), constant_law(), map_law()})
+               for (Check& check : check_emission(law, effort)) checks.push_back(std::move(check));
+             return checks;
+           }}};
+}
+
+}  // namespace vpm
