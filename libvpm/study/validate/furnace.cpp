@@ -1,0 +1,125 @@
+// The white furnace: where nothing absorbs and radiance 1 comes from everywhere, the radiance is 1 everywhere, whatever
+// scatters. By paths from the eye, and by photons through the volume map: fluence 4 pi, and phase-weighted sums that
+// give the radiance 1 back.
+#include <fmt/format.h>
+#include <array>
+
+#include "base/warp.h"
+#include "estimate/volume_estimate.h"
+#include "photon/trace.h"
+#include "render/path_tracer.h"
+#include "scene/build.h"
+#include "study/sample_moments.h"
+#include "study/validate/fields.h"
+#include "study/validate/groups.h"
+#include "study/validate/lit_body.h"
+
+namespace vpm {
+
+namespace {
+
+/// Radiance along rays from a point inside, into random directions.
+Check check_radiance(const std::string& name, const Scene& scene, const Vec3& eye, const char* strategy,
+                     const Effort& effort) {
+  RenderSettings settings;
+  settings.distance = {.strategy = strategy, .step = 0.1f};
+  const PathContext context = make_path_context(scene, settings);
+  const MediumId medium = medium_at(scene, eye);
+  const auto samples = sample_moments(
+      1, effort.count(20'000, 1'000'000), effort.seed_of("radiance, " + name), [&](Rng& rng, double* out) {
+        EyeCounters counters;
+        out[0] = path_radiance(context, {eye, uniform_sphere(rng.uniform2())}, medium, rng, counters).g;
+      });
+  return check_weighted_mean(name, samples[0], 1.0);
+}
+
+/// White surfaces in the box: a sphere that scatters, one that mirrors, one of glass.
+Scene furnished_box(const Medium& medium) {
+  Scene scene;
+  scene.media.push_back(medium);
+  const Interface media{0, kVacuum};
+  add_shape(scene, field_box(), Boundary{}, &media);
+  add_shape(scene, SphereShape{field_point({-3.0, -2.0, 0.5}), 0.3f}, Lambertian{Rgb(1.0f)});
+  add_shape(scene, SphereShape{field_point({3.0, -2.0, 1.0}), 0.3f}, Mirror{Rgb(1.0f)});
+  add_shape(scene, SphereShape{field_point({0.0, 4.0, -1.0}), 0.25f}, Dielectric{1.5f});
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+std::vector<Check> check_radiances(const Effort& effort) {
+  const auto fields = test_fields();
+  const Rgb sigma_t(1.5f);
+  const Vec3 eye = field_point({0.5, -1.5, -2.5});
+  std::vector<Check> checks;
+  for (const auto& [name, phase] : {std::pair<const char*, Phase>("isotropic", Isotropic{}),
+                                    {"Rayleigh", Rayleigh{}},
+                                    {"g = 0.9", HenyeyGreenstein{0.9f}},
+                                    {"g = -0.6", HenyeyGreenstein{-0.6f}}}) {
+    const LitBody body = lit_box("", white_medium(nullptr, sigma_t, phase));
+    checks.push_back(check_radiance(fmt::format("homogeneous, {}", name), body.scene, eye, "homogeneous", effort));
+  }
+  for (const TestField& field : fields) {
+    const LitBody body = lit_box("", white_medium(field.grid, sigma_t, HenyeyGreenstein{0.5f}));
+    for (const StrategyInfo& info : distance_strategies())
+      if (info.heterogeneous && info.unbiased)
+        checks.push_back(
+            check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info.name.data(), effort));
+  }
+  const Scene furnished = furnished_box(white_medium(fields[5].grid, sigma_t, HenyeyGreenstein{0.5f}));
+  checks.push_back(check_radiance("white surfaces in a random grid", furnished, eye, "regular", effort));
+  return checks;
+}
+
+/// Photon maps of few photons each, many times: their means are those of one large map, and their errors known.
+std::vector<Check> check_map(const LitBody& body, const Vec3& inside, const char* strategy_name, VolumeForm form,
+                             const Effort& effort) {
+  const Medium& medium = body.scene.media[0];
+  const auto strategy = make_distance_strategy({.strategy = strategy_name});
+  const std::string name = fmt::format("{}, {}", body.name, strategy_name);
+  const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
+  const auto samples =
+      sample_moments(2, effort.count(4'000, 100'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
+        TraceSettings settings;
+        settings.seed = rng.bits();
+        settings.emitted = 100;
+        settings.volume_form = form;
+        Progress progress("", 0, false);
+        TracedPhotons photons = trace_photons(body.scene, *strategy, settings, progress);
+        const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
+        out[0] = fluence(medium.sigma_t, inside, map).g;
+        out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).g / medium.sigma_t.g;
+      });
+  return {check_weighted_mean(name + ", fluence", samples[0], 4.0 * kPiD),
+          check_weighted_mean(name + ", radiance scattered", samples[1], 1.0)};
+}
+
+std::vector<Check> check_maps(const Effort& effort) {
+  const auto fields = test_fields();
+  const Rgb sigma_t(1.5f);
+  const HenyeyGreenstein phase{0.5f};
+  std::vector<Check> checks;
+  const auto add = [&](std::vector<Check> found) {
+    for (Check& check : found) checks.push_back(std::move(check));
+  };
+  const LitBody sphere = lit_sphere("sphere", white_medium(nullptr, sigma_t, phase));
+  const Vec3 off_centre(0.5f, -0.3f, 0.4f);
+  add(check_map(sphere, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
+  LitBody same = lit_sphere("sphere, density at the photon", white_medium(nullptr, sigma_t, phase));
+  add(check_map(same, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
+  for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
+    for (const char* strategy : {"regular", "mean-extinction"})
+      add(check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)), field_point({0.5, 0.2, 0.5}),
+                    strategy, VolumeForm::density_at_query, effort));
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Experiment> furnace_experiments() {
+  return {{1, "white furnace: radiance by paths from the eye", check_radiances},
+          {1, "white furnace: photon maps", check_maps}};
+}
+
+}  // namespace vpm

@@ -1,0 +1,41 @@
+// The scenes of lit bodies.
+#include "study/validate/lit_body.h"
+
+#include "medium/make_grid.h"
+#include "scene/build.h"
+#include "study/validate/fields.h"
+
+namespace vpm {
+
+namespace {
+
+template <class Surface>
+Scene lit_scene(const Medium& medium, const Surface& surface) {
+  Scene scene;
+  scene.media.push_back(medium);
+  const Interface media{0, kVacuum};
+  add_shape(scene, surface, Boundary{}, &media);
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+}  // namespace
+
+LitBody lit_sphere(std::string name, const Medium& medium) {
+  return {std::move(name), lit_scene(medium, SphereShape{Vec3(0.3f, -0.2f, 0.5f), 1.0f}), 4.0 / 3.0 * kPiD, 4.0 * kPiD};
+}
+
+LitBody lit_box(std::string name, const Medium& medium) {
+  return {std::move(name), lit_scene(medium, field_box()), field_box_volume(), field_box_area(),
+          mean_density_in_box(medium)};
+}
+
+Medium white_medium(std::shared_ptr<const DensityGrid> grid, const Rgb& sigma_t, const Phase& phase) {
+  Medium medium = make_medium(std::move(grid), sigma_t, 1.0f);
+  medium.phase = phase;
+  return medium;
+}
+
+}  // namespace vpm

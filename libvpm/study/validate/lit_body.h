@@ -1,0 +1,28 @@
+// Convex bodies of one medium in a vacuum, under light of the same radiance from everywhere.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+
+namespace vpm {
+
+/// Light of radiance 1 W/(m^2 sr) comes from all directions; of a body of albedo 1 none gets lost, and everywhere the
+/// radiance stays 1.
+struct LitBody {
+  std::string name;
+  Scene scene;
+  double volume = 0.0;        // m^3
+  double area = 0.0;          // m^2
+  double mean_density = 1.0;  // over the volume
+};
+
+/// A sphere of radius 1 m.
+LitBody lit_sphere(std::string name, const Medium& medium);
+/// The box of the test fields.
+LitBody lit_box(std::string name, const Medium& medium);
+
+/// A medium that absorbs nothing.
+Medium white_medium(std::shared_ptr<const DensityGrid> grid, const Rgb& sigma_t, const Phase& phase);
+
+}  // namespace vpm
