@@ -19,7 +19,7 @@ Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const
   return std::visit(
       [&](const auto& p) {
         const auto value = [&](const Vec3& travel, const Rgb& power) {
-          return power * p.value(glm::dot(travel, towards));
+          return power * p.value(travel, towards);
         };
         return kernel_sum<3>(photons..., point, all, value);
       },

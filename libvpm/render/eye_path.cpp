@@ -95,7 +95,7 @@ class EyePath {
     const DirectSample light =
         sample_direct(c_.scene, picked, *c_.transmittance, point, Vec3(0.0f), medium_, rng_, counters_.walk);
     if (is_black(light.irradiance)) return Rgb(0.0f);
-    return light.irradiance * phase_value(medium.phase, glm::dot(light.direction, ray_.direction)) /
+    return light.irradiance * phase_value(medium.phase, -light.direction, -ray_.direction) /
            c_.scene.light_probability[picked];
   }
 
