@@ -5,7 +5,8 @@
 namespace vpm {
 
 /// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at
-/// t0. Every plane is met at its own quotient, so that no error builds up along the way.
+/// t0. Every plane is met at its own quotient, so that no error builds up along the way. The walk stays in the cells lo
+/// to hi: whoever calls it knows where the ray leaves them, and rounding must not end it before.
 class LatticeWalk {
  public:
   LatticeWalk(const Vec3d& origin, const Vec3d& direction, double spacing, double t0, const Vec3i& lo, const Vec3i& hi)
@@ -14,6 +15,7 @@ class LatticeWalk {
       cell_[a] = std::clamp(static_cast<int>(std::floor((origin[a] + t0 * direction[a]) / spacing)), lo[a], hi[a]);
       inverse_[a] = 1.0 / direction[a];
       step_[a] = direction[a] > 0.0 ? 1 : -1;
+      last_[a] = direction[a] > 0.0 ? hi[a] : lo[a];
       meet_next_plane(a);
     }
   }
@@ -29,12 +31,13 @@ class LatticeWalk {
  private:
   void meet_next_plane(int a) {
     const double plane = static_cast<double>(cell_[a] + (step_[a] > 0 ? 1 : 0)) * spacing_;
-    exit_[a] = std::isinf(inverse_[a]) ? std::numeric_limits<double>::infinity() : (plane - origin_[a]) * inverse_[a];
+    const bool stays = cell_[a] == last_[a] || std::isinf(inverse_[a]);
+    exit_[a] = stays ? std::numeric_limits<double>::infinity() : (plane - origin_[a]) * inverse_[a];
   }
 
   Vec3d origin_, inverse_, exit_;
   double spacing_;
-  Vec3i cell_, step_;
+  Vec3i cell_, step_, last_;
 };
 
 /// The part of [t0, t1] in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 where there is none.
@@ -66,13 +69,12 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
   LatticeWalk walk(inside, ray.direction, 1.0, t0, Vec3i(0), Vec3i(kCells - 1));
   const Vec3 step(ray.direction);
   for (double t = t0; t < t1; walk.advance()) {
-    const Vec3i cell = walk.cell();
-    if (static_cast<unsigned>(cell.x | cell.y | cell.z) >= static_cast<unsigned>(kCells)) break;
     const double end = std::min(walk.exit(), t1);
     if (end > t) {
       DensityPiece piece;
       piece.t0 = t;
       piece.t1 = end;
+      const Vec3i& cell = walk.cell();
       cell_piece(values, cell, Vec3(inside + t * ray.direction - Vec3d(cell)), step, piece);
       ++read;
       if (!visit(piece)) return false;
@@ -104,8 +106,6 @@ uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Vis
   if (!outside(interval.t0, t0)) return read;
   LatticeWalk walk(origin, direction, kCells, t0, brick_lo_, brick_lo_ + brick_count_ - 1);
   for (double t = t0; t < t1; walk.advance()) {
-    const Vec3i b = walk.cell() - brick_lo_;
-    if (glm::any(glm::lessThan(b, Vec3i(0))) || glm::any(glm::greaterThanEqual(b, brick_count_))) break;
     const double end = std::min(walk.exit(), t1);
     if (end > t) {
       if (!visit_brick(walk.cell(), lattice_ray, t, end, read, visit)) return read;
