@@ -29,7 +29,8 @@ Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& 
   Flight flight;
   flight.collided = distance < reach;
   flight.t = flight.collided ? interval.t0 + static_cast<float>(distance) : interval.t1;
-  const double length = flight.collided ? distance : reach;
+  // The distance as it was rounded: against the column up to there a finer one would weigh by exp(rate * rounding).
+  const double length = flight.collided ? static_cast<double>(flight.t) - interval.t0 : reach;
   const Column crossed = column(medium, ray, {interval.t0, flight.t});
   flight.lookups = crossed.lookups;
   // Transmittance over density: the exponents are joined before exp(), as each alone can underflow.
