@@ -214,7 +214,7 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
   scene.lights = std::move(plan.lights);
   scene.world_medium = plan.world;
   scene.camera = plan.camera;
-  scene.camera_medium = plan.camera_medium ? *plan.camera_medium : medium_at(scene, scene.camera.position);
+  scene.camera_medium = plan.camera_medium ? *plan.camera_medium : medium_around(scene, scene.camera.position);
   try {
     finish(scene);
   } catch (const InputError& error) {

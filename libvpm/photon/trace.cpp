@@ -49,8 +49,7 @@ class PhotonPath {
     const int light = pick_light(scene_, rng.uniform());
     Emission emission = vpm::emit(scene_.lights[light], scene_.sphere, rng);
     emission.power /= scene_.light_probability[light];
-    const MediumId medium = scene_.light_medium[light];
-    state_ = {emission.ray, medium == kSeveralMedia ? medium_at(scene_, emission.ray.origin) : medium, emission.power};
+    state_ = {emission.ray, medium_of_ray(scene_, scene_.light_medium[light], emission.ray), emission.power};
     emitted_power_ = sum_channels(emission.power);
     balance_ = -static_cast<double>(emitted_power_);
     direct_ = true;

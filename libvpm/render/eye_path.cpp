@@ -16,7 +16,7 @@ class EyePath {
         marcher_(marcher),
         rng_(rng),
         counters_(counters),
-        medium_(context.scene.camera_medium) {}
+        medium_(medium_of_ray(context.scene, context.scene.camera_medium, ray)) {}
 
   Rgb follow() {
     for (int events = 0; events < c_.settings.max_events; ++events) {

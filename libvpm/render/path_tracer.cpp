@@ -122,7 +122,7 @@ Pass render_path_pass(const Scene& scene, const RenderSettings& settings, int pa
                       const PassProgress& progress) {
   const PathContext context = make_path_context(scene, settings);
   const RayRadiance radiance = [&](const Ray& ray, Rng& rng, EyeCounters& counters) {
-    return path_radiance(context, ray, scene.camera_medium, rng, counters);
+    return path_radiance(context, ray, medium_of_ray(scene, scene.camera_medium, ray), rng, counters);
   };
   return render_image(scene, settings, pass, radiance, stop, progress);
 }

@@ -29,9 +29,9 @@ MediumId near_side(const Scene& scene, const Encounter& met, const Vec3& directi
   return side(0, -direction);
 }
 
-MediumId medium_along(const Scene& scene, const Vec3& point, const Vec3& direction) {
-  const Encounter met = scene.geometry.division({point, direction});
-  return met ? near_side(scene, met, direction) : scene.world_medium;
+MediumId medium_along(const Scene& scene, const Ray& ray) {
+  const Encounter met = scene.geometry.division(ray);
+  return met ? near_side(scene, met, ray.direction) : scene.world_medium;
 }
 
 SceneSphere bounding_sphere(const Box& box) {
@@ -117,7 +117,7 @@ bool is_cut(const Scene& scene, const Box& box) {
 /// The medium that all photons of a light start in: one where no boundary cuts the light.
 MediumId medium_of(const Scene& scene, const Light& light) {
   if (is_infinite(light)) return scene.world_medium;
-  return is_cut(scene, bounds_of(light)) ? kSeveralMedia : medium_at(scene, point_before(light));
+  return is_cut(scene, bounds_of(light)) ? kSeveralMedia : medium_around(scene, point_before(light));
 }
 
 }  // namespace
@@ -150,10 +150,21 @@ void finish(Scene& scene) {
 }
 
 MediumId medium_at(const Scene& scene, const Vec3& point) {
-  const MediumId a = medium_along(scene, point, kProbes[0]);
-  const MediumId b = medium_along(scene, point, kProbes[1]);
-  const MediumId c = medium_along(scene, point, kProbes[2]);
+  const MediumId a = medium_along(scene, {point, kProbes[0]});
+  const MediumId b = medium_along(scene, {point, kProbes[1]});
+  const MediumId c = medium_along(scene, {point, kProbes[2]});
   return b == c ? b : a;
+}
+
+MediumId medium_around(const Scene& scene, const Vec3& point) {
+  // On a boundary, rays to its two sides tell different media.
+  for (const Vec3& probe : kProbes)
+    if (medium_along(scene, {point, probe}) != medium_along(scene, {point, -probe})) return kSeveralMedia;
+  return medium_at(scene, point);
+}
+
+MediumId medium_of_ray(const Scene& scene, MediumId place, const Ray& ray) {
+  return place == kSeveralMedia ? medium_along(scene, ray) : place;
 }
 
 }  // namespace vpm

@@ -42,13 +42,14 @@ struct Scene {
   std::vector<Light> lights;
   MediumId world_medium = kVacuum;  // fills all space outside the shapes that separate media
   Camera camera;
-  MediumId camera_medium = kVacuum;
+  MediumId camera_medium = kVacuum;  // kSeveralMedia where the camera stands on a boundary
 
   // Derived by finish().
   SceneSphere sphere;                    // around all shapes; without any, radius 1 m about the origin
   bool grey = false;                     // one channel carries everything
   std::vector<float> light_probability;  // of emitting the next photon, by power; sums to 1
-  std::vector<MediumId> light_medium;  // that a light's photons start in; kSeveralMedia where a boundary cuts the light
+  // That a light's photons start in; kSeveralMedia where a boundary cuts the light, or runs through its point.
+  std::vector<MediumId> light_medium;
 
   const Material& material_of(const Hit& hit) const { return materials[shapes[hit.shape].material]; }
 };
@@ -80,5 +81,13 @@ void finish(Scene& scene);
 /// direction, has on the near side; the world's medium where there is none. Three directions vote, because one may run
 /// along an edge or a face.
 MediumId medium_at(const Scene& scene, const Vec3& point);
+
+/// The medium that rays from a point start in: kSeveralMedia where that may depend on their direction, as on a
+/// boundary.
+MediumId medium_around(const Scene& scene, const Vec3& point);
+
+/// The medium that a ray starts in, from a place whose medium is `place`. Of kSeveralMedia it is what the first shape
+/// along the ray that separates media has on the near side; the world's where there is none.
+MediumId medium_of_ray(const Scene& scene, MediumId place, const Ray& ray);
 
 }  // namespace vpm

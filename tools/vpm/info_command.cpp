@@ -58,6 +58,11 @@ void print_medium(const Medium& m, const Scene& scene, const RenderSettings& set
       first_volume_radius(scene, settings, m));
 }
 
+std::string medium_text(const Scene& scene, MediumId medium) {
+  if (medium == kSeveralMedia) return "several media: on a boundary";
+  return medium == kVacuum ? "vacuum" : "medium " + scene.media[medium].name;
+}
+
 void print_scene(const InfoOptions& options) {
   const LoadedScene loaded = load_scene(options.file, options.overrides);
   const Scene& scene = loaded.scene;
@@ -65,14 +70,12 @@ void print_scene(const InfoOptions& options) {
   fmt::print("scene {}, hash {}\n", options.file, loaded.hash);
   for (const std::string& note : loaded.notes) fmt::print("note: {}\n", note);
   fmt::print("camera at {} m, {} x {} pixels, in {}\n", text(scene.camera.position), scene.camera.width,
-             scene.camera.height,
-             scene.camera_medium == kVacuum ? "vacuum" : "medium " + scene.media[scene.camera_medium].name);
+             scene.camera.height, medium_text(scene, scene.camera_medium));
   if (box.empty())
     fmt::print("no shapes\n");
   else
     fmt::print("{} shapes in {} to {} m\n", scene.shapes.size(), text(box.lo), text(box.hi));
-  fmt::print("around everything: {}\n",
-             scene.world_medium == kVacuum ? "vacuum" : "medium " + scene.media[scene.world_medium].name);
+  fmt::print("around everything: {}\n", medium_text(scene, scene.world_medium));
   for (size_t i = 0; i < scene.lights.size(); ++i)
     fmt::print("light {}: power {} W, chosen with probability {:.4g}\n", i,
                rgb(light_power(scene.lights[i], scene.sphere)), scene.light_probability[i]);
