@@ -33,11 +33,11 @@ class TracedPath {
     const Vec3 travel = state_.ray.direction;
     const DirectSample light = sample_light(state_.ray.origin, Vec3(0.0f));
     if (!is_black(light.irradiance)) {
-      const float phase = phase_value(medium.phase, glm::dot(travel, light.direction));
+      const float phase = phase_value(medium.phase, travel, light.direction);
       radiance_ += state_.power * medium.albedo() * phase * light.irradiance * share(light.pdf, phase);
     }
     if (!scatter_in_medium(medium, state_, rng_)) return false;
-    scatter_pdf_ = phase_value(medium.phase, glm::dot(travel, state_.ray.direction));
+    scatter_pdf_ = phase_value(medium.phase, travel, state_.ray.direction);
     return true;
   }
 
