@@ -21,10 +21,13 @@ Filter read_filter(TableReader& film) {
   return filter;
 }
 
+/// A gather radius, m: kernels, 1 over its cube, must be floats; and coordinates are at most 1e9 m.
+constexpr Range kRadius{1e-10, 1e9, false, false};
+
 void read_gather(TableReader& table, GatherSettings& gather) {
   gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}},
                                          gather.mode);
-  gather.radius = table.number("radius", kNotNegative, gather.radius);
+  gather.radius = table.number("radius", kRadius, gather.radius);
   gather.count = static_cast<uint32_t>(table.integer("count", 2, 1'000'000, gather.count));
   gather.kernel = table.choice<KernelKind>("kernel",
                                            {{"constant", KernelKind::constant},
