@@ -8,6 +8,15 @@
 namespace vpm {
 namespace {
 
+/// The most steps among photons in one stretch of a ray.
+constexpr float kMostSteps = 10'000.0f;
+
+/// How long steps among photons are, m: a gather radius, so that none is passed by. In stretches of too many of these
+/// (thin media that reach ever so far) longer: noisier then, but no less right.
+float step_among(const PhotonMap& map, const Interval& interval) {
+  return std::max(map.settings.radius, interval.length() / kMostSteps);
+}
+
 class EyePath {
  public:
   EyePath(const EyeContext& context, const Ray& ray, Marcher& marcher, Rng& rng, EyeCounters& counters)
@@ -41,7 +50,8 @@ class EyePath {
     if (at_photon) gather_photon_densities(segment);
     if (medium_ == kVacuum) return;
     const Medium& medium = c_.scene.media[medium_];
-    const PhotonMap* map = c_.stages.volume_map && !at_photon ? &c_.volume[medium_] : nullptr;
+    const PhotonMap* map =
+        c_.stages.volume_map && !at_photon && c_.volume[medium_].size() > 0 ? &c_.volume[medium_] : nullptr;
     if (!medium.scatters() || (!map && !c_.stages.volume_shadow_rays)) {
       throughput_ *= transmittance(medium, attenuate(medium, segment));
       return;
@@ -65,7 +75,8 @@ class EyePath {
       throughput_ *= transmittance(medium, attenuate(medium, interval));
       return;
     }
-    const StepLimits limits{map ? map->settings.radius : kInfinity, c_.settings.max_optical_step};
+    const StepLimits limits{map ? step_among(*map, interval) : kInfinity, c_.settings.max_optical_step};
+    const float densest = medium.max_density();
     const glm::bvec3 matters = glm::greaterThan(throughput_ * medium.sigma_s, Rgb(0.0f));
     const Marched marched =
         marcher_.march(medium, ray_, interval, limits, matters, rng_, [&](const Vec3& point, const Rgb& weight) {
@@ -105,13 +116,12 @@ class EyePath {
     const Medium* around = medium_ == kVacuum ? nullptr : &c_.scene.media[medium_];
     for (size_t m = 0; m < c_.volume.size(); ++m) {
       const PhotonMap& map = c_.volume[m];
-      const float r = map.settings.radius;
-      const Interval near = clip(segment, map.bounds(), r);
+      const Interval near = clip(segment, map.bounds(), map.settings.radius);
       if (map.size() == 0 || near.empty()) continue;
       const double before = around ? attenuate(*around, {segment.t0, near.t0}) : 0.0;
       const Medium& medium = c_.scene.media[m];
-      counters_.walk.lookups +=
-          march_evenly(around, ray_, near, before, r, rng_, [&](const Vec3& point, const Rgb& weight) {
+      counters_.walk.lookups += march_evenly(
+          around, ray_, near, before, step_among(map, near), rng_, [&](const Vec3& point, const Rgb& weight) {
             ++counters_.volume_queries;
             radiance_ += throughput_ * weight * medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, map);
           });
