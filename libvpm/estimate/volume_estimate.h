@@ -13,20 +13,20 @@ namespace vpm {
 /// With the photons' powers as their VolumeForm says, the source of radiance at x is
 ///   density at the photon:  j = albedo sum                   (Phi_p is the flux that collided)
 ///   density at the query:   j = albedo density(x) sum        (Phi_p is the flux that collided over the density at x_p)
+/// with both densities over the medium's largest.
 template <class... Photons>
 Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const Photons&... photons) {
   const auto all = [](const Vec3&, const Vec3&) { return true; };
   return std::visit(
       [&](const auto& p) {
-        const auto value = [&](const Vec3& travel, const Rgb& power) {
-          return power * p.value(travel, towards);
-        };
+        const auto value = [&](const Vec3& travel, const Rgb& power) { return power * p.value(travel, towards); };
         return kernel_sum<3>(photons..., point, all, value);
       },
       phase);
 }
 
-/// The fluence, W/m^2: sum_p Phi_p K_r / sigma_t for photons stored for the density at the query, sigma_t at density 1.
+/// The fluence, W/m^2: sum_p Phi_p K_r / sigma_t for photons stored for the density at the query, sigma_t at the
+/// medium's largest density.
 template <class... Photons>
 Rgb fluence(const Rgb& sigma_t, const Vec3& point, const Photons&... photons) {
   const auto all = [](const Vec3&, const Vec3&) { return true; };

@@ -44,7 +44,7 @@ enum class VolumeForm { density_at_query, density_at_photon };
 struct Photon {
   Vec3 position{0.0f};     // m
   PackedDirection travel;  // direction of travel when it arrived
-  Rgb power{0.0f};         // W; or W times 1 over density, see VolumeForm
+  Rgb power{0.0f};         // W; or W over the density as a share of the medium's largest, see VolumeForm
 };
 
 static_assert(sizeof(Photon) == 28);

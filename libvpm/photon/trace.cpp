@@ -90,12 +90,12 @@ class PhotonPath {
     alive_ = scatter_in_medium(medium, state_, rng);
   }
 
-  /// The density that a photon's power is divided by: its own, or the floor. Counts the floor's use.
+  /// What a photon's power is divided by: its density over the medium's largest, or the floor. Counts the floor's use.
   float divisor(const Medium& medium, float density) {
-    const float floor = settings_.density_floor * medium.max_density();
-    if (density >= floor) return density;
+    const float relative = density / medium.max_density();
+    if (relative >= settings_.density_floor) return relative;
     ++out_.ledger.floored;
-    return floor;
+    return settings_.density_floor;
   }
 
   void meet_surface(const Hit& hit, Rng& rng) {

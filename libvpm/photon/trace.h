@@ -23,8 +23,7 @@ struct TraceSettings {
   bool keep_volume = true, keep_surface = true;                // store at all
   bool keep_direct_volume = true, keep_direct_surface = true;  // store photons that have not scattered yet
   VolumeForm volume_form = VolumeForm::density_at_query;
-  float density_floor =
-      0.0f;  // density at the query: the least density to divide by, over the medium's largest, in [0, 1]
+  float density_floor = 0.0f;  // density at the query: the least to divide by, over the medium's largest, in [0, 1]
   const std::atomic<bool>* stop = nullptr;  // once true, tracing ends as soon as it can, with photons of no use
 };
 
@@ -40,7 +39,8 @@ struct TracedPhotons {
 /// A volume photon is stored at every collision, before the choice between absorption and scattering (photons that
 /// weighted strategies made lighter than a tenth of what was emitted first play roulette). Its power is the flux Phi
 /// that collides (density at the photon) or Phi / density there (density at the query), so that the estimates only
-/// multiply by what belongs to the query. A floor makes the latter Phi / max(density, floor): that bounds the powers,
+/// multiply by what belongs to the query. That density is relative, over the medium's largest: powers then fit into
+/// floats whatever the scale of densities. A floor makes the power Phi / max(density, floor): that bounds the powers,
 /// and what is thinner than the floor scatters less, by density / floor. A photon is direct until its first scattering,
 /// reflection or refraction; crossing a boundary is none.
 TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,

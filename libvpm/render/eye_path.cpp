@@ -80,13 +80,13 @@ class EyePath {
     const glm::bvec3 matters = glm::greaterThan(throughput_ * medium.sigma_s, Rgb(0.0f));
     const Marched marched =
         marcher_.march(medium, ray_, interval, limits, matters, rng_, [&](const Vec3& point, const Rgb& weight) {
-          Rgb source(0.0f);
           if (map) {
             ++counters_.volume_queries;
-            source += medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, *map);
+            radiance_ += throughput_ * (weight / densest) * medium.albedo() *
+                         volume_sum(medium.phase, point, -ray_.direction, *map);
           }
-          if (c_.stages.volume_shadow_rays) source += medium.sigma_s * single_scattering(medium, point);
-          radiance_ += throughput_ * weight * source;
+          if (c_.stages.volume_shadow_rays)
+            radiance_ += throughput_ * (weight * medium.sigma_s) * single_scattering(medium, point);
         });
     counters_.steps += marched.steps;
     counters_.walk.lookups += marched.lookups;
