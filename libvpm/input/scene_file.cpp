@@ -1,6 +1,7 @@
 // From a scene file to a Scene: reads the sections, then the grids, then puts the parts together.
 #include "input/scene_file.h"
 
+#include <fmt/format.h>
 #include <cstdio>
 
 #include "base/error.h"
@@ -196,6 +197,22 @@ void check_media(const Scene& scene, const ScenePlan& plan) {
           "overlap in part");
 }
 
+/// Tells of media whose free paths are shorter than floats resolve positions: what enters these does not come out
+/// again.
+void note_unresolved_media(LoadedScene& loaded) {
+  const SceneSphere& sphere = loaded.scene.sphere;
+  const double resolved = 0x1p-20 * (glm::length(sphere.centre) + sphere.radius);  // m: a few units in the last place
+  for (const Medium& medium : loaded.scene.media) {
+    const double extinction = double(max_channel(medium.sigma_t)) * medium.max_density();  // 1/m
+    if (medium.scatters() && extinction * resolved > 1.0)
+      loaded.notes.push_back(
+          fmt::format("medium '{}': its free paths, down to {:.2g} m, are shorter than what positions of this scene "
+                      "resolve ({:.2g} "
+                      "m): light that enters it stays there",
+                      medium.name, 1.0 / extinction, resolved));
+  }
+}
+
 }  // namespace
 
 LoadedScene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
@@ -221,6 +238,7 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
     fail_at(plan.lights_place, error.what());
   }
   check_media(scene, plan);
+  note_unresolved_media(loaded);
   return loaded;
 }
 

@@ -359,6 +359,19 @@ TEST(SceneFile, ShapesBoundAGrid) {
             2u);
 }
 
+TEST(SceneFile, NotesMediaThatPositionsDoNotResolve) {
+  const auto notes = [](const std::string& sigma, const std::string& albedo) {
+    return load_with("[media.fog]\ntype = 'homogeneous'\nsigma_t = " + sigma + "\nalbedo = " + albedo +
+                     "\n[[shapes]]\ntype = 'sphere'\nmaterial = { type = 'boundary' }\ninside = 'fog'\ncenter = [0, "
+                     "0, 0]\nradius = 1\n")
+        .notes;
+  };
+  EXPECT_TRUE(notes("1e5", "0.5").empty());
+  EXPECT_TRUE(notes("1e9", "0").empty());  // black: nothing would come out anyhow
+  ASSERT_EQ(notes("1e9", "0.5").size(), 1u);
+  EXPECT_NE(notes("1e9", "0.5")[0].find("medium 'fog': its free paths, down to 1e-09 m"), std::string::npos);
+}
+
 TEST(SceneFile, TheExamplesLoad) {
   for (const auto& entry : std::filesystem::directory_iterator(std::string(VPM_SOURCE_DIR) + "/scenes")) {
     if (entry.path().extension() != ".toml") continue;

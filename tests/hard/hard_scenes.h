@@ -1,0 +1,79 @@
+// What the hard cases share: renders and traces that must be clean, and a medium between a light and the eye.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "photon/trace.h"
+#include "render/photon_pass.h"
+#include "support/scenes.h"
+#include "support/statistics.h"
+
+namespace vpm {
+
+constexpr double kFalseAlarms = 1e-6;  // of each comparison
+
+/// Fixed radii for both maps.
+inline RenderSettings settings_of(uint64_t photons, float radius) {
+  RenderSettings settings;
+  settings.photons_emitted = photons;
+  settings.volume.radius = radius;
+  settings.surface.radius = radius;
+  settings.shrink_radii = false;
+  return settings;
+}
+
+/// Renders pass number `pass`: every pixel is finite, and no sample, photon or path was dropped or cut.
+inline Image clean_image(const Scene& scene, const RenderSettings& settings, int pass = 0) {
+  static const std::atomic<bool> kGoOn{false};
+  const Pass done = render_photon_pass(scene, settings, pass, kGoOn);
+  int bad = 0;
+  for (const Rgb& p : done.image.pixels) bad += !is_finite(p);
+  EXPECT_EQ(bad, 0);
+  EXPECT_EQ(done.statistics.eye.non_finite, 0u);
+  EXPECT_EQ(done.statistics.eye.cut_paths, 0u);
+  EXPECT_EQ(done.statistics.ledger.non_finite, 0u);
+  EXPECT_EQ(done.statistics.ledger.cut_count, 0u);
+  return done.image;
+}
+
+inline double mean_of(const Image& image) {
+  double sum = 0.0;
+  for (const Rgb& p : image.pixels) sum += sum_channels(p) / 3.0;
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+/// The mean of a clean image, pass by pass.
+inline Moments clean_means(const Scene& scene, const RenderSettings& settings, int passes) {
+  Moments means;
+  for (int pass = 0; pass < passes; ++pass) means.add(mean_of(clean_image(scene, settings, pass)));
+  return means;
+}
+
+inline TracedPhotons trace_with(const Scene& scene, const std::string& strategy, const TraceSettings& settings) {
+  Progress silent("photons", 0, false);
+  return trace_photons(scene, *make_distance_strategy({.strategy = strategy}), settings, silent);
+}
+
+/// The ledger of `emitted` photons. Of a grey scene whose strategy gives no weights, every photon's energy is accounted
+/// for in full but for albedos' expectations, so that only statistics are left of the imbalance.
+inline Ledger clean_ledger(const Scene& scene, const std::string& strategy, uint64_t emitted) {
+  TraceSettings settings;
+  settings.emitted = emitted;
+  const Ledger ledger = trace_with(scene, strategy, settings).ledger;
+  EXPECT_EQ(ledger.non_finite, 0u);
+  EXPECT_EQ(ledger.cut_count, 0u);
+  EXPECT_EQ(ledger.emitted_count, emitted);
+  const double error = ledger.imbalance.variance_of_mean() > 0.0 ? std::sqrt(ledger.imbalance.variance_of_mean()) : 0.0;
+  EXPECT_LE(std::abs(ledger.imbalance.mean()),
+            normal_quantile(kFalseAlarms) * error + 1e-6 * ledger.emitted.r / static_cast<double>(emitted));
+  return ledger;
+}
+
+/// z-test of a share of `count` independent photons.
+inline void expect_share(double share, double exact, uint64_t count, const std::string& what = "") {
+  const double error = std::sqrt(exact * (1.0 - exact) / static_cast<double>(count));
+  EXPECT_LE(std::abs(share - exact), normal_quantile(kFalseAlarms) * error + 1e-6)
+      << what << ": " << share << ", exact " << exact;
+}
+
+}  // namespace vpm
