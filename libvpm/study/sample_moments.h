@@ -16,9 +16,9 @@ namespace vpm {
 /// threads.
 template <class Sample>
 std::vector<Moments> sample_moments(size_t quantities, uint64_t count, uint64_t seed, Sample&& sample) {
-  constexpr size_t kChunk = 1024;
-  std::vector<std::vector<Moments>> parts(chunk_count(count, kChunk));
-  parallel_for_chunks(count, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+  const size_t chunk_size = std::clamp<size_t>(count / 64, 1, 1024);  // of few samples each may be much work
+  std::vector<std::vector<Moments>> parts(chunk_count(count, chunk_size));
+  parallel_for_chunks(count, chunk_size, [&](size_t begin, size_t end, size_t chunk) {
     std::vector<Moments>& part = parts[chunk];
     part.resize(quantities);
     std::vector<double> out(quantities);

@@ -1,6 +1,8 @@
 // p-values and verdicts.
 #include "study/validate/check.h"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
@@ -17,6 +19,19 @@ double tail_of(double difference, double error, double dof) {
   if (error == 0.0) return difference == 0.0 ? 1.0 : 0.0;
   return student_tail(difference / error, dof);
 }
+
+Check chi_square(std::string name, double statistic, double dof) {
+  Check check = statistical(std::move(name), statistic, dof, std::sqrt(2.0 * dof), chi2_tail(statistic, dof));
+  check.note = "chi-square, its mean, its standard deviation";
+  return check;
+}
+
+double mean_square(const Moments& samples) {
+  const auto n = static_cast<double>(samples.count());
+  return samples.variance() * (n - 1.0) / n + samples.mean() * samples.mean();
+}
+
+std::string few(double size) { return fmt::format("effective sample size {:.0f}", size); }
 
 }  // namespace
 
@@ -57,7 +72,7 @@ Check check_distribution(std::string name, const std::vector<double>& counts,
   for (size_t i = 0; i < counts.size(); ++i) {
     const double expected = draws * probabilities[i];
     impossible |= expected == 0.0 && counts[i] > 0.0;
-    if (expected >= kFewest) {
+    if (!(expected < kFewest)) {  // or NaN, which must show
       add_cell(counts[i], expected);
     } else {
       pooled_count += counts[i];
@@ -67,11 +82,56 @@ Check check_distribution(std::string name, const std::vector<double>& counts,
   if (pooled_expected > 0.0) add_cell(pooled_count, pooled_expected);
   assert(cells > 1);
   const double dof = cells - 1;
-  Check check = statistical(std::move(name), statistic, dof, std::sqrt(2.0 * dof), chi2_tail(statistic, dof));
-  check.note = "chi-square, its mean, its standard deviation";
+  Check check = chi_square(std::move(name), statistic, dof);
   if (impossible) {
     check.p = 0.0;
     check.note = "a cell of probability 0 was hit";
+  }
+  return check;
+}
+
+double effective_sample_size(const Moments& samples) {
+  const double square = mean_square(samples);
+  return square == 0.0 ? 0.0 : static_cast<double>(samples.count()) * samples.mean() * samples.mean() / square;
+}
+
+Check check_weighted_mean(std::string name, const Moments& samples, double exact) {
+  const double size = effective_sample_size(samples);  // NaN of NaN, which must fail
+  if (size < kLeastSampleSize) return not_determined(std::move(name), samples.mean(), exact, few(size));
+  return check_mean(std::move(name), samples, exact);
+}
+
+Check check_weights(std::string name, const std::vector<Moments>& cells, const std::vector<double>& means,
+                    const std::vector<double>& errors) {
+  assert(cells.size() == means.size() && cells.size() > 1);
+  const auto draws = static_cast<double>(cells[0].count());
+  constexpr double kLeastInCell = 50.0;
+  // With m_b the mean and s_b the mean square in cell b, the covariance of one draw is diag(s) - m m^T: a draw is in
+  // one cell only. Its inverse is that of a rank-one change [Sherman1950].
+  double squares = 0.0, across = 0.0, hit = 0.0, weight = 0.0, all_squares = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t b = 0; b < cells.size(); ++b) {
+    const double error = errors.empty() ? 0.0 : errors[b];
+    const double m = cells[b].mean(), s = mean_square(cells[b]) + draws * error * error, off = m - means[b];
+    if (off != 0.0) squares += off * off / s;  // infinite where a cell is never hit but should be
+    if (s == 0.0) continue;
+    across += off * m / s;
+    hit += m * m / s;
+    weight += m;
+    all_squares += mean_square(cells[b]);
+    least = std::min(least, effective_sample_size(cells[b]));
+  }
+  const double size = draws * weight * weight / all_squares, rest = 1.0 - hit;
+  const bool equal_weights = rest < 1e-9;  // then the weight of all draws together is known exactly
+  if (!equal_weights) squares += across * across / rest;
+  const double statistic = draws * squares;
+  const double dof = static_cast<double>(cells.size()) - (equal_weights ? 1.0 : 0.0);
+  if (size < kLeastSampleSize || least < kLeastInCell)
+    return not_determined(std::move(name), statistic, dof, few(size < kLeastSampleSize ? size : least));
+  Check check = chi_square(std::move(name), statistic, dof);
+  if (equal_weights && std::fabs(across) > 1e-6) {
+    check.p = 0.0;
+    check.note = "equal weights that are not 1";
   }
   return check;
 }
