@@ -25,12 +25,12 @@ Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const
       phase);
 }
 
-/// The fluence, W/m^2: sum_p Phi_p K_r / sigma_t for photons stored for the density at the query, sigma_t at the
-/// medium's largest density.
+/// The fluence, W/m^2: sum_p Phi_p K_r / majorant for photons stored for the density at the query, with the medium's
+/// majorant, as their densities are relative to its largest.
 template <class... Photons>
-Rgb fluence(const Rgb& sigma_t, const Vec3& point, const Photons&... photons) {
+Rgb fluence(const Rgb& majorant, const Vec3& point, const Photons&... photons) {
   const auto all = [](const Vec3&, const Vec3&) { return true; };
-  return kernel_sum<3>(photons..., point, all, [](const Vec3&, const Rgb& power) { return power; }) / sigma_t;
+  return kernel_sum<3>(photons..., point, all, [](const Vec3&, const Rgb& power) { return power; }) / majorant;
 }
 
 }  // namespace vpm

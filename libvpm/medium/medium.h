@@ -25,6 +25,8 @@ struct Medium {
   /// The mean density over the grid's support, empty voxels included.
   double mean_density() const { return grid ? grid->mean_density() : 1.0; }
   float max_density() const { return grid ? grid->max_density() : 1.0f; }
+  /// The largest extinction coefficient anywhere, 1/m.
+  Rgb majorant() const { return sigma_t * max_density(); }
   /// The shortest distance between voxels, m; infinite in a homogeneous medium.
   float voxel_size() const { return grid ? grid->voxel_size() : kInfinity; }
   /// The part of the interval in which the density may differ from zero.

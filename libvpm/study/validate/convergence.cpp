@@ -205,7 +205,7 @@ std::vector<Check> volume_photons(const Effort& effort) {
     const PhotonMap map = make_photon_map(trace(scene, seed, pass).volume[0], {GatherMode::radius, radius}, kPhotons);
     std::vector<double> estimates;
     for (const Vec3& axis : axes)
-      estimates.push_back(fluence(scene.media[0].sigma_t, static_cast<float>(kDistance) * axis, map).g);
+      estimates.push_back(fluence(scene.media[0].majorant(), static_cast<float>(kDistance) * axis, map).g);
     return estimates;
   };
   return density_estimation(field, "volume", effort);

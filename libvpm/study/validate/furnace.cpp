@@ -88,8 +88,8 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, const char
         Progress progress("", 0, false);
         TracedPhotons photons = trace_photons(body.scene, *strategy, settings, progress);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
-        out[0] = fluence(medium.sigma_t, inside, map).g;
-        out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).g / medium.sigma_t.g;
+        out[0] = fluence(medium.majorant(), inside, map).g;
+        out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).g / medium.majorant().g;
       });
   return {check_weighted_mean(name + ", fluence", samples[0], 4.0 * kPiD),
           check_weighted_mean(name + ", radiance scattered", samples[1], 1.0)};

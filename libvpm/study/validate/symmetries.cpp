@@ -87,7 +87,7 @@ std::vector<Moments> measure(const Change& change, const Effort& effort) {
         out[away] = ledger.escaped.b / emitted;
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, ledger.emitted_count);
         out[here] =
-            fluence(scene.media[0].sigma_t, change.point({-0.3, 0.3, 0.2}), map).g * change.scale * change.scale;
+            fluence(scene.media[0].majorant(), change.point({-0.3, 0.3, 0.2}), map).g * change.scale * change.scale;
       });
 }
 
