@@ -9,6 +9,7 @@ find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(glm CONFIG REQUIRED)
 find_package(tomlplusplus CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
+find_package(Eigen3 3.4 CONFIG REQUIRED)
 
 # OpenVDB ships a find module only, in a folder that also shadows the good FindTBB: it is on the path for this one call, and after
 # TBB, whose targets it would otherwise make by halves.
