@@ -1,0 +1,10 @@
+// Any bytes as a .ply file.
+#include "fuzz/scratch.h"
+#include "input/mesh_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const vpm::ScratchFolder folder;
+  const std::string path = folder.put("mesh.ply", data, size);
+  vpm::read_or_refuse([&] { vpm::load_mesh(path); });
+  return 0;
+}
