@@ -1,0 +1,65 @@
+// Phase functions of any anisotropy: normalised, reciprocal, and the same by cosine and by directions.
+#include "base/warp.h"
+#include "phase/phase.h"
+#include "support/properties.h"
+
+namespace vpm {
+namespace {
+
+rc::Gen<Phase> any_phase() {
+  return rc::gen::oneOf(
+      rc::gen::element<Phase>(Isotropic{}, Rayleigh{}),
+      rc::gen::map(number(-0.9999, 0.9999), [](double g) { return Phase(HenyeyGreenstein{static_cast<float>(g)}); }));
+}
+
+RC_GTEST_PROP(PhaseProperty, IsNormalised, ()) {
+  const Phase phase = *any_phase();
+  // In the variable ln(away), away = 1 - |cos| to the peak: dense where the value is large.
+  double sum = 0.0;
+  constexpr int kSteps = 4000;
+  const double lo = std::log(1e-14), hi = std::log(2.0), width = (hi - lo) / kSteps;
+  for (int i = 0; i < kSteps; ++i) {
+    const double away = std::exp(lo + (i + 0.5) * width);
+    const Vec3 axis(0, 0, std::visit([](const auto& p) { return p.mean_cosine(); }, phase) < 0.0f ? -1 : 1);
+    const Vec3 d(Vec3d(std::sqrt(away * (2.0 - away)), 0.0, axis.z * (1.0 - away)));
+    sum += phase_value(phase, Vec3(0, 0, 1), d) * 2.0 * kPiD * away * width;
+  }
+  RC_ASSERT(std::abs(sum - 1.0) < 1e-4);
+}
+
+RC_GTEST_PROP(PhaseProperty, IsReciprocalAndTheSameTurnedRound, ()) {
+  const Phase phase = *any_phase();
+  const Vec3 before = *unit_vector(), after = *unit_vector();
+  const float value = phase_value(phase, before, after);
+  RC_ASSERT(std::isfinite(value) && value > 0.0f);
+  RC_ASSERT(phase_value(phase, after, before) == value);
+  RC_ASSERT(phase_value(phase, -after, -before) == value);
+}
+
+RC_GTEST_PROP(PhaseProperty, DirectionsAndCosinesAgreeAwayFromThePeak, ()) {
+  const Phase phase = *any_phase();
+  const Vec3 before = *unit_vector(), after = *unit_vector();
+  const double cosine = glm::dot(Vec3d(before), Vec3d(after));
+  RC_PRE(std::abs(cosine) < 0.99);
+  const float by_cosine = phase_value(phase, static_cast<float>(cosine));
+  RC_ASSERT(std::abs(phase_value(phase, before, after) / by_cosine - 1.0f) < 1e-4f);
+}
+
+RC_GTEST_PROP(PhaseProperty, SamplesInvertTheCumulativeDistribution, ()) {
+  // Of Henyey and Greenstein's function the share of directions with less than 1 - |cos| to the peak is known: it must
+  // be 1 - u.x, whatever the axis and the azimuth.
+  const auto g = static_cast<float>(*number(0.01, 0.9999));
+  const Vec3 travel = *unit_vector();
+  const Vec2 u = *uniform_pair();
+  const bool backward = *rc::gen::arbitrary<bool>();
+  const Vec3 d = phase_sample(HenyeyGreenstein{backward ? -g : g}, travel, u);
+  RC_ASSERT(std::abs(glm::length(Vec3d(d)) - 1.0) < 5e-7);
+  const Vec3d apart = Vec3d(d) - (backward ? -1.0 : 1.0) * Vec3d(travel);
+  const double e = 1.0 - g, away = 0.5 * glm::dot(apart, apart), gg = g;
+  const double share = (1.0 + gg) * e / (2.0 * gg) * (1.0 / e - 1.0 / std::sqrt(e * e + 2.0 * gg * away));
+  // Rounding moves a direction by 1e-7 rad, some share of a peak e wide.
+  RC_ASSERT(std::abs(share - (1.0 - u.x)) < 1e-5 + 1e-6 / e * 0.5);
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,116 @@
+// Kernels of any radius, packed directions, and both maps against the plain list, for any photons: spread, in a plane,
+// on a line, at few points, near and far.
+#include "base/rng.h"
+#include "base/warp.h"
+#include "estimate/surface_estimate.h"
+#include "estimate/volume_estimate.h"
+#include "support/properties.h"
+
+namespace vpm {
+namespace {
+
+rc::Gen<KernelKind> any_kernel() {
+  return rc::gen::element(KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight);
+}
+
+RC_GTEST_PROP(KernelProperty, IsNormalisedFallsAndEndsAtItsRadius, ()) {
+  const KernelKind kind = *any_kernel();
+  const auto r = static_cast<float>(*magnitude(1e-9, 1e9));
+  with_kernel(kind, [&](auto profile) {
+    constexpr int kSteps = 2000;
+    double disc = 0.0, ball = 0.0;
+    float last = profile(0.0f);
+    for (int i = 0; i < kSteps; ++i) {
+      const double t = (i + 0.5) / kSteps;  // the distance over the radius
+      const float value = profile(static_cast<float>(t * t));
+      RC_ASSERT(value >= 0.0f && value <= last);
+      last = value;
+      disc += value * 2.0 * kPiD * t / kSteps;
+      ball += value * 4.0 * kPiD * t * t / kSteps;
+    }
+    const double area = double(r) * r, volume = area * r;
+    RC_ASSERT(std::abs(disc * area * kernel_norm<2>(kind, r) - 1.0) < 1e-5);
+    RC_ASSERT(std::abs(ball * volume * kernel_norm<3>(kind, r) - 1.0) < 1e-5);
+    RC_ASSERT(kind == KernelKind::constant || profile(1.0f) == 0.0f);
+    return 0;
+  });
+}
+
+RC_GTEST_PROP(PackedDirectionProperty, IsUnitAndOffByAtMostItsBound, ()) {
+  const Vec3 d = *unit_vector();
+  const Vec3 back = PackedDirection(d).unpack();
+  RC_ASSERT(std::abs(glm::length(Vec3d(back)) - 1.0) < 3e-7);
+  RC_ASSERT(glm::distance(Vec3d(back), Vec3d(d)) < 7e-5);
+  RC_ASSERT(glm::distance(PackedDirection(back).unpack(), back) < 1e-6f);  // once packed it stays
+}
+
+enum class Layout { spread, plane, line, points, scales };
+
+/// Photons of whole powers, so that sums in any order are exact. Where coordinates coincide so do powers, or the k
+/// nearest would depend on the choice among equals.
+std::vector<Photon> any_photons() {
+  const auto layout = *rc::gen::element(Layout::spread, Layout::plane, Layout::line, Layout::points, Layout::scales);
+  const Vec3 offset = *rc::gen::element(Vec3(0.0f), Vec3(-100.0f, 3.0f, 1e4f), Vec3(1e6f));
+  const int count = *rc::gen::inRange(0, 300);
+  const auto seed = *rc::gen::arbitrary<uint64_t>();
+  std::vector<Photon> photons(static_cast<size_t>(count));
+  for (size_t i = 0; i < photons.size(); ++i) {
+    Rng rng(seed, rng_stream(RngUse::test, 0), i);
+    Vec3 p(rng.uniform(), rng.uniform(), rng.uniform());
+    if (layout == Layout::plane) p.y = 0.5f;
+    if (layout == Layout::line) p.x = p.y = 0.5f;
+    if (layout == Layout::points) p = glm::floor(2.0f * p);
+    if (layout == Layout::scales) p *= std::pow(10.0f, -6.0f * rng.uniform());
+    photons[i] = {offset + p, PackedDirection(Vec3(0, -1, 0)), Rgb(1.0f, 2.0f, 4.0f)};
+  }
+  return photons;
+}
+
+Vec3 any_query(const std::vector<Photon>& photons, float radius) {
+  const Vec3 off = static_cast<float>(*number(0.0, 1.5)) * radius * *unit_vector();
+  if (photons.empty()) return off;
+  return photons[static_cast<size_t>(*rc::gen::inRange<int64_t>(0, static_cast<int64_t>(photons.size())))].position +
+         off;
+}
+
+/// Equal but for rounding: of the sums, and of kernels of that norm next to their radius, where they vanish. k photons
+/// at the query itself have no finite density: both must say so.
+bool same(const Rgb& a, const Rgb& b, float norm) {
+  if (!is_finite(a) || !is_finite(b)) return is_finite(a) == is_finite(b);
+  return glm::all(glm::lessThanEqual(glm::abs(a - b), 1e-5f * b + 1e-5f * norm));
+}
+
+RC_GTEST_PROP(MapProperty, EqualsTheBruteForceTwinForAnyPhotons, ()) {
+  const std::vector<Photon> photons = any_photons();
+  const GatherSettings settings{*rc::gen::element(GatherMode::radius, GatherMode::nearest),
+                                static_cast<float>(*magnitude(1e-7, 1e3)),
+                                static_cast<uint32_t>(*rc::gen::inRange(2, 400)), *any_kernel()};
+  const PhotonMap map = make_photon_map(photons, settings, 1);
+  RC_ASSERT(map.size() == photons.size());
+  for (const Photon& p : photons) RC_ASSERT(map.bounds().contains(p.position));
+  for (int i = 0; i < 5; ++i) {
+    const Vec3 at = any_query(photons, settings.radius), up(0, 1, 0);
+    RC_ASSERT(same(volume_sum(Isotropic{}, at, up, map),
+                   volume_sum(Isotropic{}, at, up, photons, settings, uint64_t{1}),
+                   kernel_norm<3>(settings.kernel, settings.radius)));
+    RC_ASSERT(same(surface_irradiance(at, up, settings.radius, map),
+                   surface_irradiance(at, up, settings.radius, photons, settings, uint64_t{1}),
+                   kernel_norm<2>(settings.kernel, settings.radius)));
+  }
+}
+
+RC_GTEST_PROP(MapProperty, DoesNotDependOnTheOrderOfPhotonsOrTheirScale, ()) {
+  std::vector<Photon> photons = any_photons();
+  const GatherSettings settings{*rc::gen::element(GatherMode::radius, GatherMode::nearest),
+                                static_cast<float>(*magnitude(1e-3, 1e1)), 20, *any_kernel()};
+  const Vec3 at = any_query(photons, settings.radius);
+  const PhotonMap map = make_photon_map(photons, settings, 1);
+  std::reverse(photons.begin(), photons.end());
+  for (Photon& p : photons) p.power *= 8.0f;
+  const PhotonMap turned = make_photon_map(photons, settings, 8);
+  const Rgb a = volume_sum(Isotropic{}, at, Vec3(0, 0, 1), map), b = volume_sum(Isotropic{}, at, Vec3(0, 0, 1), turned);
+  RC_ASSERT(same(a, b, kernel_norm<3>(settings.kernel, settings.radius)));
+}
+
+}  // namespace
+}  // namespace vpm
