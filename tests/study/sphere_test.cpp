@@ -34,7 +34,7 @@ TEST(ExactSphere, IsAsTheOracleSays) {
 }
 
 TEST(ExactSphere, IsInvisibleWithoutAbsorption) {
-  for (const double radius : {1e-3, 1.0, 40.0}) {
+  for (const double radius : {1e-3, 1.0, 1e5}) {
     const SphereSolution sphere = solve_sphere(radius, 1.0, {0.0, 0.4, 1.0}, {0.0, 0.5, 0.999, 1.0});
     EXPECT_EQ(sphere.escaping.value, 1.0);
     for (const double phi : sphere.fluence.values) EXPECT_NEAR(phi, 4.0 * kPiD, 1e-9);

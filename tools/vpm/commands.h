@@ -50,4 +50,12 @@ struct ValidateOptions {
 /// Runs the ladder of validation and prints every check with its verdict. 1 where one fails.
 int validate_command(const ValidateOptions& options);
 
+struct ExactOptions {
+  std::string problem;                 // empty: list them with their keys
+  std::vector<std::string> arguments;  // key=value
+  bool json = false;
+};
+/// Prints an exact solution with its error bounds.
+int exact_command(const ExactOptions& options);
+
 }  // namespace vpm::tools

@@ -101,6 +101,13 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
   add_progress(command, options.progress);
 }
 
+void add_exact(CLI::App& app, ExactOptions& options) {
+  CLI::App* command = app.add_subcommand("exact", "Solve a problem exactly; without one: list them with their keys");
+  command->add_option("problem", options.problem, "Which one");
+  command->add_option("arguments", options.arguments, "What it is told: key=value");
+  command->add_flag("--json", options.json, "Print JSON");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("vpm: volumetric photon mapping", "vpm");
   app.set_version_flag("--version", fmt::format("vpm {}", version()));
@@ -109,10 +116,12 @@ int run(int argc, char** argv) {
   InfoOptions info;
   MediaOptions media;
   ValidateOptions validate;
+  ExactOptions exact;
   add_render(app, render);
   add_info(app, info);
   add_media(app, media);
   add_validate(app, validate);
+  add_exact(app, exact);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -121,6 +130,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("render")) return render_command(render);
   if (app.got_subcommand("info")) return info_command(info);
   if (app.got_subcommand("validate")) return validate_command(validate);
+  if (app.got_subcommand("exact")) return exact_command(exact);
   return media_command(media);
 }
 

@@ -66,7 +66,8 @@ Bounded image_radiance(const RadialModes& modes, double impact) {
     const double r = std::min(std::hypot(closest, s), modes.radius);
     return radial_fluence(modes, r) * (std::exp(s - half) + std::exp(-s - half));
   };
-  const Bounded scattered = integrate(source, 0.0, half);
+  constexpr double kDark = 745.0;  // exp(-kDark) underflows
+  const Bounded scattered = integrate(source, std::max(0.0, half - kDark), half);
   const double factor = modes.albedo / (4.0 * kPiD);
   return {std::exp(-2.0 * half) + factor * scattered.value, factor * scattered.error};
 }
