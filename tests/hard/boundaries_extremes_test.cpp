@@ -29,13 +29,16 @@ void look(Scene& scene, const Vec3& from, const Vec3& at) {
 TEST(BoundariesExtremes, TheEyeInAMediumOnItsBorderAndOutside) {
   // What is left of the panel behind the box: dimmed by exactly the way through it, from wherever the eye is.
   const float sigma = 0.7f;
+  Worst worst("relative error of the panel from all places");
   for (const auto& [z, inside] :
        {std::pair(3.0, 2.0), std::pair(1.0, 2.0), std::pair(double(0x1.000002p0), 2.0),
         std::pair(double(0x1.fffffep-1), 2.0), std::pair(0.25, 1.25), std::pair(-1.0, 0.0), std::pair(-1.5, 0.0)}) {
     Scene scene = box_and_panel(sigma, 0.0f);
     look(scene, Vec3(0.1f, 0.2f, static_cast<float>(z)), Vec3(0.1f, 0.2f, -2.0f));
-    for (const Rgb& pixel : clean_image(scene, settings_of(10, 0.1f)).pixels)
+    for (const Rgb& pixel : clean_image(scene, settings_of(10, 0.1f)).pixels) {
       EXPECT_NEAR(pixel.r, std::exp(-sigma * inside), 2e-6) << z;
+      worst.see(pixel.r / std::exp(-sigma * inside) - 1.0);
+    }
   }
   // Along a border's face and edge the way leads through the medium or not; nothing else may come out.
   for (const Vec3& from : {Vec3(1, 0, 3), Vec3(1, 1, 3), Vec3(-1, 1, 1)}) {
@@ -78,6 +81,7 @@ TEST(BoundariesExtremes, NestedAndTouchingGlassIsInvisibleInUniformLight) {
       {{SphereShape{Vec3(0), 1.0f}, 1.5f}, {SphereShape{Vec3(0), 0.999f}, 1.0f / 1.5f}},
       {{SphereShape{Vec3(-1, 0, 0), 1.0f}, 1.5f}, {SphereShape{Vec3(1, 0, 0), 1.0f}, 2.4f}},
       {{SphereShape{Vec3(0), 1.0f}, 1.5f}, {SphereShape{Vec3(0.5f, 0, 0), 0.5f}, 2.4f / 1.5f}}};  // touches inside
+  Worst worst("error of the radiance 1 through glass"), cut("samples cut of 1024");
   for (const auto& balls : cases) {
     Scene scene;
     for (const auto& [ball, ior] : balls) add_shape(scene, ball, Dielectric{ior});
@@ -92,11 +96,13 @@ TEST(BoundariesExtremes, NestedAndTouchingGlassIsInvisibleInUniformLight) {
     uint64_t dark = 0;
     for (const Rgb& pixel : pass.image.pixels) {
       dark += pixel == Rgb(0.0f);
+      if (pixel != Rgb(0.0f)) worst.see(pixel.r - 1.0);
       EXPECT_TRUE(pixel == Rgb(0.0f) || std::abs(pixel.r - 1.0f) < 1e-5f) << pixel.r;
     }
     EXPECT_EQ(dark, pass.statistics.eye.cut_paths);
     EXPECT_EQ(pass.statistics.eye.non_finite, 0u);
     EXPECT_LE(dark, 5u);
+    cut.see(static_cast<double>(dark));
   }
 }
 
@@ -118,6 +124,7 @@ TEST(BoundariesExtremes, NestedGlassWithMediaClosesItsLedger) {
   const Ledger ledger = clean_ledger(scene, "regular", 20000);
   EXPECT_EQ(ledger.walk.medium_mismatches, 0u);
   const double gone = ledger.absorbed_in_media.r + ledger.escaped.r;
+  Worst("ledger's gap over what was emitted").see(gone / ledger.emitted.r - 1.0);
   EXPECT_NEAR(gone / ledger.emitted.r, 1.0, 0.01);
 }
 
@@ -169,6 +176,7 @@ TEST(BoundariesExtremes, ALightInTheMediumOnItsBorderAndOutside) {
 TEST(BoundariesExtremes, ShadowRaysToALightOnTheBorderCrossTheWayInside) {
   // From a point of the medium to lights before, on and behind its face: the way inside counts, to the last digits.
   const float sigma = 1.3f;
+  Worst worst("relative error of the light at a point");
   for (const float y : {0.5f, 0x1.fffffep-1f, 1.0f, 0x1.000002p0f, 4.0f}) {
     const Scene scene = boxed_medium(make_medium(nullptr, Rgb(sigma)), PointLight{Vec3(0.1f, y, 0.2f), Rgb(1.0f)});
     const auto regular = make_transmittance_estimator({});
@@ -179,6 +187,7 @@ TEST(BoundariesExtremes, ShadowRaysToALightOnTheBorderCrossTheWayInside) {
     const double way = std::min(y, 1.0f) + 0.5;
     const double square = (double(y) + 0.5) * (double(y) + 0.5);
     EXPECT_NEAR(light.irradiance.r * square / std::exp(-sigma * way), 1.0, 2e-6) << y;
+    worst.see(light.irradiance.r * square / std::exp(-sigma * way) - 1.0);
     EXPECT_EQ(counters.medium_mismatches, 0u);
   }
 }

@@ -69,6 +69,20 @@ inline Ledger clean_ledger(const Scene& scene, const std::string& strategy, uint
   return ledger;
 }
 
+/// The largest deviation of a test, told at its end: the figures of papers/hard-cases.md.
+class Worst {
+ public:
+  explicit Worst(std::string what) : what_(std::move(what)) {}
+  ~Worst() { std::printf("%s: %.2g\n", what_.c_str(), deviation_); }
+  Worst(const Worst&) = delete;
+  Worst& operator=(const Worst&) = delete;
+  void see(double deviation) { deviation_ = std::max(deviation_, std::abs(deviation)); }
+
+ private:
+  std::string what_;
+  double deviation_ = 0.0;
+};
+
 /// z-test of a share of `count` independent photons.
 inline void expect_share(double share, double exact, uint64_t count, const std::string& what = "") {
   const double error = std::sqrt(exact * (1.0 - exact) / static_cast<double>(count));

@@ -73,6 +73,7 @@ TEST(Scales, AWorldScaledByAPowerOfTwoIsTheSamePictureBitForBit) {
 TEST(Scales, AWorldFarFromTheOriginIsTheSamePicture) {
   // 8 km wide, 1e6 m from the origin: coordinates are rounded to 1/16 m, 6e-5 of a unit.
   constexpr float kUnit = 1024.0f;
+  Worst worst("difference of the means, in standard errors");
   for (const Lamp lamp : {Lamp::spot, Lamp::panel, Lamp::sun})
     for (const auto& [direct, gather, form] :
          {std::tuple(DirectLight::photons, GatherMode::radius, VolumeForm::density_at_query),
@@ -81,6 +82,7 @@ TEST(Scales, AWorldFarFromTheOriginIsTheSamePicture) {
       const Moments near = clean_means(small_world(kUnit, Vec3(0.0f), lamp), settings, 6);
       const Moments far = clean_means(small_world(kUnit, Vec3(1e6f, -1e6f, 1e6f), lamp), settings, 6);
       const double error = std::sqrt(near.variance_of_mean() + far.variance_of_mean());
+      worst.see((far.mean() - near.mean()) / error);
       EXPECT_NEAR(far.mean(), near.mean(), normal_quantile(kFalseAlarms) * error + 1e-3 * near.mean())
           << "lamp " << static_cast<int>(lamp);
     }
