@@ -1,9 +1,14 @@
 // The walk of one photon, for studies that keep tallies of their own.
 #pragma once
 
+#include <limits>
+
 #include "path/walk.h"
 
 namespace vpm {
+
+/// Of events, for photons that come to an end by themselves.
+inline constexpr int kNoLimit = std::numeric_limits<int>::max();
 
 /// Follows a photon until it is absorbed, escapes, has lost all power or met `max_events` events. Calls see(const
 /// Event&, const PathState&) at every event, the last one included, before its outcome is drawn: the state stands at

@@ -1,22 +1,18 @@
 // Nothing gets lost: reflected, transmitted and absorbed power, each tallied where it happens, make up what was sent;
 // and in a closed cavity whose walls keep the share rho, light arrives 1/(1 - rho) times.
 #include <fmt/format.h>
-#include <array>
 
 #include "estimate/surface_estimate.h"
-#include "photon/trace.h"
 #include "scene/build.h"
 #include "study/photon_walk.h"
 #include "study/sample_moments.h"
 #include "study/validate/fields.h"
 #include "study/validate/groups.h"
+#include "study/validate/small_pass.h"
 
 namespace vpm {
 
 namespace {
-
-constexpr int kMaxEvents = 100'000;
-constexpr std::array<const char*, 3> kChannels{", red", ", green", ", blue"};
 
 Medium coloured_medium(const TestField& field) {
   Medium medium;
@@ -43,7 +39,7 @@ std::vector<Check> check_box(const TestField& field, const char* strategy_name, 
       sample_moments(3, effort.count(40'000, 4'000'000), effort.seed_of("beam, " + name), [&](Rng& rng, double* sum) {
         WalkCounters counters;
         double reflected[3] = {}, transmitted[3] = {}, absorbed[3] = {};
-        follow_photon(scene, *strategy, {beam, kVacuum, Rgb(1.0f)}, kMaxEvents, rng, counters,
+        follow_photon(scene, *strategy, {beam, kVacuum, Rgb(1.0f)}, kNoLimit, rng, counters,
                       [&](const Event& event, const PathState& now) {
                         const bool back = glm::dot(now.ray.direction, beam.direction) < 0.0f;
                         for (int c = 0; c < 3; ++c) {
@@ -56,12 +52,12 @@ std::vector<Check> check_box(const TestField& field, const char* strategy_name, 
         for (int c = 0; c < 3; ++c) sum[c] = reflected[c] + transmitted[c] + absorbed[c];
       });
   std::vector<Check> checks;
-  for (size_t c = 0; c < 3; ++c) checks.push_back(check_weighted_mean(name + kChannels[c], samples[c], 1.0));
+  for (size_t c = 0; c < 3; ++c) checks.push_back(check_weighted_mean(name + kOfChannel[c], samples[c], 1.0));
   return checks;
 }
 
-/// The photons' own ledger in a scene with everything: fog over a floor, a sphere of glass, three lights.
-Check check_ledger(const char* strategy_name, const Effort& effort) {
+/// Coloured fog over a floor, a sphere of glass, three lights.
+Scene scene_with_everything() {
   Scene scene;
   scene.media.push_back(coloured_medium(test_fields()[5]));
   const Interface media{0, kVacuum};
@@ -74,34 +70,35 @@ Check check_ledger(const char* strategy_name, const Effort& effort) {
   scene.lights.push_back(BeamLight{test_ray().origin, test_ray().direction, 0.2f, Rgb(4.0f)});
   scene.geometry.commit();
   finish(scene);
+  return scene;
+}
+
+/// The photons' own ledger: of each photon, what became of its power less what it was.
+Check check_ledger(const Scene& scene, const char* strategy_name, const Effort& effort) {
+  const std::string name = fmt::format("ledger of a scene with everything, {}", strategy_name);
   TraceSettings settings;
-  settings.seed = effort.seed_of(std::string("ledger, ") + strategy_name);
+  settings.seed = effort.seed_of(name);
   settings.emitted = effort.count(20'000, 4'000'000);
   settings.keep_volume = settings.keep_surface = false;
+  const auto strategy = make_distance_strategy({.strategy = strategy_name});
   Progress progress("", 0, false);
-  const Ledger ledger =
-      trace_photons(scene, *make_distance_strategy({.strategy = strategy_name}), settings, progress).ledger;
-  const std::string name = fmt::format("ledger of all flows, {}", strategy_name);
+  const Ledger ledger = trace_photons(scene, *strategy, settings, progress).ledger;
   const double size = ledger.effective_sample_size();
-  if (size < kLeastSampleSize)
-    return not_determined(name, ledger.imbalance.mean(), 0.0, fmt::format("effective sample size {:.0f}", size));
-  Check check = check_mean(name, ledger.imbalance, 0.0);
-  check.note =
-      fmt::format("of {:.3g} W emitted", sum_channels(Rgb(ledger.emitted)) / static_cast<double>(ledger.emitted_count));
+  const double emitted = sum_channels(Rgb(ledger.emitted)) / static_cast<double>(ledger.emitted_count);
+  Check check = size < kLeastSampleSize ? not_determined(name, ledger.imbalance.mean(), 0.0, "")
+                                        : check_mean(name, ledger.imbalance, 0.0);
+  check.note = fmt::format("of {:.3g} W emitted; effective sample size {:.0f}", emitted, size);
   return check;
 }
 
 std::vector<Check> check_flows(const Effort& effort) {
   const auto fields = test_fields();
   std::vector<Check> checks;
-  const auto add = [&](std::vector<Check> found) {
-    for (Check& check : found) checks.push_back(std::move(check));
-  };
-  add(check_box({"homogeneous", nullptr}, "homogeneous", effort));
+  append(checks, check_box({"homogeneous", nullptr}, "homogeneous", effort));
   for (const StrategyInfo& info : distance_strategies())
-    if (info.heterogeneous) add(check_box(fields[5], info.name.data(), effort));
+    if (info.heterogeneous) append(checks, check_box(fields[5], info.name.data(), effort));
   for (const StrategyInfo& info : distance_strategies())
-    if (info.heterogeneous) checks.push_back(check_ledger(info.name.data(), effort));
+    if (info.heterogeneous) checks.push_back(check_ledger(scene_with_everything(), info.name.data(), effort));
   return checks;
 }
 
@@ -123,7 +120,7 @@ Check check_arrivals(const std::string& name, const Scene& scene, double reflect
       sample_moments(1, effort.count(20'000, 4'000'000), effort.seed_of("cavity, " + name), [&](Rng& rng, double* out) {
         const Emission emission = emit(scene.lights[0], scene.sphere, rng);
         WalkCounters counters;
-        follow_photon(scene, *strategy, {emission.ray, kVacuum, emission.power}, kMaxEvents, rng, counters,
+        follow_photon(scene, *strategy, {emission.ray, kVacuum, emission.power}, kNoLimit, rng, counters,
                       [&](const Event& event, const PathState& now) {
                         if (event.kind == EventKind::surface) out[0] += now.power.g;
                       });
@@ -142,11 +139,7 @@ Check check_wall(float radius, float reflectance, const Effort& effort) {
   const std::string name = fmt::format("sphere, reflectance {:.1g}, irradiance by the surface map", reflectance);
   const auto samples =
       sample_moments(1, effort.count(2'000, 200'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-        TraceSettings settings;
-        settings.seed = rng.bits();
-        settings.emitted = 100;
-        Progress progress("", 0, false);
-        TracedPhotons photons = trace_photons(scene, *strategy, settings, progress);
+        TracedPhotons photons = small_pass(scene, *strategy, rng);
         const PhotonMap map = make_photon_map(std::move(photons.surface), gather, photons.ledger.emitted_count);
         const Vec3 outward = glm::normalize(Vec3(0.6f, -0.5f, 0.3f));
         out[0] = surface_irradiance(radius * outward, -outward, gather.radius, map).g;

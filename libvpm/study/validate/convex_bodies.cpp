@@ -15,8 +15,6 @@ namespace vpm {
 namespace {
 
 constexpr size_t kRings = 6;
-constexpr int kMaxEvents = 100'000;
-constexpr std::array<const char*, 3> kChannels{", red", ", green", ", blue"};
 
 /// What is summed over a photon's way, for each channel.
 enum Tally : size_t { length, collisions, escapes, tallies = escapes + kRings * kSectors };
@@ -28,7 +26,7 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
   Vec3 last = entry ? entry.hits[0].position : emission.ray.origin;
   WalkCounters counters;
   const PathState start{emission.ray, kVacuum, Rgb(1.0f)};
-  follow_photon(body.scene, strategy, start, kMaxEvents, rng, counters, [&](const Event& event, const PathState& now) {
+  follow_photon(body.scene, strategy, start, kNoLimit, rng, counters, [&](const Event& event, const PathState& now) {
     const double flown = entry ? glm::distance(Vec3d(last), Vec3d(now.ray.origin)) : 0.0;
     last = now.ray.origin;
     for (int c = 0; c < 3; ++c) {
@@ -53,7 +51,7 @@ void check_body(std::vector<Check>& checks, const LitBody& body, const char* str
                                       [&](Rng& rng, double* out) { follow(body, *strategy, hit_share, rng, out); });
   for (size_t c = 0; c < (medium.grey() ? 1 : 3); ++c) {
     const Moments* sums = samples.data() + c * tallies;
-    const std::string channel = name + (medium.grey() ? "" : kChannels[c]);
+    const std::string channel = name + (medium.grey() ? "" : kOfChannel[c]);
     const double sigma_t = medium.sigma_t[static_cast<int>(c)] * body.mean_density;
     checks.push_back(check_weighted_mean(channel + ", path length", sums[length], 4.0 * body.volume / body.area));
     checks.push_back(
@@ -74,8 +72,10 @@ std::vector<Check> check_bodies(const Effort& effort) {
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
     for (const StrategyInfo& info : distance_strategies())
       if (info.heterogeneous)
-        check_body(checks, lit_box(fields[i].name, white_medium(fields[i].grid, grey, HenyeyGreenstein{-0.4f})),
-                   info.name.data(), effort);
+        check_body(
+            checks,
+            lit_box(fields[i].name, white_medium(fields[i].grid, tested_extinction(info), HenyeyGreenstein{-0.4f})),
+            info.name.data(), effort);
   const Rgb colour(0.7f, 1.5f, 3.0f);
   check_body(checks, lit_box("random grid in colour", white_medium(fields[5].grid, colour, Isotropic{})), "regular",
              effort);

@@ -159,13 +159,12 @@ std::vector<Check> check_emission(const EmissionLaw& law, const Effort& effort) 
           out[c * cells + cell] = emission.power[channel] / law.power[channel];
         }
       });
-  static constexpr std::array<const char*, 3> kChannels{", red", ", green", ", blue"};
   std::vector<Check> checks;
   for (size_t c = 0; c < channels; ++c) {
     std::vector<double> shares;
     for (const auto& share : law.shares) shares.push_back(share[c]);
     const auto first = samples.begin() + static_cast<ptrdiff_t>(c * cells);
-    checks.push_back(check_weights(law.name + ", photons' power" + (chromatic ? kChannels[c] : ""),
+    checks.push_back(check_weights(law.name + ", photons' power" + (chromatic ? kOfChannel[c] : ""),
                                    {first, first + static_cast<ptrdiff_t>(cells)}, shares));
   }
   checks.push_back(
@@ -180,7 +179,7 @@ std::vector<Experiment> emission_experiments() {
              std::vector<Check> checks;
              for (const EmissionLaw& law : {point_law(), spot_law(), beam_law(), quad_law(), sphere_law(),
                                             directional_law(), constant_law(), map_law()})
-               for (Check& check : check_emission(law, effort)) checks.push_back(std::move(check));
+               append(checks, check_emission(law, effort));
              return checks;
            }}};
 }

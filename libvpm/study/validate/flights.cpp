@@ -98,13 +98,12 @@ void check_flights(std::vector<Check>& checks, const TestField& field, const Rgb
   const bool marches = !info.unbiased && field.grid;
   const uint64_t count = marches && step < 1.0f ? effort.count(10'000, 400'000) : effort.count(40'000, 4'000'000);
   const auto cells = fly(medium, *strategy, law, count, effort.seed_of(name + (medium.grey() ? "" : ", colour")));
-  static constexpr std::array<const char*, 3> kChannels{", red channel", ", green channel", ", blue channel"};
   for (int c = 0; c < (medium.grey() ? 1 : 3); ++c) {
     std::vector<double> probabilities, bias;
     for (size_t cell = 0; cell <= kCells; ++cell) probabilities.push_back(law.probability(sigma_t[c], cell));
     if (marches) bias = march_bias(medium, law, step * medium.voxel_size(), sigma_t[c]);
     const auto first = cells.begin() + c * static_cast<ptrdiff_t>(kCells + 1);
-    checks.push_back(check_weights(name + (medium.grey() ? "" : kChannels[static_cast<size_t>(c)]),
+    checks.push_back(check_weights(name + (medium.grey() ? "" : kOfChannel[static_cast<size_t>(c)]),
                                    {first, first + kCells + 1}, probabilities, bias));
     if (marches)
       checks.back().note += fmt::format("; steps of {} voxels, bias up to {:.1g} in a cell of about {:.1g} allowed for",

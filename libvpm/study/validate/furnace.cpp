@@ -6,13 +6,13 @@
 
 #include "base/warp.h"
 #include "estimate/volume_estimate.h"
-#include "photon/trace.h"
 #include "render/path_tracer.h"
 #include "scene/build.h"
 #include "study/sample_moments.h"
 #include "study/validate/fields.h"
 #include "study/validate/groups.h"
 #include "study/validate/lit_body.h"
+#include "study/validate/small_pass.h"
 
 namespace vpm {
 
@@ -60,13 +60,13 @@ std::vector<Check> check_radiances(const Effort& effort) {
     const LitBody body = lit_box("", white_medium(nullptr, sigma_t, phase));
     checks.push_back(check_radiance(fmt::format("homogeneous, {}", name), body.scene, eye, "homogeneous", effort));
   }
-  for (const TestField& field : fields) {
-    const LitBody body = lit_box("", white_medium(field.grid, sigma_t, HenyeyGreenstein{0.5f}));
-    for (const StrategyInfo& info : distance_strategies())
-      if (info.heterogeneous && info.unbiased)
-        checks.push_back(
-            check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info.name.data(), effort));
-  }
+  for (const TestField& field : fields)
+    for (const StrategyInfo& info : distance_strategies()) {
+      if (!info.heterogeneous || !info.unbiased) continue;
+      const LitBody body = lit_box("", white_medium(field.grid, tested_extinction(info), HenyeyGreenstein{0.5f}));
+      checks.push_back(
+          check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info.name.data(), effort));
+    }
   const Scene furnished = furnished_box(white_medium(fields[5].grid, sigma_t, HenyeyGreenstein{0.5f}));
   checks.push_back(check_radiance("white surfaces in a random grid", furnished, eye, "regular", effort));
   return checks;
@@ -81,12 +81,7 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, const char
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   const auto samples =
       sample_moments(2, effort.count(4'000, 100'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
-        TraceSettings settings;
-        settings.seed = rng.bits();
-        settings.emitted = 100;
-        settings.volume_form = form;
-        Progress progress("", 0, false);
-        TracedPhotons photons = trace_photons(body.scene, *strategy, settings, progress);
+        TracedPhotons photons = small_pass(body.scene, *strategy, rng, 100, form);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         out[0] = fluence(medium.majorant(), inside, map).g;
         out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).g / medium.majorant().g;
@@ -100,18 +95,15 @@ std::vector<Check> check_maps(const Effort& effort) {
   const Rgb sigma_t(1.5f);
   const HenyeyGreenstein phase{0.5f};
   std::vector<Check> checks;
-  const auto add = [&](std::vector<Check> found) {
-    for (Check& check : found) checks.push_back(std::move(check));
-  };
   const LitBody sphere = lit_sphere("sphere", white_medium(nullptr, sigma_t, phase));
   const Vec3 off_centre(0.5f, -0.3f, 0.4f);
-  add(check_map(sphere, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
+  append(checks, check_map(sphere, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
   LitBody same = lit_sphere("sphere, density at the photon", white_medium(nullptr, sigma_t, phase));
-  add(check_map(same, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
+  append(checks, check_map(same, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
     for (const char* strategy : {"regular", "mean-extinction"})
-      add(check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)), field_point({0.5, 0.2, 0.5}),
-                    strategy, VolumeForm::density_at_query, effort));
+      append(checks, check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)),
+                               field_point({0.5, 0.2, 0.5}), strategy, VolumeForm::density_at_query, effort));
   return checks;
 }
 

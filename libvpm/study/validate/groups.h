@@ -1,14 +1,25 @@
-// The groups of experiments that the levels are made of.
+// The groups of experiments that the two lowest levels are made of, and what their files share.
 #pragma once
+
+#include <array>
+#include <iterator>
 
 #include "study/validate/ladder.h"
 
 namespace vpm {
 
+/// Ends of checks' names.
+inline constexpr std::array<const char*, 3> kOfChannel{", red channel", ", green channel", ", blue channel"};
+
+inline void append(std::vector<Check>& all, std::vector<Check> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
 // Level 0.
 std::vector<Experiment> flight_experiments();
 std::vector<Experiment> transmittance_experiments();
 std::vector<Experiment> phase_experiments();
+std::vector<Experiment> outcome_experiments();
 std::vector<Experiment> emission_experiments();
 std::vector<Experiment> irradiance_experiments();
 std::vector<Experiment> photon_map_experiments();

@@ -15,7 +15,6 @@ namespace vpm {
 
 namespace {
 
-constexpr int kMaxEvents = 100'000;
 const Vec3 kStart = glm::normalize(Vec3(0.4f, -0.5f, 0.7f));
 
 Scene endless(const Medium& medium) {
@@ -35,7 +34,6 @@ void walk(const Scene& scene, const DistanceStrategy& strategy, int events, Rng&
 
 /// Every strategy, in grey and in colour: 1/(1 - albedo) collisions on average.
 std::vector<Check> check_counts(const Effort& effort) {
-  static constexpr std::array<const char*, 3> kChannels{", red", ", green", ", blue"};
   std::vector<Check> checks;
   for (const bool grey : {true, false}) {
     Medium medium = make_medium(nullptr, grey ? Rgb(2.0f) : Rgb(1.0f, 2.0f, 3.0f));
@@ -47,13 +45,13 @@ std::vector<Check> check_counts(const Effort& effort) {
       const std::string name = fmt::format("{}, {}", grey ? "grey" : "colour", info.name);
       const auto samples =
           sample_moments(3, effort.count(20'000, 5'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-            walk(scene, *strategy, kMaxEvents, rng, [&](const Event&, const PathState& now) {
+            walk(scene, *strategy, kNoLimit, rng, [&](const Event&, const PathState& now) {
               for (int c = 0; c < 3; ++c) out[c] += now.power[c];
             });
           });
       const Rgb albedo = medium.albedo();
       for (int c = 0; c < (grey ? 1 : 3); ++c)
-        checks.push_back(check_weighted_mean(name + (grey ? "" : kChannels[static_cast<size_t>(c)]),
+        checks.push_back(check_weighted_mean(name + (grey ? "" : kOfChannel[static_cast<size_t>(c)]),
                                              samples[static_cast<size_t>(c)], 1.0 / (1.0 - albedo[c])));
     }
   }
@@ -126,7 +124,7 @@ std::vector<Check> check_absorption(const Effort& effort) {
     const std::string name = fmt::format("g = {:.2g}, absorbed at mean r^2", g);
     const auto samples =
         sample_moments(1, effort.count(40'000, 5'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-          walk(scene, *strategy, kMaxEvents, rng, [&](const Event&, const PathState& now) {
+          walk(scene, *strategy, kNoLimit, rng, [&](const Event&, const PathState& now) {
             out[0] = glm::dot(Vec3d(now.ray.origin), Vec3d(now.ray.origin));  // the last one stays
           });
         });

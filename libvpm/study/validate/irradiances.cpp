@@ -132,8 +132,7 @@ std::vector<Experiment> irradiance_experiments() {
                  {"constant environment", ConstantEnvironment{Rgb(1.0f)}, Vec3(0.0f), 4.0 * kPiD, kPiD, 4.0 * kPiD});
              all.push_back(from_map());
              std::vector<Check> checks;
-             for (const Received& from : all)
-               for (Check& check : check_received(from, effort)) checks.push_back(std::move(check));
+             for (const Received& from : all) append(checks, check_received(from, effort));
              return checks;
            }}};
 }

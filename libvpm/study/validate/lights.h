@@ -1,6 +1,8 @@
 // The lights that are tested: chromatic, off the axes.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "medium/distance/strategy.h"
 #include "scene/scene.h"
 
 namespace vpm {
@@ -21,6 +22,10 @@ struct LitBody {
 LitBody lit_sphere(std::string name, const Medium& medium);
 /// The box of the test fields.
 LitBody lit_box(std::string name, const Medium& medium);
+
+/// The extinction coefficient (1/m) under which a strategy is tested. Weights without bound multiply from event to
+/// event: more than a few events would leave too heavy tails.
+inline Rgb tested_extinction(const StrategyInfo& info) { return Rgb(info.bounded_weight ? 1.5f : 0.6f); }
 
 /// A medium that absorbs nothing.
 Medium white_medium(std::shared_ptr<const DensityGrid> grid, const Rgb& sigma_t, const Phase& phase);

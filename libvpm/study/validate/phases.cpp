@@ -88,8 +88,7 @@ std::vector<Check> check_phase(const NamedPhase& named, const Effort& effort) {
 std::vector<Experiment> phase_experiments() {
   return {{0, "phase functions", [](const Effort& effort) {
              std::vector<Check> checks;
-             for (const NamedPhase& phase : phases())
-               for (Check& check : check_phase(phase, effort)) checks.push_back(std::move(check));
+             for (const NamedPhase& phase : phases()) append(checks, check_phase(phase, effort));
              return checks;
            }}};
 }

@@ -64,7 +64,7 @@ std::vector<Check> check_maps(bool flat, const Effort& effort) {
 std::vector<Experiment> photon_map_experiments() {
   return {{0, "even photons, estimates of their density", [](const Effort& effort) {
              std::vector<Check> checks = check_maps(false, effort);
-             for (Check& check : check_maps(true, effort)) checks.push_back(std::move(check));
+             append(checks, check_maps(true, effort));
              return checks;
            }}};
 }

@@ -5,10 +5,10 @@
 
 #include "estimate/volume_estimate.h"
 #include "medium/make_grid.h"
-#include "photon/trace.h"
 #include "scene/build.h"
 #include "study/sample_moments.h"
 #include "study/validate/groups.h"
+#include "study/validate/small_pass.h"
 
 namespace vpm {
 
@@ -44,7 +44,7 @@ std::shared_ptr<const DensityGrid> changed_grid(const Change& change) {
   });
 }
 
-/// Coloured fog in a box over a floor, a sphere of glass, a spot and a lamp of a quad.
+/// Coloured fog in a box over a floor, a sphere of glass in it, a spot.
 Scene changed_scene(const Change& change) {
   Scene scene;
   Medium fog;
@@ -59,8 +59,8 @@ Scene changed_scene(const Change& change) {
             Lambertian{Rgb(0.8f, 0.6f, 0.4f)});
   add_shape(scene, SphereShape{change.point({0.5, -0.4, 0.3}), 0.3f * static_cast<float>(change.scale)},
             Dielectric{1.5f});
-  SpotLight spot{change.point({-1.5, 1.8, 0.4}), change.direction({1.2, -1.6, -0.2}), 0.97f, 0.9f, Rgb(3.0f)};
-  scene.lights.push_back(spot);
+  scene.lights.push_back(
+      SpotLight{change.point({-1.5, 1.8, 0.4}), change.direction({1.2, -1.6, -0.2}), 0.97f, 0.9f, Rgb(3.0f)});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -75,11 +75,7 @@ std::vector<Moments> measure(const Change& change, const Effort& effort) {
   const GatherSettings gather{GatherMode::radius, static_cast<float>(0.5 * change.scale), 0, KernelKind::epanechnikov};
   return sample_moments(
       quantities, effort.count(1'000, 40'000), effort.seed_of("change: " + change.name), [&](Rng& rng, double* out) {
-        TraceSettings settings;
-        settings.seed = rng.bits();
-        settings.emitted = change.photons;
-        Progress progress("", 0, false);
-        TracedPhotons photons = trace_photons(scene, *strategy, settings, progress);
+        TracedPhotons photons = small_pass(scene, *strategy, rng, change.photons);
         const Ledger& ledger = photons.ledger;
         const auto emitted = static_cast<double>(ledger.emitted_count);
         out[in_fog] = ledger.absorbed_in_media.r / emitted;
