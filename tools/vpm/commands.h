@@ -40,6 +40,7 @@ int media_command(const MediaOptions& options);
 
 struct ValidateOptions {
   std::optional<int> level;  // 0 to 4; none: all
+  std::string oracles;       // folder of reference numbers to check against instead; empty: none
   bool full = false;         // tight errors
   uint64_t seed = 1;
   double rate = 0.01;  // of false alarms, of the whole run
@@ -47,7 +48,8 @@ struct ValidateOptions {
   std::string json;    // file to write; empty: none
   ProgressMode progress = ProgressMode::automatic;
 };
-/// Runs the ladder of validation and prints every check with its verdict. 1 where one fails.
+/// Runs the ladder of validation, or all cases of a folder of reference numbers, and prints every check with its
+/// verdict. 1 where one fails.
 int validate_command(const ValidateOptions& options);
 
 struct ExactOptions {

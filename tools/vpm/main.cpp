@@ -84,11 +84,15 @@ void add_media(CLI::App& app, MediaOptions& options) {
 
 void add_validate(CLI::App& app, ValidateOptions& options) {
   CLI::App* command = app.add_subcommand("validate", "Check vpm's numbers against identities and transport theory");
+  CLI::Option* level = command
+                           ->add_option("--level", options.level,
+                                        "Only this level: 0 distributions, 1 identities, 2 transport theory, "
+                                        "3 agreement, 4 convergence")
+                           ->check(CLI::Range(0, kLevels - 1));
   command
-      ->add_option("--level", options.level,
-                   "Only this level: 0 distributions, 1 identities, 2 transport theory, "
-                   "3 agreement, 4 convergence")
-      ->check(CLI::Range(0, kLevels - 1));
+      ->add_option("--oracles", options.oracles,
+                   "Instead: check every case of the reference numbers in the files of this folder")
+      ->excludes(level);
   CLI::Option* quick = command->add_flag_callback(
       "--quick", [&options] { options.full = false; }, "Within about a minute (the default)");
   command->add_flag("--full", options.full, "Tight errors, within 20 minutes")->excludes(quick);

@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/version.h"
+#include "check_report.h"
 #include "commands.h"
+#include "oracles/oracle_command.h"
 #include "study/validate/ladder.h"
 
 namespace vpm::tools {
@@ -29,23 +30,8 @@ struct Outcome {
   double threshold = 0.0;     // p-values below it fail
   double seconds = 0.0;
 
-  size_t count(Verdict verdict) const {
-    return static_cast<size_t>(
-        std::count_if(checks.begin(), checks.end(), [&](const Check& c) { return c.verdict == verdict; }));
-  }
+  size_t count(Verdict verdict) const { return count_verdicts(checks, verdict); }
 };
-
-const char* word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass:
-      return "pass";
-    case Verdict::fail:
-      return "FAIL";
-    case Verdict::undetermined:
-      break;
-  }
-  return "not determined";
-}
 
 Outcome climb(const ValidateOptions& options) {
   const auto start = std::chrono::steady_clock::now();
@@ -66,23 +52,6 @@ Outcome climb(const ValidateOptions& options) {
   return outcome;
 }
 
-/// value, exact, deviation, p, verdict.
-std::string row(const Check& check) {
-  const std::string note = check.note.empty() ? "" : "  (" + check.note + ")";
-  const std::string numbers = fmt::format("{:>13.7g} {:>13.7g}", check.value, check.exact);
-  switch (check.kind) {
-    case CheckKind::statistical:
-      return fmt::format("{} {:>10.2g} {:>+7.2f} s.e. {:>8.2g}  {}{}", numbers, check.error, check.deviation(), check.p,
-                         word(check.verdict), note);
-    case CheckKind::bounded:
-      return fmt::format("{} {:>10.2g} {:>+7.2f} bound {:>7}  {}{}", numbers, check.error, check.deviation(), "-",
-                         word(check.verdict), note);
-    case CheckKind::undetermined:
-      break;
-  }
-  return fmt::format("{} {:>10} {:>12} {:>8}  {}{}", numbers, "-", "-", "-", word(check.verdict), note);
-}
-
 void print(const Outcome& outcome, const ValidateOptions& options) {
   size_t width = 0;
   for (const Check& check : outcome.checks) width = std::max(width, check.name.size());
@@ -91,9 +60,8 @@ void print(const Outcome& outcome, const ValidateOptions& options) {
     if (i == 0 || line.level != outcome.lines[i - 1].level)
       fmt::print("\nLevel {}: {}\n", line.level, level_title(line.level));
     if (i == 0 || line.experiment != outcome.lines[i - 1].experiment)
-      fmt::print("  {:<{}} {:>13} {:>13} {:>10} {:>12} {:>8}\n", line.experiment, width + 2, "value", "exact", "error",
-                 "deviation", "p");
-    fmt::print("    {:<{}} {}\n", outcome.checks[i].name, width, row(outcome.checks[i]));
+      fmt::print("  {:<{}} {}\n", line.experiment, width + 2, check_columns());
+    fmt::print("    {:<{}} {}\n", outcome.checks[i].name, width, check_row(outcome.checks[i]));
   }
   fmt::print("\n{} checks: {} passed, {} FAILED, {} not determined; {:.1f} s, {} thread(s), seed {}\n",
              outcome.checks.size(), outcome.count(Verdict::pass), outcome.count(Verdict::fail),
@@ -102,26 +70,11 @@ void print(const Outcome& outcome, const ValidateOptions& options) {
              1.0 / options.rate);
 }
 
-/// A number as JSON has it: an infinity or a NaN becomes text.
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
-
 std::string json_report(const Outcome& outcome, const ValidateOptions& options) {
   Json checks = Json::array();
   for (size_t i = 0; i < outcome.checks.size(); ++i) {
-    const Check& c = outcome.checks[i];
-    Json line{{"level", outcome.lines[i].level},
-              {"experiment", outcome.lines[i].experiment},
-              {"name", c.name},
-              {"value", number(c.value)},
-              {"exact", number(c.exact)},
-              {"error", number(c.error)}};
-    line["error_is"] = c.kind == CheckKind::statistical ? "standard error"
-                       : c.kind == CheckKind::bounded   ? "bound"
-                                                        : "not known";
-    line["deviation"] = number(c.kind == CheckKind::undetermined ? 0.0 : c.deviation());
-    if (c.kind == CheckKind::statistical) line["p"] = number(c.p);
-    line["verdict"] = c.verdict == Verdict::fail ? "fail" : word(c.verdict);
-    line["note"] = c.note;
+    Json line{{"level", outcome.lines[i].level}, {"experiment", outcome.lines[i].experiment}};
+    line.update(Json::parse(check_json(outcome.checks[i])));
     checks.push_back(std::move(line));
   }
   const Json report{{"vpm", version()},
@@ -142,6 +95,7 @@ std::string json_report(const Outcome& outcome, const ValidateOptions& options) 
 int validate_command(const ValidateOptions& options) {
   set_threads(options.threads);
   if (!options.json.empty()) check_writable(options.json, 1 << 20);
+  if (!options.oracles.empty()) return oracle_command(options);
   const Outcome outcome = climb(options);
   print(outcome, options);
   if (!options.json.empty()) write_text(options.json, json_report(outcome, options));

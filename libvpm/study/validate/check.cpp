@@ -42,6 +42,20 @@ Check check_mean(std::string name, const Moments& samples, double exact, double 
   return statistical(std::move(name), samples.mean(), exact, error, p);
 }
 
+Check check_probability(std::string name, const Moments& zeros_and_ones, double probability) {
+  constexpr double kFew = 1000.0;
+  const auto trials = static_cast<double>(zeros_and_ones.count());
+  const double hits = std::round(zeros_and_ones.mean() * trials), share = hits / trials;
+  const double error = std::sqrt(probability * (1.0 - probability) / trials);
+  const bool rare = probability < 0.5;
+  const double expected = trials * (rare ? probability : 1.0 - probability), count = rare ? hits : trials - hits;
+  if (expected >= kFew)
+    return statistical(std::move(name), share, probability, error, normal_tail((share - probability) / error));
+  const double as_many = count > 0.0 ? 1.0 - upper_gamma_fraction(count, expected) : 1.0;
+  const double as_few = upper_gamma_fraction(count + 1.0, expected);
+  return statistical(std::move(name), share, probability, error, std::min(1.0, 2.0 * std::min(as_many, as_few)));
+}
+
 Check check_value(std::string name, double value, double standard_error, double exact) {
   const double p = tail_of(value - exact, standard_error, std::numeric_limits<double>::infinity());
   return statistical(std::move(name), value, exact, standard_error, p);
