@@ -109,7 +109,7 @@ SlabEstimate estimate_slab(const Slab& slab, const DistanceStrategy& strategy, c
   const std::vector<Moments> all = sample_moments(at.size, photons, seed, [&](Rng& rng, double* out) {
     const Emission emission = emit(scene.lights[0], scene.sphere, rng);
     WalkCounters counters;
-    PhotonTally tally(at, tallies, slab.thickness(), out);
+    PhotonTally tally(at, tallies, slab.layers.thickness(), out);
     follow_photon(scene, strategy, {emission.ray, kVacuum, emission.power}, kMaxEvents, rng, counters,
                   [&](const Event& event, const PathState& state) { tally.see(event, state); });
     tally.finish();

@@ -6,22 +6,19 @@
 #include "base/statistics.h"
 #include "medium/distance/strategy.h"
 #include "scene/scene.h"
+#include "study/estimates/layers.h"
 
 namespace vpm {
 
 /// How light falls on the slab: along its normal, or with the same radiance from the whole hemisphere.
 enum class Incidence { collimated, diffuse };
 
-/// A slab that is lit from above. Its extinction depends on the depth below the top alone: linear between the nodes,
-/// with a jump where a depth stands twice.
+/// A slab that is lit from above.
 struct Slab {
-  std::vector<double> depth;    // m, from 0 to the thickness
-  std::vector<double> sigma_t;  // 1/m, at the nodes
+  Layers layers;
   double albedo = 1.0;
   double g = 0.0;  // of Henyey and Greenstein's phase function
   Incidence incidence = Incidence::collimated;
-
-  double thickness() const { return depth.back(); }
 };
 
 /// A slab 1 m thick of the same extinction everywhere.

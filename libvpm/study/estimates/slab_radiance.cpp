@@ -14,14 +14,14 @@ namespace {
 /// The point at a depth: just inside where that is on the slab's surface. The fluence falls so steeply below the top
 /// that the next float will not do.
 Vec3 point_at(const Slab& slab, double depth) {
-  const double thickness = slab.thickness();
+  const double thickness = slab.layers.thickness();
   return {0.0f, static_cast<float>(-std::clamp(depth, 1e-12 * thickness, (1.0 - 0x1p-23) * thickness)), 0.0f};
 }
 
 /// The ray along which an eye outside sees the exit.
 Ray towards_exit(const Slab& slab, const SlabExit& exit) {
   const auto mu = static_cast<float>(exit.mu), across = static_cast<float>(std::sqrt(1.0 - exit.mu * exit.mu));
-  const auto depth = static_cast<float>(slab.thickness());
+  const auto depth = static_cast<float>(slab.layers.thickness());
   if (exit.below) return {Vec3(0.0f, -2.0f * depth, 0.0f), Vec3(across, mu, 0.0f)};
   return {Vec3(0.0f, depth, 0.0f), Vec3(across, -mu, 0.0f)};
 }

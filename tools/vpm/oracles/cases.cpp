@@ -133,8 +133,12 @@ CaseRunner runner_of(std::string_view file, std::string_view list) {
     CaseRunner run;
   };
   static constexpr Known kKnown[] = {
-      {"s2_", "cases", run_point_sources}, {"s3_", "cases", run_airlights}, {"s4_", "cases", run_slabs},
-      {"s5_", "cases", run_spheres},       {"s8_", "cases", run_slabs},
+      {"s1_", "cases", run_free_flights},  //
+      {"s2_", "cases", run_point_sources},
+      {"s3_", "cases", run_airlights},
+      {"s4_", "cases", run_slabs},
+      {"s5_", "cases", run_spheres},
+      {"s8_", "cases", run_slabs},
   };
   for (const Known& known : kKnown)
     if (file.starts_with(known.file) && list == known.list) return known.run;

@@ -19,14 +19,16 @@ Slab read_slab(const OracleCase& c) {
       homogeneous_slab(c.number_in("tau", 1e-6, 1e5), c.number_in("albedo", 0.0, 1.0), c.number_in("g", -0.999, 0.999),
                        incidence == "diffuse" ? Incidence::diffuse : Incidence::collimated);
   if (!c.has("z_nodes")) return slab;
-  slab.depth = c.numbers("z_nodes");
-  slab.sigma_t = c.numbers("sigma_t_nodes", slab.depth.size());
-  if (slab.depth.size() < 2 || slab.depth.front() != 0.0 || !std::is_sorted(slab.depth.begin(), slab.depth.end()) ||
-      *std::min_element(slab.sigma_t.begin(), slab.sigma_t.end()) < 0.0)
+  slab.layers.depth = c.numbers("z_nodes");
+  slab.layers.sigma_t = c.numbers("sigma_t_nodes", slab.layers.depth.size());
+  if (slab.layers.depth.size() < 2 || slab.layers.depth.front() != 0.0 ||
+      !std::is_sorted(slab.layers.depth.begin(), slab.layers.depth.end()) ||
+      *std::min_element(slab.layers.sigma_t.begin(), slab.layers.sigma_t.end()) < 0.0)
     c.refuse("\"z_nodes\" must ascend from 0, \"sigma_t_nodes\" must be at least 0");
   double tau = 0.0;
-  for (size_t i = 1; i < slab.depth.size(); ++i)
-    tau += 0.5 * (slab.sigma_t[i] + slab.sigma_t[i - 1]) * (slab.depth[i] - slab.depth[i - 1]);
+  for (size_t i = 1; i < slab.layers.depth.size(); ++i)
+    tau +=
+        0.5 * (slab.layers.sigma_t[i] + slab.layers.sigma_t[i - 1]) * (slab.layers.depth[i] - slab.layers.depth[i - 1]);
   if (std::abs(tau - c.number("tau")) > 1e-6 * tau)
     c.refuse(fmt::format("the optical thickness of its nodes is {}, \"tau\" is {}", tau, c.number("tau")));
   return slab;
@@ -44,7 +46,7 @@ SlabTallies read_tallies(const OracleCase& c, const Slab& slab) {
   if (c.has("mu_bin_edges")) tallies.mu_edges = c.numbers("mu_bin_edges");
   if (c.has("z")) tallies.planes = c.numbers("z");
   if (c.has("depth_tau"))
-    for (const double tau : c.numbers("depth_tau")) tallies.planes.push_back(tau / slab.sigma_t[0]);
+    for (const double tau : c.numbers("depth_tau")) tallies.planes.push_back(tau / slab.layers.sigma_t[0]);
   for (const auto* list : {&tallies.mu_edges, &tallies.planes})
     if (!std::is_sorted(list->begin(), list->end())) c.refuse("bin edges and depths must ascend");
   return tallies;
