@@ -12,9 +12,9 @@ namespace vpm {
 struct Airlight {
   double sigma_t = 1.0;  // 1/m
   double albedo = 1.0;
-  double g = 0.0;                          // of Henyey and Greenstein's phase function
-  double distance = 1.0, t_light = 0.0;    // m
-  double t0 = 0.0, t1 = 0.0;               // m; t1 may be infinite
+  double g = 0.0;                        // of Henyey and Greenstein's phase function
+  double distance = 1.0, t_light = 0.0;  // m
+  double t0 = 0.0, t1 = 0.0;             // m; t1 may be infinite
 };
 
 /// Radiance times 10^-log10_scale, W/(m^2 sr): a radiance far below what floats can hold is estimated by the logarithms

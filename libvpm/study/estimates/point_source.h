@@ -15,10 +15,10 @@ struct PointSource {
   double g = 0.0;  // of Henyey and Greenstein's phase function
 };
 
-/// Photons wander for 1/(1 - albedo) collisions: for ever where nothing is absorbed. Above an albedo of 0.999 the medium
-/// therefore ends at a sphere, and what the medium beyond it would send back is added: far from the source that is the
-/// regular solution of diffusion, which vanishes with the source's own at the extrapolated end point [Case1953]. Its
-/// error, a bound, is added to the checks.
+/// Photons wander for 1/(1 - albedo) collisions: for ever where nothing is absorbed. Above an albedo of 0.999 the
+/// medium therefore ends at a sphere, and what the medium beyond it would send back is added: far from the source that
+/// is the regular solution of diffusion, which vanishes with the source's own at the extrapolated end point [Case1953].
+/// Its error, a bound, is added to the checks.
 struct MissingLight {
   double end = 0.0;  // m, radius of the medium; 0: it has no end
   double fluence(double radius) const;
@@ -38,7 +38,7 @@ std::vector<Moments> estimate_collisions_within(const PointSource& source, const
 
 /// Photon maps: `batches` of `photons` each, sharing nothing.
 struct MapEffort {
-  int batches = 40;
+  int batches = 20;
   uint64_t photons = 0;
   uint64_t seed = 1;
 };

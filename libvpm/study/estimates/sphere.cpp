@@ -60,18 +60,17 @@ SpherePaths estimate_sphere_paths(const FoggySphere& sphere, const std::vector<d
   settings.max_events = kMaxEvents;
   const PathContext context = make_path_context(scene, settings);
   const size_t n = radii.size();
-  const std::vector<Moments> all =
-      sample_moments(n + impacts.size(), samples, seed, [&](Rng& rng, double* out) {
-        EyeCounters counters;
-        for (size_t i = 0; i < n; ++i) {
-          const Ray ray{Vec3(static_cast<float>(radii[i]), 0.0f, 0.0f), uniform_sphere(rng.uniform2())};
-          out[i] = 4.0 * kPiD * path_radiance(context, ray, 0, rng, counters).r;
-        }
-        for (size_t i = 0; i < impacts.size(); ++i) {
-          const Ray ray{Vec3(static_cast<float>(impacts[i]), 0.0f, 3.0f), Vec3(0.0f, 0.0f, -1.0f)};
-          out[n + i] = path_radiance(context, ray, kVacuum, rng, counters).r;
-        }
-      });
+  const std::vector<Moments> all = sample_moments(n + impacts.size(), samples, seed, [&](Rng& rng, double* out) {
+    EyeCounters counters;
+    for (size_t i = 0; i < n; ++i) {
+      const Ray ray{Vec3(static_cast<float>(radii[i]), 0.0f, 0.0f), uniform_sphere(rng.uniform2())};
+      out[i] = 4.0 * kPiD * path_radiance(context, ray, 0, rng, counters).r;
+    }
+    for (size_t i = 0; i < impacts.size(); ++i) {
+      const Ray ray{Vec3(static_cast<float>(impacts[i]), 0.0f, 3.0f), Vec3(0.0f, 0.0f, -1.0f)};
+      out[n + i] = path_radiance(context, ray, kVacuum, rng, counters).r;
+    }
+  });
   const auto split = all.begin() + static_cast<std::ptrdiff_t>(n);
   return {{all.begin(), split}, {split, all.end()}};
 }

@@ -16,9 +16,9 @@ struct FoggySphere {
 
 /// A sample is a photon.
 struct SpherePhotons {
-  Moments entering;                        // power over that through the sphere's surface: of all photons emitted
-  Moments escaped, absorbed, uncollided;   // shares of the photons that enter
-  Moments collisions;                      // of a photon that enters
+  Moments entering;                       // power over that through the sphere's surface: of all photons emitted
+  Moments escaped, absorbed, uncollided;  // shares of the photons that enter
+  Moments collisions;                     // of a photon that enters
 };
 SpherePhotons estimate_sphere_photons(const FoggySphere& sphere, uint64_t photons, uint64_t seed);
 

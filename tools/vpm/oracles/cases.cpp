@@ -138,6 +138,13 @@ CaseRunner runner_of(std::string_view file, std::string_view list) {
       {"s3_", "cases", run_airlights},
       {"s4_", "cases", run_slabs},
       {"s5_", "cases", run_spheres},
+      {"s6_", "kernels", run_density_estimates},
+      {"s6_", "knn", run_density_estimates},
+      {"s6_", "fixed_radius", run_density_estimates},
+      {"s6_", "bias", run_density_estimates},
+      {"s6_", "progressive", run_density_estimates},
+      {"s7_", "irradiance", run_irradiances},
+      {"s7_", "cavities", run_cavities},
       {"s8_", "cases", run_slabs},
   };
   for (const Known& known : kKnown)

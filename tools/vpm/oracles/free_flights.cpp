@@ -156,7 +156,8 @@ void check_flights(std::vector<Check>& checks, const OracleCase& c, const Flight
     if (!analog) {
       const double effective = static_cast<double>(flights) / weight_square(path, rate_of(info, path));
       if (effective < 1000.0) {
-        checks.push_back(not_determined(name + "all", 0.0, 0.0, fmt::format("effective sample size {:.2g}", effective)));
+        checks.push_back(
+            not_determined(name + "all", 0.0, 0.0, fmt::format("effective sample size {:.2g}", effective)));
         continue;
       }
     }

@@ -13,7 +13,7 @@ namespace vpm::tools {
 namespace {
 
 /// A kernel radius that gathers enough photons around a distance, and over which the fluence is nearly a quadratic.
-double kernel_radius(double distance) { return std::min(0.25 * distance, 1.0); }
+double kernel_radius(double distance) { return std::min(0.35 * distance, 1.0); }
 
 /// The results of the cases of one medium, by number.
 struct MediumResults {
@@ -28,10 +28,10 @@ MediumResults estimate_medium(const PointSource& source, const std::vector<doubl
   // Collisions of a photon: until it is absorbed, or until it leaves the medium by diffusion.
   const double diffusion = missing.end > 0.0 ? missing.end * missing.end / (6.0 * missing.diffusion) : 1e30;
   const double collisions = std::min(1.0 / (1.0 - source.albedo), diffusion) + 1.0;
-  const double work = effort.full ? 6e8 : 2e7;
+  const double work = effort.full ? 6e8 : 6e6;
   const auto photons = static_cast<uint64_t>(std::clamp(work / collisions, 1e4, 2e7));
   const uint64_t seed = effort.seed_of(fmt::format("point source {} {}", source.albedo, source.g));
-  const MapEffort maps{40, std::max<uint64_t>(photons / 40, 200), seed};
+  const MapEffort maps{20, std::max<uint64_t>(photons / 20, 500), seed};
   return {estimate_collisions_within(source, radii, photons, seed + 1),
           estimate_map_fluence(source, radii, kernels, false, maps),
           estimate_map_fluence(source, radii, kernels, true, maps)};
