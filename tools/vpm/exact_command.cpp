@@ -41,7 +41,7 @@ std::string digits(double value, double error) {
 
 void print_value(const std::string& label, const std::optional<double>& value, double error, const std::string& unit) {
   if (value)
-    fmt::print("{:<24} {:<22} +- {:.1e}  {}\n", label, digits(*value, error), error, unit);
+    fmt::print("{:<24} {:<22} +- {:.1e}{}{}\n", label, digits(*value, error), error, unit.empty() ? "" : "  ", unit);
   else
     fmt::print("{:<24} none\n", label);
 }
@@ -52,8 +52,9 @@ void print_quantity(const ExactQuantity& quantity) {
   const bool bins = quantity.places.size() == quantity.values.size() + 1;
   for (size_t i = 0; i < quantity.values.size(); ++i) {
     const std::string to = bins ? fmt::format(" to {:g}", quantity.places[i + 1]) : "";
-    print_value(fmt::format("  {} {:g}{}", quantity.place, quantity.places[i], to), quantity.values[i],
-                quantity.errors[i], "");
+    const std::string label =
+        fmt::format("  {} {:g}{} {}", quantity.place, quantity.places[i], to, quantity.place_unit);
+    print_value(label, quantity.values[i], quantity.errors[i], "");
   }
 }
 
@@ -66,8 +67,11 @@ void print_json(const std::string& problem, const ExactArguments& arguments,
     nlohmann::ordered_json entry;
     entry["name"] = quantity.name;
     entry["unit"] = quantity.unit;
-    if (!quantity.place.empty()) entry["place"] = quantity.place;
-    if (!quantity.place.empty()) entry["places"] = quantity.places;
+    if (!quantity.place.empty()) {
+      entry["place"] = quantity.place;
+      entry["place_unit"] = quantity.place_unit;
+      entry["places"] = quantity.places;
+    }
     for (size_t i = 0; i < quantity.values.size(); ++i) {
       entry["values"].push_back(quantity.values[i] ? nlohmann::ordered_json(*quantity.values[i]) : nullptr);
       entry["errors"].push_back(quantity.errors[i]);

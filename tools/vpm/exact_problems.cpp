@@ -20,7 +20,7 @@ namespace {
 using namespace exact;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-15;  // of closed forms, relative
+constexpr double kRounding = 1e-14;  // of closed forms, relative
 constexpr ExactLimits kFraction{0.0, 1.0};
 constexpr ExactLimits kPositive{0.0, kInfinite, true, true};
 constexpr ExactLimits kNotNegative{0.0, kInfinite, false, true};
@@ -36,16 +36,17 @@ std::vector<std::optional<double>> optionals(const std::vector<double>& values) 
 }
 
 ExactQuantity single(const std::string& name, const std::string& unit, const Bounded& value) {
-  return {name, unit, "", {}, {value.value}, {value.error}};
+  return {name, unit, "", "", {}, {value.value}, {value.error}};
 }
 ExactQuantity series(const std::string& name, const std::string& unit, const std::string& place,
                      const std::vector<double>& places, const BoundedSeries& values) {
-  return {name, unit, place, places, optionals(values.values), std::vector<double>(values.values.size(), values.error)};
+  return {
+      name, unit, place, "", places, optionals(values.values), std::vector<double>(values.values.size(), values.error)};
 }
 /// Values known to rounding.
 ExactQuantity closed_form(const std::string& name, const std::string& unit, const std::string& place,
                           const std::vector<double>& places, const std::vector<double>& values) {
-  ExactQuantity quantity{name, unit, place, places, optionals(values), {}};
+  ExactQuantity quantity{name, unit, place, "", places, optionals(values), {}};
   for (const double value : values) quantity.errors.push_back(kRounding * std::fabs(value));
   return quantity;
 }
@@ -124,7 +125,7 @@ std::vector<ExactQuantity> solve_point_source_problem(ExactArguments& arguments)
   const PointSourceSolution s = solve_point_source(albedo, phase, radii);
 
   const double scale = power * sigma_t * sigma_t;
-  ExactQuantity total{"fluence", "W/m^2", "distance in m", distances, {}, {}}, collided = total, collisions = total;
+  ExactQuantity total{"fluence", "W/m^2", "distance", "m", distances, {}, {}}, collided = total, collisions = total;
   std::vector<double> uncollided;
   collided.name = "collided fluence";
   collisions.name = "collisions within";
@@ -138,7 +139,9 @@ std::vector<ExactQuantity> solve_point_source_problem(ExactArguments& arguments)
     collisions.values.emplace_back(s.collisions[i].value);
     collisions.errors.push_back(s.collisions[i].error);
   }
-  return {total, closed_form("uncollided fluence", "W/m^2", total.place, distances, uncollided), collided, collisions};
+  ExactQuantity direct = closed_form("uncollided fluence", "W/m^2", "distance", distances, uncollided);
+  direct.place_unit = "m";
+  return {total, direct, collided, collisions};
 }
 
 std::vector<ExactQuantity> solve_airlight_problem(ExactArguments& arguments) {
@@ -217,7 +220,7 @@ std::vector<ExactQuantity> solve_transmittance_problem(ExactArguments& arguments
   std::vector<double> t = arguments.list("t", {0.0, profile.length});
   const std::vector<double> u = arguments.list("u", {0.0, 1.0, false, true});
   if (t.empty()) t.push_back(profile.length);
-  ExactQuantity thickness{"optical thickness", "", "t in m", t, {}, {}}, pass = thickness, cdf = thickness;
+  ExactQuantity thickness{"optical thickness", "", "t", "m", t, {}, {}}, pass = thickness, cdf = thickness;
   pass.name = "transmittance";
   cdf.name = "flights that end before";
   const auto add = [](ExactQuantity& quantity, const Bounded& value) {
@@ -232,7 +235,7 @@ std::vector<ExactQuantity> solve_transmittance_problem(ExactArguments& arguments
   std::vector<ExactQuantity> quantities{thickness, pass, cdf,
                                         single("mean flight", "m, to the ray's end at most", mean_flight(profile))};
   if (u.empty()) return quantities;
-  ExactQuantity quantile{"flight quantile", "m; none: it leaves", "share u", u, {}, {}};
+  ExactQuantity quantile{"flight quantile", "m; none: it leaves", "u", "", u, {}, {}};
   for (const double share : u) {
     const std::optional<Bounded> at = flight_quantile(profile, share);
     quantile.values.push_back(at ? std::optional(at->value) : std::nullopt);

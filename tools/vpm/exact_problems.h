@@ -50,7 +50,7 @@ class ExactArguments {
 /// A quantity: one value, or one at each of several places.
 struct ExactQuantity {
   std::string name, unit;
-  std::string place;                          // what `places` are, with unit; empty for a single value
+  std::string place, place_unit;              // what `places` are; empty for a single value
   std::vector<double> places;                 // lower edges where there is one more of them than values
   std::vector<std::optional<double>> values;  // none: there is no such place
   std::vector<double> errors;

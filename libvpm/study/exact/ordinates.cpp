@@ -131,10 +131,11 @@ Modes make_modes(double albedo, const PhaseMoments& phase, const Ordinates& ordi
   modes.ordinates = ordinates;
   modes.albedo = albedo;
   modes.orders = orders;
-  for (Eigen::Index m = 0; m < n; ++m)
-    modes.k.push_back(m == 0 && albedo == 1.0 ? 0.0 : std::sqrt((1.0 - s[m]) * (1.0 + s[m])) / s[m]);
   const MatrixXd x = root_shifted.matrixL().transpose().solve(svd.matrixU());
   const MatrixXd y = b_root.matrixL().transpose().solve(svd.matrixV() * s.asDiagonal());
+  // The slowest mode from what it absorbs: without the cancellation at small k, and 0 where the albedo is 1.
+  modes.k.push_back(std::sqrt((1.0 - albedo) * root.dot(x.col(0)) / root.cwiseProduct(mu).dot(y.col(0))));
+  for (Eigen::Index m = 1; m < n; ++m) modes.k.push_back(std::sqrt((1.0 - s[m]) * (1.0 + s[m])) / s[m]);
   MatrixXd moments(orders, n);
   for (int l = 0; l < orders; ++l) moments.row(l) = (2 * l + 1) * phase[l] * (weighted.row(l) * (l % 2 == 0 ? x : y));
   modes.x = to_vector(root.cwiseInverse().asDiagonal() * x);

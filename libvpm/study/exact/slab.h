@@ -41,7 +41,8 @@ struct SlabSolution {
   BoundedSeries reflected_flux, transmitted_flux;  // in the bins between mu_edges, scattered light only
 };
 
-/// Solved twice, with different numbers of ordinates; errors are the differences and an allowance for rounding.
+/// Solved twice, with different numbers of ordinates; errors are four times the difference, and an allowance for
+/// rounding.
 SlabSolution solve_slab(const Slab& slab, const SlabPlaces& places = {});
 
 /// Chandrasekhar's H function of isotropic scattering, albedo and mu in [0, 1]: a half space lit along the normal

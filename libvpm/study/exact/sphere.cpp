@@ -78,29 +78,28 @@ SphereSolution solve_sphere(double optical_radius, double albedo, const std::vec
                             const std::vector<double>& impacts) {
   assert(optical_radius > 0.0 && albedo >= 0.0 && albedo <= 1.0);
   constexpr int kFine = 96, kCoarse = 72;
-  constexpr double kRounding = 1e-13;
+  constexpr double kRounding = 1e-13;  // of fractions; of fluence 4 pi times as much
+  constexpr double kCaution = 4.0;     // errors oscillate with the number of ordinates
   const RadialModes fine = solve_modes(kFine, optical_radius, albedo);
   const RadialModes coarse = solve_modes(kCoarse, optical_radius, albedo);
+  const auto difference = [&](double a, double b) { return kCaution * std::fabs(a - b) + kRounding; };
 
   SphereSolution solution;
   const double absorbed = absorbed_fraction(fine);
-  const double error = std::fabs(absorbed - absorbed_fraction(coarse)) + kRounding;
-  solution.absorbed = {absorbed, error};
-  solution.escaping = {1.0 - absorbed, error};
+  solution.absorbed = {absorbed, difference(absorbed, absorbed_fraction(coarse))};
+  solution.escaping = {1.0 - absorbed, solution.absorbed.error};
   solution.uncollided = 2.0 * exponential_moment(2.0, optical_radius) / (optical_radius * optical_radius);
-  solution.fluence.error = 4.0 * kPiD * kRounding;
   for (const double x : radii) {
     const double value = radial_fluence(fine, x * optical_radius);
+    const double error = difference(value, radial_fluence(coarse, x * optical_radius)) + 4.0 * kPiD * kRounding;
     solution.fluence.values.push_back(value);
-    solution.fluence.error =
-        std::max(solution.fluence.error, std::fabs(value - radial_fluence(coarse, x * optical_radius)));
+    solution.fluence.error = std::max(solution.fluence.error, error);
   }
-  solution.image.error = kRounding;
   for (const double x : impacts) {
     const Bounded value = image_radiance(fine, x);
+    const double error = difference(value.value, image_radiance(coarse, x).value) + value.error;
     solution.image.values.push_back(value.value);
-    const double difference = std::fabs(value.value - image_radiance(coarse, x).value);
-    solution.image.error = std::max(solution.image.error, difference + value.error + kRounding);
+    solution.image.error = std::max(solution.image.error, error);
   }
   return solution;
 }
