@@ -83,12 +83,12 @@ bool same(const Rgb& a, const Rgb& b, float norm) {
 RC_GTEST_PROP(MapProperty, EqualsTheBruteForceTwinForAnyPhotons, ()) {
   const std::vector<Photon> photons = any_photons();
   const GatherSettings settings{*rc::gen::element(GatherMode::radius, GatherMode::nearest),
-                                static_cast<float>(*magnitude(1e-7, 1e3)),
+                                static_cast<float>(*rc::gen::oneOf(magnitude(0.05, 2.0), magnitude(1e-7, 1e3))),
                                 static_cast<uint32_t>(*rc::gen::inRange(2, 400)), *any_kernel()};
   const PhotonMap map = make_photon_map(photons, settings, 1);
   RC_ASSERT(map.size() == photons.size());
   for (const Photon& p : photons) RC_ASSERT(map.bounds().contains(p.position));
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 10; ++i) {
     const Vec3 at = any_query(photons, settings.radius), up(0, 1, 0);
     RC_ASSERT(same(volume_sum(Isotropic{}, at, up, map),
                    volume_sum(Isotropic{}, at, up, photons, settings, uint64_t{1}),
