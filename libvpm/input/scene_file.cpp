@@ -205,11 +205,10 @@ void note_unresolved_media(LoadedScene& loaded) {
   for (const Medium& medium : loaded.scene.media) {
     const double extinction = double(max_channel(medium.sigma_t)) * medium.max_density();  // 1/m
     if (medium.scatters() && extinction * resolved > 1.0)
-      loaded.notes.push_back(
-          fmt::format("medium '{}': its free paths, down to {:.2g} m, are shorter than what positions of this scene "
-                      "resolve ({:.2g} "
-                      "m): light that enters it stays there",
-                      medium.name, 1.0 / extinction, resolved));
+      loaded.notes.push_back(fmt::format(
+          "medium '{}': its free paths, down to {:.2g} m, are shorter than positions of this scene resolve, "
+          "{:.2g} m: light that enters it stays there",
+          medium.name, 1.0 / extinction, resolved));
   }
 }
 
