@@ -25,13 +25,13 @@ Medium coloured_medium(const TestField& field) {
 
 /// A beam into the box of the fields. Flows of its 1 W per channel: what leaves backwards and forwards, and what
 /// collisions absorb.
-std::vector<Check> check_box(const TestField& field, const char* strategy_name, const Effort& effort) {
+std::vector<Check> check_box(const TestField& field, std::string_view strategy_name, const Effort& effort) {
   Scene scene;
   scene.media.push_back(coloured_medium(field));
   const Interface media{0, kVacuum};
   add_shape(scene, field_box(), Boundary{}, &media);
   scene.geometry.commit();
-  const auto strategy = make_distance_strategy({.strategy = strategy_name, .step = 0.1f});
+  const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name), .step = 0.1f});
   const Rgb lost = Rgb(1.0f) - scene.media[0].albedo();
   const Ray beam = test_ray();
   const std::string name = fmt::format("{}, {}", field.name, strategy_name);
@@ -74,13 +74,13 @@ Scene scene_with_everything() {
 }
 
 /// The photons' own ledger: of each photon, what became of its power less what it was.
-Check check_ledger(const Scene& scene, const char* strategy_name, const Effort& effort) {
+Check check_ledger(const Scene& scene, std::string_view strategy_name, const Effort& effort) {
   const std::string name = fmt::format("ledger of a scene with everything, {}", strategy_name);
   TraceSettings settings;
   settings.seed = effort.seed_of(name);
   settings.emitted = effort.count(20'000, 4'000'000);
   settings.keep_volume = settings.keep_surface = false;
-  const auto strategy = make_distance_strategy({.strategy = strategy_name});
+  const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name)});
   Progress progress("", 0, false);
   const Ledger ledger = trace_photons(scene, *strategy, settings, progress).ledger;
   const double size = ledger.effective_sample_size();
@@ -96,9 +96,9 @@ std::vector<Check> check_flows(const Effort& effort) {
   std::vector<Check> checks;
   append(checks, check_box({"homogeneous", nullptr}, "homogeneous", effort));
   for (const StrategyInfo& info : distance_strategies())
-    if (info.heterogeneous) append(checks, check_box(fields[5], info.name.data(), effort));
+    if (info.heterogeneous) append(checks, check_box(fields[5], info.name, effort));
   for (const StrategyInfo& info : distance_strategies())
-    if (info.heterogeneous) checks.push_back(check_ledger(scene_with_everything(), info.name.data(), effort));
+    if (info.heterogeneous) checks.push_back(check_ledger(scene_with_everything(), info.name, effort));
   return checks;
 }
 

@@ -41,9 +41,9 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
   });
 }
 
-void check_body(std::vector<Check>& checks, const LitBody& body, const char* strategy_name, const Effort& effort) {
+void check_body(std::vector<Check>& checks, const LitBody& body, std::string_view strategy_name, const Effort& effort) {
   const Medium& medium = body.scene.media[0];
-  const auto strategy = make_distance_strategy({.strategy = strategy_name, .step = 0.1f});
+  const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name), .step = 0.1f});
   const double radius = body.scene.sphere.radius;
   const double hit_share = body.area / (4.0 * kPiD * radius * radius);  // mean projected area over the lit disc's
   const std::string name = fmt::format("{}, {}", body.name, strategy_name);
@@ -75,7 +75,7 @@ std::vector<Check> check_bodies(const Effort& effort) {
         check_body(
             checks,
             lit_box(fields[i].name, white_medium(fields[i].grid, tested_extinction(info), HenyeyGreenstein{-0.4f})),
-            info.name.data(), effort);
+            info.name, effort);
   const Rgb colour(0.7f, 1.5f, 3.0f);
   check_body(checks, lit_box("random grid in colour", white_medium(fields[5].grid, colour, Isotropic{})), "regular",
              effort);

@@ -120,11 +120,13 @@ double looked_up_column(const Medium& medium, const Ray& ray, double t0, double 
   return sum;
 }
 
-double marched_column(const Medium& medium, const Ray& ray, double t0, double t1, double step) {
+double marched_column(const Medium& medium, double t, double step) {
+  const Ray ray = test_ray();
+  const Interval stretch = test_stretch();
   double sum = 0.0;
-  for (double t = t0; t < t1; t += step) {
-    const double whole = std::min(step, test_stretch().t1 - t);  // the march's step, even where t1 is inside it
-    sum += std::min(whole, t1 - t) * density_at(medium, ray, t + 0.5 * whole);
+  for (double from = stretch.t0; from < t; from += step) {
+    const double whole = std::min(step, stretch.t1 - from);  // the last step is a short one
+    sum += std::min(whole, t - from) * density_at(medium, ray, from + 0.5 * whole);
   }
   return sum;
 }

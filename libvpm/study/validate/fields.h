@@ -36,8 +36,8 @@ Interval test_stretch();
 /// The column along [t0, t1], m: Gauss's rule on the ray's part in each voxel, where the density is a cubic.
 double looked_up_column(const Medium& medium, const Ray& ray, double t0, double t1);
 
-/// The column along the same stretch by the midpoint rule in steps of `step` m from where the grid begins, as a march
-/// has it: for stating the bias of one.
-double marched_column(const Medium& medium, const Ray& ray, double t0, double t1, double step);
+/// The column along the test's ray, from the start of its stretch to `t` (m), by the midpoint rule in steps of `step`
+/// m, as a march has it: for stating the bias of one.
+double marched_column(const Medium& medium, double t, double step);
 
 }  // namespace vpm

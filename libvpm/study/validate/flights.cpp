@@ -59,8 +59,7 @@ Law flight_law(const Medium& medium) {
 /// By how much the law of a march of that step (m) is off in each cell, in probability.
 std::vector<double> march_bias(const Medium& medium, const Law& law, double step, double sigma_t) {
   Law marched = law;
-  for (size_t i = 0; i < kCells; ++i)
-    marched.columns[i] = marched_column(medium, test_ray(), test_stretch().t0, law.ends[i], step);
+  for (size_t i = 0; i < kCells; ++i) marched.columns[i] = marched_column(medium, law.ends[i], step);
   std::vector<double> bias;
   for (size_t cell = 0; cell <= kCells; ++cell)
     bias.push_back(std::fabs(marched.probability(sigma_t, cell) - law.probability(sigma_t, cell)));

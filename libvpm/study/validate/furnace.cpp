@@ -19,10 +19,10 @@ namespace vpm {
 namespace {
 
 /// Radiance along rays from a point inside, into random directions.
-Check check_radiance(const std::string& name, const Scene& scene, const Vec3& eye, const char* strategy,
+Check check_radiance(const std::string& name, const Scene& scene, const Vec3& eye, std::string_view strategy,
                      const Effort& effort) {
   RenderSettings settings;
-  settings.distance = {.strategy = strategy, .step = 0.1f};
+  settings.distance = {.strategy = std::string(strategy), .step = 0.1f};
   const PathContext context = make_path_context(scene, settings);
   const MediumId medium = medium_at(scene, eye);
   const auto samples = sample_moments(
@@ -65,7 +65,7 @@ std::vector<Check> check_radiances(const Effort& effort) {
       if (!info.heterogeneous || !info.unbiased) continue;
       const LitBody body = lit_box("", white_medium(field.grid, tested_extinction(info), HenyeyGreenstein{0.5f}));
       checks.push_back(
-          check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info.name.data(), effort));
+          check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info.name, effort));
     }
   const Scene furnished = furnished_box(white_medium(fields[5].grid, sigma_t, HenyeyGreenstein{0.5f}));
   checks.push_back(check_radiance("white surfaces in a random grid", furnished, eye, "regular", effort));
@@ -98,8 +98,8 @@ std::vector<Check> check_maps(const Effort& effort) {
   const LitBody sphere = lit_sphere("sphere", white_medium(nullptr, sigma_t, phase));
   const Vec3 off_centre(0.5f, -0.3f, 0.4f);
   append(checks, check_map(sphere, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
-  LitBody same = lit_sphere("sphere, density at the photon", white_medium(nullptr, sigma_t, phase));
-  append(checks, check_map(same, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
+  const LitBody again = lit_sphere("sphere, density at the photon", white_medium(nullptr, sigma_t, phase));
+  append(checks, check_map(again, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
     for (const char* strategy : {"regular", "mean-extinction"})
       append(checks, check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)),
