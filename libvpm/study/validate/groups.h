@@ -20,6 +20,8 @@ std::vector<Experiment> flight_experiments();
 std::vector<Experiment> transmittance_experiments();
 std::vector<Experiment> phase_experiments();
 std::vector<Experiment> outcome_experiments();
+std::vector<Experiment> material_experiments();
+std::vector<Experiment> filter_experiments();
 std::vector<Experiment> emission_experiments();
 std::vector<Experiment> irradiance_experiments();
 std::vector<Experiment> photon_map_experiments();

@@ -1,0 +1,85 @@
+// Directions after a surface: by the cosine law, the mirror's and Snell's; and what refraction does to radiance.
+#include <fmt/format.h>
+#include <cmath>
+
+#include "base/warp.h"
+#include "study/sample_moments.h"
+#include "study/validate/directions.h"
+#include "study/validate/groups.h"
+#include "surface/material.h"
+
+namespace vpm {
+
+namespace {
+
+const Vec3 kNormal = glm::normalize(Vec3(0.3f, 0.8f, -0.4f));
+
+/// A direction of travel towards the surface's outside (or, turned round, its inside) at that angle of incidence.
+Vec3 arriving(double angle, bool from_outside) {
+  const Vec3 side = from_outside ? kNormal : -kNormal;
+  return -direction_about(side, static_cast<float>(2.0 * std::pow(std::sin(0.5 * angle), 2.0)), 1.0f);
+}
+
+/// Reflection under the cosine law: cells of equal flux, and the value that shadow rays use, integrated.
+std::vector<Check> check_diffuse(bool from_outside, const Effort& effort) {
+  constexpr size_t kRings = 6, kCells = kRings * kSectors;
+  const Material material = Lambertian{Rgb(0.7f)};
+  const Vec3 travel = arriving(1.0, from_outside), near = from_outside ? kNormal : -kNormal;
+  const std::string name = fmt::format("diffuse, from {}", from_outside ? "outside" : "inside");
+  const auto samples =
+      sample_moments(kCells + 2, effort.count(100'000, 10'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+        const Scatter scatter = sample_scatter(material, kNormal, travel, rng.uniform(), rng.uniform2());
+        const double cosine = 1.0 - away_from(near, scatter.direction);
+        out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(near, scatter.direction)] = cosine > 0.0;
+        const ScatterValue value = scatter_value(material, kNormal, travel, uniform_sphere(rng.uniform2()));
+        out[kCells] = 4.0 * kPiD * value.value.g;
+        out[kCells + 1] = 4.0 * kPiD * value.pdf;
+      });
+  const std::vector<double> equal(kCells, 1.0 / static_cast<double>(kCells));
+  return {check_weights(name + ", directions", {samples.begin(), samples.end() - 2}, equal),
+          check_mean(name + ", integral of values", samples[kCells], 0.7),
+          check_mean(name + ", integral of its pdf", samples[kCells + 1], 1.0)};
+}
+
+/// Glass, from either side: the mirror's law or Snell's for each drawn direction, weight 1 for photons, and radiance
+/// scaled by 1/eta^2 where it passes.
+std::vector<Check> check_glass(float ior, bool from_outside, double angle, const Effort& effort) {
+  const Vec3 travel = arriving(angle, from_outside), near = from_outside ? kNormal : -kNormal;
+  const double eta = from_outside ? ior : 1.0 / ior, sine = std::min(1.0, std::sin(angle) / eta);  // of refraction
+  const std::string name = fmt::format("glass, {:.1f} rad from {}", angle, from_outside ? "outside" : "inside");
+  const auto samples =
+      sample_moments(2, effort.count(2'000, 100'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+        const Scatter scatter = sample_scatter(Dielectric{ior}, kNormal, travel, rng.uniform(), rng.uniform2());
+        const double ratio = scatter.transmitted ? eta : 1.0;
+        const double along = scatter.transmitted ? -std::sqrt(1.0 - sine * sine) : std::cos(angle);
+        const Vec3d direction(scatter.direction), n(near);
+        const Vec3d across = ratio * glm::cross(direction, n) - glm::cross(Vec3d(travel), n);
+        out[0] = std::fabs(glm::dot(direction, n) - along) + glm::length(across);
+        out[1] = std::fabs(scatter.radiance_scale * ratio * ratio - 1.0) + std::fabs(scatter.weight.g - 1.0);
+      });
+  return {check_bound(name + ", off its directions", samples[0].mean(), 0.0, 2e-6),
+          check_bound(name + ", off its weights", samples[1].mean(), 0.0, 1e-6)};
+}
+
+Check check_mirror() {
+  const Vec3 travel = arriving(0.8, true);
+  const Scatter scatter = sample_scatter(Mirror{}, kNormal, travel, 0.5f, Vec2(0.5f));
+  return check_bound("mirror, off its direction", glm::distance(scatter.direction, glm::reflect(travel, kNormal)), 0.0,
+                     1e-6);
+}
+
+}  // namespace
+
+std::vector<Experiment> material_experiments() {
+  return {{0, "directions after a surface", [](const Effort& effort) {
+             std::vector<Check> checks{check_mirror()};
+             for (const bool from_outside : {true, false}) {
+               append(checks, check_diffuse(from_outside, effort));
+               for (const double angle : {0.2, 0.7, 1.2})
+                 append(checks, check_glass(1.5f, from_outside, angle, effort));
+             }
+             return checks;
+           }}};
+}
+
+}  // namespace vpm
