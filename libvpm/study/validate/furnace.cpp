@@ -7,6 +7,7 @@
 #include "base/warp.h"
 #include "estimate/volume_estimate.h"
 #include "render/path_tracer.h"
+#include "render/photon_pass.h"
 #include "scene/build.h"
 #include "study/sample_moments.h"
 #include "study/validate/fields.h"
@@ -48,6 +49,28 @@ Scene furnished_box(const Medium& medium) {
   return scene;
 }
 
+/// A ball of glass, seen from within: there radiance is ior^2, along every ray. Near the middle of a ball none is
+/// totally reflected, and caught.
+std::vector<Check> check_inside_glass(const Effort& effort) {
+  constexpr float kIor = 1.5f;
+  static const std::atomic<bool> kGoOn{false};
+  Scene scene;
+  add_shape(scene, SphereShape{Vec3(0.3f, -0.2f, 0.5f), 1.0f}, Dielectric{kIor});
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.5f, 0.0f, 0.4f), Vec3(0.0f), Vec3(0, 1, 0), 100.0f, 16, 16, {});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings settings;
+  settings.seed = effort.seed_of("inside glass");
+  const auto check = [&](std::string name, const Image& image) {
+    double sum = 0.0;
+    for (const Rgb& pixel : image.pixels) sum += pixel.g;
+    return check_bound(std::move(name), sum / 256.0, double{kIor} * kIor, 1e-4);
+  };
+  return {check("inside a ball of glass, by paths", render_path_pass(scene, settings, 0, kGoOn).image),
+          check("inside a ball of glass, by rays that gather", render_photon_pass(scene, settings, 0, kGoOn).image)};
+}
+
 std::vector<Check> check_radiances(const Effort& effort) {
   const auto fields = test_fields();
   const Rgb sigma_t(1.5f);
@@ -69,6 +92,7 @@ std::vector<Check> check_radiances(const Effort& effort) {
     }
   const Scene furnished = furnished_box(white_medium(fields[5].grid, sigma_t, HenyeyGreenstein{0.5f}));
   checks.push_back(check_radiance("white surfaces in a random grid", furnished, eye, "regular", effort));
+  append(checks, check_inside_glass(effort));
   return checks;
 }
 

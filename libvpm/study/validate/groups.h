@@ -32,5 +32,6 @@ std::vector<Experiment> convex_body_experiments();
 std::vector<Experiment> infinite_medium_experiments();
 std::vector<Experiment> balance_experiments();
 std::vector<Experiment> symmetry_experiments();
+std::vector<Experiment> medium_experiments();
 
 }  // namespace vpm
