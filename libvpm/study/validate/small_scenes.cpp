@@ -61,6 +61,7 @@ Scene foggy_lamp() {
   const SphereLight lamp{Vec3(0.0f, 0.8f, 0.0f), 0.4f, Rgb(1.0f, 0.9f, 0.8f)};
   scene.lights.push_back(lamp);
   add_shape(scene, SphereShape{lamp.centre, lamp.radius}, Lambertian{Rgb(0.0f)}, nullptr, 0);
+  scene.lights.push_back(PointLight{Vec3(2.0f, 0.5f, 0.5f), Rgb(0.3f, 0.2f, 0.5f)});
   look(scene, Vec3(0, -0.2f, 1.5f), Vec3(0.0f, -0.2f, 0.0f), 40.0f);
   return finished(std::move(scene));
 }
@@ -99,6 +100,7 @@ Scene lit_corner(float ior) {
   Scene scene;
   add_lamp(scene, Vec3(-0.7f, 1.6f, -0.7f), 1.4f, Rgb(4.0f));
   add_floor(scene, Rgb(0.6f, 0.5f, 0.4f));
+  scene.lights.push_back(PointLight{Vec3(0.1f, -0.5f, 0.2f), Rgb(0.7f)});
   add_shape(scene, quad_mesh(Vec3d(-1.0, 0, -1), Vec3d(0, 0, 2), Vec3d(0, 1.5, 0)), Lambertian{Rgb(0.8f, 0.3f, 0.3f)});
   if (ior > 0.0f) add_shape(scene, SphereShape{Vec3(0.1f, 0.7f, 0.0f), 0.4f}, Dielectric{ior});
   look(scene, Vec3(0.9f, 0.5f, 0.9f), Vec3(0.1f, 0.0f, 0.0f), 32.0f);

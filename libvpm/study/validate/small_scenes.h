@@ -7,7 +7,8 @@
 
 namespace vpm {
 
-/// A chromatic, forward scattering fog everywhere, a glowing ball in it; seen from inside.
+/// A chromatic, forward scattering fog everywhere, in it a glowing ball and, out of sight, a weaker lamp of another
+/// colour; seen from inside.
 Scene foggy_lamp();
 
 /// Where the puff is seen from.
@@ -19,8 +20,8 @@ Scene puff(Viewpoint viewpoint, float contrast);
 /// The box [-1, 1]^3 of one density, as a homogeneous medium or as a constant grid, under a lamp.
 Scene filled_box(bool grid);
 
-/// A floor and a coloured wall under a lamp, in vacuum; seen is the floor. With a ball of glass of that index of
-/// refraction above it where `ior` > 0.
+/// A floor and a coloured wall under a lamp, in vacuum; seen is the floor, which a second lamp lights from below. With
+/// a ball of glass of that index of refraction above it where `ior` > 0.
 Scene lit_corner(float ior = 0.0f);
 
 /// A floor in a fog, under a lamp; seen is the floor.
