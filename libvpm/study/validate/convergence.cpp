@@ -15,7 +15,7 @@
 #include "render/path_tracer.h"
 #include "render/radius_schedule.h"
 #include "scene/build.h"
-#include "study/validate/ladder.h"
+#include "study/validate/groups.h"
 
 namespace vpm {
 namespace {
@@ -244,9 +244,11 @@ std::vector<Check> surface_photons(const Effort& effort) {
 }  // namespace
 
 std::vector<Experiment> convergence_experiments() {
-  return {{4, "the referee", referee},
-          {4, "photons in a volume, kernel of dimension 3", volume_photons},
-          {4, "photons on a surface, kernel of dimension 2", surface_photons}};
+  std::vector<Experiment> all{{4, "the referee", referee},
+                              {4, "photons in a volume, kernel of dimension 3", volume_photons},
+                              {4, "photons on a surface, kernel of dimension 2", surface_photons}};
+  for (Experiment& e : pass_experiments()) all.push_back(std::move(e));
+  return all;
 }
 
 }  // namespace vpm

@@ -1,4 +1,4 @@
-// The groups of experiments that the two lowest levels are made of, and what their files share.
+// The groups of experiments that levels are made of, and what their files share.
 #pragma once
 
 #include <array>
@@ -33,5 +33,8 @@ std::vector<Experiment> infinite_medium_experiments();
 std::vector<Experiment> balance_experiments();
 std::vector<Experiment> symmetry_experiments();
 std::vector<Experiment> medium_experiments();
+
+// Level 4.
+std::vector<Experiment> pass_experiments();
 
 }  // namespace vpm
