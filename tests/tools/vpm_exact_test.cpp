@@ -99,7 +99,8 @@ TEST_F(VpmExact, RefusesNumbersOutOfRange) {
   for (const char* bad : {"tau=0", "tau=-1", "tau=inf", "tau=nan", "tau=1e", "tau=1,2"})
     vpm_refuses({"exact", "slab", bad}, {"tau is", "above 0"});
   vpm_refuses({"exact", "slab", "tau=1", "albedo=1.01"}, {"albedo is 1.01", "from 0 to 1"});
-  vpm_refuses({"exact", "slab", "tau=1", "g=1"}, {"g is 1", "above -1 and below 1"});
+  vpm_refuses({"exact", "slab", "tau=1", "g=1"}, {"g is 1", "from -0.999 to 0.999"});
+  vpm_refuses({"exact", "airlight", "distance=1", "g=1"}, {"g is 1", "above -1 and below 1"});
   vpm_refuses({"exact", "slab", "tau=1", "depths=0,1.5"}, {"depths is 1.5", "from 0 to 1"});
   vpm_refuses({"exact", "slab", "tau=1", "mus=0"}, {"mus is 0", "above 0"});
   vpm_refuses({"exact", "half-space", "depths=inf"}, {"depths is inf"});

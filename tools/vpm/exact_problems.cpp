@@ -25,11 +25,11 @@ constexpr ExactLimits kFraction{0.0, 1.0};
 constexpr ExactLimits kPositive{0.0, kInfinite, true, true};
 constexpr ExactLimits kNotNegative{0.0, kInfinite, false, true};
 constexpr ExactLimits kAnchored{-kInfinite, kInfinite, true, true};  // any finite number
-constexpr ExactLimits kMeanCosine{-1.0, 1.0, true, true};
+constexpr ExactLimits kMeanCosine{-0.999, 0.999};  // beyond, it takes thousands of Legendre moments and more
 
 const ExactKey kAlbedoKey{"albedo", "single scattering albedo, 0 to 1", "1"};
 const ExactKey kPhaseKey{"phase", "hg (Henyey-Greenstein), isotropic or rayleigh", "hg"};
-const ExactKey kMeanCosineKey{"g", "mean cosine of phase=hg, -1 to 1 exclusive", "0"};
+const ExactKey kMeanCosineKey{"g", "mean cosine of phase=hg, -0.999 to 0.999", "0"};
 
 std::vector<std::optional<double>> optionals(const std::vector<double>& values) {
   return {values.begin(), values.end()};
@@ -148,7 +148,7 @@ std::vector<ExactQuantity> solve_airlight_problem(ExactArguments& arguments) {
   Airlight a;
   a.sigma_t = arguments.number("sigma_t", kPositive);
   a.albedo = arguments.number("albedo", {0.0, 1.0, true});
-  a.g = arguments.number("g", kMeanCosine);
+  a.g = arguments.number("g", {-1.0, 1.0, true, true});
   a.distance = arguments.number("distance", kPositive);
   a.closest = arguments.number("closest", kAnchored);
   a.t0 = arguments.number("t0", kNotNegative);

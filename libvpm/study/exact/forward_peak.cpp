@@ -1,5 +1,6 @@
 #include "study/exact/forward_peak.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vec.h"
@@ -25,7 +26,8 @@ double phase_sum(const PhaseMoments& moments, double x) {
 TruncatedSlab truncate_forward_peak(double albedo, const PhaseMoments& phase, int orders) {
   const auto kept = static_cast<size_t>(orders);
   if (phase.size() <= kept) return {1.0, albedo, phase, {}};
-  const double peak = phase[kept];
+  // Moments that fall off without changing sign belong to a forward peak; else nothing passes for unscattered light.
+  const double peak = std::max(0.0, std::min(phase[kept - 1], phase[kept]));
   TruncatedSlab slab{1.0 - albedo * peak, 1.0, {}, phase};
   if (albedo < 1.0) slab.albedo = albedo * (1.0 - peak) / slab.depth_scale;
   for (size_t l = 0; l < kept; ++l) {

@@ -9,7 +9,7 @@ namespace vpm::exact {
 using PhaseMoments = std::vector<double>;
 
 PhaseMoments isotropic_moments();
-/// chi_l = g^l [Henyey1941], as far as they count; -1 < g < 1.
+/// chi_l = g^l [Henyey1941], as far as they count; |g| <= 0.9999 (more would be millions).
 PhaseMoments henyey_greenstein_moments(double g);
 /// 3 (1 + cos^2) / (16 pi).
 PhaseMoments rayleigh_moments();
