@@ -72,10 +72,10 @@ std::vector<Check> check_bodies(const Effort& effort) {
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
     for (const StrategyInfo& info : distance_strategies())
       if (info.heterogeneous)
-        check_body(
-            checks,
-            lit_box(fields[i].name, white_medium(fields[i].grid, tested_extinction(info), HenyeyGreenstein{-0.4f})),
-            info.name, effort);
+        check_body(checks,
+                   lit_box(fields[i].name, white_medium(fields[i].grid, tested_extinction(info, *fields[i].grid),
+                                                        HenyeyGreenstein{-0.4f})),
+                   info.name, effort);
   const Rgb colour(0.7f, 1.5f, 3.0f);
   check_body(checks, lit_box("random grid in colour", white_medium(fields[5].grid, colour, Isotropic{})), "regular",
              effort);

@@ -86,7 +86,8 @@ std::vector<Check> check_radiances(const Effort& effort) {
   for (const TestField& field : fields)
     for (const StrategyInfo& info : distance_strategies()) {
       if (!info.heterogeneous || !info.unbiased) continue;
-      const LitBody body = lit_box("", white_medium(field.grid, tested_extinction(info), HenyeyGreenstein{0.5f}));
+      const LitBody body =
+          lit_box("", white_medium(field.grid, tested_extinction(info, *field.grid), HenyeyGreenstein{0.5f}));
       checks.push_back(
           check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info.name, effort));
     }

@@ -32,6 +32,10 @@ LitBody lit_box(std::string name, const Medium& medium) {
           mean_density_in_box(medium)};
 }
 
+Rgb tested_extinction(const StrategyInfo& info, const DensityGrid& grid) {
+  return Rgb(info.bounded_weight ? 1.5f : static_cast<float>(grid.mean_density()) / grid.max_density());
+}
+
 Medium white_medium(std::shared_ptr<const DensityGrid> grid, const Rgb& sigma_t, const Phase& phase) {
   Medium medium = make_medium(std::move(grid), sigma_t, 1.0f);
   medium.phase = phase;

@@ -23,9 +23,10 @@ LitBody lit_sphere(std::string name, const Medium& medium);
 /// The box of the test fields.
 LitBody lit_box(std::string name, const Medium& medium);
 
-/// The extinction coefficient (1/m) under which a strategy is tested. Weights without bound multiply from event to
-/// event: more than a few events would leave too heavy tails.
-inline Rgb tested_extinction(const StrategyInfo& info) { return Rgb(info.bounded_weight ? 1.5f : 0.6f); }
+/// The extinction coefficient (1/m) under which a strategy is tested in a grid. Weights without bound, up to the ratio
+/// of the largest density to the mean, multiply from event to event: that ratio and the events must not both be large,
+/// or their variance is infinite.
+Rgb tested_extinction(const StrategyInfo& info, const DensityGrid& grid);
 
 /// A medium that absorbs nothing.
 Medium white_medium(std::shared_ptr<const DensityGrid> grid, const Rgb& sigma_t, const Phase& phase);

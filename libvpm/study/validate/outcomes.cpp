@@ -18,7 +18,7 @@ const Vec3 kTravel = glm::normalize(Vec3(0.6f, -0.7f, 0.2f));
 
 std::vector<Check> check_roulette(const Effort& effort) {
   std::vector<Check> checks;
-  for (const float weight : {0.003f, 0.05f, 0.2f}) {
+  for (const float weight : {0.003f, 0.05f, 0.09f}) {
     const std::string name = fmt::format("roulette at weight {:.1g}", weight);
     const auto samples =
         sample_moments(1, effort.count(200'000, 10'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
