@@ -62,10 +62,13 @@ void fail_at(const Place& place, const std::string& wrong, const std::string& ri
 }
 
 std::string nearest_name(const std::string& name, std::span<const std::string> candidates) {
+  constexpr size_t kLongest = 100;  // the distance takes time by the square of the length
+  if (name.size() > kLongest) return "";
   const size_t tolerated = name.size() <= 3 ? 1 : name.size() <= 6 ? 2 : 3;
   std::string best;
   size_t least = tolerated + 1;
   for (const std::string& candidate : candidates) {
+    if (candidate.size() > name.size() + tolerated) continue;
     const size_t distance = edit_distance(name, candidate);
     if (distance >= least || distance >= candidate.size()) continue;
     least = distance;

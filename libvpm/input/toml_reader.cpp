@@ -1,6 +1,7 @@
 // The one file that knows toml++: text in, nodes with their places out.
 #include <algorithm>
 
+#include "base/error.h"
 #include "input/toml_node.h"
 
 #include <toml++/toml.h>
@@ -60,6 +61,7 @@ Document read_toml(const std::string& path) {
   document.text = read_whole_file(path);
   document.sources.push_back(std::make_unique<Source>(Source{path, split_lines(document.text)}));
   const Source* source = document.sources.front().get();
+  check_toml(document.text, source);
   try {
     document.root = convert(toml::parse(document.text), source);
   } catch (const toml::parse_error& error) {
@@ -70,9 +72,12 @@ Document read_toml(const std::string& path) {
 
 std::unique_ptr<Node> parse_toml_value(const std::string& text, const Source* source) {
   try {
+    check_toml(text, source);
     const toml::table table = toml::parse("value = " + text);
     if (table.size() != 1) return nullptr;
     return std::make_unique<Node>(convert(*table.get("value"), source));
+  } catch (const InputError&) {
+    return nullptr;
   } catch (const toml::parse_error&) {
     return nullptr;
   }

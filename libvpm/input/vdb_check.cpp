@@ -1,12 +1,15 @@
 // Walking the tree of a scalar grid through its bytes, so that OpenVDB meets only lengths that fit.
 //
 // In the file: buffer count; root: background, tiles, children; a child is two masks, its compressed values, its own
-// children; a leaf is a mask. Then, for every leaf, a mask and its compressed values.
+// children; a leaf is a mask. Then, for every leaf, a mask and its compressed values. Packed blocks are unpacked on the
+// way: where OpenVDB meets one that cannot be, it loses the nodes that it is about to make.
 #include <fmt/format.h>
+#include <openvdb/io/Compression.h>
 #include <array>
 #include <bitset>
 #include <memory>
 #include <set>
+#include <vector>
 
 #include "input/vdb_layout.h"
 
@@ -25,21 +28,25 @@ struct TreeChecker {
   const VdbGridEntry& entry;
   uint64_t value_bytes;  // in memory; also in the file, for single values
   uint64_t leaves = 0;
+  std::vector<char> unpacked = {};
 
   template <size_t N>
   void read_mask(std::bitset<N>& mask) {
     cursor.read_bytes(&mask, sizeof(mask));
   }
   void check_root();
+  void check_tile();
   template <size_t N>
   void check_inner();
   void check_compressed(uint64_t values, uint64_t active, uint64_t mask_bytes);
   void check_block(uint64_t bytes);
+  void unpack(uint64_t position, uint64_t bytes);
 };
 
 /// A block of `bytes` bytes once unpacked: its stored length comes first, negative or zero where it is not packed.
 void TreeChecker::check_block(uint64_t bytes) {
   if (!(entry.compression & (kBlosc | kZip))) return cursor.skip(bytes);
+  const uint64_t begin = cursor.position();
   const auto stored = cursor.read<int64_t>();
   if (stored <= 0) {
     if (stored != -static_cast<int64_t>(bytes))
@@ -48,16 +55,35 @@ void TreeChecker::check_block(uint64_t bytes) {
   }
   const auto length = static_cast<uint64_t>(stored);
   if (length > 2 * bytes + 1024) cursor.damaged(fmt::format("{} bytes packed into {}", bytes, length));
-  if (!(entry.compression & kBlosc)) return cursor.skip(length);
   struct BloscHeader {
     uint32_t versions_and_flags, unpacked, block, packed;
   };
-  if (length < sizeof(BloscHeader)) cursor.damaged(fmt::format("a packed block of {} bytes", length));
-  const auto header = cursor.read<BloscHeader>();
-  if (header.unpacked != bytes || header.packed != length)
-    cursor.damaged(fmt::format("a block that unpacks {} bytes to {} instead of {} to {}", header.packed,
-                               header.unpacked, length, bytes));
-  cursor.skip(length - sizeof(BloscHeader));
+  if (entry.compression & kBlosc) {
+    if (length < sizeof(BloscHeader)) cursor.damaged(fmt::format("a packed block of {} bytes", length));
+    const auto header = cursor.read<BloscHeader>();
+    if (header.unpacked != bytes || header.packed != length)
+      cursor.damaged(fmt::format("a block that unpacks {} bytes to {} instead of {} to {}", header.packed,
+                                 header.unpacked, length, bytes));
+  }
+  cursor.seek(begin + sizeof(stored));
+  cursor.skip(length);
+  unpack(begin, bytes);
+}
+
+/// Unpacks the block at `position` as OpenVDB does.
+void TreeChecker::unpack(uint64_t position, uint64_t bytes) {
+  const uint64_t end = cursor.position();
+  cursor.seek(position);
+  unpacked.resize(bytes);
+  try {
+    if (entry.compression & kBlosc)
+      openvdb::io::bloscFromStream(cursor.stream(), unpacked.data(), bytes);
+    else
+      openvdb::io::unzipFromStream(cursor.stream(), unpacked.data(), bytes);
+  } catch (const openvdb::Exception& e) {
+    cursor.damaged(e.what());
+  }
+  cursor.seek(end);
 }
 
 /// Values of a node: a code for what the inactive ones are, the one or two values and the mask that this needs, the
@@ -92,6 +118,13 @@ void TreeChecker::check_inner() {
   }
 }
 
+/// A tile of the root: its value and whether it is active, which OpenVDB reads into a bool as it is.
+void TreeChecker::check_tile() {
+  cursor.skip(value_bytes);
+  if (const auto active = cursor.read<uint8_t>(); active > 1)
+    cursor.damaged(fmt::format("a tile that is active: {}, neither 0 nor 1", active));
+}
+
 void TreeChecker::check_root() {
   if (cursor.read<int32_t>() != 1) cursor.damaged("a tree with several buffers");
   cursor.skip(value_bytes);  // background
@@ -105,7 +138,7 @@ void TreeChecker::check_root() {
         cursor.damaged(fmt::format("a node at voxel {}, off the lattice of {}", x, kRootChildSize));
     if (!origins.insert(origin).second) cursor.damaged("two nodes at one place");
     if (i < tiles)
-      cursor.skip(value_bytes + 1);
+      check_tile();
     else
       check_inner<kUpperValues>();
   }

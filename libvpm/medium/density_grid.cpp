@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <string_view>
+#include <unordered_map>
 
 #include "base/error.h"
 
@@ -22,6 +24,32 @@ bool all_equal(const float* values) {
   // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   return std::memcmp(values, values + 1, (DensityGrid::kBrickValues - 1) * sizeof(float)) == 0;
 }
+
+/// The values of the bricks that vary; equal bricks are kept once. The borders of large tiles are many and alike: a
+/// file of a few kB could fill all memory with them.
+class DistinctBricks {
+ public:
+  explicit DistinctBricks(std::vector<float>& values) : values_(values) {}
+
+  /// The number of a brick of these values, in units of kBrickValues.
+  uint32_t add(const float* values) {
+    constexpr size_t kBytes = DensityGrid::kBrickValues * sizeof(float);
+    const std::hash<std::string_view> hash;
+    const auto next = static_cast<uint32_t>(values_.size() / DensityGrid::kBrickValues);
+    const auto [known, added] = numbers_.try_emplace(hash({reinterpret_cast<const char*>(values), kBytes}), next);
+    if (!added) {
+      const float* other = values_.data() + static_cast<size_t>(known->second) * DensityGrid::kBrickValues;
+      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+      if (std::memcmp(values, other, kBytes) == 0) return known->second;
+    }
+    values_.insert(values_.end(), values, values + DensityGrid::kBrickValues);
+    return next;
+  }
+
+ private:
+  std::vector<float>& values_;
+  std::unordered_map<size_t, uint32_t> numbers_;  // by hash; of two bricks with one hash, the first
+};
 
 /// The sum over the voxels that belong to the brick alone (not to its upper neighbours).
 double owned_sum(const float* values) {
@@ -48,6 +76,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
         "a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.25 GiB",
         brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
   bricks_.resize(static_cast<size_t>(count));
+  DistinctBricks distinct(values_);
   double sum = 0.0;
   float values[kBrickValues];
   size_t i = 0;
@@ -64,8 +93,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
         }
         const auto [min, max] = std::minmax_element(values, values + kBrickValues);
         assert(*min >= 0.0f && std::isfinite(*max));
-        bricks_[i] = {*min, *max, static_cast<uint32_t>(values_.size() / kBrickValues)};
-        if (!bricks_[i].uniform()) values_.insert(values_.end(), values, values + kBrickValues);
+        bricks_[i] = {*min, *max, *min == *max ? 0 : distinct.add(values)};
         max_density_ = std::max(max_density_, *max);
         sum += owned_sum(values);
       }

@@ -36,7 +36,8 @@ class DensityGrid {
   using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
 
   /// Builds the bricks that cover the frame's index box and its interpolation's reach. Bricks of one value store that
-  /// value only. Throws InputError where the table of bricks alone would take over 256 MiB.
+  /// value only, equal bricks their values once. Throws InputError where the table of bricks alone would take over 256
+  /// MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill);
 
   /// Density at a point of the world.
@@ -65,7 +66,7 @@ class DensityGrid {
  private:
   struct Brick {
     float min = 0.0f, max = 0.0f;  // over the brick's 9^3 values; equal: nothing else is stored
-    uint32_t first = 0;            // of its values, in units of kBrickValues
+    uint32_t first = 0;            // of its values, in units of kBrickValues; equal bricks share them
     bool uniform() const { return min == max; }
   };
 

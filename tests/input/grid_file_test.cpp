@@ -370,6 +370,49 @@ TEST_F(GridFile, DamagedBytesAreRefusedOrHarmless) {
   }
 }
 
+TEST_F(GridFile, ATileIsActiveOrNot) {
+  auto grid = FloatGrid::create(0.0f);
+  grid->setName("density");
+  grid->tree().addTile(3, Coord(0), 1.0f, true);
+  write({grid});
+  std::string bytes = read_whole_file(path_);
+  ASSERT_EQ(bytes.back(), 1);  // the tile is the last thing in the file
+  bytes.back() = 63;
+  std::ofstream(path_, std::ios::binary) << bytes;
+  EXPECT_NE(refusal(request()).find("a tile that is active: 63"), std::string::npos) << refusal(request());
+}
+
+TEST_F(GridFile, BlocksThatCannotBeUnpackedAreFoundBeforeOpenVdbMeetsThem) {
+  auto grid = random_grid<FloatGrid>(Coord(0), Coord(7));
+  grid->setGridClass(openvdb::GRID_UNKNOWN);  // fog volumes are never zipped
+  for (const uint32_t compression : {openvdb::io::COMPRESS_ZIP, openvdb::io::COMPRESS_BLOSC}) {
+    openvdb::io::File file(path_);
+    file.setCompression(compression);
+    file.write(openvdb::GridPtrVec{grid});
+    std::string bytes = read_whole_file(path_);
+    const auto length_at = [&](size_t at) {
+      int64_t length;
+      std::memcpy(&length, bytes.data() + at, sizeof(length));
+      return length;
+    };
+    // The first packed block belongs to the root's child; its 32768 equal values pack well.
+    size_t place = 8;
+    const auto is_block = [&](size_t at) {
+      uint32_t unpacked;
+      std::memcpy(&unpacked, bytes.data() + at + 12, sizeof(unpacked));
+      const bool zipped = compression == openvdb::io::COMPRESS_ZIP && bytes[at + 8] == 0x78;
+      return length_at(at) > 16 && length_at(at) < 4096 && (zipped || unpacked == 131072);
+    };
+    while (place + 16 < bytes.size() && !is_block(place)) ++place;
+    ASSERT_LT(place + 16, bytes.size());
+    const size_t header = compression == openvdb::io::COMPRESS_ZIP ? 2 : 16;
+    for (size_t i = header; i < static_cast<size_t>(length_at(place)); ++i) bytes[place + 8 + i] = '\xff';
+    std::ofstream(path_, std::ios::binary) << bytes;
+    EXPECT_NE(refusal(request()).find("damaged at byte " + std::to_string(place) + ": "), std::string::npos)
+        << refusal(request());
+  }
+}
+
 TEST_F(GridFile, LengthsThatDoNotFitAreFoundBeforeOpenVdbBelievesThem) {
   auto grid = random_grid<FloatGrid>(Coord(0), Coord(7));
   grid->setGridClass(openvdb::GRID_UNKNOWN);  // fog volumes are never zipped

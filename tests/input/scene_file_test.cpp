@@ -64,6 +64,15 @@ TEST(SceneFile, PlacesTheCaretUnderWideCharactersAndTabs) {
       << message_in_line;
 }
 
+/// Guessing at what was meant would take minutes here, by the square of the length.
+TEST(SceneFile, GuessesAtNoNamesOfAbsurdLength) {
+  const std::string name(300'000, 'a');
+  const std::string ball = "[[shapes]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = '" + name + "b'\n";
+  const std::string message = message_of([&] { load_with("[materials." + name + "]\ntype = 'mirror'\n" + ball); });
+  EXPECT_NE(message.find("there is no material 'aaa"), std::string::npos);
+  EXPECT_EQ(message.find("did you mean"), std::string::npos);
+}
+
 TEST(SceneFile, RefusesMissingFilesAndFolders) {
   EXPECT_EQ(message_of([] { load_scene("no_such.toml"); }), "no_such.toml: cannot open: No such file or directory");
   EXPECT_EQ(message_of([] { load_scene("/tmp"); }), "/tmp: is a folder, not a file");
@@ -104,6 +113,7 @@ TEST(SceneFile, RefusesBadOptions) {
       {"shapes.0.radius.x=3", "'shapes.0.radius' is an integer and has no 'x'"},
       {"media.fog.measured=skin1", "[media.fog] gives its coefficients in two ways"},
       {"shapes.0.material=gray", "--set shapes.0.material=gray: there is no material 'gray'\ndid you mean 'grey'?"},
+      {"render.passes=\xc3\xa4", "'passes' of [render] must be an integer, not a string"},
       {"camera={}", "--set camera={}: [camera] lacks the key 'position'"},
   };
   for (const auto& [option, expected] : cases) {

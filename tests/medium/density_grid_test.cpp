@@ -159,6 +159,17 @@ TEST(DensityGrid, EmptySpaceCostsNoLookUps) {
   EXPECT_LT(grid->memory_bytes(), 24u << 20);
 }
 
+TEST(DensityGrid, EqualBricksAreKeptOnce) {
+  GridFrame frame;
+  frame.lo = Vec3i(0);
+  frame.hi = Vec3i(127);
+  const auto field = [](int x, int y, int z) { return 1.0 + (x / 32 + y / 32 + z / 32) % 2; };
+  const auto grid = make_grid(frame, field);
+  EXPECT_LT(grid->memory_bytes(), 1u << 20);  // 17^3 bricks, 7 kinds of borders
+  for (int i = 0; i < 128; ++i)
+    EXPECT_EQ(grid->density(Vec3(i, (7 * i) % 128, (31 * i) % 128)), field(i, (7 * i) % 128, (31 * i) % 128));
+}
+
 TEST(DensityPiece, InvertsItsColumn) {
   Rng rng(1, rng_stream(RngUse::test, 2), 0);
   for (int i = 0; i < 20000; ++i) {
