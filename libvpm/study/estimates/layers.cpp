@@ -9,7 +9,11 @@
 namespace vpm {
 namespace {
 
-constexpr int kFinest = 1 << 14;  // lattice intervals in a section
+constexpr int kFinest = 1 << 14;  // lattice intervals in a section, at most
+// More voxels than the layers need: interpolation makes the density fall to zero in the cells outside, and those
+// should not count for much in the mean density, at which a strategy draws.
+constexpr int kCoarsest = 16;  // lattice intervals in a section, at least
+constexpr int kAcross = 8;     // intervals in x and z
 
 /// A range of nodes.
 struct Section {
@@ -57,18 +61,19 @@ double extinction_at(const Layers& layers, const Section& s, double depth) {
   return layers.sigma_t[s.last];
 }
 
-/// A grid of 2 x n x 2 voxels, wider than the layers, whose voxel j stands for the depth `top` + (j + offset) step.
+/// A grid of voxels across, wider than the layers, whose voxel j stands for the depth `top` + (j + offset) step.
 GridFrame wide_frame(double width, double top, double step, double offset, int voxels) {
+  const double across = 2.0 * width / kAcross;
   GridFrame frame;
-  frame.hi = Vec3i(1, voxels - 1, 1);
-  frame.index_to_world = Mat4d(4.0 * width, 0, 0, 0, 0, -step, 0, 0, 0, 0, 4.0 * width, 0, -2.0 * width,
-                               -(top + offset * step), -2.0 * width, 1);
+  frame.hi = Vec3i(kAcross, voxels - 1, kAcross);
+  frame.index_to_world =
+      Mat4d(across, 0, 0, 0, 0, -step, 0, 0, 0, 0, across, 0, -width, -(top + offset * step), -width, 1);
   return frame;
 }
 
 /// The section's extinction in a medium: sigma_t = 1/m at density 1.
 Medium section_medium(const Layers& layers, const Section& s, double width, Interpolation interpolation) {
-  const int n = lattice_intervals(layers, s);
+  const int least = lattice_intervals(layers, s), n = least * ((kCoarsest + least - 1) / least);
   const double top = layers.depth[s.first], step = (layers.depth[s.last] - top) / n;
   const bool nearest = interpolation == Interpolation::nearest;
   GridFrame frame = wide_frame(width, top, step, nearest ? 0.5 : 0.0, nearest ? n : n + 1);

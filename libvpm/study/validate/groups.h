@@ -34,6 +34,11 @@ std::vector<Experiment> balance_experiments();
 std::vector<Experiment> symmetry_experiments();
 std::vector<Experiment> medium_experiments();
 
+// Level 2.
+std::vector<Experiment> slab_experiments();
+std::vector<Experiment> slab_radiance_experiments();
+std::vector<Experiment> source_experiments();
+
 // Level 4.
 std::vector<Experiment> pass_experiments();
 
