@@ -66,6 +66,30 @@ TEST(Check, ValuesAreTestedAsNormal) {
   EXPECT_NEAR(check_value("", 1.0 + 1.959963984540054 * 0.25, 0.25, 1.0).p, 0.05, 1e-12);
 }
 
+/// `hits` ones among `trials` samples.
+Moments ones(int hits, int trials) {
+  Moments m;
+  for (int i = 0; i < trials; ++i) m.add(i < hits ? 1.0 : 0.0);
+  return m;
+}
+
+TEST(Check, RareEventsAreTestedAsPoisson) {
+  // None where 3 are expected; 10 or more where 3 are: twice the smaller tail.
+  EXPECT_NEAR(check_probability("", ones(0, 100000), 3e-5).p, 2.0 * std::exp(-3.0), 1e-12);
+  EXPECT_NEAR(check_probability("", ones(10, 100000), 3e-5).p, 2.0 * 0.0011024881, 1e-9);
+  EXPECT_NEAR(check_probability("", ones(99990, 100000), 1.0 - 3e-5).p, 2.0 * 0.0011024881, 1e-9);
+  EXPECT_EQ(check_probability("", ones(0, 1000), 0.0).p, 1.0);
+  EXPECT_EQ(check_probability("", ones(1, 1000), 0.0).p, 0.0);
+  EXPECT_EQ(check_probability("", ones(999, 1000), 1.0).p, 0.0);
+}
+
+TEST(Check, FrequentEventsAreTestedAsNormal) {
+  const Check check = check_probability("", ones(5100, 10000), 0.5);
+  EXPECT_DOUBLE_EQ(check.error, 0.005);
+  EXPECT_NEAR(check.deviation(), 2.0, 1e-12);
+  EXPECT_NEAR(check.p, normal_tail(2.0), 1e-12);
+}
+
 TEST(Check, TwoMeansAreTestedWithWelchsDegreesOfFreedom) {
   // Variances of the means 5/12 and 4/3.
   const Check check = check_same("", moments_of({1, 2, 3, 4}), moments_of({2, 4, 6}));

@@ -1,0 +1,116 @@
+// vpm validate --oracles with small folders: what it refuses, what it says it did not check, and that it sees wrong
+// numbers.
+#include "tools/vpm_binary.h"
+
+namespace vpm {
+namespace {
+
+class VpmOracles : public VpmBinary {
+ protected:
+  /// A folder that holds one file.
+  void oracle(const std::string& file, const std::string& text) const {
+    std::filesystem::create_directories(folder_ / "oracles");
+    write("oracles/" + file, text);
+  }
+  ProcessResult check() const { return vpm({"validate", "--oracles", "oracles", "--progress", "never"}); }
+  /// Refuses with these words; the files that the test wrote are there before.
+  void refuses(const std::vector<std::string>& words) const {
+    vpm_refuses({"validate", "--oracles", "oracles"}, words);
+  }
+};
+
+/// A slab whose reflectance [Hulst1980] is 0.09739, as cited in [Wang1995].
+std::string slab(const std::string& r) {
+  return R"({"cases": [{"id": "hulst", "g": 0.75, "albedo": 0.9, "tau": 2.0, "incidence": "collimated_normal", "R": )" +
+         r + R"(, "T_total": 0.66096, "T_unscattered": 0.1353352832366127}]})";
+}
+
+TEST_F(VpmOracles, PassesRightNumbers) {
+  oracle("s4_slab.json", slab("0.09739"));
+  const ProcessResult result = check();
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_NE(result.out.find("1 cases, 0 unchecked, 0 unchecked (known)"), std::string::npos) << result.out;
+}
+
+TEST_F(VpmOracles, SeesAWrongNumber) {
+  oracle("s4_slab.json", slab("0.10739"));
+  const ProcessResult result = check();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("FAIL"), std::string::npos) << result.out;
+}
+
+TEST_F(VpmOracles, SeesAWrongNumberThatHasNoNoise) {
+  oracle("s6_density.json", R"({"progressive": [{"id": "p", "dimension": 3, "alpha": 0.5714285714285714,
+    "pass_index_1_based": 2, "measure_ratio": 0.79, "radius_ratio": 0.9226, "mean_inverse_measure": 1.13}]})");
+  const ProcessResult result = check();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("measure_ratio"), std::string::npos) << result.out;
+}
+
+TEST_F(VpmOracles, ATableMustRepeatItsCases) {
+  oracle("s4_slab.json", slab("0.09739"));
+  write("oracles/s4_slab.csv", "id,g,albedo,tau,incidence,R\n\"hulst\",0.75,0.9,2.0,collimated_normal,0.09739\n");
+  EXPECT_EQ(check().status, 0);
+  write("oracles/s4_slab.csv", "id,g,albedo,tau,incidence,R\n\"hulst\",0.75,0.9,2.0,collimated_normal,0.09738\n");
+  const ProcessResult result = check();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("the first that does not: hulst"), std::string::npos) << result.out;
+}
+
+TEST_F(VpmOracles, ATableAloneIsChecked) {
+  oracle("s4_slab.csv", "id,g,albedo,tau,incidence,R\n\"hulst\",0.75,0.9,2.0,collimated_normal,0.10739\n");
+  EXPECT_EQ(check().status, 1);
+}
+
+TEST_F(VpmOracles, WhatItDoesNotKnowIsNotPassed) {
+  for (const auto& [file, text, words] : {
+           std::tuple("s9_rainbow.json", R"({"cases": [{"id": "bow"}]})", "no problem of this name is known"),
+           std::tuple("s6_density.json", R"({"splats": [{"id": "bow"}]})", "no problem of this name is known"),
+           std::tuple("s6_density.json", R"({"kernels": [{"dimension": 2, "kernel": "gaussian"}]})",
+                      "the framework has no kernel"),
+           std::tuple("s7_surface.json", R"({"irradiance": [{"id": "bow", "light": "laser", "receiver": [0, 0, 0]}]})",
+                      "no light of the kind"),
+           std::tuple("s1_flight.json",
+                      R"({"cases": [{"id": "bow", "kind": "fractal", "params": {}, "L": 1.0, "quantiles": []}]})",
+                      "no profile of the kind"),
+       }) {
+    std::filesystem::remove_all(folder_ / "oracles");
+    oracle(file, text);
+    const ProcessResult result = check();
+    EXPECT_EQ(result.status, 1) << file;
+    EXPECT_NE(result.out.find(std::string("unchecked: ") + words), std::string::npos) << result.out;
+  }
+}
+
+TEST_F(VpmOracles, KnownLimitsDoNotFailARun) {
+  oracle("s6_density.json", R"({"kernels": [{"dimension": 2, "kernel": "triweight"}]})");
+  const ProcessResult result = check();
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_NE(result.out.find("unchecked (known)"), std::string::npos) << result.out;
+}
+
+TEST_F(VpmOracles, RefusesMalformedFiles) {
+  vpm_refuses({"validate", "--oracles", "nowhere"}, {"nowhere", "folder"});
+  vpm_refuses({"validate", "--oracles", ".", "--level", "2"}, {"--level"});
+  std::filesystem::create_directories(folder_ / "oracles");
+  refuses({"oracles", "no .json"});
+  oracle("s4_slab.json", R"({"cases": [{"id")");
+  refuses({"s4_slab.json", "no JSON"});
+  oracle("s4_slab.json", R"({"definition": {}})");
+  refuses({"s4_slab.json", "no list of cases"});
+  oracle("s4_slab.json", R"({"cases": [1, 2]})");
+  refuses({"s4_slab.json", "cases, number 0", "no object"});
+  oracle("s4_slab.json", slab("\"bright\""));
+  refuses({"s4_slab.json: hulst", "\"R\"", "bright", "must be a number"});
+  oracle("s4_slab.json", R"({"cases": [{"id": "hulst", "R": 0.1, "incidence": "diffuse", "tau": 1.0}]})");
+  refuses({"s4_slab.json: hulst", "\"albedo\" is missing"});
+  oracle("s4_slab.json",
+         R"({"cases": [{"id": "hulst", "R": 0.1, "incidence": "diffuse", "tau": 1, "albedo": 1.5, "g": 0}]})");
+  refuses({"s4_slab.json: hulst", "\"albedo\" is 1.5", "from 0 to 1"});
+  std::filesystem::remove(folder_ / "oracles" / "s4_slab.json");
+  oracle("s4_slab.csv", "id,R\nhulst\n");
+  refuses({"s4_slab.csv", "row 1 has 1 cells"});
+}
+
+}  // namespace
+}  // namespace vpm
