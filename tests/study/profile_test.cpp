@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "study/exact/quadrature.h"
 #include "study/oracles.h"
 
 namespace vpm::exact {
@@ -113,6 +114,17 @@ TEST(ExactProfile, QuantilesInvertTheDistribution) {
       const Bounded cdf = collision_cdf(profile, t->value);
       EXPECT_NEAR(cdf.value, u, cdf.error + t->error * extinction(profile, t->value) + 1e-15 * u);
     }
+}
+
+// In a blob's tails its error function is nearly constant.
+TEST(ExactProfile, GaussianTailsKeepTheirDigits) {
+  for (const double centre : {1.0, -0.8}) {
+    const Profile profile{GaussianProfile{1e12, 0.1, centre}, 0.3};
+    const Bounded sum = integrate([&](double t) { return extinction(profile, t); }, 0.0, profile.length);
+    const Bounded tau = optical_thickness(profile, profile.length);
+    EXPECT_NEAR(tau.value, sum.value, tau.error + sum.error);
+    EXPECT_LT(tau.error, 1e-12 * tau.value);
+  }
 }
 
 // The first free path of a very dense medium is not overlooked on a long ray.

@@ -130,16 +130,20 @@ TEST(ExactSlab, IsReciprocal) {
   }
 }
 
-TEST(ExactSlab, TwoLayersOfAbsorberMultiply) {
-  const SlabSolution slab = solve_slab({2.5, 0.0, isotropic_moments(), Incidence::diffuse}, {{1.0}, {0.5}, {}});
+// Also close to the surface, where the ordinates alone are poor.
+TEST(ExactSlab, PureAbsorbersAttenuateAsExponentialIntegrals) {
+  const SlabPlaces places{{1e-6, 1e-3, 1.0}, {0.5}, {}};
+  const SlabSolution slab = solve_slab({2.5, 0.0, isotropic_moments(), Incidence::diffuse}, places);
   EXPECT_NEAR(slab.reflected.value, 0.0, 1e-12);
   EXPECT_NEAR(slab.transmitted.value, 2.0 * exponential_integral(3, 2.5), 1e-12);
-  EXPECT_NEAR(slab.fluence.values[0], 2.0 * exponential_integral(2, 1.0), 1e-12);
+  for (size_t i = 0; i < places.depths.size(); ++i) {
+    EXPECT_NEAR(slab.fluence.values[i], 2.0 * exponential_integral(2, places.depths[i]), 1e-12);
+    EXPECT_NEAR(slab.net_flux.values[i], 2.0 * exponential_integral(3, places.depths[i]), 1e-12);
+  }
   EXPECT_EQ(slab.reflected_radiance.values[0], 0.0);
 }
 
-// With (1 - g) tau given, strong forward scattering approaches diffusion; for isotropic scattering the limit has a
-// closed form with Hopf's constant.
+// The diffusion limit, with Hopf's constant [Chandrasekhar1960].
 TEST(ExactSlab, ThickSlabsTransmitAsMilnesProblemSays) {
   const double tau = 500.0, hopf = 0.7104460896;
   const SlabSolution slab = solve_slab({tau, 1.0, isotropic_moments(), Incidence::diffuse});
