@@ -36,8 +36,8 @@ struct Check {
 /// samples' own). Student's t-test.
 Check check_mean(std::string name, const Moments& samples, double exact, double exact_error = 0.0);
 
-/// The share of successes among independent trials (samples that are 1 or 0) must be `probability`. The error is that of
-/// the binomial distribution; where fewer than 1000 successes or failures are expected, the p-value is the Poisson
+/// The share of successes among independent trials (samples that are 1 or 0) must be `probability`. The error is that
+/// of the binomial distribution; where fewer than 1000 successes or failures are expected, the p-value is the Poisson
 /// distribution's, so that rare events are judged rightly, too.
 Check check_probability(std::string name, const Moments& zeros_and_ones, double probability);
 

@@ -49,6 +49,31 @@ Scene furnished_box(const Medium& medium) {
   return scene;
 }
 
+/// A room whose walls glow evenly, six lights of three sizes, and in it a white ball: shadow rays and paths that run
+/// into walls share what they find, by the lights' densities and probabilities.
+Scene glowing_room(const Medium& medium) {
+  const Vec3 half(1.5f, 1.0f, 0.75f);
+  const Interface media{kVacuum, 0};
+  Scene scene;
+  scene.media.push_back(medium);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true}) {
+      Vec3 corner = -half, u(0.0f), v(0.0f);
+      u[(axis + 1) % 3] = 2.0f * half[(axis + 1) % 3];
+      v[(axis + 2) % 3] = 2.0f * half[(axis + 2) % 3];
+      if (upper) {
+        corner[axis] = half[axis];
+        std::swap(u, v);
+      }
+      add_shape(scene, quad_mesh(corner, u, v), Lambertian{Rgb(0.0f)}, &media, static_cast<int>(scene.lights.size()));
+      scene.lights.push_back(QuadLight{corner, u, v, Rgb(1.0f)});
+    }
+  add_shape(scene, SphereShape{Vec3(-0.6f, 0.1f, 0.0f), 0.3f}, Lambertian{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
 /// A ball of glass, seen from within: there radiance is ior^2, along every ray. Near the middle of a ball none is
 /// totally reflected, and caught.
 std::vector<Check> check_inside_glass(const Effort& effort) {
@@ -94,6 +119,8 @@ std::vector<Check> check_radiances(const Effort& effort) {
   const Scene furnished = furnished_box(white_medium(fields[5].grid, sigma_t, HenyeyGreenstein{0.5f}));
   checks.push_back(check_radiance("white surfaces in a random grid", furnished, eye, "regular", effort));
   append(checks, check_inside_glass(effort));
+  const Scene room = glowing_room(white_medium(nullptr, sigma_t, HenyeyGreenstein{0.5f}));
+  checks.push_back(check_radiance("a room of glowing walls", room, Vec3(0.4f, -0.2f, 0.1f), "homogeneous", effort));
   return checks;
 }
 
@@ -111,8 +138,8 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, const char
         out[0] = fluence(medium.majorant(), inside, map).g;
         out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).g / medium.majorant().g;
       });
-  return {check_weighted_mean(name + ", fluence", samples[0], 4.0 * kPiD),
-          check_weighted_mean(name + ", radiance scattered", samples[1], 1.0)};
+  return {check_weighted_mean(name + ", fluence", samples[0], 4.0 * kPiD * body.radiance),
+          check_weighted_mean(name + ", radiance scattered", samples[1], body.radiance)};
 }
 
 std::vector<Check> check_maps(const Effort& effort) {
@@ -123,8 +150,12 @@ std::vector<Check> check_maps(const Effort& effort) {
   const LitBody sphere = lit_sphere("sphere", white_medium(nullptr, sigma_t, phase));
   const Vec3 off_centre(0.5f, -0.3f, 0.4f);
   append(checks, check_map(sphere, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
+  const LitBody glass = lit_glass("sphere behind glass", white_medium(nullptr, sigma_t, phase), 1.5f);
+  append(checks, check_map(glass, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
   const LitBody again = lit_sphere("sphere, density at the photon", white_medium(nullptr, sigma_t, phase));
   append(checks, check_map(again, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
+  const LitBody room{"a room of glowing walls", glowing_room(white_medium(nullptr, sigma_t, phase))};
+  append(checks, check_map(room, Vec3(0.6f, 0.0f, 0.0f), "homogeneous", VolumeForm::density_at_query, effort));
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
     for (const char* strategy : {"regular", "mean-extinction"})
       append(checks, check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)),

@@ -33,6 +33,7 @@ std::vector<Experiment> infinite_medium_experiments();
 std::vector<Experiment> balance_experiments();
 std::vector<Experiment> symmetry_experiments();
 std::vector<Experiment> medium_experiments();
+std::vector<Experiment> picture_experiments();
 
 // Level 2.
 std::vector<Experiment> slab_experiments();

@@ -10,11 +10,11 @@ namespace vpm {
 namespace {
 
 template <class Surface>
-Scene lit_scene(const Medium& medium, const Surface& surface) {
+Scene lit_scene(const Medium& medium, const Surface& surface, const Material& skin = Boundary{}) {
   Scene scene;
   scene.media.push_back(medium);
   const Interface media{0, kVacuum};
-  add_shape(scene, surface, Boundary{}, &media);
+  add_shape(scene, surface, skin, &media);
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
   scene.geometry.commit();
   finish(scene);
@@ -25,6 +25,13 @@ Scene lit_scene(const Medium& medium, const Surface& surface) {
 
 LitBody lit_sphere(std::string name, const Medium& medium) {
   return {std::move(name), lit_scene(medium, SphereShape{Vec3(0.3f, -0.2f, 0.5f), 1.0f}), 4.0 / 3.0 * kPiD, 4.0 * kPiD};
+}
+
+LitBody lit_glass(std::string name, const Medium& medium, float ior) {
+  LitBody body = lit_sphere(std::move(name), medium);
+  body.scene = lit_scene(medium, SphereShape{Vec3(0.3f, -0.2f, 0.5f), 1.0f}, Dielectric{ior});
+  body.radiance = double{ior} * ior;
+  return body;
 }
 
 LitBody lit_box(std::string name, const Medium& medium) {

@@ -1,0 +1,77 @@
+// Pictures that must be the same, with all their bias: of a lamp and of two at its place that share its intensity; by
+// densities at the query and at the photon where the density is the same everywhere.
+#include "base/parallel.h"
+#include "medium/make_grid.h"
+#include "render/path_tracer.h"
+#include "render/photon_pass.h"
+#include "scene/build.h"
+#include "study/validate/groups.h"
+
+namespace vpm {
+
+namespace {
+
+/// Fog of little albedo, so that light scattered once is most of what is seen, and a floor.
+Scene lit_by(const std::vector<float>& shares) {
+  Scene scene;
+  Medium fog = make_medium(nullptr, Rgb(0.6f), 0.3f);
+  fog.phase = HenyeyGreenstein{0.5f};
+  scene.media.push_back(fog);
+  scene.world_medium = 0;
+  add_shape(scene, quad_mesh(Vec3d(-4, -1, 4), Vec3d(8, 0, 0), Vec3d(0, 0, -8)), Lambertian{Rgb(0.3f)});
+  for (const float share : shares) scene.lights.push_back(PointLight{Vec3(0.4f, 1.2f, 0.0f), Rgb(share)});
+  scene.camera = make_camera(Vec3(0, 0.3f, 3), Vec3(0.0f), Vec3(0, 1, 0), 40.0f, 6, 6, {});
+  scene.geometry.commit();
+  finish(scene);
+  scene.camera_medium = 0;
+  return scene;
+}
+
+/// Mean radiance of the film in many passes.
+Moments radiance(const Scene& scene, RenderSettings settings, size_t passes, const Effort& effort,
+                 const std::string& name) {
+  static const std::atomic<bool> kGoOn{false};
+  settings.seed = effort.seed_of(name);
+  settings.shrink_radii = false;
+  const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
+  std::vector<double> means(passes);
+  parallel_for_chunks(passes, 1, [&](size_t i, size_t, size_t) {
+    const Image image = render_pass(scene, settings, static_cast<int>(i), kGoOn, {}).image;
+    for (const Rgb& pixel : image.pixels) means[i] += pixel.g / static_cast<double>(image.pixels.size());
+  });
+  Moments all;
+  for (const double mean : means) all.add(mean);
+  return all;
+}
+
+std::vector<Check> check_pictures(const Effort& effort) {
+  const Scene whole = lit_by({1.0f}), parts = lit_by({0.2f, 0.8f});
+  RenderSettings photons;
+  photons.photons_emitted = 1000;
+  photons.volume.radius = photons.surface.radius = 0.4f;
+  photons.surface_direct = DirectLight::photons;
+  RenderSettings at_photons = photons;
+  at_photons.volume_form = VolumeForm::density_at_photon;
+  RenderSettings shadow_rays = photons;
+  shadow_rays.volume_direct = shadow_rays.surface_direct = DirectLight::shadow_rays;
+  shadow_rays.samples_per_pixel = 4;
+  RenderSettings paths;
+  paths.integrator = Integrator::path;
+  paths.samples_per_pixel = 8;
+  const size_t passes = effort.count(100, 4000);
+  const auto find = [&](const char* name, const Scene& scene, const RenderSettings& settings) {
+    return radiance(scene, settings, passes, effort, name);
+  };
+  const Moments by_photons = find("photons", whole, photons);
+  return {check_same("a lamp in two, photons", find("photons, two", parts, photons), by_photons),
+          check_same("a lamp in two, shadow rays", find("shadow rays, two", parts, shadow_rays),
+                     find("shadow rays", whole, shadow_rays)),
+          check_same("a lamp in two, paths", find("paths, two", parts, paths), find("paths", whole, paths)),
+          check_same("density at the photon or at the query", find("at photons", whole, at_photons), by_photons)};
+}
+
+}  // namespace
+
+std::vector<Experiment> picture_experiments() { return {{1, "the same picture in another way", check_pictures}}; }
+
+}  // namespace vpm
