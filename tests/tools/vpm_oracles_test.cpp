@@ -102,7 +102,7 @@ TEST_F(VpmOracles, RefusesMalformedFiles) {
   refuses({"s4_slab.json", "cases, number 0", "no object"});
   oracle("s4_slab.json", slab("\"bright\""));
   refuses({"s4_slab.json: hulst", "\"R\"", "bright", "must be a number"});
-  oracle("s4_slab.json", R"({"cases": [{"id": "hulst", "R": 0.1, "incidence": "diffuse", "tau": 1.0}]})");
+  oracle("s4_slab.json", R"({"cases": [{"id": "hulst", "R": 0.1, "incidence": "diffuse", "tau": 1, "g": 0}]})");
   refuses({"s4_slab.json: hulst", "\"albedo\" is missing"});
   oracle("s4_slab.json",
          R"({"cases": [{"id": "hulst", "R": 0.1, "incidence": "diffuse", "tau": 1, "albedo": 1.5, "g": 0}]})");

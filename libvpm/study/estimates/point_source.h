@@ -9,7 +9,8 @@
 
 namespace vpm {
 
-/// sigma_t is 1/m.
+/// All lengths are optical: distance times sigma_t. Fluences are those for sigma_t = 1/m; for others they are
+/// proportional to its square.
 struct PointSource {
   double albedo = 0.9;
   double g = 0.0;  // of Henyey and Greenstein's phase function
@@ -20,19 +21,19 @@ struct PointSource {
 /// is the regular solution of diffusion, which vanishes with the source's own at the extrapolated end point [Case1953].
 /// Its error, a bound, is added to the checks.
 struct MissingLight {
-  double end = 0.0;  // m, radius of the medium; 0: it has no end
+  double end = 0.0;  // radius of the medium; 0: it has no end
   double fluence(double radius) const;
   double collisions_within(double radius) const;
   /// Bound of the relative error of both.
   double relative_error = 0.0;
 
-  double diffusion = 1.0;     // coefficient, m
-  double attenuation = 0.0;   // 1/m
-  double extrapolated = 0.0;  // m, where the fluence vanishes
+  double diffusion = 1.0;  // coefficient
+  double attenuation = 0.0;
+  double extrapolated = 0.0;  // where the fluence vanishes
 };
 MissingLight missing_light(const PointSource& source, double largest_radius);
 
-/// Collisions per photon within each of the radii (m) of the source; a sample is a photon.
+/// Collisions per photon within each of the radii of the source; a sample is a photon.
 std::vector<Moments> estimate_collisions_within(const PointSource& source, const std::vector<double>& radii,
                                                 uint64_t photons, uint64_t seed);
 

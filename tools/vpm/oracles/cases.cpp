@@ -2,6 +2,7 @@
 #include "oracles/cases.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,8 @@
 
 namespace vpm::tools {
 namespace {
+
+constexpr double kRounding = 1e-6;  // of reference numbers, at most
 
 /// The whole of a text as a number; NaN where it is none.
 double parse_number(const std::string& text) {
@@ -73,6 +76,20 @@ double OracleCase::number_in(std::string_view field, double lo, double hi) const
   const double x = number(field);
   if (!(x >= lo && x <= hi)) refuse(fmt::format("\"{}\" is {}, it must be from {} to {}", field, x, lo, hi));
   return x;
+}
+
+double OracleCase::share(std::string_view field) const {
+  return std::clamp(number_in(field, -kRounding, 1.0 + kRounding), 0.0, 1.0);
+}
+
+std::vector<double> OracleCase::shares(std::string_view field, size_t size) const {
+  std::vector<double> result = numbers(field, size);
+  for (double& x : result) {
+    if (!(x >= -kRounding && x <= 1.0 + kRounding))
+      refuse(fmt::format("\"{}\" holds {}, it must be from 0 to 1", field, x));
+    x = std::clamp(x, 0.0, 1.0);
+  }
+  return result;
 }
 
 uint64_t OracleCase::count(std::string_view field) const {

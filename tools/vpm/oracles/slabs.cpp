@@ -11,13 +11,20 @@
 namespace vpm::tools {
 namespace {
 
+/// An infinite one as that through which 1e-12 of the light comes, by diffusion.
+double read_thickness(const OracleCase& c, double albedo, double g) {
+  const double tau = c.number_or_infinity("tau");
+  if (std::isinf(tau) && albedo < 1.0) return 28.0 * (1.0 + 1.0 / std::sqrt(3.0 * (1.0 - albedo) * (1.0 - albedo * g)));
+  return c.number_in("tau", 1e-6, 1e5);
+}
+
 Slab read_slab(const OracleCase& c) {
   const std::string incidence = c.text("incidence");
   if (incidence != "collimated_normal" && incidence != "diffuse")
     c.refuse(fmt::format("\"incidence\" is \"{}\", it must be collimated_normal or diffuse", incidence));
-  Slab slab =
-      homogeneous_slab(c.number_in("tau", 1e-6, 1e5), c.number_in("albedo", 0.0, 1.0), c.number_in("g", -0.999, 0.999),
-                       incidence == "diffuse" ? Incidence::diffuse : Incidence::collimated);
+  const double albedo = c.number_in("albedo", 0.0, 1.0), g = c.number_in("g", -0.999, 0.999);
+  Slab slab = homogeneous_slab(read_thickness(c, albedo, g), albedo, g,
+                               incidence == "diffuse" ? Incidence::diffuse : Incidence::collimated);
   if (!c.has("z_nodes")) return slab;
   slab.layers.depth = c.numbers("z_nodes");
   slab.layers.sigma_t = c.numbers("sigma_t_nodes", slab.layers.depth.size());
@@ -53,7 +60,7 @@ SlabTallies read_tallies(const OracleCase& c, const Slab& slab) {
 }
 
 void check_list(std::vector<Check>& checks, const OracleCase& c, const char* field, const std::vector<Moments>& found) {
-  const std::vector<double> exact = c.numbers(field, found.size());
+  const std::vector<double> exact = c.shares(field, found.size());
   for (size_t i = 0; i < exact.size(); ++i)
     checks.push_back(check_probability(fmt::format("{}[{}]", field, i), found[i], exact[i]));
 }
@@ -65,7 +72,7 @@ void check_photons(std::vector<Check>& checks, const OracleCase& c, const Slab& 
   const uint64_t photons = samples_for(slab, effort.full ? 4e7 : 1e6, seed);
   const SlabEstimate e = estimate_slab(slab, *strategy, read_tallies(c, slab), photons, seed + 1);
   const auto check = [&](const char* field, const Moments& found) {
-    if (c.has(field)) checks.push_back(check_probability(field, found, c.number_in(field, 0.0, 1.0)));
+    if (c.has(field)) checks.push_back(check_probability(field, found, c.share(field)));
   };
   check("R", e.reflected);
   check("T_total", e.transmitted);
