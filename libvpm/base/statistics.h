@@ -106,12 +106,12 @@ inline double chi2_tail(double statistic, double dof) {
 }
 
 /// Probability that Student's t variable with `dof` > 0 degrees of freedom lies further from 0 than `t` (either side):
-/// the p-value of a test of a mean whose variance is estimated from dof + 1 samples. It is the regularised incomplete
-/// beta function I_x(dof / 2, 1 / 2) at x = dof / (dof + t^2) [Olver2010, eq. 8.17.2], by its continued fraction
-/// [Olver2010, eq. 8.17.22] on the side of its symmetry where that converges fast.
+/// the p-value of a test of a mean whose variance is estimated from dof + 1 samples; NaN of NaN. It is the regularised
+/// incomplete beta function I_x(dof / 2, 1 / 2) at x = dof / (dof + t^2) [Olver2010, eq. 8.17.2], by its continued
+/// fraction [Olver2010, eq. 8.17.22] on the side of its symmetry where that converges fast.
 inline double student_tail(double t, double dof) {
-  assert(dof > 0.0);
-  if (std::isnan(t)) return t;
+  assert(!(dof <= 0.0));
+  if (std::isnan(t) || std::isnan(dof)) return std::numeric_limits<double>::quiet_NaN();
   if (dof > 1e7) return normal_tail(t);
   const double square = t * t, x = dof / (dof + square), rest = square / (dof + square);
   const auto fraction = [](double a, double b, double y) {
