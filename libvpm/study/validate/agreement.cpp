@@ -139,7 +139,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   std::vector<Check> checks;
   for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(6'000, 40'000)), media)) {
     settings.seed = effort.seed_of(subject.name + name);
-    const int passes = static_cast<int>(effort.count(24, 120));
+    const int passes = static_cast<int>(effort.count(24, 80));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
   }
   return checks;
@@ -165,7 +165,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
             scene.grey);
     settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
-    const int passes = static_cast<int>(effort.count(24, 120));
+    const int passes = static_cast<int>(effort.count(24, 80));
     compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
             reference, scene.grey);
   }
@@ -186,7 +186,7 @@ std::vector<Check> constant_grid(const Effort& effort) {
   RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(6'000, 40'000));
   const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
     settings.seed = effort.seed_of(name);
-    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(24, 120)))
+    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(24, 80)))
                    : by_referee(scene, settings, effort.count(40'000, 1'500'000));
   };
   const Measured reference = measure(plain, "plain", false);

@@ -36,7 +36,7 @@ std::vector<Check> check_box(const TestField& field, std::string_view strategy_n
   const Ray beam = test_ray();
   const std::string name = fmt::format("{}, {}", field.name, strategy_name);
   const auto samples =
-      sample_moments(3, effort.count(40'000, 4'000'000), effort.seed_of("beam, " + name), [&](Rng& rng, double* sum) {
+      sample_moments(3, effort.count(40'000, 9'000'000), effort.seed_of("beam, " + name), [&](Rng& rng, double* sum) {
         WalkCounters counters;
         double reflected[3] = {}, transmitted[3] = {}, absorbed[3] = {};
         follow_photon(scene, *strategy, {beam, kVacuum, Rgb(1.0f)}, kNoLimit, rng, counters,

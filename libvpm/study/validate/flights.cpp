@@ -95,7 +95,7 @@ void check_flights(std::vector<Check>& checks, const TestField& field, const Rgb
   const auto strategy = make_distance_strategy({.strategy = std::string(info.name), .step = step});
   const std::string name = fmt::format("{}, {}", field.name, info.name);
   const bool marches = !info.unbiased && field.grid;
-  const uint64_t count = marches && step < 1.0f ? effort.count(10'000, 400'000) : effort.count(40'000, 4'000'000);
+  const uint64_t count = marches && step < 1.0f ? effort.count(10'000, 200'000) : effort.count(40'000, 2'000'000);
   const auto cells = fly(medium, *strategy, law, count, effort.seed_of(name + (medium.grey() ? "" : ", colour")));
   for (int c = 0; c < (medium.grey() ? 1 : 3); ++c) {
     std::vector<double> probabilities, bias;

@@ -27,7 +27,7 @@ Check check_radiance(const std::string& name, const Scene& scene, const Vec3& ey
   const PathContext context = make_path_context(scene, settings);
   const MediumId medium = medium_at(scene, eye);
   const auto samples = sample_moments(
-      1, effort.count(20'000, 1'000'000), effort.seed_of("radiance, " + name), [&](Rng& rng, double* out) {
+      1, effort.count(20'000, 1'700'000), effort.seed_of("radiance, " + name), [&](Rng& rng, double* out) {
         EyeCounters counters;
         out[0] = path_radiance(context, {eye, uniform_sphere(rng.uniform2())}, medium, rng, counters).g;
       });

@@ -1,5 +1,5 @@
 // The medium a path is in: known at every step from the boundaries it has crossed. What the next shape says can correct
-// it, so that errors do no harm to pictures; here no correction may be due.
+// it, so that errors do no harm to pictures; here none may be due, but for rays that graze.
 #include "medium/make_grid.h"
 #include "render/path_tracer.h"
 #include "render/photon_pass.h"
@@ -10,8 +10,12 @@ namespace vpm {
 
 namespace {
 
+/// Rays that graze a sphere may find one of its two crossings only, by rounding: fewer than this share of all
+/// crossings.
+constexpr double kGrazing = 1e-6;
+
 /// Fog in a sphere, with a lamp and the camera in it, and a ball of glass full of milk. Edges are where rounding may
-/// call for corrections: there are none.
+/// call for more corrections: there are none.
 Scene nested_media() {
   Scene scene;
   scene.media = {make_medium(nullptr, Rgb(0.7f), 0.8f), make_medium(nullptr, Rgb(3.0f), 0.95f)};
@@ -39,7 +43,8 @@ std::vector<Check> check_media(const Effort& effort) {
   const RenderStatistics photons = render_photon_pass(scene, settings, 0, kGoOn).statistics;
   const RenderStatistics paths = render_path_pass(scene, settings, 0, kGoOn).statistics;
   const auto corrections = [](std::string name, const WalkCounters& walk) {
-    return check_bound(std::move(name), static_cast<double>(walk.medium_mismatches), 0.0, 0.0);
+    return check_bound(std::move(name), static_cast<double>(walk.medium_mismatches), 0.0,
+                       kGrazing * static_cast<double>(walk.crossings));
   };
   return {corrections("corrections, photons", photons.ledger.walk),
           corrections("corrections, rays that gather", photons.eye.walk),

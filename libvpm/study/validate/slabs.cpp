@@ -105,7 +105,7 @@ void check_strategy(std::vector<Check>& checks, const Slab& slab, const Strategy
   const std::string title = fmt::format("{}, {}", name, info.name);
   const bool homogeneous = slab.layers.sigma_t.front() == slab.layers.sigma_t.back();
   const SlabEstimate e =
-      estimate_slab(slab, *strategy, {}, effort.count(50'000, 1'200'000), effort.seed_of("strategy " + title));
+      estimate_slab(slab, *strategy, {}, effort.count(50'000, 1'500'000), effort.seed_of("strategy " + title));
   const auto check = [&](const char* what, const Moments& found, double exact) {
     checks.push_back(homogeneous || info.bounded_weight ? check_probability(title + what, found, exact)
                                                         : check_weighted_mean(title + what, found, exact));
