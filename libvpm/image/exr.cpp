@@ -146,10 +146,9 @@ std::array<std::string, 3> colour_channels(const path& file, const Names& all) {
 
 }  // namespace
 
-void write_exr(const path& file, const Image& radiance, const Image* variance,
+void write_exr(const path& file, const Image& radiance, const std::vector<ExrLayer>& layers,
                const std::vector<std::pair<std::string, std::string>>& metadata) {
   assert(!radiance.pixels.empty());
-  assert(!variance || (variance->width == radiance.width && variance->height == radiance.height));
   TemporaryFile temporary(file);
   std::ofstream out(temporary.path(), std::ios::binary);
   try {
@@ -161,7 +160,10 @@ void write_exr(const path& file, const Image& radiance, const Image* variance,
     }
     Imf::FrameBuffer buffer;
     add_channels(header, buffer, "", radiance);
-    if (variance) add_channels(header, buffer, "variance.", *variance);
+    for (const ExrLayer& layer : layers) {
+      assert(layer.image.width == radiance.width && layer.image.height == radiance.height);
+      add_channels(header, buffer, layer.name + ".", layer.image);
+    }
     Imf::StdOFStream stream(out, file.c_str());
     Imf::OutputFile output(stream, header, 0);
     output.setFrameBuffer(buffer);

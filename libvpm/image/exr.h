@@ -11,11 +11,16 @@
 
 namespace vpm {
 
-/// Writes the float channels R, G, B and, where `variance` is given, variance.R, variance.G, variance.B of one part,
-/// ZIP compressed (lossless), and each pair of `metadata` as a string attribute; the keys must be distinct and none of
-/// the format's own names. Equal arguments give equal bytes: no time stamp. The file appears whole or not at all;
-/// throws InputError where it cannot be written.
-void write_exr(const std::filesystem::path& path, const Image& radiance, const Image* variance,
+/// A picture beside the main one in the same file, of the same size.
+struct ExrLayer {
+  std::string name;  // of its channels: name.R, name.G, name.B
+  const Image& image;
+};
+
+/// Writes the float channels R, G, B and those of the layers into one part, ZIP compressed (lossless), and each pair of
+/// `metadata` as a string attribute; the keys must be distinct and none of the format's own names. Equal arguments give
+/// equal bytes: no time stamp. The file appears whole or not at all; throws InputError where it cannot be written.
+void write_exr(const std::filesystem::path& path, const Image& radiance, const std::vector<ExrLayer>& layers,
                const std::vector<std::pair<std::string, std::string>>& metadata);
 
 /// Reads R, G, B of the first part's default layer; a file that has Y, or one channel of any name, instead is grey. The

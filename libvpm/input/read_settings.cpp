@@ -55,6 +55,7 @@ void read_render(TableReader& table, RenderSettings& s) {
                                           s.integrator);
   s.passes = small_integer(table, "passes", 1'000'000'000, s.passes);
   s.seconds = table.number("seconds", kNotNegative, static_cast<float>(s.seconds));
+  s.error = table.number("error", kNotNegative, static_cast<float>(s.error));
   s.seed = table.integer("seed", 0, kMaxInteger, s.seed);
   s.samples_per_pixel = small_integer(table, "samples_per_pixel", 1'000'000, s.samples_per_pixel);
   s.max_events = small_integer(table, "max_events", 1'000'000'000, s.max_events);

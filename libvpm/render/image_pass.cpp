@@ -39,7 +39,7 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
                   const std::atomic<bool>& stop, const PassProgress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const Camera& camera = scene.camera;
-  Pass result{Image(camera.width, camera.height), {}};
+  Pass result{.image = Image(camera.width, camera.height), .statistics = {}};
   result.statistics.passes = 1;
   const int tiles_x = static_cast<int>(chunk_count(static_cast<size_t>(camera.width), kTile));
   const uint64_t tiles = tile_count(camera);

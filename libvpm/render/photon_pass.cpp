@@ -48,6 +48,14 @@ GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dim
   return gather;
 }
 
+/// Of the map whose kernels matter more: the volume map's where there is one. Both shrink at nearly the same rate.
+double kernel_size(const RenderSettings& settings, const Stages& stages, int pass) {
+  if (!stages.photons()) return 0.0;
+  const GatherSettings& gather = stages.volume_map ? settings.volume : settings.surface;
+  const float radius = gather_in_pass(gather, 1.0f, stages.volume_map ? 3 : 2, settings, pass).radius;
+  return double{radius} * radius;
+}
+
 float default_share(const GatherSettings& gather) {
   return gather.mode == GatherMode::radius ? kDefaultRadius : kDefaultSearch;
 }
@@ -119,6 +127,7 @@ Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int 
     return eye_radiance(context, ray, marcher, rng, counters);
   };
   Pass result = render_image(scene, settings, pass, radiance, stop, progress);
+  result.kernel_size = kernel_size(settings, context.stages, pass);
   result.statistics.merge(statistics);
   return result;
 }

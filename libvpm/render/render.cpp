@@ -8,30 +8,57 @@
 #include "render/photon_pass.h"
 
 namespace vpm {
+namespace {
 
-RenderResult render(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop,
-                    ProgressMode progress) {
-  using Clock = std::chrono::steady_clock;
-  RenderResult result{Film(scene.camera.width, scene.camera.height), {}, 0.0};
+using Clock = std::chrono::steady_clock;
+
+/// How far a render is, from 0 to 1, in what limits it: passes, time or error (which falls about as passes grow).
+double share_done(const RenderSettings& settings, const RenderResult& result) {
+  if (settings.seconds == 0.0 && settings.error == 0.0)
+    return static_cast<double>(result.film.passes()) / settings.passes;
+  if (result.film.passes() == 0) return 0.0;
+  double share = 0.0;
+  if (settings.seconds > 0.0) share = result.seconds / settings.seconds;
+  if (settings.error > 0.0) share = std::max(share, settings.error / estimated_error(result.film));
+  return share;
+}
+
+}  // namespace
+
+RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0}; }
+
+double estimated_error(const Film& film) {
+  if (film.passes() < kLeastPasses) return std::numeric_limits<double>::infinity();
+  const FilmErrors errors = film.errors();
+  return errors.variance_part + std::max(0.0, errors.bias_part);
+}
+
+RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
+                    const std::atomic<bool>& stop, ProgressMode progress,
+                    const std::function<void(const RenderResult&)>& finished) {
   const Clock::time_point start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  const bool timed = settings.seconds > 0.0;
-  // One pass shows its stages. Of several the whole is shown: as tiles of all passes, or as thousandths of the time.
-  const bool shown = progress_enabled(progress);
-  const bool single = !timed && settings.passes == 1;
-  const uint64_t tiles = tile_count(scene.camera);
-  Progress bar("render", timed ? 1000 : tiles * static_cast<uint64_t>(settings.passes), shown && !single);
-  const PassProgress pass_progress{shown && single, timed ? nullptr : &bar};
+  const double before = result.seconds;
+  // One pass shows its stages. Of several the whole is shown: as tiles of all passes, or as thousandths of the limit.
+  const bool counted = settings.seconds == 0.0 && settings.error == 0.0;
+  const int missing = counted ? std::max(0, settings.passes - result.film.passes()) : 0;
+  const bool single = counted && missing == 1;
+  Progress bar("render", counted ? tile_count(scene.camera) * static_cast<uint64_t>(missing) : 1000,
+               progress_enabled(progress) && !single);
+  const PassProgress pass_progress{progress_enabled(progress) && single, counted ? &bar : nullptr};
   const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
-  for (int pass = 0; timed ? pass == 0 || elapsed() < settings.seconds : pass < settings.passes; ++pass) {
-    const Pass done = render_pass(scene, settings, pass, stop, pass_progress);
+  while (!stop && share_done(settings, result) < 1.0) {
+    const Pass done = render_pass(scene, settings, result.film.passes(), stop, pass_progress);
     if (stop) break;
-    result.film.add(done.image);
+    result.film.add(done.image, done.kernel_size);
     result.statistics.merge(done.statistics);
-    if (timed) bar.advance(static_cast<uint64_t>(1000.0 * std::min(1.0, elapsed() / settings.seconds)) - bar.done());
+    result.seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
+    if (!counted) {
+      const auto reached = static_cast<uint64_t>(1000.0 * std::min(1.0, share_done(settings, result)));
+      bar.advance(reached - std::min(reached, bar.done()));  // estimates of the error may rise
+    }
+    if (finished) finished(result);
   }
   bar.finish();
-  result.seconds = elapsed();
   return result;
 }
 

@@ -1,7 +1,8 @@
-// A render: a sum of independent passes, until a count, a time, or a stop.
+// A render: a sum of independent passes, until a count, a time, an error, or a stop.
 #pragma once
 
 #include <atomic>
+#include <functional>
 
 #include "base/progress.h"
 #include "render/film.h"
@@ -14,12 +15,22 @@ namespace vpm {
 struct RenderResult {
   Film film;
   RenderStatistics statistics;
-  double seconds = 0.0;  // wall clock
+  double seconds = 0.0;  // wall clock, of all runs together where a render was resumed
 };
 
-/// Renders passes 0, 1, ... until settings.passes are done or settings.seconds have passed (at least one pass then), or
-/// `stop` is set: passes under way are then dropped, those finished are kept.
-RenderResult render(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop,
-                    ProgressMode progress);
+/// Renders passes until settings.passes are done; or, where asked for, until settings.seconds are over or the estimated
+/// error is down to settings.error, whichever is first (at least one pass then). Once `stop` is set the pass under way
+/// is dropped, those finished are kept. `result` is nothing_rendered() or what an earlier run has left off with, for
+/// the same scene and settings: passes go on where it ended. `finished` is told of each further pass.
+RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
+                    const std::atomic<bool>& stop, ProgressMode progress,
+                    const std::function<void(const RenderResult&)>& finished = {});
+/// A render of the camera's film before its first pass.
+RenderResult nothing_rendered(const Camera& camera);
+
+/// The relative MSE that passes so far are estimated to have: variance and squared bias (where noise makes the latter's
+/// estimate negative: none) by Film::errors(). Infinite below kLeastPasses passes, which say too little.
+double estimated_error(const Film& film);
+inline constexpr int kLeastPasses = 8;
 
 }  // namespace vpm

@@ -19,8 +19,9 @@ enum class Integrator { photon, path };
 struct RenderSettings {
   Integrator integrator = Integrator::photon;
   uint64_t seed = 1;
-  int passes = 16;            // >= 1; ignored where seconds > 0
+  int passes = 16;            // >= 1; ignored where seconds or error > 0
   double seconds = 0.0;       // > 0: passes start until that time is over
+  double error = 0.0;         // > 0: passes start until the estimated relative MSE is no more than that
   int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
 
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides

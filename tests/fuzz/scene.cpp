@@ -16,7 +16,7 @@ struct SceneFolder : ScratchFolder {
   SceneFolder() {
     Image sky(2, 1);
     sky.pixels = {Rgb(1.0f, 2.0f, 3.0f), Rgb(0.5f)};
-    write_exr(path("sky.exr"), sky, nullptr, {});
+    write_exr(path("sky.exr"), sky, {}, {});
     write_media_grid("gaussian", 4, path("grid.vdb"));
     std::ofstream(path("mesh.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
     std::ofstream(path("mesh.ply")) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"

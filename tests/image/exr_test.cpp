@@ -115,7 +115,8 @@ class Exr : public testing::Test {
 
 TEST_F(Exr, RoundTripIsExact) {
   const Image radiance = random_bits(67, 45, 0), variance = random_bits(67, 45, 1);
-  write_exr(file_, radiance, &variance, {{"vpm:seed", "7"}, {"vpm:scene", "smoke \"ü\"\n"}, {"empty", ""}});
+  write_exr(file_, radiance, {{"variance", variance}},
+            {{"vpm:seed", "7"}, {"vpm:scene", "smoke \"ü\"\n"}, {"empty", ""}});
   EXPECT_EQ(different_bits(read_exr(file_), radiance), 0u);
 
   const ExrChannels channels = read_exr_channels(file_);
@@ -132,30 +133,30 @@ TEST_F(Exr, RoundTripIsExact) {
 }
 
 TEST_F(Exr, WithoutVarianceThereAreThreeChannels) {
-  write_exr(file_, noise(1, 1), nullptr, {});
+  write_exr(file_, noise(1, 1), {}, {});
   EXPECT_EQ(read_exr_channels(file_).planes.size(), 3u);
   EXPECT_EQ(different_bits(read_exr(file_), noise(1, 1)), 0u);
 }
 
 TEST_F(Exr, EqualPicturesGiveEqualBytes) {
   const Image image = noise(64, 64);
-  write_exr(file_, image, &image, {{"a", "1"}, {"b", "2"}});
+  write_exr(file_, image, {{"variance", image}}, {{"a", "1"}, {"b", "2"}});
   const std::string first = bytes();
-  write_exr(file_, image, &image, {{"b", "2"}, {"a", "1"}});
+  write_exr(file_, image, {{"variance", image}}, {{"b", "2"}, {"a", "1"}});
   EXPECT_EQ(bytes(), first);
   EXPECT_EQ(first.find("capDate"), std::string::npos);
   EXPECT_EQ(first.find("chromaticities"), std::string::npos);
 }
 
 TEST_F(Exr, RefusedPath) {
-  EXPECT_THROW(write_exr(folder_ / "missing" / "x.exr", noise(2, 2), nullptr, {}), InputError);
-  EXPECT_THROW(write_exr(folder_, noise(2, 2), nullptr, {}), InputError);
+  EXPECT_THROW(write_exr(folder_ / "missing" / "x.exr", noise(2, 2), {}, {}), InputError);
+  EXPECT_THROW(write_exr(folder_, noise(2, 2), {}, {}), InputError);
 }
 
 TEST_F(Exr, AFullDiskLeavesTheOldFile) {
-  write_exr(file_, noise(64, 65), nullptr, {});
+  write_exr(file_, noise(64, 65), {}, {});
   const rlim_t whole = fs::file_size(file_);
-  write_exr(file_, noise(8, 8), nullptr, {});
+  write_exr(file_, noise(8, 8), {}, {});
   const std::string old = bytes();
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit limit{};
@@ -163,7 +164,7 @@ TEST_F(Exr, AFullDiskLeavesTheOldFile) {
   for (const rlim_t most : {rlim_t{100}, whole / 2, whole - 1}) {  // in the header, the pixels, the last line
     const rlimit small{most, limit.rlim_max};
     setrlimit(RLIMIT_FSIZE, &small);
-    EXPECT_THROW(write_exr(file_, noise(64, 65), nullptr, {}), InputError);
+    EXPECT_THROW(write_exr(file_, noise(64, 65), {}, {}), InputError);
     setrlimit(RLIMIT_FSIZE, &limit);
     EXPECT_EQ(bytes(), old);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
@@ -261,7 +262,7 @@ long peak_memory() {
 }
 
 TEST_F(Exr, RefusesAbsurdSizesBeforeAllocating) {
-  write_exr(file_, noise(8, 8), nullptr, {{"note", "text"}});
+  write_exr(file_, noise(8, 8), {}, {{"note", "text"}});
   const std::string good = bytes();
   const long before = peak_memory();
   constexpr int32_t kHuge = 0x7fffffff, kHalf = 0x3fffffff - 1;
@@ -298,7 +299,7 @@ TEST_F(Exr, RefusesAbsurdSizesBeforeAllocating) {
 }
 
 TEST_F(Exr, RefusesTruncatedFiles) {
-  write_exr(file_, noise(40, 40), nullptr, {{"note", "text"}});
+  write_exr(file_, noise(40, 40), {}, {{"note", "text"}});
   const std::string good = bytes();
   for (size_t size = 0; size < good.size(); size += size < 400 ? 3 : 997) {
     put(good.substr(0, size));
@@ -310,7 +311,7 @@ TEST_F(Exr, RefusesTruncatedFiles) {
 
 TEST_F(Exr, DamagedBytesNeverDoMoreThanThrow) {
   const Image image = noise(40, 40);
-  write_exr(file_, image, &image, {{"note", "text"}});
+  write_exr(file_, image, {{"variance", image}}, {{"note", "text"}});
   const std::string good = bytes();
   Rng rng(3, rng_stream(RngUse::test, 0), 0);
   int refused = 0;

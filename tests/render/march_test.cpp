@@ -129,16 +129,5 @@ TEST(RadiusSchedule, FollowsTheRecurrence) {
   }
 }
 
-TEST(Film, KeepsMeanAndVarianceOfTheMean) {
-  Film film(1, 1);
-  for (const float x : {1.0f, 2.0f, 6.0f}) {
-    Image pass(1, 1);
-    pass.at(0, 0) = Rgb(x, 2 * x, 0.0f);
-    film.add(pass);
-  }
-  EXPECT_EQ(film.mean().at(0, 0), Rgb(3.0f, 6.0f, 0.0f));
-  EXPECT_FLOAT_EQ(film.variance_of_mean().at(0, 0).r, 7.0f / 3.0f);
-}
-
 }  // namespace
 }  // namespace vpm

@@ -297,12 +297,12 @@ TEST(Render, StopsByCountAndByTime) {
   const std::atomic<bool> go_on{false}, stop{true};
   RenderSettings settings = settings_of(500, 0.1f);
   settings.passes = 3;
-  const Film film = render(scene, settings, go_on, ProgressMode::never).film;
+  const Film film = render(scene, settings, nothing_rendered(scene.camera), go_on, ProgressMode::never).film;
   EXPECT_EQ(film.passes(), 3);
   for (const Rgb& v : film.variance_of_mean().pixels) EXPECT_GT(v.g, 0.0f);  // every pass has random numbers of its own
-  EXPECT_EQ(render(scene, settings, stop, ProgressMode::never).film.passes(), 0);
+  EXPECT_EQ(render(scene, settings, nothing_rendered(scene.camera), stop, ProgressMode::never).film.passes(), 0);
   settings.seconds = 0.3;
-  const RenderResult timed = render(scene, settings, go_on, ProgressMode::never);
+  const RenderResult timed = render(scene, settings, nothing_rendered(scene.camera), go_on, ProgressMode::never);
   EXPECT_GT(timed.film.passes(), 3);
   EXPECT_LT(timed.seconds, 2.0);
 }

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/mount.h>
 
+#include <cmath>
 #include <cstring>
 #include <tuple>
 
@@ -179,6 +180,53 @@ TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
     EXPECT_NE(result.err.find("nothing is written"), std::string::npos) << result.err;
     EXPECT_EQ(files(), before);
   }
+}
+
+// --- Checkpoints
+
+TEST_F(VpmRender, KilledAtAnyMomentItResumesToTheSameBits) {
+  const std::vector<std::string> passes{"--passes", "40", "--set", "photons.emitted=3_000"};
+  const auto render = [&](const std::string& name, const std::string& option) {
+    std::vector<std::string> arguments{"render", "scene.toml", "-o", name, option};
+    arguments.insert(arguments.end(), passes.begin(), passes.end());
+    return arguments;
+  };
+  const double whole = vpm_succeeds(render("whole.exr", "--checkpoint")).seconds;
+  int resumed = 0;
+  for (int kill = 0; kill < 10; ++kill) {
+    const bool begun = std::filesystem::exists(path("a.checkpoint"));
+    resumed += begun;
+    Process process(command(render("a.exr", begun ? "--resume" : "--checkpoint")), {60.0, 0, folder_.string()});
+    std::this_thread::sleep_for(std::chrono::duration<double>(whole * (0.2 + 0.37 * kill - std::floor(0.37 * kill))));
+    process.signal(SIGKILL);
+    process.wait();
+  }
+  EXPECT_GT(resumed, 0);
+  vpm_succeeds(render("a.exr", "--resume"));
+  EXPECT_TRUE(read("a.exr") == read("whole.exr"));
+  EXPECT_EQ(without_circumstances(report("a.json")), without_circumstances(report("whole.json")));
+}
+
+TEST_F(VpmRender, ACheckpointTakesMorePassesButNoOtherScene) {
+  vpm_succeeds({"render", "scene.toml", "-o", "whole.exr", "--passes", "5"});
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "2", "--checkpoint"});
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "5", "--resume"});
+  EXPECT_TRUE(read("a.exr") == read("whole.exr"));
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--seed", "9"}, {"another render", "seed 9"});
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--set", "film.width=20"}, {"another render"});
+  vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--resume"}, {"b.checkpoint", "there is no such file"});
+}
+
+TEST_F(VpmRender, StopsAtAnError) {
+  for (const char* error : {"0", "-1", "nan"}) vpm_refuses({"render", "scene.toml", "--error", error}, {"--error"});
+  vpm_refuses({"render", "scene.toml", "--error", "0.1", "--passes", "3"}, {"--error"});
+  const ProcessResult coarse = vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--error", "0.2"});
+  vpm_succeeds({"render", "scene.toml", "-o", "b.exr", "--error", "0.02"});
+  const Json a = report("a.json"), b = report("b.json");
+  EXPECT_LE(a["error"]["estimated"], 0.2);
+  EXPECT_LE(b["error"]["estimated"], 0.02);
+  EXPECT_GT(b["passes"], a["passes"]);
+  EXPECT_NE(coarse.out.find("estimated relative MSE"), std::string::npos) << coarse.out;
 }
 
 // --- Refusals

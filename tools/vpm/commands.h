@@ -16,11 +16,15 @@ struct RenderOptions {
   int threads = 0;                     // 0: all
   std::optional<int> passes;
   std::optional<double> seconds;
+  std::optional<double> error;  // relative MSE to stop at
   std::optional<uint64_t> seed;
+  bool checkpoint = false;  // keep one beside the image after each pass
+  bool resume = false;      // go on from that
   ProgressMode progress = ProgressMode::automatic;
 };
 /// Renders a scene to an EXR file, with a PNG preview and a JSON report beside it. 130 when interrupted: the finished
 /// passes are written.
+/// With a checkpoint a killed render loses the pass under way, and goes on to the same bits.
 int render_command(const RenderOptions& options);
 
 struct InfoOptions {

@@ -38,7 +38,10 @@ std::string check_seconds(const std::string& text) {
   const double seconds = parse(text, 0.0);
   return seconds > 0.0 && std::isfinite(seconds) ? "" : fmt::format("{} is not a number of seconds above 0", text);
 }
-
+std::string check_error(const std::string& text) {
+  const double error = parse(text, 0.0);
+  return error > 0.0 && std::isfinite(error) ? "" : fmt::format("{} is not a relative MSE above 0", text);
+}
 std::string check_rate(const std::string& text) {
   const double rate = parse(text, 0.0);
   return rate > 0.0 && rate < 1.0 ? "" : fmt::format("{} is not a probability between 0 and 1", text);
@@ -64,6 +67,13 @@ void add_render(CLI::App& app, RenderOptions& options) {
   command->add_option("--time", options.seconds, "Render passes until this many seconds are over")
       ->check(check_seconds)
       ->excludes(passes);
+  command
+      ->add_option("--error", options.error,
+                   "Render passes until the estimated relative MSE is no more than this; with --time: or until then")
+      ->check(check_error)
+      ->excludes(passes);
+  command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint beside the image after each pass");
+  command->add_flag("--resume", options.resume, "Go on from that checkpoint, and keep it up to date");
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
   add_progress(command, options.progress);
 }

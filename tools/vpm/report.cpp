@@ -82,6 +82,16 @@ Json eye(const RenderStatistics& s) {
           {"last_surface_radius_m", s.last_surface_radius}};
 }
 
+/// How far the image is estimated to be from the truth.
+Json errors(const Film& film) {
+  if (film.passes() < kLeastPasses) return nullptr;
+  const FilmErrors e = film.errors();
+  return {{"quantity", "relative MSE: mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2)"},
+          {"estimated", estimated_error(film)},
+          {"variance", e.variance_part},
+          {"squared_bias", film.shows_bias() ? Json(e.bias_part) : Json()}};
+}
+
 Json memory(const Scene& scene, const RenderStatistics& s) {
   size_t grids = 0;
   for (const Medium& m : scene.media) grids += m.grid ? m.grid->memory_bytes() : 0;
@@ -118,6 +128,7 @@ std::string render_report(const std::string& scene_path, const std::string& imag
               {"notes", loaded.notes},
               {"clamped_density_values", loaded.clamped_density_values},
               {"times", times(result)},
+              {"error", errors(result.film)},
               {"photons", photons(s)},
               {"energy", ledger(s.ledger)},
               {"eye", eye(s)},

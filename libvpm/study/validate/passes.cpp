@@ -56,7 +56,7 @@ std::vector<Check> check_variance(const Effort& effort) {
       RenderSettings settings = pass_settings(effort.seed_of(fmt::format("film {} {}", which, i)));
       settings.passes = 4;
       settings.shrink_radii = false;  // passes of one distribution
-      return render(scene, settings, kGoOn, ProgressMode::never).film;
+      return render(scene, settings, nothing_rendered(scene.camera), kGoOn, ProgressMode::never).film;
     };
     const Film a = film("a"), b = film("b");
     const Image mean_a = a.mean(), mean_b = b.mean(), variance_a = a.variance_of_mean(),

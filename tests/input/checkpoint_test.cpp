@@ -1,0 +1,92 @@
+// Checkpoints: back to the last bit, or refused.
+#include "input/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace vpm {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Checkpoint : public ::testing::Test {
+ protected:
+  ~Checkpoint() override { fs::remove(path_); }
+
+  static RenderResult some_result() {
+    RenderResult result{Film(3, 2), {}, 1.5};
+    for (int pass = 0; pass < 3; ++pass) {
+      Image image(3, 2);
+      for (size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = Rgb(0.1f, 0.2f, 0.7f) * static_cast<float>(i + 1) / static_cast<float>(pass + 3);
+      result.film.add(image, 1.0 / (pass + 1));
+    }
+    result.statistics.passes = 3;
+    result.statistics.ledger.imbalance.add(0.25);
+    result.statistics.eye.rays = 18;
+    return result;
+  }
+
+  void refuses(const std::string& identity, const std::string& why) const {
+    try {
+      read_checkpoint(path_, identity);
+      FAIL() << "expected: " << why;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  }
+
+  fs::path path_ = fs::path(::testing::TempDir()) /
+                   (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".checkpoint");
+};
+
+bool same_bits(const std::vector<Rgbd>& a, const std::vector<Rgbd>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgbd)) == 0;
+}
+
+TEST_F(Checkpoint, ComesBackToTheLastBit) {
+  const RenderResult before = some_result();
+  write_checkpoint(path_, "a render", before);
+  const RenderResult after = read_checkpoint(path_, "a render");
+  EXPECT_EQ(after.film.width(), 3);
+  EXPECT_EQ(after.film.height(), 2);
+  for (size_t h = 0; h < 2; ++h) {
+    const PassMoments &a = before.film.halves()[h], &b = after.film.halves()[h];
+    EXPECT_EQ(a.passes, b.passes);
+    EXPECT_EQ(a.mean_size, b.mean_size);
+    EXPECT_EQ(a.size_squares, b.size_squares);
+    EXPECT_TRUE(same_bits(a.mean, b.mean));
+    EXPECT_TRUE(same_bits(a.squares, b.squares));
+    EXPECT_TRUE(same_bits(a.products, b.products));
+  }
+  EXPECT_EQ(after.seconds, 1.5);
+  EXPECT_EQ(after.statistics.passes, 3);
+  EXPECT_EQ(after.statistics.ledger.imbalance.mean(), 0.25);
+  EXPECT_EQ(after.statistics.eye.rays, 18u);
+}
+
+TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
+  write_checkpoint(path_, "a render", some_result());
+  refuses("another render", "it is of another render");
+}
+
+TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
+  refuses("a render", "there is no such file");
+  std::ofstream(path_) << "a text";
+  refuses("a render", "it is no checkpoint");
+  write_checkpoint(path_, "a render", some_result());
+  const uintmax_t size = fs::file_size(path_);
+  for (const uintmax_t left : {size - 1, size / 2, uintmax_t{60}}) {
+    fs::resize_file(path_, left);
+    refuses("a render", "it is not whole");
+  }
+  fs::resize_file(path_, size + 8);
+  refuses("a render", "it is not whole");
+}
+
+}  // namespace
+}  // namespace vpm
