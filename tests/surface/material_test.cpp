@@ -6,6 +6,7 @@
 #include "base/rng.h"
 #include "base/warp.h"
 #include "support/statistics.h"
+#include "surface/fresnel.h"
 
 namespace vpm {
 namespace {
@@ -140,14 +141,13 @@ TEST(Lambertian, ScattersByTheCosineToTheSideItCameFrom) {
   }
 }
 
-TEST(Materials, KnowGreyDiffuseAndBoundary) {
+TEST(Materials, KnowGreyRoughAndBoundary) {
   EXPECT_TRUE(is_grey(Material(Lambertian{})));
   EXPECT_FALSE(is_grey(Material(Lambertian{Rgb(0.1f, 0.2f, 0.1f)})));
   EXPECT_FALSE(is_grey(Material(Mirror{Rgb(0.1f, 0.2f, 0.1f)})));
   EXPECT_TRUE(is_grey(Material(Dielectric{})) && is_grey(Material(Boundary{})));
-  EXPECT_TRUE(is_diffuse(Lambertian{}));
-  EXPECT_FALSE(is_diffuse(Lambertian{Rgb(0.0f)}) || is_diffuse(Mirror{}) || is_diffuse(Dielectric{}) ||
-               is_diffuse(Boundary{}));
+  EXPECT_TRUE(is_rough(Lambertian{}));
+  EXPECT_FALSE(is_rough(Lambertian{Rgb(0.0f)}) || is_rough(Mirror{}) || is_rough(Dielectric{}) || is_rough(Boundary{}));
   EXPECT_TRUE(is_boundary(Boundary{}) && !is_boundary(Dielectric{}));
 }
 

@@ -1,4 +1,5 @@
-// Directions after a surface: by the cosine law, the mirror's and Snell's; and what refraction does to radiance.
+// Directions after a surface: by the cosine law, the mirror's and Snell's, and in the lobes of rough materials; and
+// what refraction does to radiance.
 #include <fmt/format.h>
 #include <cmath>
 
@@ -6,6 +7,7 @@
 #include "study/sample_moments.h"
 #include "study/validate/directions.h"
 #include "study/validate/groups.h"
+#include "study/validate/lobes.h"
 #include "surface/material.h"
 
 namespace vpm {
@@ -68,10 +70,72 @@ Check check_mirror() {
                      1e-6);
 }
 
+/// Relative difference between a rough material's BSDF over the square of the index where it scatters to, and that of
+/// the way back: 0 by reciprocity.
+double one_way_excess(const RoughIncidence& in, const Vec3& direction) {
+  const ScatterValue there = scatter_value(in.material, in.normal, in.travel, direction);
+  const ScatterValue back = scatter_value(in.material, in.normal, -direction, -in.travel);
+  const double one = double{there.value.g} * there.radiance_scale / std::fabs(glm::dot(in.normal, direction));
+  const double other = double{back.value.g} / std::fabs(glm::dot(in.normal, in.travel));
+  return std::fabs(one - other) / (one + other);
+}
+
+/// Drawn directions against the density, in cells fitted to the lobes, and their weights against the integral of the
+/// value, both by quadrature.
+std::vector<Check> check_rough(const std::string& name, const RoughIncidence& in, const Effort& effort) {
+  const LobeCells cells(in);
+  const LobeCells::Integrals exact = cells.integrate();
+  const size_t n = cells.count();
+  enum { kNear, kFar, kAbsorbed, kReciprocity, kOthers };
+  const auto samples =
+      sample_moments(n + kOthers, effort.count(50'000, 1'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+        const Scatter s = sample_scatter(in.material, in.normal, in.travel, rng.uniform(), rng.uniform2());
+        const bool gone = is_black(s.weight);
+        out[n + kAbsorbed] = gone;
+        if (gone) return;
+        out[cells.cell_of(s.direction)] = 1.0;
+        out[n + (s.transmitted ? kFar : kNear)] = s.weight.g;
+        out[n + kReciprocity] = one_way_excess(in, s.direction);
+      });
+  double scattered = 0.0;
+  for (const double p : exact.pdf) scattered += p;
+  std::vector<double> counts, probabilities;
+  for (size_t i = 0; i < n; ++i) {
+    counts.push_back(std::round(samples[i].mean() * static_cast<double>(samples[i].count())));
+    probabilities.push_back(exact.pdf[i] / scattered);
+  }
+  return {check_distribution(name + ", directions", counts, probabilities),
+          check_mean(name + ", absorbed", samples[n + kAbsorbed], 1.0 - scattered, LobeCells::kError),
+          check_mean(name + ", weight on the near side", samples[n + kNear], exact.near, LobeCells::kError),
+          check_mean(name + ", weight on the far side", samples[n + kFar], exact.far, LobeCells::kError),
+          check_bound(name + ", off reciprocity", samples[n + kReciprocity].mean(), 0.0, 1e-4)};
+}
+
+std::vector<Check> check_rough_materials(const Effort& effort) {
+  const Rgb eta(0.4f), k(2.5f);
+  const std::pair<const char*, Material> materials[] = {
+      {"Phong, broad", Phong{Rgb(0.3f), Rgb(0.6f), 5.0f}},
+      {"Phong, narrow", Phong{Rgb(0.2f), Rgb(0.5f), 2000.0f}},
+      {"metal, roughness 0.05", RoughConductor{eta, k, 0.05f}},
+      {"metal, roughness 0.6", RoughConductor{eta, k, 0.6f}},
+      {"rough glass, roughness 0.05", RoughDielectric{1.5f, 0.05f}},
+      {"rough glass, roughness 0.6", RoughDielectric{1.5f, 0.6f}},
+  };
+  std::vector<Check> checks;
+  for (const auto& [name, material] : materials)
+    for (const bool from_outside : {true, false})
+      for (const double angle : {0.3, 1.2})
+        append(checks,
+               check_rough(fmt::format("{}, {:.1f} rad from {}", name, angle, from_outside ? "outside" : "inside"),
+                           {material, kNormal, arriving(angle, from_outside)}, effort));
+  return checks;
+}
+
 }  // namespace
 
 std::vector<Experiment> material_experiments() {
-  return {{0, "directions after a surface", [](const Effort& effort) {
+  return {{0, "directions after a surface",
+           [](const Effort& effort) {
              std::vector<Check> checks{check_mirror()};
              for (const bool from_outside : {true, false}) {
                append(checks, check_diffuse(from_outside, effort));
@@ -79,7 +143,8 @@ std::vector<Experiment> material_experiments() {
                  append(checks, check_glass(1.5f, from_outside, angle, effort));
              }
              return checks;
-           }}};
+           }},
+          {0, "lobes of rough surfaces", check_rough_materials}};
 }
 
 }  // namespace vpm
