@@ -1,7 +1,8 @@
-// Integrals over the lobes of rough materials.
+// Integrals over the lobes of rough materials, and draws from them.
 #include "study/validate/lobes.h"
 
 #include "base/warp.h"
+#include "study/sample_moments.h"
 #include "study/validate/directions.h"
 
 namespace vpm {
@@ -70,6 +71,51 @@ LobeCells::Integrals LobeCells::integrate() const {
 
 bool on_far_side(const RoughIncidence& incidence, const Vec3& direction) {
   return (glm::dot(incidence.normal, direction) < 0.0f) == (glm::dot(incidence.normal, incidence.travel) < 0.0f);
+}
+
+namespace {
+
+/// Relative difference between a rough material's BSDF over the square of the index where it scatters to, and that of
+/// the way back: 0 by reciprocity.
+double one_way_excess(const RoughIncidence& in, const Vec3& direction) {
+  const ScatterValue there = scatter_value(in.material, in.normal, in.travel, direction);
+  const ScatterValue back = scatter_value(in.material, in.normal, -direction, -in.travel);
+  const double one = double{there.value.g} * there.radiance_scale / std::fabs(glm::dot(in.normal, direction));
+  const double other = double{back.value.g} / std::fabs(glm::dot(in.normal, in.travel));
+  return std::fabs(one - other) / (one + other);
+}
+
+}  // namespace
+
+std::vector<Check> check_lobes(const std::string& name, const RoughIncidence& in, uint64_t count,
+                               const Effort& effort) {
+  const LobeCells cells(in);
+  const LobeCells::Integrals exact = cells.integrate();
+  const size_t n = cells.count();
+  enum { kNear, kFar, kAbsorbed, kReciprocity, kOthers };
+  const auto samples = sample_moments(n + kOthers, count, effort.seed_of(name), [&](Rng& rng, double* out) {
+    const Scatter s = sample_scatter(in.material, in.normal, in.travel, rng.uniform(), rng.uniform2());
+    const bool gone = is_black(s.weight);
+    out[n + kAbsorbed] = gone;
+    if (gone) return;
+    out[cells.cell_of(s.direction)] = 1.0;
+    out[n + (s.transmitted ? kFar : kNear)] = s.weight.g;
+    out[n + kReciprocity] = one_way_excess(in, s.direction);
+  });
+  double scattered = 0.0;
+  for (const double p : exact.pdf) scattered += p;
+  // The last cell holds those of which the quadrature knows little but that they are rare.
+  std::vector<double> counts(n + 1, 0.0), probabilities(n + 1, 0.0);
+  for (size_t i = 0; i < n; ++i) {
+    const size_t cell = exact.pdf[i] < LobeCells::kError ? n : i;
+    counts[cell] += std::round(samples[i].mean() * static_cast<double>(samples[i].count()));
+    probabilities[cell] += exact.pdf[i] / scattered;
+  }
+  return {check_distribution(name + ", directions", counts, probabilities),
+          check_mean(name + ", absorbed", samples[n + kAbsorbed], 1.0 - scattered, LobeCells::kError),
+          check_mean(name + ", weight on the near side", samples[n + kNear], exact.near, LobeCells::kError),
+          check_mean(name + ", weight on the far side", samples[n + kFar], exact.far, LobeCells::kError),
+          check_bound(name + ", off reciprocity", samples[n + kReciprocity].mean(), 0.0, 1e-3)};
 }
 
 }  // namespace vpm

@@ -1,9 +1,11 @@
-// What a rough material's value and density say about its lobes, by quadrature: to hold drawn directions against.
+// The lobes of rough materials: what their values and densities say, by quadrature, against drawn directions.
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "study/validate/ladder.h"
 #include "surface/material.h"
 
 namespace vpm {
@@ -39,5 +41,9 @@ class LobeCells {
 
 /// Is `direction` on the side of the surface from which the path does not come?
 bool on_far_side(const RoughIncidence& incidence, const Vec3& direction);
+
+/// `count` drawn directions against the density, in cells fitted to the lobes, and their weights against the integrals
+/// of the value; and that light goes the way back as well.
+std::vector<Check> check_lobes(const std::string& name, const RoughIncidence& in, uint64_t count, const Effort& effort);
 
 }  // namespace vpm
