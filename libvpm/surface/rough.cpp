@@ -20,15 +20,6 @@ class Frame {
   Vec3 s_, t_, n_;
 };
 
-/// What microfacets scatter from v (which points back along the path) into w, both local. `facets` is the measure of
-/// facets that do, 1/sr of w: density of normals, times the cosine of v to them, times the solid angle of normals over
-/// that of w; `probability` is that of the choice between reflection and refraction.
-ScatterValue scattered_by(const Microfacets& microfacets, const Vec3& v, const Vec3& w, float facets, const Rgb& share,
-                          float probability) {
-  return {share * (facets * microfacets.shadowing(v, w) * std::abs(w.z)),
-          probability * facets * microfacets.masking(v)};
-}
-
 }  // namespace
 
 Scatter sample(const RoughConductor& m, const Vec3& normal, const Vec3& travel, float, const Vec2& u) {
@@ -50,7 +41,8 @@ ScatterValue value(const RoughConductor& m, const Vec3& normal, const Vec3& trav
   const Vec3 h = glm::normalize(v + w);
   const Microfacets microfacets(m.roughness);
   const Rgb reflectance = fresnel_conductor(std::clamp(glm::dot(v, h), 0.0f, 1.0f), m.eta, m.k);
-  return scattered_by(microfacets, v, w, 0.25f * microfacets.density(h), reflectance, 1.0f);
+  const float facets = 0.25f * microfacets.density(h);  // that scatter so, times the cosine to v, 1/sr of w
+  return {reflectance * (facets * microfacets.shadowing(v, w) * w.z), facets * microfacets.masking(v)};
 }
 
 /// The facet is drawn first; it then reflects with its probability by Fresnel.
@@ -83,9 +75,9 @@ ScatterValue value(const RoughDielectric& m, const Vec3& normal, const Vec3& tra
   const float reflectance = fresnel_dielectric(std::min(1.0f, cosine), eta);
   const float share = transmitted ? 1.0f - reflectance : reflectance;
   const float jacobian = transmitted ? cosine * eta * eta * cos_after / glm::dot(across, across) : 0.25f;
-  ScatterValue result = scattered_by(microfacets, v, w, microfacets.density(h) * jacobian, Rgb(share), share);
-  if (transmitted) result.radiance_scale = 1.0f / (eta * eta);
-  return result;
+  const float facets = share * jacobian * microfacets.density(h);
+  return {Rgb(facets * microfacets.shadowing(v, w) * std::abs(w.z)), facets * microfacets.masking(v),
+          transmitted ? 1.0f / (eta * eta) : 1.0f};
 }
 
 }  // namespace vpm

@@ -97,5 +97,24 @@ TEST(RoughSurfaces, SendOutTheirBsdfInParallelLight) {
     }
 }
 
+// A lamp in an absorbing ball of rough glass, which lets through some of its light: by photons alone, and by shadow
+// rays that start within the glass.
+TEST(RoughSurfaces, ShadowRaysStartInTheMediumBehindThem) {
+  Scene scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(0.8f), 0.0f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, RoughDielectric{1.3f, 0.4f}, &media);
+  scene.lights.push_back(PointLight{Vec3(0, 0, 0), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0, 0, 50), Vec3(0.0f), Vec3(0, 1, 0), 0.6f, 4, 4, {});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings by_photons = settings_of(DirectLight::photons), by_rays = settings_of(DirectLight::shadow_rays);
+  by_photons.surface.radius = by_rays.surface.radius = 0.1f;
+  const Moments paths = means(scene, by_rays, render_path_pass);
+  EXPECT_GT(paths.mean(), 0.05);
+  for (const RenderSettings& settings : {by_photons, by_rays})
+    expect_near(means(scene, settings, render_photon_pass), paths.mean(), 1e-2, "photons");
+}
+
 }  // namespace
 }  // namespace vpm
