@@ -1,23 +1,76 @@
 // The sections [materials.*] and [[shapes]].
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/error.h"
 #include "input/mesh_file.h"
 #include "input/sections.h"
+#include "surface/metals.h"
 
 namespace vpm {
 namespace {
 
+/// The index of a metal's refraction, by its name or as two colours.
+Conductor read_metal(TableReader& table) {
+  if (!table.has("metal")) {
+    if (!table.has("eta") && !table.has("k"))
+      table.fail_here(table.title() + " lacks a metal", "add: metal = \"gold\", or eta and k");
+    return {table.rgb("eta", kPositive), table.rgb("k", kPositive)};
+  }
+  std::vector<std::pair<std::string, Metal>> metals;
+  for (const Metal& metal : kMetals) metals.emplace_back(metal.name, metal);
+  const auto metal = table.choice<Metal>("metal", metals);
+  for (const char* key : {"eta", "k"})
+    if (table.has(key)) table.fail(key, "the metal of " + table.title() + " has its own '" + key + "'", "remove one");
+  return {metal.eta, metal.k};
+}
+
+float read_roughness(TableReader& table, const std::string& smooth_type) {
+  const float roughness = table.number("roughness", {0.0, 1.0, false, false});
+  if (roughness < kLeastRoughness)
+    table.fail(
+        "roughness",
+        fmt::format("the roughness of {} must be at least {}, not {}", table.title(), kLeastRoughness, roughness),
+        "type = \"" + smooth_type + "\" is the smooth one");
+  return roughness;
+}
+
+Material read_phong(TableReader& table) {
+  const Phong phong{table.rgb("diffuse", kFraction), table.rgb("glossy", kFraction),
+                    table.number("exponent", {0.0, kLargestExponent, false, false})};
+  if (max_channel(phong.diffuse + phong.glossy) > 1.0f)
+    table.fail("glossy", "'diffuse' and 'glossy' of " + table.title() + " together reflect more than arrives",
+               "their sum must be at most 1 in every channel");
+  return phong;
+}
+
+Material read_rough_dielectric(TableReader& table) {
+  const float ior = table.number("ior", kPositive);
+  if (std::abs(ior - 1.0f) < kLeastIorStep)
+    table.fail("ior",
+               fmt::format("the ior of {} must be at least {} away from 1, not {}", table.title(), kLeastIorStep, ior),
+               "type = \"dielectric\" or \"boundary\" pass light that hardly turns");
+  return RoughDielectric{ior, read_roughness(table, "dielectric")};
+}
+
 Material read_material(TableReader& table) {
-  enum class Kind { lambertian, mirror, dielectric, boundary };
-  const Kind kind = table.choice<Kind>("type", {{"lambertian", Kind::lambertian},
-                                                {"mirror", Kind::mirror},
-                                                {"dielectric", Kind::dielectric},
-                                                {"boundary", Kind::boundary}});
-  Material material = Boundary{};
-  if (kind == Kind::lambertian) material = Lambertian{table.rgb("reflectance", kFraction)};
-  if (kind == Kind::mirror) material = Mirror{table.rgb("reflectance", kFraction, Rgb(1.0f))};
-  if (kind == Kind::dielectric) material = Dielectric{table.number("ior", kPositive)};
+  using Reader = Material (*)(TableReader&);
+  const auto read = table.choice<Reader>(
+      "type",
+      {{"lambertian", [](TableReader& t) -> Material { return Lambertian{t.rgb("reflectance", kFraction)}; }},
+       {"phong", read_phong},
+       {"mirror", [](TableReader& t) -> Material { return Mirror{t.rgb("reflectance", kFraction, Rgb(1.0f))}; }},
+       {"conductor", [](TableReader& t) -> Material { return read_metal(t); }},
+       {"rough-conductor",
+        [](TableReader& t) -> Material {
+          const Conductor metal = read_metal(t);
+          return RoughConductor{metal.eta, metal.k, read_roughness(t, "conductor")};
+        }},
+       {"dielectric", [](TableReader& t) -> Material { return Dielectric{t.number("ior", kPositive)}; }},
+       {"rough-dielectric", read_rough_dielectric},
+       {"boundary", [](TableReader&) -> Material { return Boundary{}; }}});
+  Material material = read(table);
   table.finish();
   return material;
 }

@@ -14,6 +14,16 @@ int pick_light(const Scene& scene, float u) {
   return picked;
 }
 
+SurfaceSide near_side(const Hit& hit, const Vec3& travel, MediumId medium) {
+  const Vec3 normal = glm::dot(hit.normal, travel) < 0.0f ? hit.normal : -hit.normal;
+  return {leave_surface(hit, normal), normal, medium};
+}
+
+SurfaceSide far_side(const Scene& scene, const Hit& hit, const Vec3& travel, MediumId medium) {
+  const Vec3 normal = glm::dot(hit.normal, travel) < 0.0f ? -hit.normal : hit.normal;
+  return {leave_surface(hit, normal), normal, medium_beyond(scene.shapes[hit.shape], hit.normal, normal, medium)};
+}
+
 Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,
                MediumId medium, Rng& rng, WalkCounters& counters) {
   Rgb result(1.0f);

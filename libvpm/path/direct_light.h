@@ -18,6 +18,17 @@ struct DirectSample {
 DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEstimator& transmittance,
                            const Vec3& point, const Vec3& facing, MediumId medium, Rng& rng, WalkCounters& counters);
 
+/// A side of a surface, as shadow rays start from it.
+struct SurfaceSide {
+  Vec3 point{0.0f};   // just off the surface
+  Vec3 normal{0.0f};  // to that side, unit
+  MediumId medium = kVacuum;
+};
+/// The side on which a path in `medium` meets the surface along `travel`; and the other one, from which light reaches
+/// the path's side where the material scatters it through.
+SurfaceSide near_side(const Hit& hit, const Vec3& travel, MediumId medium);
+SurfaceSide far_side(const Scene& scene, const Hit& hit, const Vec3& travel, MediumId medium);
+
 /// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface
 /// stands between that is neither the light's own nor a boundary.
 Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,

@@ -104,7 +104,7 @@ class PhotonPath {
         std::max<double>(out_.ledger.largest_weight, sum_channels(state_.power) / emitted_power_);
     alive_ = max_channel(state_.power) > 0.0f;
     if (!alive_) return;
-    if (settings_.keep_surface && is_diffuse(scene_.material_of(hit)) && (settings_.keep_direct_surface || !direct_))
+    if (settings_.keep_surface && is_rough(scene_.material_of(hit)) && (settings_.keep_direct_surface || !direct_))
       out_.surface.push_back({hit.position, PackedDirection(state_.ray.direction), state_.power});
     const Rgb before = state_.power;
     Scatter scatter;

@@ -146,8 +146,8 @@ class EyePath {
       cross_boundaries(c_.scene, met, ray_, medium_, counters_.walk);
       return true;
     }
-    if (const auto* diffuse = std::get_if<Lambertian>(&material)) {
-      if (!is_black(diffuse->reflectance)) radiance_ += throughput_ * diffuse->reflectance / kPi * irradiance(hit);
+    if (is_rough(material)) {
+      radiance_ += throughput_ * scattered_light(hit, material);
       return false;
     }
     PathState state{ray_, medium_, throughput_};
@@ -159,23 +159,33 @@ class EyePath {
     return true;
   }
 
-  /// Irradiance on the eye's side of a surface: direct light by a shadow ray to each light, the rest from the photon
+  /// What a rough surface sends towards the eye: direct light by a shadow ray to each light, the rest from the photon
   /// map.
-  Rgb irradiance(const Hit& hit) {
-    const Vec3 normal = glm::dot(hit.normal, ray_.direction) < 0.0f ? hit.normal : -hit.normal;
+  Rgb scattered_light(const Hit& hit, const Material& material) {
     Rgb result(0.0f);
     if (c_.stages.surface_shadow_rays) {
-      const Vec3 point = leave_surface(hit, normal);
-      for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
-        ++counters_.shadow_rays;
-        const DirectSample light =
-            sample_direct(c_.scene, i, *c_.transmittance, point, normal, medium_, rng_, counters_.walk);
-        result += light.irradiance * std::max(0.0f, glm::dot(light.direction, normal));
-      }
+      result += direct_light(hit, material, near_side(hit, ray_.direction, medium_));
+      if (scatters_through(material))
+        result += direct_light(hit, material, far_side(c_.scene, hit, ray_.direction, medium_));
     }
     if (c_.stages.surface_map) {
       ++counters_.surface_queries;
-      result += surface_irradiance(hit.position, normal, c_.surface.settings.radius, c_.surface);
+      result += scattered_radiance(material, hit.position, hit.normal, -ray_.direction, c_.surface.settings.radius,
+                                   c_.surface);
+    }
+    return result;
+  }
+
+  /// The light of all lamps that arrives on that side, scattered towards the eye.
+  Rgb direct_light(const Hit& hit, const Material& material, const SurfaceSide& side) {
+    Rgb result(0.0f);
+    for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
+      ++counters_.shadow_rays;
+      const DirectSample light =
+          sample_direct(c_.scene, i, *c_.transmittance, side.point, side.normal, side.medium, rng_, counters_.walk);
+      if (is_black(light.irradiance)) continue;
+      const ScatterValue scattered = scatter_value(material, hit.normal, ray_.direction, light.direction);
+      result += scattered.value * scattered.radiance_scale * light.irradiance;
     }
     return result;
   }

@@ -20,7 +20,7 @@ struct EyeContext {
 };
 
 /// Follows a camera ray: through boundaries and specular surfaces; media add the ray-marched volumetric radiance
-/// estimate [Jarosz2008, eq. 7.9]; the first diffuse surface adds direct light and the surface radiance estimate and
+/// estimate [Jarosz2008, eq. 7.9]; the first rough surface adds direct light and the surface radiance estimate and
 /// ends the path. W/(m^2 sr).
 Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters);
 

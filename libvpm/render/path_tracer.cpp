@@ -31,7 +31,7 @@ class TracedPath {
     if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
     const Medium& medium = c_.scene.media[state_.medium];
     const Vec3 travel = state_.ray.direction;
-    const DirectSample light = sample_light(state_.ray.origin, Vec3(0.0f));
+    const DirectSample light = sample_light(state_.ray.origin, Vec3(0.0f), state_.medium);
     if (!is_black(light.irradiance)) {
       const float phase = phase_value(medium.phase, travel, light.direction);
       radiance_ += state_.power * medium.albedo() * phase * light.irradiance * share(light.pdf, phase);
@@ -49,21 +49,25 @@ class TracedPath {
     }
     if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
     const Material& material = c_.scene.material_of(hit);
-    const Vec3 travel = state_.ray.direction;
-    if (is_diffuse(material)) {
-      const Vec3 normal = glm::dot(hit.normal, travel) < 0.0f ? hit.normal : -hit.normal;
-      const DirectSample sample = sample_light(leave_surface(hit, normal), normal);
-      if (!is_black(sample.irradiance)) {
-        const ScatterValue scattered = scatter_value(material, hit.normal, travel, sample.direction);
-        radiance_ += state_.power * scattered.value * sample.irradiance * share(sample.pdf, scattered.pdf);
-      }
+    if (is_rough(material)) {
+      add_direct_light(hit, material, near_side(hit, state_.ray.direction, state_.medium));
+      if (scatters_through(material))
+        add_direct_light(hit, material, far_side(c_.scene, hit, state_.ray.direction, state_.medium));
     }
     Scatter scatter;
     if (!scatter_at_surface(c_.scene, hit, state_, rng_, scatter)) return false;
     state_.power *= scatter.radiance_scale;
-    scatter_pdf_ =
-        is_diffuse(material) ? scatter_value(material, hit.normal, travel, scatter.direction).pdf : kInfinity;
+    scatter_pdf_ = scatter.pdf;
     return true;
+  }
+
+  /// Adds what a rough surface scatters towards the eye of one light that arrives on that side.
+  void add_direct_light(const Hit& hit, const Material& material, const SurfaceSide& side) {
+    const DirectSample light = sample_light(side.point, side.normal, side.medium);
+    if (is_black(light.irradiance)) return;
+    const ScatterValue scattered = scatter_value(material, hit.normal, state_.ray.direction, light.direction);
+    radiance_ +=
+        state_.power * scattered.value * scattered.radiance_scale * light.irradiance * share(light.pdf, scattered.pdf);
   }
 
   /// Adds the environment seen by a ray that left `from`.
@@ -75,12 +79,12 @@ class TracedPath {
   }
 
   /// One light, picked by power: its irradiance over that probability, its pdf times it.
-  DirectSample sample_light(const Vec3& point, const Vec3& facing) {
+  DirectSample sample_light(const Vec3& point, const Vec3& facing, MediumId medium) {
     const int picked = pick_light(c_.scene, rng_.uniform());
     if (picked < 0) return {};
     ++counters_.shadow_rays;
     DirectSample sample =
-        sample_direct(c_.scene, picked, *c_.transmittance, point, facing, state_.medium, rng_, counters_.walk);
+        sample_direct(c_.scene, picked, *c_.transmittance, point, facing, medium, rng_, counters_.walk);
     sample.irradiance /= c_.scene.light_probability[picked];
     sample.pdf *= c_.scene.light_probability[picked];
     return sample;

@@ -21,7 +21,7 @@ struct PathContext {
 /// With the distance strategy and the transmittance estimator that the settings name.
 PathContext make_path_context(const Scene& scene, const RenderSettings& settings);
 
-/// One sample of the radiance along a ray that starts in `medium`, W/(m^2 sr). Each collision and each diffuse surface
+/// One sample of the radiance along a ray that starts in `medium`, W/(m^2 sr). Each collision and each rough surface
 /// adds the light of one source by a shadow ray; lights that the path itself runs into count, too, and the two ways
 /// share by the balance heuristic [Veach1997, sec. 9.2]. Unbiased where the distance strategy and the transmittance
 /// estimator are; nothing is clamped.

@@ -96,13 +96,13 @@ void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgre
 
 Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return {};
-  bool scatters = false, diffuse = false;
+  bool scatters = false, rough = false;
   for (const Medium& medium : scene.media) scatters |= medium.scatters();
-  for (const Shape& shape : scene.shapes) diffuse |= is_diffuse(scene.materials[shape.material]);
+  for (const Shape& shape : scene.shapes) rough |= is_rough(scene.materials[shape.material]);
   return {.volume_map = scatters,
-          .surface_map = diffuse,
+          .surface_map = rough,
           .volume_shadow_rays = scatters && settings.volume_direct == DirectLight::shadow_rays,
-          .surface_shadow_rays = diffuse && settings.surface_direct == DirectLight::shadow_rays};
+          .surface_shadow_rays = rough && settings.surface_direct == DirectLight::shadow_rays};
 }
 
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium) {

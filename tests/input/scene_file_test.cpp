@@ -95,6 +95,33 @@ TEST(SceneFile, OptionsChangeKeys) {
   EXPECT_EQ(plain.hash, load_with(kGrey + ball).hash);
 }
 
+TEST(SceneFile, ReadsEveryMaterial) {
+  const LoadedScene loaded = load_with(R"(
+[materials]
+wall = { type = "lambertian", reflectance = 0.5 }
+wax = { type = "phong", diffuse = 0.7, glossy = [0.3, 0.2, 0.1], exponent = 30 }
+glass = { type = "dielectric", ior = 1.5 }
+frosted = { type = "rough-dielectric", ior = 1.5, roughness = 0.3 }
+ring = { type = "conductor", metal = "gold" }
+pan = { type = "rough-conductor", eta = 1.5, k = [3, 4, 5], roughness = 1 }
+
+[[shapes]]
+type = "sphere"
+center = [0, 0, 0]
+radius = 1
+material = "frosted"
+)");
+  const std::vector<Material>& m = loaded.scene.materials;
+  ASSERT_EQ(m.size(), 6u);
+  EXPECT_EQ(std::get<Phong>(m[1]).glossy, Rgb(0.3f, 0.2f, 0.1f));
+  EXPECT_EQ(std::get<Phong>(m[1]).exponent, 30.0f);
+  EXPECT_EQ(std::get<RoughDielectric>(m[3]).ior, 1.5f);
+  EXPECT_EQ(std::get<RoughDielectric>(m[3]).roughness, 0.3f);
+  EXPECT_EQ(std::get<Conductor>(m[4]).eta, Rgb(0.156f, 0.424f, 1.38f));
+  EXPECT_EQ(std::get<RoughConductor>(m[5]).k, Rgb(3.0f, 4.0f, 5.0f));
+  EXPECT_EQ(std::get<RoughConductor>(m[5]).roughness, 1.0f);
+}
+
 TEST(SceneFile, RefusesBadOptions) {
   const std::pair<std::string, std::string> cases[] = {
       {"render.passes", "--set render.passes: there is no '='"},

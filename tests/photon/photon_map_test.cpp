@@ -63,6 +63,10 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
                         volume_sum(phase, at, towards, all, settings, uint64_t{1000}), "volume");
             expect_near(surface_irradiance(at, Vec3(0, 1, 0), radius, map),
                         surface_irradiance(at, Vec3(0, 1, 0), radius, all, settings, uint64_t{1000}), "surface");
+            for (const Material& rough : {Material(Phong{}), Material(RoughDielectric{1.5f, 0.5f})})
+              expect_near(scattered_radiance(rough, at, Vec3(0, 1, 0), towards, radius, map),
+                          scattered_radiance(rough, at, Vec3(0, 1, 0), towards, radius, all, settings, uint64_t{1000}),
+                          "rough surface");
           }
         }
   }
@@ -85,6 +89,19 @@ TEST(PhotonMap, OnePhotonCountsAsTheEstimatesSay) {
   // Surfaces: photons that arrive at the normal's side, near the plane.
   expect_near(surface_irradiance(at, up, 0.1f, beside), Rgb(disc), "from before");
   expect_near(surface_irradiance(at, -up, 0.1f, beside), Rgb(0.0f), "from behind");
+  // Towards the eye goes the BSDF's share: from the eye's side, and from the other one through rough glass alone.
+  const Vec3 eye = glm::normalize(Vec3(0.1f, 0.8f, 0.5f)), stored = PackedDirection(travel).unpack();
+  const PackedDirection rising(glm::normalize(Vec3(0.0f, 0.8f, 0.3f)));
+  const PhotonMap behind = map(Vec3(0.03f, 0.0f, 0.0f), rising.unpack());
+  const Material diffuse = Lambertian{Rgb(0.5f)}, glass = RoughDielectric{1.5f, 0.5f}, metal = RoughConductor{};
+  for (const Material& m : {diffuse, glass, metal})
+    expect_near(scattered_radiance(m, at, up, eye, 0.1f, beside),
+                scatter_value(m, up, stored, eye).value / eye.y * disc, "scattered");
+  for (const Material& m : {diffuse, metal})
+    expect_near(scattered_radiance(m, at, -up, eye, 0.1f, behind), Rgb(0.0f), "behind");
+  const Rgb passed = scattered_radiance(glass, at, up, eye, 0.1f, behind);
+  expect_near(passed, scatter_value(glass, up, rising.unpack(), eye).value / eye.y * disc, "through glass");
+  EXPECT_GT(passed.r, 0.0f);
   const float low = 0.01f, high = 0.02f;
   expect_near(surface_irradiance(at, up, 0.1f, map(Vec3(std::sqrt(9e-4f - low * low), low, 0.0f), travel)), Rgb(disc),
               "near the plane");

@@ -6,6 +6,7 @@
 #include "base/rng.h"
 #include "base/warp.h"
 #include "support/statistics.h"
+#include "surface/fresnel.h"
 
 namespace vpm {
 namespace {
@@ -95,8 +96,20 @@ TEST(Materials, BoundaryAndIndexOnePassTheRayToTheLastBit) {
 // Grazing to the last bit, from both sides: no NaN, unit length, and strictly on the side it says.
 TEST(Materials, SurviveGrazingIncidence) {
   Rng rng(4, static_cast<uint64_t>(RngUse::test), 0);
-  const Material materials[] = {Lambertian{},           Mirror{},         Dielectric{1.5f}, Dielectric{1.0f / 1.5f},
-                                Dielectric{1.0000001f}, Dielectric{10.0f}};
+  const Material materials[] = {Lambertian{},
+                                Mirror{},
+                                Dielectric{1.5f},
+                                Dielectric{1.0f / 1.5f},
+                                Dielectric{1.0000001f},
+                                Dielectric{10.0f},
+                                Conductor{Rgb(0.05f), Rgb(4.0f)},
+                                RoughConductor{Rgb(0.05f), Rgb(4.0f), 0.001f},
+                                RoughConductor{Rgb(0.05f), Rgb(4.0f), 1.0f},
+                                RoughDielectric{1.5f, 0.001f},
+                                RoughDielectric{0.5f, 1.0f},
+                                RoughDielectric{1.01f, 0.1f},
+                                Phong{Rgb(0.2f), Rgb(0.5f), 1e6f},
+                                Phong{Rgb(0.2f), Rgb(0.5f), 0.0f}};
   for (int i = 0; i < 20000; ++i) {
     const Vec3 normal = uniform_sphere(rng.uniform2());
     const float away = 1.0f - (i % 2 == 0 ? 1.0f : -1.0f) * std::pow(10.0f, -12.0f * rng.uniform());
@@ -105,7 +118,7 @@ TEST(Materials, SurviveGrazingIncidence) {
     const float before = glm::dot(normal, travel);
     for (const Material& m : materials) {
       const Scatter s = sample_scatter(m, normal, travel, rng.uniform(), rng.uniform2());
-      ASSERT_TRUE(is_finite(s.direction) && is_finite(s.weight) && std::isfinite(s.radiance_scale));
+      ASSERT_TRUE(is_finite(s.direction) && is_finite(s.weight) && std::isfinite(s.radiance_scale) && s.pdf >= 0.0f);
       ASSERT_NEAR(glm::length(s.direction), 1.0f, 1e-6f);
       const float after = glm::dot(normal, s.direction);
       ASSERT_EQ(s.transmitted ? after < 0.0f : after > 0.0f, before < 0.0f)
@@ -140,14 +153,17 @@ TEST(Lambertian, ScattersByTheCosineToTheSideItCameFrom) {
   }
 }
 
-TEST(Materials, KnowGreyDiffuseAndBoundary) {
+TEST(Materials, KnowGreyRoughAndBoundary) {
   EXPECT_TRUE(is_grey(Material(Lambertian{})));
   EXPECT_FALSE(is_grey(Material(Lambertian{Rgb(0.1f, 0.2f, 0.1f)})));
   EXPECT_FALSE(is_grey(Material(Mirror{Rgb(0.1f, 0.2f, 0.1f)})));
   EXPECT_TRUE(is_grey(Material(Dielectric{})) && is_grey(Material(Boundary{})));
-  EXPECT_TRUE(is_diffuse(Lambertian{}));
-  EXPECT_FALSE(is_diffuse(Lambertian{Rgb(0.0f)}) || is_diffuse(Mirror{}) || is_diffuse(Dielectric{}) ||
-               is_diffuse(Boundary{}));
+  EXPECT_TRUE(is_rough(Lambertian{}));
+  EXPECT_FALSE(is_rough(Lambertian{Rgb(0.0f)}) || is_rough(Mirror{}) || is_rough(Dielectric{}) || is_rough(Boundary{}));
+  EXPECT_TRUE(is_rough(Phong{}) && is_rough(RoughConductor{}) && is_rough(RoughDielectric{}));
+  EXPECT_FALSE(is_rough(Conductor{}) || is_rough(Phong{Rgb(0.0f), Rgb(0.0f), 1.0f}));
+  EXPECT_TRUE(scatters_through(RoughDielectric{}) && !scatters_through(RoughConductor{}));
+  EXPECT_FALSE(is_grey(Material(RoughConductor{Rgb(1.0f), Rgb(1.0f, 2.0f, 1.0f)})));
   EXPECT_TRUE(is_boundary(Boundary{}) && !is_boundary(Dielectric{}));
 }
 

@@ -123,7 +123,7 @@ void print_warnings(const LoadedScene& loaded, const RenderStatistics& s) {
   if (stages.volume_map && s.volume_photons == 0)
     fmt::print(stderr, "warning: the volume photon map is empty: no photon scattered in a medium\n");
   if (stages.surface_map && s.surface_photons == 0)
-    fmt::print(stderr, "warning: the surface photon map is empty: no photon to store met a diffuse surface\n");
+    fmt::print(stderr, "warning: the surface photon map is empty: no photon to store met a rough surface\n");
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");

@@ -178,11 +178,11 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
             line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
   return {line(stages.photons(), "photon tracing", distances, "nothing stores photons"),
           line(stages.volume_map, "volume photon map", "", no_medium),
-          line(stages.surface_map, "surface photon map", "", "no diffuse surface"),
+          line(stages.surface_map, "surface photon map", "", "no rough surface"),
           line(stages.volume_shadow_rays, "shadow rays in media", transmittance,
                stages.volume_map ? "single scattering comes from the photon map" : no_medium),
           line(stages.surface_shadow_rays, "shadow rays at surfaces", transmittance,
-               stages.surface_map ? "direct light comes from the photon map" : "no diffuse surface"),
+               stages.surface_map ? "direct light comes from the photon map" : "no rough surface"),
           line(grids, "grid look-ups", "", "all media are homogeneous"),
           channels};
 }

@@ -1,11 +1,14 @@
-// Directions after a surface: by the cosine law, the mirror's and Snell's; and what refraction does to radiance.
+// Directions after a surface: by the cosine law, the mirror's and Snell's, and in the lobes of rough materials; and
+// what refraction does to radiance.
 #include <fmt/format.h>
 #include <cmath>
+#include <complex>
 
 #include "base/warp.h"
 #include "study/sample_moments.h"
 #include "study/validate/directions.h"
 #include "study/validate/groups.h"
+#include "study/validate/lobes.h"
 #include "surface/material.h"
 
 namespace vpm {
@@ -68,10 +71,57 @@ Check check_mirror() {
                      1e-6);
 }
 
+/// What closed forms know of rough surfaces, to the error of the quadrature. Metal that absorbs nothing, of roughness
+/// 1, seen along its normal: the integral of density and shadowing over its facets is that of 2 tan x cos 2x over [0,
+/// pi/4], 1 - ln 2. Phong's lobe is whole along the normal.
+std::vector<Check> check_rough_albedos() {
+  const auto albedo = [](const Material& material) {
+    return LobeCells({material, kNormal, -kNormal}).integrate().near;
+  };
+  const RoughConductor perfect{Rgb(1.0f), Rgb(1e6f), 1.0f};
+  return {check_bound("perfect metal, roughness 1, seen along its normal", albedo(perfect), 1.0 - std::log(2.0), 1e-3),
+          check_bound("Phong, seen along its normal", albedo(Phong{Rgb(0.3f), Rgb(0.6f), 5.0f}), 0.9, 1e-3)};
+}
+
+/// A smooth metal's reflectance in complex numbers.
+Check check_metal() {
+  const double cosine = std::cos(1.1);
+  const Vec3 travel = arriving(1.1, true);
+  const std::complex<double> index(0.3, 2.7), across = std::sqrt(index * index - (1.0 - cosine * cosine));
+  const double perpendicular = std::norm((cosine - across) / (cosine + across));
+  const double parallel = std::norm((index * index * cosine - across) / (index * index * cosine + across));
+  const Scatter scatter = sample_scatter(Conductor{Rgb(0.3f), Rgb(2.7f)}, kNormal, travel, 0.5f, Vec2(0.5f));
+  return check_bound("smooth metal, reflectance", scatter.weight.g, 0.5 * (perpendicular + parallel), 1e-6);
+}
+
+std::vector<Check> check_rough_materials(const Effort& effort) {
+  const Rgb eta(0.4f), k(2.5f);
+  const std::pair<const char*, Material> materials[] = {
+      {"Phong, broad", Phong{Rgb(0.3f), Rgb(0.6f), 5.0f}},
+      {"Phong, narrow", Phong{Rgb(0.2f), Rgb(0.5f), 2000.0f}},
+      {"metal, roughness 0.05", RoughConductor{eta, k, 0.05f}},
+      {"metal, roughness 0.6", RoughConductor{eta, k, 0.6f}},
+      {"rough glass, roughness 0.05", RoughDielectric{1.5f, 0.05f}},
+      {"rough glass, roughness 0.6", RoughDielectric{1.5f, 0.6f}},
+  };
+  std::vector<Check> checks = check_rough_albedos();
+  checks.push_back(check_metal());
+  for (const auto& [what, material] : materials)
+    for (const bool from_outside : {true, false})
+      for (const double angle : {0.3, 1.2}) {
+        const std::string name =
+            fmt::format("{}, {:.1f} rad from {}", what, angle, from_outside ? "outside" : "inside");
+        const RoughIncidence in{material, kNormal, arriving(angle, from_outside)};
+        append(checks, check_lobes(name, in, effort.count(50'000, 1'000'000), effort));
+      }
+  return checks;
+}
+
 }  // namespace
 
 std::vector<Experiment> material_experiments() {
-  return {{0, "directions after a surface", [](const Effort& effort) {
+  return {{0, "directions after a surface",
+           [](const Effort& effort) {
              std::vector<Check> checks{check_mirror()};
              for (const bool from_outside : {true, false}) {
                append(checks, check_diffuse(from_outside, effort));
@@ -79,7 +129,8 @@ std::vector<Experiment> material_experiments() {
                  append(checks, check_glass(1.5f, from_outside, angle, effort));
              }
              return checks;
-           }}};
+           }},
+          {0, "lobes of rough surfaces", check_rough_materials}};
 }
 
 }  // namespace vpm

@@ -107,6 +107,17 @@ Scene lit_corner(float ior) {
   return finished(std::move(scene));
 }
 
+Scene rough_corner() {
+  Scene scene;
+  add_lamp(scene, Vec3(-0.7f, 1.6f, -0.7f), 1.4f, Rgb(4.0f));
+  scene.lights.push_back(PointLight{Vec3(-0.6f, -0.8f, -0.7f), Rgb(1.5f)});
+  add_shape(scene, quad_mesh(Vec3d(-2, 0, 2), Vec3d(4, 0, 0), Vec3d(0, 0, -4)), RoughDielectric{1.5f, 0.5f});
+  add_shape(scene, quad_mesh(Vec3d(-1.0, 0, -1), Vec3d(0, 0, 2), Vec3d(0, 1.5, 0)),
+            RoughConductor{Rgb(0.16f, 0.42f, 1.38f), Rgb(3.6f, 2.5f, 1.9f), 0.5f});
+  look(scene, Vec3(0.9f, 0.7f, 0.9f), Vec3(0.1f, 0.0f, 0.0f), 32.0f);
+  return finished(std::move(scene));
+}
+
 Scene foggy_floor() {
   Scene scene;
   Medium fog = make_medium(nullptr, Rgb(0.6f), 0.9f);

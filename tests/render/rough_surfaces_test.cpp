@@ -1,0 +1,120 @@
+// Rough surfaces in whole renders: uniform light from both sides, and the two integrators against each other.
+#include <gtest/gtest.h>
+
+#include "render/path_tracer.h"
+#include "render/photon_pass.h"
+#include "study/validate/lobes.h"
+#include "support/scenes.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kFalseAlarms = 1e-6;  // of each comparison
+const std::atomic<bool> kGoOn{false};
+
+/// A sheet in the plane z = 0 seen from far away, at 45 degrees.
+Scene sheet(const Material& material, const Light& light, bool from_outside) {
+  Scene scene;
+  const Vec3d u(0, 4, 0), v(4, 0, 0);
+  add_shape(scene, from_outside ? quad_mesh(Vec3d(-2, -2, 0), v, u) : quad_mesh(Vec3d(-2, -2, 0), u, v), material);
+  scene.lights.push_back(light);
+  scene.camera = make_camera(Vec3(50, 0, 50), Vec3(0.0f), Vec3(0, 1, 0), 0.5f, 4, 4, {});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+RenderSettings settings_of(DirectLight direct) {
+  RenderSettings settings;
+  settings.photons_emitted = 20000;
+  settings.surface.radius = 0.4f;
+  settings.shrink_radii = false;
+  settings.surface_direct = direct;
+  settings.samples_per_pixel = direct == DirectLight::photons ? 1 : 60;
+  return settings;
+}
+
+/// Means of the green channel over the picture, pass by pass.
+template <class RenderPass>
+Moments means(const Scene& scene, const RenderSettings& settings, RenderPass&& render) {
+  Moments result;
+  for (int pass = 0; pass < 12; ++pass) {
+    const Image image = render(scene, settings, pass, kGoOn, PassProgress{}).image;
+    double sum = 0.0;
+    for (const Rgb& p : image.pixels) sum += p.g;
+    result.add(sum / static_cast<double>(image.pixels.size()));
+  }
+  return result;
+}
+
+void expect_near(const Moments& samples, double expected, double bias, const std::string& what) {
+  const double error = std::sqrt(samples.variance_of_mean());
+  EXPECT_LE(std::abs(samples.mean() - expected), 8.0 * error + bias * expected)
+      << what << ": " << samples.mean() << " +- " << error << ", expected " << expected;
+}
+
+const Material kMaterials[] = {Phong{Rgb(0.2f), Rgb(0.7f), 20.0f}, RoughConductor{Rgb(0.4f), Rgb(2.5f), 0.4f},
+                               RoughDielectric{1.5f, 0.3f}, RoughDielectric{0.7f, 0.5f}};
+
+// In uniform light of radiance 1 a sheet sends out the share it reflects, and 1/eta^2 of what comes through: by shadow
+// rays, by photons, and by paths. 12 passes: 8 standard errors are 1e-5 of Student's t.
+TEST(RoughSurfaces, SendOutTheirAlbedoInUniformLight) {
+  for (const Material& material : kMaterials)
+    for (const bool from_outside : {true, false}) {
+      const Scene scene = sheet(material, ConstantEnvironment{Rgb(1.0f)}, from_outside);
+      const Vec3 normal(0, 0, from_outside ? 1 : -1), travel = glm::normalize(Vec3(-1, 0, -1));
+      const LobeCells::Integrals all = LobeCells({material, normal, travel}).integrate();
+      const auto* glass = std::get_if<RoughDielectric>(&material);
+      const double eta = !glass ? 1.0 : from_outside ? glass->ior : 1.0 / glass->ior;
+      const double expected = all.near + all.far / (eta * eta);
+      const std::string name = std::to_string(&material - kMaterials) + (from_outside ? " outside" : " inside");
+      expect_near(means(scene, settings_of(DirectLight::photons), render_photon_pass), expected, 2e-3,
+                  name + ", photons");
+      expect_near(means(scene, settings_of(DirectLight::shadow_rays), render_photon_pass), expected, 2e-3,
+                  name + ", shadow rays");
+      expect_near(means(scene, settings_of(DirectLight::shadow_rays), render_path_pass), expected, 2e-3,
+                  name + ", paths");
+    }
+}
+
+// Light from one direction: the BSDF itself, before and behind the sheet.
+TEST(RoughSurfaces, SendOutTheirBsdfInParallelLight) {
+  for (const Material& material : kMaterials)
+    for (const bool behind : {false, true}) {
+      const Vec3 light = glm::normalize(Vec3(behind ? 0.5f : -0.8f, 0.1f, behind ? 1.0f : -1.0f));
+      const Scene scene = sheet(material, DirectionalLight{light, Rgb(1.0f)}, true);
+      const Vec3 eye = glm::normalize(Vec3(1, 0, 1));
+      const double expected = scatter_value(material, {0, 0, 1}, light, eye).value.g / eye.z * std::abs(light.z);
+      EXPECT_EQ(expected > 0.0, !behind || scatters_through(material));
+      const std::string name = std::to_string(&material - kMaterials) + (behind ? " behind" : " before");
+      expect_near(means(scene, settings_of(DirectLight::photons), render_photon_pass), expected, 2e-3,
+                  name + ", photons");
+      expect_near(means(scene, settings_of(DirectLight::shadow_rays), render_photon_pass), expected, 2e-3,
+                  name + ", shadow rays");
+      expect_near(means(scene, settings_of(DirectLight::shadow_rays), render_path_pass), expected, 2e-3,
+                  name + ", paths");
+    }
+}
+
+// A lamp in an absorbing ball of rough glass, which lets through some of its light: by photons alone, and by shadow
+// rays that start within the glass.
+TEST(RoughSurfaces, ShadowRaysStartInTheMediumBehindThem) {
+  Scene scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(0.8f), 0.0f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, RoughDielectric{1.3f, 0.4f}, &media);
+  scene.lights.push_back(PointLight{Vec3(0, 0, 0), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0, 0, 50), Vec3(0.0f), Vec3(0, 1, 0), 0.6f, 4, 4, {});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings by_photons = settings_of(DirectLight::photons), by_rays = settings_of(DirectLight::shadow_rays);
+  by_photons.surface.radius = by_rays.surface.radius = 0.1f;
+  const Moments paths = means(scene, by_rays, render_path_pass);
+  EXPECT_GT(paths.mean(), 0.05);
+  for (const RenderSettings& settings : {by_photons, by_rays})
+    expect_near(means(scene, settings, render_photon_pass), paths.mean(), 1e-2, "photons");
+}
+
+}  // namespace
+}  // namespace vpm

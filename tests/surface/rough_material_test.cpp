@@ -1,0 +1,173 @@
+// Rough materials and metals: lobes, energy, reciprocity, Fresnel's equations.
+#include <gtest/gtest.h>
+
+#include <complex>
+
+#include "base/rng.h"
+#include "base/warp.h"
+#include "study/validate/groups.h"
+#include "study/validate/lobes.h"
+#include "surface/fresnel.h"
+#include "surface/metals.h"
+#include "surface/microfacet.h"
+
+namespace vpm {
+namespace {
+
+const Vec3 kNormal = glm::normalize(Vec3(0.3f, 0.8f, -0.5f));
+
+/// A direction of travel towards that side of the surface.
+Vec3 arriving(double angle, bool from_outside = true) {
+  return -direction_about(from_outside ? kNormal : -kNormal, static_cast<float>(1.0 - std::cos(angle)), 1.0f);
+}
+
+/// The reflectance in complex numbers.
+double reflectance(double cosine, double eta, double k) {
+  const std::complex<double> index(eta, k), across = std::sqrt(index * index - (1.0 - cosine * cosine));
+  return 0.5 * (std::norm((cosine - across) / (cosine + across)) +
+                std::norm((index * index * cosine - across) / (index * index * cosine + across)));
+}
+
+TEST(FresnelOfConductors, EqualsThatOfComplexNumbers) {
+  for (const double eta : {0.04, 0.4, 1.0, 3.0})
+    for (const double k : {0.01, 0.5, 3.0, 14.0})
+      for (const double cosine : {0.0, 1e-3, 0.3, 0.9, 1.0})
+        EXPECT_NEAR(fresnel_conductor(static_cast<float>(cosine), Rgb(eta), Rgb(k)).g, reflectance(cosine, eta, k),
+                    2e-6)
+            << eta << " + i " << k << " at " << cosine;
+}
+
+TEST(FresnelOfConductors, IsThatOfDielectricsWithoutAbsorption) {
+  for (const float eta : {1.5f, 2.4f})
+    for (const float cosine : {0.1f, 0.5f, 0.8f, 1.0f})
+      EXPECT_NEAR(fresnel_conductor(cosine, Rgb(eta), Rgb(1e-6f)).r, fresnel_dielectric(cosine, eta), 1e-6f);
+}
+
+// The colours that everyone knows: gold and copper redden white light in this order, the others hardly.
+TEST(Metals, HaveTheirColours) {
+  for (const Metal& metal : kMetals) {
+    const Rgb seen = fresnel_conductor(1.0f, metal.eta, metal.k);
+    const bool coloured = metal.name == std::string("gold") || metal.name == std::string("copper");
+    EXPECT_EQ(seen.r > 1.5f * seen.b, coloured) << metal.name;
+    EXPECT_EQ(seen.r > 0.9f, metal.name != std::string("iron")) << metal.name;
+  }
+}
+
+// Facets project to the surface's area; those that a direction sees, to the area that it sees. Midpoint rules.
+TEST(Microfacets, CoverTheSurface) {
+  for (const float alpha : {0.01f, 0.2f, 1.0f})
+    for (const double angle : {0.0, 0.7, 1.5}) {
+      const Microfacets facets(alpha);
+      const Vec3 v(std::sin(angle), 0.0f, std::cos(angle));
+      constexpr int kRings = 2000, kTurns = 100;
+      double area = 0.0, seen = 0.0;
+      for (int i = 0; i < kRings; ++i)
+        for (int j = 0; j < kTurns; ++j) {
+          const double x = (i + 0.5) / kRings, tan = alpha * x / (1.0 - x), turn = 2.0 * kPiD * (j + 0.5) / kTurns;
+          const double z = 1.0 / std::sqrt(1.0 + tan * tan), r = tan * z;
+          const Vec3 h(r * std::cos(turn), r * std::sin(turn), z);
+          const double solid_angle =  // -d(cos) / dx over the equal parts of x
+              tan * z * z * z * alpha / ((1.0 - x) * (1.0 - x)) / kRings * 2.0 * kPiD / kTurns;
+          area += facets.density(h) * h.z * solid_angle;
+          seen += facets.density(h) * facets.masking(v) * std::max(0.0f, glm::dot(v, h)) * solid_angle;
+        }
+      EXPECT_NEAR(area, 1.0, 1e-4) << alpha;
+      EXPECT_NEAR(seen, 1.0, 1e-3) << alpha << " at " << angle;
+    }
+}
+
+double albedo(const Material& material, double angle) {
+  const LobeCells::Integrals all = LobeCells({material, kNormal, arriving(angle)}).integrate();
+  return all.near + all.far;
+}
+
+// Metal that absorbs nothing, seen along its normal: facets at an angle x send light away at 2 x, up to pi/4. For
+// roughness 1 the integral is 1 - ln 2.
+TEST(RoughConductor, LosesWhatWouldMeetASecondFacet) {
+  const auto perfect = [](float roughness) { return RoughConductor{Rgb(1.0f), Rgb(1e6f), roughness}; };
+  EXPECT_NEAR(albedo(perfect(1.0f), 0.0), 1.0 - std::log(2.0), 1e-3);
+  EXPECT_NEAR(albedo(perfect(0.001f), 0.3), 1.0, 1e-3);
+  for (const double alpha : {0.1, 0.3, 0.5}) {
+    double exact = 0.0;
+    constexpr int kSteps = 10000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double x = 0.25 * kPiD * (i + 0.5) / kSteps, tan = std::tan(x), tan_after = std::tan(2.0 * x);
+      const double facets = 2.0 * tan / std::pow(std::cos(x) * alpha * (1.0 + tan * tan / (alpha * alpha)), 2);
+      exact += facets * 2.0 / (1.0 + std::sqrt(1.0 + alpha * alpha * tan_after * tan_after)) * 0.25 * kPiD / kSteps;
+    }
+    EXPECT_NEAR(albedo(perfect(static_cast<float>(alpha)), 0.0), exact, 1e-3) << alpha;
+  }
+}
+
+TEST(RoughConductor, IsSmoothInTheLimit) {
+  const Rgb eta(0.16f, 0.42f, 1.38f), k(3.6f, 2.5f, 1.9f);
+  for (const double angle : {0.0, 0.8, 1.3})
+    EXPECT_NEAR(albedo(RoughConductor{eta, k, 0.001f}, angle), reflectance(std::cos(angle), eta.g, k.g), 2e-3);
+}
+
+TEST(RoughDielectric, IsSmoothInTheLimit) {
+  for (const float ior : {1.5f, 1.0f / 1.5f})
+    for (const double angle : {0.0, 0.5, 1.2}) {
+      const LobeCells::Integrals all = LobeCells({RoughDielectric{ior, 0.001f}, kNormal, arriving(angle)}).integrate();
+      const double reflected = fresnel_dielectric(static_cast<float>(std::cos(angle)), ior);
+      EXPECT_NEAR(all.near, reflected, 2e-3) << ior << " at " << angle;
+      EXPECT_NEAR(all.far, 1.0 - reflected, 2e-3) << ior << " at " << angle;
+    }
+}
+
+TEST(Phong, ReflectsItsCoefficientsAlongTheNormalAndNoMoreElsewhere) {
+  for (const float exponent : {0.0f, 3.0f, 100.0f, 1e4f, 1e6f}) {
+    const Phong phong{Rgb(0.3f), Rgb(0.6f), exponent};
+    EXPECT_NEAR(albedo(phong, 0.0), 0.9, 1e-3) << exponent;
+    for (const double angle : {0.5, 1.0, 1.5}) EXPECT_LT(albedo(phong, angle), 0.901) << exponent << " at " << angle;
+  }
+}
+
+// Directions, weights, what is absorbed, and reciprocity. False-alarm rate 1e-6 of all together.
+TEST(RoughMaterials, DrawWhatTheirValuesSay) {
+  const Rgb eta(0.4f), k(2.5f);
+  const Material materials[] = {Lambertian{Rgb(0.7f)},
+                                Phong{Rgb(0.0f), Rgb(0.6f), 0.0f},
+                                Phong{Rgb(0.2f), Rgb(0.5f), 100.0f},
+                                Phong{Rgb(0.0f), Rgb(0.9f), 1e6f},
+                                RoughConductor{eta, k, 0.001f},
+                                RoughConductor{eta, k, 0.2f},
+                                RoughConductor{eta, k, 1.0f},
+                                RoughDielectric{1.5f, 0.01f},
+                                RoughDielectric{1.5f, 0.3f},
+                                RoughDielectric{1.2f, 1.0f},
+                                RoughDielectric{1.01f, 0.1f},
+                                RoughDielectric{0.6f, 0.5f}};
+  std::vector<Check> checks;
+  for (const Material& material : materials)
+    for (const bool from_outside : {true, false})
+      for (const double angle : {0.0, 0.8, 1.45})
+        append(checks,
+               check_lobes(std::to_string(material.index()) + " number " + std::to_string(&material - materials) +
+                               (from_outside ? " outside " : " inside ") + std::to_string(angle),
+                           {material, kNormal, arriving(angle, from_outside)}, 20000, {}));
+  judge(checks, 1e-6);
+  for (const Check& check : checks)
+    EXPECT_EQ(check.verdict, Verdict::pass) << check.name << ": " << check.value << " for " << check.exact << " +- "
+                                            << check.error << ", p " << check.p << " " << check.note;
+}
+
+// weight pdf = value for every drawn direction, and the two agree on what refraction does to radiance.
+TEST(RoughMaterials, WeighByValueOverDensity) {
+  Rng rng(6, static_cast<uint64_t>(RngUse::test), 0);
+  for (const Material& m : {Material(Phong{Rgb(0.2f, 0.3f, 0.4f), Rgb(0.5f, 0.1f, 0.3f), 20.0f}),
+                            Material(RoughConductor{Rgb(0.2f, 0.4f, 1.4f), Rgb(3.6f, 2.5f, 1.9f), 0.3f}),
+                            Material(RoughDielectric{1.5f, 0.3f})})
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 travel = uniform_sphere(rng.uniform2());
+      const Scatter s = sample_scatter(m, kNormal, travel, rng.uniform(), rng.uniform2());
+      if (is_black(s.weight)) continue;
+      const ScatterValue v = scatter_value(m, kNormal, travel, s.direction);
+      EXPECT_EQ(v.pdf, s.pdf);
+      EXPECT_LE(glm::length(v.value - s.weight * v.pdf), 1e-6f * glm::length(v.value));
+      EXPECT_EQ(v.radiance_scale, s.radiance_scale);
+    }
+}
+
+}  // namespace
+}  // namespace vpm
