@@ -19,7 +19,7 @@ DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEst
                            const Vec3& point, const Vec3& facing, MediumId medium, Rng& rng, WalkCounters& counters);
 
 /// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface
-/// stands between that is neither the light's own nor a boundary.
+/// stands between that is no boundary, be it another part of the light's own.
 Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,
                MediumId medium, Rng& rng, WalkCounters& counters);
 

@@ -194,7 +194,7 @@ TEST(SceneFile, ReadsLights) {
       "[[shapes]]\ntype = 'sphere'\nmaterial = 'grey'\ncenter = [0, 5, 0]\nradius = 2\nemission = 12\n";
   const Scene scene = load_scene(write_scene(text)).scene;
   ASSERT_EQ(scene.lights.size(), 7u);
-  const auto power = [&](size_t i) { return light_power(scene.lights[i], scene.sphere); };
+  const auto power = [&](size_t i) { return light_power(scene.lights[i], scene.bounds); };
   EXPECT_LT(relative_difference(power(0), Rgb(4, 5, 6)), 1e-6f);
   EXPECT_LT(relative_difference(power(1), Rgb(7)), 1e-6f);
   EXPECT_EQ(std::get<SpotLight>(scene.lights[1]).direction, Vec3(0, -1, 0));

@@ -212,7 +212,7 @@ TEST(PhotonTracing, LightPhotonsEndOrBecomeATenth) {
   TraceSettings settings;
   settings.emitted = 5000;
   const TracedPhotons photons = trace(scene, "mean-extinction", settings);
-  const double tenth = 0.1 * sum_channels(light_power(kSpot, scene.sphere));
+  const double tenth = 0.1 * sum_channels(light_power(kSpot, scene.bounds));
   int at_the_limit = 0;
   double collided = 0.0;
   for (const Photon& p : photons.volume[0]) {
@@ -257,7 +257,7 @@ TEST(PhotonTracing, ADensityFloorBoundsThePowersAndNothingElse) {
   const TracedPhotons with_floor = trace_photons(scene, *strategy, settings, silent);
   const std::vector<Photon>& floored = with_floor.volume[0];
   ASSERT_EQ(bare.size(), floored.size());
-  const float emitted = light_power(kSpot, scene.sphere).r;
+  const float emitted = light_power(kSpot, scene.bounds).r;
   const float bound = 1.001f * emitted / 0.05f;
   int heavy = 0;
   for (size_t i = 0; i < bare.size(); ++i) {

@@ -118,7 +118,7 @@ Check check_arrivals(const std::string& name, const Scene& scene, double reflect
   const auto strategy = make_distance_strategy({});
   const auto samples =
       sample_moments(1, effort.count(20'000, 4'000'000), effort.seed_of("cavity, " + name), [&](Rng& rng, double* out) {
-        const Emission emission = emit(scene.lights[0], scene.sphere, rng);
+        const Emission emission = emit(scene.lights[0], scene.bounds, rng);
         WalkCounters counters;
         follow_photon(scene, *strategy, {emission.ray, kVacuum, emission.power}, kNoLimit, rng, counters,
                       [&](const Event& event, const PathState& now) {

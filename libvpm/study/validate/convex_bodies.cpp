@@ -21,7 +21,7 @@ enum Tally : size_t { length, collisions, escapes, tallies = escapes + kRings * 
 
 /// Adds up one photon's way. `hit_share` is the share of the photons that meet the body.
 void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_share, Rng& rng, double* out) {
-  const Emission emission = emit(body.scene.lights[0], body.scene.sphere, rng);
+  const Emission emission = emit(body.scene.lights[0], body.scene.bounds, rng);
   const Encounter entry = body.scene.geometry.encounter(emission.ray);
   Vec3 last = entry ? entry.hits[0].position : emission.ray.origin;
   WalkCounters counters;
@@ -44,8 +44,9 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
 void check_body(std::vector<Check>& checks, const LitBody& body, std::string_view strategy_name, const Effort& effort) {
   const Medium& medium = body.scene.media[0];
   const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name), .step = 0.1f});
-  const double radius = body.scene.sphere.radius;
-  const double hit_share = body.area / (4.0 * kPiD * radius * radius);  // mean projected area over the lit disc's
+  const Vec3d lit(body.scene.bounds.extent());
+  const double hit_share =
+      0.5 * body.area / (lit.x * lit.y + lit.y * lit.z + lit.z * lit.x);  // of surfaces, as of mean projections
   const std::string name = fmt::format("{}, {}", body.name, strategy_name);
   const auto samples = sample_moments(3 * tallies, effort.count(40'000, 2'000'000), effort.seed_of(name),
                                       [&](Rng& rng, double* out) { follow(body, *strategy, hit_share, rng, out); });
