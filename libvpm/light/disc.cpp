@@ -8,8 +8,11 @@ namespace {
 
 float area_of(const DiscLight& light) { return kPi * light.radius * light.radius; }
 
+/// In the disc's plane to the rounding of its coordinates, which that of the frame about the normal would exceed.
 Vec3 uniform_point(const DiscLight& light, Rng& rng) {
-  return point_on_disc(light.centre, light.normal, light.radius, rng.uniform2());
+  const Vec3d from_centre(point_on_disc(Vec3(0.0f), light.normal, light.radius, rng.uniform2())), normal(light.normal);
+  const double off = glm::dot(from_centre, normal) / glm::dot(normal, normal);
+  return Vec3(Vec3d(light.centre) + from_centre - off * normal);
 }
 
 }  // namespace

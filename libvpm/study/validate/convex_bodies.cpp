@@ -19,6 +19,12 @@ constexpr size_t kRings = 6;
 /// What is summed over a photon's way, for each channel.
 enum Tally : size_t { length, collisions, escapes, tallies = escapes + kRings * kSectors };
 
+/// The area that the lit box shows to a direction, over its mean, a quarter of the surface: what even light enters by.
+double shown_share(const Box& lit, const Vec3& direction) {
+  const Vec3d e(lit.extent()), faces(e.y * e.z, e.z * e.x, e.x * e.y);
+  return 2.0 * glm::dot(glm::abs(Vec3d(direction)), faces) / (faces.x + faces.y + faces.z);
+}
+
 /// Adds up one photon's way. `hit_share` is the share of the photons that meet the body.
 void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_share, Rng& rng, double* out) {
   const Emission emission = emit(body.scene.lights[0], body.scene.bounds, rng);
@@ -35,7 +41,8 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
       if (event.kind == EventKind::collision) sums[collisions] += now.power[c] / hit_share;
       if (event.kind == EventKind::escape) {
         const size_t ring = cell_of(0.5 * away_from(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction), kRings);
-        sums[escapes + ring * kSectors + sector_about(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction)] += now.power[c];
+        sums[escapes + ring * kSectors + sector_about(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction)] +=
+            now.power[c] / shown_share(body.scene.bounds, now.ray.direction);
       }
     }
   });
