@@ -75,8 +75,7 @@ Box bounds_of(const Light& light) {
   if (const auto* quad = std::get_if<QuadLight>(&light))
     for (const Vec3& p : {Vec3(0.0f), quad->edge_u, quad->edge_v, quad->edge_u + quad->edge_v})
       box.add(quad->corner + p);
-  if (const auto* disc = std::get_if<DiscLight>(&light))
-    box = disc_bounds({disc->centre, disc->normal, disc->radius});
+  if (const auto* disc = std::get_if<DiscLight>(&light)) box = disc_bounds({disc->centre, disc->normal, disc->radius});
   if (const auto* mesh = std::get_if<MeshLight>(&light)) box = mesh->mesh->bounds();
   if (const auto* sphere = std::get_if<SphereLight>(&light)) {
     box.add(sphere->centre - sphere->radius);

@@ -142,7 +142,7 @@ TEST(PhotonTracing, TheLedgerCloses) {
     const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(gone[c] / ledger.emitted[c], 1.0, 20.0 / std::sqrt(n)) << strategy << " channel " << c;
-    EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene->sphere).g, 0.2) << strategy;
+    EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene->bounds).g, 0.2) << strategy;
     EXPECT_EQ(ledger.non_finite, 0u);
     EXPECT_EQ(ledger.cut_count, 0u);
     EXPECT_EQ(ledger.walk.medium_mismatches, 0u);
