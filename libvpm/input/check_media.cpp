@@ -37,7 +37,7 @@ std::optional<MediumId> follow(const Scene& scene, const Encounter& met, const V
 }
 
 void send_ray(const Scene& scene, const Vec3& target, const Vec3& direction, std::vector<Tally>& tallies) {
-  const float start = glm::distance(target, scene.sphere.centre) + 1.1f * scene.sphere.radius;
+  const float start = glm::distance(target, scene.bounds.centre()) + 0.55f * scene.bounds.diagonal();
   Ray ray{target - start * direction, direction};
   MediumId medium = scene.world_medium;
   for (int i = 0; i < kMostEncounters; ++i) {

@@ -101,18 +101,18 @@ Light read_environment(TableReader& table) {
 
 }  // namespace
 
-std::vector<Light> read_lights(std::vector<TableReader>& tables) {
+std::vector<LightPlan> read_lights(std::vector<TableReader>& tables) {
   using Reader = Light (*)(TableReader&);
   const std::vector<std::pair<std::string, Reader>> kinds = {{"point", read_point},
                                                              {"spot", read_spot},
                                                              {"beam", read_beam},
                                                              {"directional", read_directional},
                                                              {"environment", read_environment}};
-  std::vector<Light> lights;
+  std::vector<LightPlan> lights;
   for (TableReader& table : tables) {
-    table.string("name", "");
+    const std::string name = table.string("name", "");
     const Reader read = table.choice<Reader>("type", kinds);
-    lights.push_back(read(table));
+    lights.push_back({name, read(table)});
     table.finish();
   }
   return lights;

@@ -91,6 +91,10 @@ uint32_t read_shape_material(TableReader& table, const Names& names, std::vector
 
 SphereShape read_sphere(TableReader& table) { return {table.vector("center"), table.number("radius", kPositive)}; }
 
+DiscShape read_disc(TableReader& table) {
+  return {table.vector("center"), table.direction("normal"), table.number("radius", kPositive)};
+}
+
 TriangleMesh read_quad(TableReader& table) {
   const Vec3d corner(table.vector("corner")), u(table.vector("edge_u")), v(table.vector("edge_v"));
   if (!(glm::length(glm::cross(u, v)) > 1e-6 * glm::length(u) * glm::length(v)))
@@ -124,34 +128,43 @@ QuadLight quad_light(const TriangleMesh& mesh, const Rgb& radiance) {
   return mirrored ? QuadLight{p[0], v, u, radiance} : QuadLight{p[0], u, v, radiance};
 }
 
+/// What the shape is once it emits: a quad and a mesh are both triangles.
+Light light_of(const ShapePlan& plan, bool quad, const Rgb& radiance) {
+  if (const auto* sphere = std::get_if<SphereShape>(&plan.surface))
+    return SphereLight{sphere->centre, sphere->radius, radiance};
+  if (const auto* disc = std::get_if<DiscShape>(&plan.surface))
+    return DiscLight{disc->centre, disc->normal, disc->radius, radiance};
+  const auto& mesh = std::get<TriangleMesh>(plan.surface);
+  if (quad) return quad_light(mesh, radiance);
+  return MeshLight{std::make_shared<EmittingMesh>(mesh), radiance};
+}
+
 void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::vector<Material>& materials) {
   if (!table.has("emission")) return;
   const Rgb radiance = table.rgb("emission", kNotNegative);
   if (is_black(radiance)) table.fail("emission", "the emission of " + table.title() + " is black", "remove the key");
   if (is_boundary(materials[plan.shape.material]))
     table.fail("emission", "a boundary has no surface that could emit", "give " + table.title() + " another material");
-  if (quad) {
-    plan.light = quad_light(std::get<TriangleMesh>(plan.surface), radiance);
-  } else {
-    const auto& sphere = std::get<SphereShape>(plan.surface);
-    plan.light = SphereLight{sphere.centre, sphere.radius, radiance};
-  }
+  plan.light = light_of(plan, quad, radiance);
 }
 
 ShapePlan read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
                      std::vector<Material>& materials) {
-  enum class Kind { sphere, quad, box, mesh };
+  enum class Kind { sphere, disc, quad, box, mesh };
   ShapePlan plan;
   plan.place = table.place();
   plan.shape.name = table.string("name", "");
   const Kind kind = table.choice<Kind>(
-      "type", {{"sphere", Kind::sphere}, {"quad", Kind::quad}, {"box", Kind::box}, {"mesh", Kind::mesh}});
+      "type",
+      {{"sphere", Kind::sphere}, {"disc", Kind::disc}, {"quad", Kind::quad}, {"box", Kind::box}, {"mesh", Kind::mesh}});
   plan.shape.material = read_shape_material(table, material_names, materials);
   plan.shape.separates_media = table.has("inside") || table.has("outside");
   plan.shape.media.inside = read_medium_name(table, "inside", media, world);
   plan.shape.media.outside = read_medium_name(table, "outside", media, world);
   if (kind == Kind::sphere) {
     plan.surface = read_sphere(table);
+  } else if (kind == Kind::disc) {
+    plan.surface = read_disc(table);
   } else {
     TriangleMesh mesh = kind == Kind::quad  ? read_quad(table)
                         : kind == Kind::box ? read_box(table)
@@ -162,7 +175,7 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
         table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
     plan.surface = std::move(mesh);
   }
-  if (kind == Kind::sphere || kind == Kind::quad) read_emission(table, plan, kind == Kind::quad, materials);
+  read_emission(table, plan, kind == Kind::quad, materials);
   table.finish();
   return plan;
 }

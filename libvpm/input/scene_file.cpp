@@ -17,7 +17,7 @@ struct ScenePlan {
   std::vector<MediumPlan> media;
   std::vector<Material> materials;
   std::vector<ShapePlan> shapes;
-  std::vector<Light> lights;
+  std::vector<LightPlan> lights;
   Camera camera;
   std::optional<MediumId> camera_medium;
   Place world_place, lights_place;
@@ -54,14 +54,14 @@ void read_all_lights(TableReader& root, ScenePlan& plan) {
   std::vector<TableReader> tables = root.tables("lights", "[[lights]]");
   plan.lights = read_lights(tables);
   plan.lights_place = root.place_of("lights");
-  for (const Light& light : plan.lights)
-    if (is_infinite(light) && plan.world != kVacuum)
+  for (const LightPlan& light : plan.lights)
+    if (is_infinite(light.light) && plan.world != kVacuum)
       fail_at(plan.world_place, "a medium fills the world, but a light comes from infinity: it would never arrive",
               "remove [world], or the directional and environment lights");
   for (ShapePlan& shape : plan.shapes) {
     if (!shape.light) continue;
     shape.shape.light = static_cast<int>(plan.lights.size());
-    plan.lights.push_back(*shape.light);
+    plan.lights.push_back({shape.shape.name, *shape.light});
   }
   if (plan.lights.empty()) root.fail_here("the scene has no light", "add [[lights]], or a shape with emission");
 }
@@ -178,7 +178,7 @@ void add_shapes(ScenePlan& plan, LoadedScene& loaded) {
   }
   scene.geometry.commit();
   bool infinite = false;
-  for (const Light& light : plan.lights) infinite = infinite || is_infinite(light);
+  for (const LightPlan& light : plan.lights) infinite = infinite || is_infinite(light.light);
   if (infinite && scene.geometry.bounds().empty())
     fail_at(plan.lights_place, "a light at infinity has nothing to shine on: the scene has no shapes");
 }
@@ -200,8 +200,9 @@ void check_media(const Scene& scene, const ScenePlan& plan) {
 /// Tells of media whose free paths are shorter than floats resolve positions: what enters these does not come out
 /// again.
 void note_unresolved_media(LoadedScene& loaded) {
-  const SceneSphere& sphere = loaded.scene.sphere;
-  const double resolved = 0x1p-20 * (glm::length(sphere.centre) + sphere.radius);  // m: a few units in the last place
+  const Box& bounds = loaded.scene.bounds;
+  const double resolved =
+      0x1p-20 * (glm::length(bounds.centre()) + 0.5 * bounds.diagonal());  // m: a few units in the last place
   for (const Medium& medium : loaded.scene.media) {
     const double extinction = double(max_channel(medium.sigma_t)) * medium.max_density();  // 1/m
     if (medium.scatters() && extinction * resolved > 1.0)
@@ -227,7 +228,10 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
   add_shapes(plan, loaded);
   for (MediumPlan& medium : plan.media) scene.media.push_back(std::move(medium.medium));
   scene.materials = std::move(plan.materials);
-  scene.lights = std::move(plan.lights);
+  for (LightPlan& light : plan.lights) {
+    scene.lights.push_back(std::move(light.light));
+    loaded.light_names.push_back(std::move(light.name));
+  }
   scene.world_medium = plan.world;
   scene.camera = plan.camera;
   scene.camera_medium = plan.camera_medium ? *plan.camera_medium : medium_around(scene, scene.camera.position);

@@ -13,9 +13,10 @@ namespace vpm {
 struct LoadedScene {
   Scene scene;  // finished
   RenderSettings settings;
-  std::vector<std::string> notes;       // what a user should know of, e.g. clamped densities
-  std::string hash;                     // 16 hex digits, of the file's text and the options
-  uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
+  std::vector<std::string> light_names;  // of Scene::lights: those of the shapes that emit; empty where none is given
+  std::vector<std::string> notes;        // what a user should know of, e.g. clamped densities
+  std::string hash;                      // 16 hex digits, of the file's text and the options
+  uint64_t clamped_density_values = 0;   // negative densities set to 0 on the scene's request, over all grids
 };
 
 /// Reads a scene file and the files it names. `overrides` are `key.path=value` options that change keys of the file

@@ -44,7 +44,7 @@ std::vector<Material> read_materials(TableReader& section);
 struct ShapePlan {
   Place place;  // of the shape in the file; of its medium for the box of a grid
   Shape shape;
-  std::variant<TriangleMesh, SphereShape> surface;
+  std::variant<TriangleMesh, SphereShape, DiscShape> surface;
   std::optional<Light> light;
   uint64_t degenerate_triangles = 0;  // dropped from a mesh
 };
@@ -59,8 +59,13 @@ void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);
 /// singular ones.
 Mat4d read_transform(TableReader& table, const std::string& key);
 
+/// A light as the file describes it.
+struct LightPlan {
+  std::string name;  // empty where it has none
+  Light light;
+};
 /// Reads [[lights]].
-std::vector<Light> read_lights(std::vector<TableReader>& tables);
+std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);
 
 /// Reads [camera] and [film].
 Camera read_camera(TableReader& camera, std::optional<TableReader>& film);

@@ -19,6 +19,30 @@ double texel_solid_angle(int row, int width, int height) {
   return 2.0 * kPiD / width * 2.0 * std::sin((row + 0.5) * step) * std::sin(0.5 * step);
 }
 
+/// Integrals over the directions of a row of texels, or of a column, whose product is that of |cosine| to an axis over
+/// a texel's solid angle: `up` for y, `along` and one of the column's for z and x.
+struct RowShares {
+  double up = 0.0, along = 0.0;
+};
+RowShares row_shares(double top, double bottom) {  // angles from +y
+  const auto up = [](double angle) {               // |cos| sin, integrated from 0
+    const double half_square = 0.5 * std::sin(angle) * std::sin(angle);
+    return std::cos(angle) >= 0.0 ? half_square : 1.0 - half_square;
+  };
+  const auto along = [](double angle) { return 0.5 * (angle - std::sin(angle) * std::cos(angle)); };  // sin^2
+  return {up(bottom) - up(top), along(bottom) - along(top)};
+}
+struct ColumnShares {
+  double z = 0.0, x = 0.0;
+};
+ColumnShares column_shares(double begin, double end) {  // azimuths
+  const auto sine = [](double angle) {                  // |sin|, integrated from 0
+    const double halves = std::floor(angle / kPiD);
+    return 2.0 * halves + 1.0 - std::cos(angle - halves * kPiD);
+  };
+  return {sine(end + 0.5 * kPiD) - sine(begin + 0.5 * kPiD), sine(end) - sine(begin)};
+}
+
 void check_texels(int width, int height, const std::vector<Rgb>& texels) {
   if (width < 1 || height < 1 || texels.size() != static_cast<size_t>(width) * static_cast<size_t>(height)) {
     throw InputError("environment: " + std::to_string(texels.size()) + " texels for a picture of " +
@@ -40,10 +64,20 @@ ImageEnvironment::ImageEnvironment(int width, int height, std::vector<Rgb> texel
   check_texels(width, height, texels_);
   cumulative_.reserve(texels_.size() + 1);
   cumulative_.push_back(0.0);
-  for (size_t i = 0; i < texels_.size(); ++i) {
-    const double solid_angle = texel_solid_angle(static_cast<int>(i / static_cast<size_t>(width)), width, height);
-    cumulative_.push_back(cumulative_.back() + luminance(texels_[i]) * solid_angle);
-    integral_ += Rgbd(texels_[i]) * solid_angle;
+  std::vector<ColumnShares> columns;
+  const double turn = 2.0 * kPiD / width, fall = kPiD / height;
+  for (int i = 0; i < width; ++i) columns.push_back(column_shares(i * turn, (i + 1) * turn));
+  for (int row = 0; row < height; ++row) {
+    const double solid_angle = texel_solid_angle(row, width, height);
+    const RowShares shares = row_shares(row * fall, (row + 1) * fall);
+    for (const ColumnShares& column : columns) {
+      const Rgb& texel = texels_[cumulative_.size() - 1];
+      cumulative_.push_back(cumulative_.back() + luminance(texel) * solid_angle);
+      integral_ += Rgbd(texel) * solid_angle;
+      flux_across_[0] += Rgbd(texel) * (shares.along * column.x);
+      flux_across_[1] += Rgbd(texel) * (shares.up * turn);
+      flux_across_[2] += Rgbd(texel) * (shares.along * column.z);
+    }
   }
   grey_ = std::all_of(texels_.begin(), texels_.end(), [](const Rgb& c) { return is_grey(c); });
   if (!(cumulative_.back() > 0.0))
@@ -82,27 +116,35 @@ ImageEnvironment::Sample ImageEnvironment::sample(Rng& rng) const {
   return {direction, static_cast<float>(luminance(texels_[texel]) / cumulative_.back()), texels_[texel]};
 }
 
-Rgb power_of(const ConstantEnvironment& light, const SceneSphere& scene) {
-  return 4.0f * kPi * kPi * scene.radius * scene.radius * light.radiance;
+Rgb power_of(const ConstantEnvironment& light, const Box& scene) {
+  const Vec3d faces = face_areas(scene);
+  return kPi * 2.0f * static_cast<float>(faces.x + faces.y + faces.z) * light.radiance;
 }
 
-Emission emit_from(const ConstantEnvironment& light, const SceneSphere& scene, Rng& rng) {
-  const Vec3 direction = uniform_sphere(rng.uniform2());
-  return {ray_from_infinity(direction, scene, rng.uniform2()), power_of(light, scene)};
+Emission emit_from(const ConstantEnvironment& light, const Box& scene, Rng& rng) {
+  // Even light enters every part of the box's surface alike, by the cosine law.
+  const int axis = pick_axis(face_areas(scene), rng);
+  const bool upper = rng.uniform() < 0.5f;
+  Vec3 inward(0.0f);
+  inward[axis] = upper ? -1.0f : 1.0f;
+  const Vec3 from = point_on_face(scene, axis, upper, rng.uniform2());
+  return {Ray{from, cosine_hemisphere(inward, rng.uniform2())}, power_of(light, scene)};
 }
 
 std::optional<Incident> incident_from(const ConstantEnvironment& light, const Vec3&, Rng& rng) {
   return Incident{uniform_sphere(rng.uniform2()), kInfinity, 4.0f * kPi * light.radiance, 1.0f / (4.0f * kPi)};
 }
 
-Rgb power_of(const EnvironmentMap& light, const SceneSphere& scene) {
-  return kPi * scene.radius * scene.radius * Rgb(light.image->integral());
+Rgb power_of(const EnvironmentMap& light, const Box& scene) {
+  const Vec3d faces = face_areas(scene);
+  const auto& flux = light.image->flux_across();
+  return Rgb(faces.x * flux[0] + faces.y * flux[1] + faces.z * flux[2]);
 }
 
-Emission emit_from(const EnvironmentMap& light, const SceneSphere& scene, Rng& rng) {
+Emission emit_from(const EnvironmentMap& light, const Box& scene, Rng& rng) {
   const ImageEnvironment::Sample s = light.image->sample(rng);
-  const float area = kPi * scene.radius * scene.radius;
-  return {ray_from_infinity(-s.direction, scene, rng.uniform2()), area / s.pdf * s.radiance};
+  const auto area = static_cast<float>(area_across(scene, s.direction));
+  return {ray_into(scene, -s.direction, rng), area / s.pdf * s.radiance};
 }
 
 std::optional<Incident> incident_from(const EnvironmentMap& light, const Vec3&, Rng& rng) {
@@ -110,10 +152,10 @@ std::optional<Incident> incident_from(const EnvironmentMap& light, const Vec3&, 
   return Incident{s.direction, kInfinity, s.radiance / s.pdf, s.pdf};
 }
 
-float pdf_of(const ConstantEnvironment&, const Vec3&, const Vec3&, float) { return 1.0f / (4.0f * kPi); }
+float pdf_of(const ConstantEnvironment&, const Vec3&, const SeenLight&) { return 1.0f / (4.0f * kPi); }
 
-float pdf_of(const EnvironmentMap& light, const Vec3&, const Vec3& direction, float) {
-  return light.image->pdf(direction);
+float pdf_of(const EnvironmentMap& light, const Vec3&, const SeenLight& seen) {
+  return light.image->pdf(seen.direction);
 }
 
 }  // namespace vpm

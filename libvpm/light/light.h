@@ -1,21 +1,18 @@
 // Light sources: the closed set. Each tells its power, emits photons, and can be sampled from a point.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "base/rng.h"
 #include "base/vec.h"
+#include "surface/geometry.h"
 
 namespace vpm {
-
-/// The sphere around everything that light from infinity has to reach.
-struct SceneSphere {
-  Vec3 centre{0.0f};    // m
-  float radius = 0.0f;  // m
-};
 
 struct PointLight {
   Vec3 position{0.0f};  // m
@@ -40,11 +37,43 @@ struct QuadLight {
   Vec3 corner{0.0f}, edge_u{1.0f, 0.0f, 0.0f}, edge_v{0.0f, 1.0f, 0.0f};  // m; the edges need not be orthogonal
   Rgb radiance{1.0f};                                                     // W/(m^2 sr)
 };
+/// A disc that emits to the side of its normal.
+struct DiscLight {
+  Vec3 centre{0.0f};              // m
+  Vec3 normal{0.0f, 1.0f, 0.0f};  // unit
+  float radius = 1.0f;            // m
+  Rgb radiance{1.0f};             // W/(m^2 sr)
+};
 /// A sphere that emits outwards.
 struct SphereLight {
   Vec3 centre{0.0f};    // m
   float radius = 1.0f;  // m
   Rgb radiance{1.0f};   // W/(m^2 sr)
+};
+/// Triangles to draw points from, uniformly over all their area.
+class EmittingMesh {
+ public:
+  /// Throws InputError where no triangle has an area. The vertices that triangles name exist.
+  explicit EmittingMesh(TriangleMesh mesh);
+  /// m^2.
+  double area() const { return cumulative_.back(); }
+  struct Sample {
+    Vec3 position{0.0f};  // m
+    Vec3 normal{0.0f};    // unit, outward
+    float slack = 0.0f;   // m, as in Hit
+  };
+  Sample sample(Rng& rng) const;
+  /// The box around all vertices of triangles.
+  Box bounds() const;
+
+ private:
+  TriangleMesh mesh_;
+  std::vector<double> cumulative_;  // areas, m^2, one more than triangles
+};
+/// Triangles that emit to the sides of their outward normals. They may stand in each other's light.
+struct MeshLight {
+  std::shared_ptr<const EmittingMesh> mesh;
+  Rgb radiance{1.0f};  // W/(m^2 sr)
 };
 /// Parallel light from infinity.
 struct DirectionalLight {
@@ -75,6 +104,9 @@ class ImageEnvironment {
   float pdf(const Vec3& d) const;
   /// Integral of radiance over the sphere, W/m^2.
   Rgbd integral() const { return integral_; }
+  /// Integrals over the sphere of radiance times |cosine| to the x, y and z axes, W/m^2: what passes a plane across
+  /// each, from both sides together.
+  const std::array<Rgbd, 3>& flux_across() const { return flux_across_; }
   /// Are all texels grey?
   bool grey() const { return grey_; }
 
@@ -85,18 +117,21 @@ class ImageEnvironment {
   std::vector<Rgb> texels_;
   std::vector<double> cumulative_;  // of luminance times solid angle, size width * height + 1
   Rgbd integral_{0.0};
+  std::array<Rgbd, 3> flux_across_{};
   bool grey_ = false;
 };
 struct EnvironmentMap {
   std::shared_ptr<const ImageEnvironment> image;
 };
 
-using Light = std::variant<PointLight, SpotLight, BeamLight, QuadLight, SphereLight, DirectionalLight,
-                           ConstantEnvironment, EnvironmentMap>;
+using Light = std::variant<PointLight, SpotLight, BeamLight, QuadLight, DiscLight, SphereLight, MeshLight,
+                           DirectionalLight, ConstantEnvironment, EnvironmentMap>;
 
-/// Power emitted into the scene, W. Lights at infinity: what enters the scene's sphere, pi radius^2 times the
-/// irradiance across each direction.
-Rgb light_power(const Light& light, const SceneSphere& scene);
+/// Power emitted into the scene, W. Lights at infinity: what enters the box `scene`, which holds all that they have to
+/// reach and has a volume.
+Rgb light_power(const Light& light, const Box& scene);
+/// What kind of light it is, in a word or two.
+std::string_view light_kind(const Light& light);
 /// Does the light's emission lack any colour?
 bool is_grey(const Light& light);
 /// Is the light at infinity, so that it needs vacuum around the scene?
@@ -104,12 +139,13 @@ bool is_infinite(const Light& light);
 
 /// One emitted photon: where it starts, and the power it stands for if this light emitted this photon alone. Its
 /// expectation over photons is light_power(); for all lights but EnvironmentMap every photon carries exactly that. Area
-/// lights are shapes of the scene: their photons start just off the surface, so as not to meet it.
+/// lights are shapes of the scene: their photons start just off the surface, so as not to meet it. Those of lights at
+/// infinity start where they enter the box.
 struct Emission {
   Ray ray;
   Rgb power{0.0f};  // W
 };
-Emission emit(const Light& light, const SceneSphere& scene, Rng& rng);
+Emission emit(const Light& light, const Box& scene, Rng& rng);
 
 /// Light that arrives at a point without obstacles.
 struct Incident {
@@ -119,13 +155,19 @@ struct Incident {
                                // integral of radiance
   float pdf = 0.0f;            // of the direction, 1/sr; 0 where the light has one direction only
 };
-/// Samples the light that reaches `point`; nothing where none can. A point inside a sphere light gets nothing.
+/// Samples the light that reaches `point`; nothing where none can. A point inside a sphere light gets nothing. Whether
+/// other parts of a mesh light stand between is not asked.
 std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rng& rng);
 
-/// The density of sample_towards() from `point` at the unit `direction`, in which the light's surface is seen at
-/// `distance` (environments: any), 1/sr; 0 where it never samples that direction, and for lights of one direction only.
-/// For multiple importance sampling [Veach1997, ch. 9].
-float incident_pdf(const Light& light, const Vec3& point, const Vec3& direction, float distance);
+/// A light that a ray ran into.
+struct SeenLight {
+  Vec3 direction{0.0f};        // of the ray, unit
+  float distance = kInfinity;  // m, to the light's surface
+  Vec3 normal{0.0f};           // unit, outward, of the surface there; of no meaning for environments
+};
+/// The density with which sample_towards() from `point` finds what was seen, 1/sr; 0 where it never does, and for
+/// lights of one direction only. For multiple importance sampling [Veach1997, ch. 9].
+float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen);
 
 /// Radiance of an environment seen along `direction`, W/(m^2 sr); black for other lights.
 Rgb environment_radiance(const Light& light, const Vec3& direction);

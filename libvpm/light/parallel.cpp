@@ -11,13 +11,9 @@ Vec3 point_on_disc(const Vec3& centre, const Vec3& axis, float radius, const Vec
   return centre + d.x * s + d.y * t;
 }
 
-Ray ray_from_infinity(const Vec3& direction, const SceneSphere& scene, const Vec2& u) {
-  return {point_on_disc(scene.centre - scene.radius * direction, direction, scene.radius, u), direction};
-}
+Rgb power_of(const BeamLight& light, const Box&) { return light.power; }
 
-Rgb power_of(const BeamLight& light, const SceneSphere&) { return light.power; }
-
-Emission emit_from(const BeamLight& light, const SceneSphere&, Rng& rng) {
+Emission emit_from(const BeamLight& light, const Box&, Rng& rng) {
   return {Ray{point_on_disc(light.position, light.direction, light.radius, rng.uniform2()), light.direction},
           light.power};
 }
@@ -29,12 +25,12 @@ std::optional<Incident> incident_from(const BeamLight& light, const Vec3& point,
   return Incident{-light.direction, ahead, light.power / (kPi * light.radius * light.radius), 0.0f};
 }
 
-Rgb power_of(const DirectionalLight& light, const SceneSphere& scene) {
-  return kPi * scene.radius * scene.radius * light.irradiance;
+Rgb power_of(const DirectionalLight& light, const Box& scene) {
+  return static_cast<float>(area_across(scene, light.direction)) * light.irradiance;
 }
 
-Emission emit_from(const DirectionalLight& light, const SceneSphere& scene, Rng& rng) {
-  return {ray_from_infinity(light.direction, scene, rng.uniform2()), power_of(light, scene)};
+Emission emit_from(const DirectionalLight& light, const Box& scene, Rng& rng) {
+  return {ray_into(scene, light.direction, rng), power_of(light, scene)};
 }
 
 std::optional<Incident> incident_from(const DirectionalLight& light, const Vec3&, Rng&) {

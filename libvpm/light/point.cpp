@@ -49,9 +49,9 @@ std::optional<Incident> from_position(const Vec3& position, const Vec3& point, c
 
 }  // namespace
 
-Rgb power_of(const PointLight& light, const SceneSphere&) { return 4.0f * kPi * light.intensity; }
+Rgb power_of(const PointLight& light, const Box&) { return 4.0f * kPi * light.intensity; }
 
-Emission emit_from(const PointLight& light, const SceneSphere& scene, Rng& rng) {
+Emission emit_from(const PointLight& light, const Box& scene, Rng& rng) {
   return {Ray{light.position, uniform_sphere(rng.uniform2())}, power_of(light, scene)};
 }
 
@@ -59,12 +59,12 @@ std::optional<Incident> incident_from(const PointLight& light, const Vec3& point
   return from_position(light.position, point, light.intensity);
 }
 
-Rgb power_of(const SpotLight& light, const SceneSphere&) {
+Rgb power_of(const SpotLight& light, const Box&) {
   const SpotParts parts = spot_parts(light);
   return 2.0f * kPi * (parts.inner + parts.rim) * light.intensity;
 }
 
-Emission emit_from(const SpotLight& light, const SceneSphere& scene, Rng& rng) {
+Emission emit_from(const SpotLight& light, const Box& scene, Rng& rng) {
   return {Ray{light.position, spot_direction(light, rng)}, power_of(light, scene)};
 }
 

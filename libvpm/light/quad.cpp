@@ -1,7 +1,6 @@
 // A parallelogram that emits the same radiance from every point of its front.
 #include "base/warp.h"
 #include "light/kinds.h"
-#include "surface/geometry.h"
 
 namespace vpm {
 
@@ -9,6 +8,8 @@ namespace {
 
 /// cross(edge_u, edge_v): its length is the area, m^2.
 Vec3d area_vector(const QuadLight& light) { return glm::cross(Vec3d(light.edge_u), Vec3d(light.edge_v)); }
+
+float area_of(const QuadLight& light) { return static_cast<float>(glm::length(area_vector(light))); }
 
 Vec3 uniform_point(const QuadLight& light, const Vec2& u) {
   return Vec3(Vec3d(light.corner) + double{u.x} * Vec3d(light.edge_u) + double{u.y} * Vec3d(light.edge_v));
@@ -22,11 +23,9 @@ Vec3 reach_from(const QuadLight& light, const Vec3& p) {
 
 }  // namespace
 
-Rgb power_of(const QuadLight& light, const SceneSphere&) {
-  return kPi * static_cast<float>(glm::length(area_vector(light))) * light.radiance;
-}
+Rgb power_of(const QuadLight& light, const Box&) { return kPi * area_of(light) * light.radiance; }
 
-Emission emit_from(const QuadLight& light, const SceneSphere& scene, Rng& rng) {
+Emission emit_from(const QuadLight& light, const Box& scene, Rng& rng) {
   const Vec3d across = area_vector(light);
   const Vec3 normal(glm::normalize(across));
   const Vec3 p = uniform_point(light, rng.uniform2());
@@ -36,19 +35,10 @@ Emission emit_from(const QuadLight& light, const SceneSphere& scene, Rng& rng) {
 }
 
 std::optional<Incident> incident_from(const QuadLight& light, const Vec3& point, Rng& rng) {
-  const Vec3 towards = uniform_point(light, rng.uniform2()) - point;
-  const float square = glm::dot(towards, towards);
-  const Vec3 across(area_vector(light));
-  const float facing = -glm::dot(across, towards);  // area * cosine * distance
-  if (!(facing > 0.0f)) return std::nullopt;
-  const float distance = std::sqrt(square);
-  const float pdf = square * distance / facing;
-  return Incident{towards / distance, distance, light.radiance / pdf, pdf};
+  const Vec3 normal(glm::normalize(area_vector(light)));
+  return incident_by_area(light.radiance, uniform_point(light, rng.uniform2()), normal, area_of(light), point);
 }
 
-float pdf_of(const QuadLight& light, const Vec3&, const Vec3& direction, float distance) {
-  const float facing = -glm::dot(Vec3(area_vector(light)), direction);  // area * cosine
-  return facing > 0.0f ? distance * distance / facing : 0.0f;
-}
+float pdf_of(const QuadLight& light, const Vec3&, const SeenLight& seen) { return pdf_by_area(area_of(light), seen); }
 
 }  // namespace vpm

@@ -1,7 +1,6 @@
 // A sphere that emits the same radiance from every point of its outside.
 #include "base/warp.h"
 #include "light/kinds.h"
-#include "surface/geometry.h"
 
 namespace vpm {
 
@@ -15,11 +14,11 @@ float cone_of(const SphereLight& light, double distance) {
 
 }  // namespace
 
-Rgb power_of(const SphereLight& light, const SceneSphere&) {
+Rgb power_of(const SphereLight& light, const Box&) {
   return 4.0f * kPi * kPi * light.radius * light.radius * light.radiance;
 }
 
-Emission emit_from(const SphereLight& light, const SceneSphere& scene, Rng& rng) {
+Emission emit_from(const SphereLight& light, const Box& scene, Rng& rng) {
   const Vec3 normal = uniform_sphere(rng.uniform2());
   const Vec3 direction = cosine_hemisphere(normal, rng.uniform2());
   const SphereShape shape{light.centre, light.radius};
@@ -42,7 +41,7 @@ std::optional<Incident> incident_from(const SphereLight& light, const Vec3& poin
   return Incident{direction, static_cast<float>(along - half_chord), light.radiance / pdf, pdf};
 }
 
-float pdf_of(const SphereLight& light, const Vec3& point, const Vec3&, float) {
+float pdf_of(const SphereLight& light, const Vec3& point, const SeenLight&) {
   const float away = cone_of(light, glm::length(Vec3d(light.centre) - Vec3d(point)));
   return away > 0.0f ? 1.0f / (2.0f * kPi * away) : 0.0f;
 }

@@ -26,6 +26,7 @@ SurfaceSide far_side(const Scene& scene, const Hit& hit, const Vec3& travel, Med
 
 Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,
                MediumId medium, Rng& rng, WalkCounters& counters) {
+  const Vec3 target = ray.at(distance);
   Rgb result(1.0f);
   for (;;) {
     const Encounter met = meet(scene, ray, distance, medium, counters);
@@ -35,10 +36,13 @@ Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, 
       counters.lookups += t.lookups;
       result *= t.value;
     }
-    if (!met || scene.shapes[met.hits[0].shape].light == light) return result;
+    if (!met) return result;
+    if (scene.shapes[met.hits[0].shape].light == light && stands_at(met.hits[0], ray, distance)) return result;
     if (!is_boundary(scene.material_of(met.hits[0])) || is_black(result)) return Rgb(0.0f);
     cross_boundaries(scene, met, ray, medium, counters);
-    distance -= reach;
+    if (distance == kInfinity) continue;
+    distance = glm::dot(target - ray.origin, ray.direction);
+    if (!(distance > 0.0f)) return result;  // a light just behind a boundary: they were passed together
   }
 }
 

@@ -30,7 +30,7 @@ SurfaceSide near_side(const Hit& hit, const Vec3& travel, MediumId medium);
 SurfaceSide far_side(const Scene& scene, const Hit& hit, const Vec3& travel, MediumId medium);
 
 /// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface
-/// stands between that is neither the light's own nor a boundary.
+/// stands between that is no boundary, be it another part of the light's own.
 Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,
                MediumId medium, Rng& rng, WalkCounters& counters);
 

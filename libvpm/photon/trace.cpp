@@ -47,7 +47,7 @@ class PhotonPath {
  private:
   void emit(Rng& rng) {
     const int light = pick_light(scene_, rng.uniform());
-    Emission emission = vpm::emit(scene_.lights[light], scene_.sphere, rng);
+    Emission emission = vpm::emit(scene_.lights[light], scene_.bounds, rng);
     emission.power /= scene_.light_probability[light];
     state_ = {emission.ray, medium_of_ray(scene_, scene_.light_medium[light], emission.ray), emission.power};
     emitted_power_ = sum_channels(emission.power);

@@ -42,10 +42,12 @@ class TracedPath {
   }
 
   bool meet_surface(const Hit& hit, const Vec3& from) {
+    const Vec3 travel = state_.ray.direction;
     const int light = c_.scene.shapes[hit.shape].light;
     if (light >= 0) {
-      const Rgb emitted = surface_radiance(c_.scene.lights[light], hit.normal, state_.ray.direction);
-      radiance_ += state_.power * emitted * share_of_path(light, from, glm::distance(from, hit.position));
+      const Rgb emitted = surface_radiance(c_.scene.lights[light], hit.normal, travel);
+      radiance_ +=
+          state_.power * emitted * share_of_path(light, from, {travel, glm::distance(from, hit.position), hit.normal});
     }
     if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
     const Material& material = c_.scene.material_of(hit);
@@ -74,7 +76,9 @@ class TracedPath {
   void see_environment(const Vec3& from) {
     for (size_t i = 0; i < c_.scene.lights.size(); ++i) {
       const Rgb seen = environment_radiance(c_.scene.lights[i], state_.ray.direction);
-      if (!is_black(seen)) radiance_ += state_.power * seen * share_of_path(static_cast<int>(i), from, kInfinity);
+      if (!is_black(seen))
+        radiance_ +=
+            state_.power * seen * share_of_path(static_cast<int>(i), from, {.direction = state_.ray.direction});
     }
   }
 
@@ -96,10 +100,9 @@ class TracedPath {
   }
 
   /// The part that the path has in the light it ran into: all where no shadow ray could have found it.
-  float share_of_path(int light, const Vec3& from, float distance) const {
+  float share_of_path(int light, const Vec3& from, const SeenLight& seen) const {
     if (std::isinf(scatter_pdf_)) return 1.0f;
-    const float light_pdf =
-        c_.scene.light_probability[light] * incident_pdf(c_.scene.lights[light], from, state_.ray.direction, distance);
+    const float light_pdf = c_.scene.light_probability[light] * incident_pdf(c_.scene.lights[light], from, seen);
     return scatter_pdf_ / (scatter_pdf_ + light_pdf);
   }
 

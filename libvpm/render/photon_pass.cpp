@@ -107,12 +107,12 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
 
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium) {
   if (settings.volume.radius > 0.0f) return settings.volume.radius;
-  return default_share(settings.volume) * (medium.grid ? medium.grid->bounds().diagonal() : 2.0f * scene.sphere.radius);
+  return default_share(settings.volume) * (medium.grid ? medium.grid->bounds().diagonal() : scene.bounds.diagonal());
 }
 
 float first_surface_radius(const Scene& scene, const RenderSettings& settings) {
   return settings.surface.radius > 0.0f ? settings.surface.radius
-                                        : default_share(settings.surface) * 2.0f * scene.sphere.radius;
+                                        : default_share(settings.surface) * scene.bounds.diagonal();
 }
 
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/rng.h"
+#include "surface/disc.h"
 
 namespace vpm {
 
@@ -34,11 +35,12 @@ MediumId medium_along(const Scene& scene, const Ray& ray) {
   return met ? near_side(scene, met, ray.direction) : scene.world_medium;
 }
 
-SceneSphere bounding_sphere(const Box& box) {
-  if (box.empty()) return {Vec3(0.0f), 1.0f};
-  // A little larger than the box, so that light from infinity starts outside in spite of rounding.
-  const float reach = glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
-  return {box.centre(), 0.5f * box.diagonal() + 1e-6f * reach};
+Box wider_box(const Box& box) {
+  if (box.empty()) return {Vec3(-std::sqrt(1.0f / 3.0f)), Vec3(std::sqrt(1.0f / 3.0f))};
+  // A little wider than the shapes, so that light from infinity starts outside in spite of rounding, and a floor alone
+  // has a volume to enter.
+  const float margin = 1e-6f * glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
+  return {box.lo - margin, box.hi + margin};
 }
 
 bool all_grey(const Scene& scene) {
@@ -47,10 +49,10 @@ bool all_grey(const Scene& scene) {
          std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return is_grey(m); });
 }
 
-std::vector<float> probability_by_power(const std::vector<Light>& lights, const SceneSphere& sphere) {
+std::vector<float> probability_by_power(const std::vector<Light>& lights, const Box& bounds) {
   std::vector<double> power;
   double total = 0.0;
-  for (const Light& light : lights) total += power.emplace_back(mean_channel(light_power(light, sphere)));
+  for (const Light& light : lights) total += power.emplace_back(mean_channel(light_power(light, bounds)));
   if (lights.empty()) return {};
   if (!(total > 0.0) || std::isinf(total)) {
     throw InputError("lights: their power is " + std::to_string(total) + " W in all, it must be positive and finite");
@@ -73,6 +75,8 @@ Box bounds_of(const Light& light) {
   if (const auto* quad = std::get_if<QuadLight>(&light))
     for (const Vec3& p : {Vec3(0.0f), quad->edge_u, quad->edge_v, quad->edge_u + quad->edge_v})
       box.add(quad->corner + p);
+  if (const auto* disc = std::get_if<DiscLight>(&light)) box = disc_bounds({disc->centre, disc->normal, disc->radius});
+  if (const auto* mesh = std::get_if<MeshLight>(&light)) box = mesh->mesh->bounds();
   if (const auto* sphere = std::get_if<SphereLight>(&light)) {
     box.add(sphere->centre - sphere->radius);
     box.add(sphere->centre + sphere->radius);
@@ -91,6 +95,13 @@ Vec3 point_before(const Light& light) {
     const Vec3 reach = glm::abs(l->edge_u) + glm::abs(l->edge_v);
     return leave_surface_at(l->corner + 0.5f * (l->edge_u + l->edge_v), normal, normal,
                             flat_slack(normal, reach, glm::length(across)));
+  }
+  if (const auto* l = std::get_if<DiscLight>(&light))
+    return leave_surface_at(l->centre, l->normal, l->normal, disc_slack({l->centre, l->normal, l->radius}));
+  if (const auto* l = std::get_if<MeshLight>(&light)) {
+    Rng rng(0, rng_stream(RngUse::probe, 0), 0);
+    const EmittingMesh::Sample at = l->mesh->sample(rng);
+    return leave_surface_at(at.position, at.normal, at.normal, at.slack);
   }
   const auto& l = std::get<SphereLight>(light);
   const SphereShape shape{l.centre, l.radius};
@@ -143,9 +154,9 @@ MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& dire
 
 void finish(Scene& scene) {
   assert(scene.light_probability.empty() && scene.light_medium.empty());
-  scene.sphere = bounding_sphere(scene.geometry.bounds());
+  scene.bounds = wider_box(scene.geometry.bounds());
   scene.grey = all_grey(scene);
-  scene.light_probability = probability_by_power(scene.lights, scene.sphere);
+  scene.light_probability = probability_by_power(scene.lights, scene.bounds);
   for (const Light& light : scene.lights) scene.light_medium.push_back(medium_of(scene, light));
 }
 

@@ -45,7 +45,7 @@ struct Scene {
   MediumId camera_medium = kVacuum;  // kSeveralMedia where the camera stands on a boundary
 
   // Derived by finish().
-  SceneSphere sphere;                    // around all shapes; without any, radius 1 m about the origin
+  Box bounds;                            // a little wider than all shapes; without any, 1 m about the origin
   bool grey = false;                     // one channel carries everything
   std::vector<float> light_probability;  // of emitting the next photon, by power; sums to 1
   // That a light's photons start in; kSeveralMedia where a boundary cuts the light, or runs through its point.

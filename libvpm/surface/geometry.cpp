@@ -1,4 +1,4 @@
-// Shapes in Embree: triangle meshes as they are, spheres as user geometry with our own intersection.
+// Shapes in Embree: triangle meshes as they are, spheres and discs as user geometry with our own intersection.
 #include "surface/geometry.h"
 
 #include <embree3/rtcore.h>
@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "base/error.h"
+#include "surface/disc.h"
 #include "surface/sphere.h"
 
 namespace vpm {
@@ -32,7 +33,7 @@ struct MeshShape {
   const Vec3* positions = nullptr;
   const glm::uvec3* triangles = nullptr;
 };
-using ShapeData = std::variant<MeshShape, SphereShape>;
+using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
 
 bool in_range(const Vec3& p) {
   return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate && std::abs(p.z) <= kMaxCoordinate;
@@ -64,10 +65,18 @@ std::vector<glm::uvec3> proper_triangles(const TriangleMesh& mesh) {
   return proper;
 }
 
-void sphere_bounds(const RTCBoundsFunctionArguments* args) {
-  const auto& s = *static_cast<const SphereShape*>(args->geometryUserPtr);
-  const Vec3 half = Vec3(s.radius) + 0x1p-22f * (glm::abs(s.centre) + s.radius);  // rounding must not cut the sphere
-  const Vec3 lo = s.centre - half, hi = s.centre + half;
+double first_meeting(const SphereShape& s, const Ray& ray, float t_min) { return intersect_sphere(s, ray, t_min); }
+double first_meeting(const DiscShape& d, const Ray& ray, float t_min) { return intersect_disc(d, ray, t_min); }
+Box bounds_of(const SphereShape& s) { return {s.centre - s.radius, s.centre + s.radius}; }
+Box bounds_of(const DiscShape& d) { return disc_bounds(d); }
+
+/// Embree's callbacks for a shape of our own.
+template <class S>
+void own_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto& s = *static_cast<const S*>(args->geometryUserPtr);
+  const Box box = bounds_of(s);
+  const Vec3 margin = 0x1p-22f * (glm::abs(s.centre) + s.radius);  // rounding must not cut the shape
+  const Vec3 lo = box.lo - margin, hi = box.hi + margin;
   *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
 }
 
@@ -94,15 +103,16 @@ float coincidence(const Hit& hit, const Vec3& direction) {
   return skipped / std::max(1e-6f, std::abs(glm::dot(hit.normal, direction))) + 0x1p-20f * hit.t;
 }
 
-void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
+template <class S>
+void own_intersect(const RTCIntersectFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
   if (args->context->filter && reinterpret_cast<const Query*>(args->context)->leaves_out(args->geomID)) return;
   auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto& s = *static_cast<const SphereShape*>(args->geometryUserPtr);
+  const auto& s = *static_cast<const S*>(args->geometryUserPtr);
   RTCRay& r = ray_hit.ray;
   const auto t = static_cast<float>(
-      intersect_sphere(s, Ray{Vec3(r.org_x, r.org_y, r.org_z), Vec3(r.dir_x, r.dir_y, r.dir_z)}, r.tnear));
+      first_meeting(s, Ray{Vec3(r.org_x, r.org_y, r.org_z), Vec3(r.dir_x, r.dir_y, r.dir_z)}, r.tnear));
   if (!(t <= r.tfar) || std::isinf(t)) return;
   r.tfar = t;
   ray_hit.hit.geomID = args->geomID;
@@ -130,6 +140,21 @@ void locate(const SphereShape& sphere, const Ray& ray, Hit& hit) {
   hit.position = point_on(sphere, normal);
   hit.normal = Vec3(normal);
   hit.slack = sphere_slack(sphere);
+}
+
+/// The point of the disc, found again in double.
+void locate(const DiscShape& disc, const Ray& ray, Hit& hit) {
+  hit.position = Vec3(disc_point(disc, ray, intersect_disc(disc, ray, kMinT)));
+  hit.normal = disc.normal;
+  hit.slack = disc_slack(disc);
+}
+
+void check_round(const char* title, const Vec3& centre, float radius) {
+  if (!in_range(centre)) throw InputError(std::string(title) + ": the centre is not finite or beyond 1e9 m");
+  if (!(radius > 0.0f && radius <= kMaxCoordinate)) {
+    throw InputError(std::string(title) + ": the radius is " + std::to_string(radius) +
+                     " m, it must be positive and at most 1e9 m");
+  }
 }
 
 }  // namespace
@@ -174,6 +199,8 @@ struct Geometry::Impl {
     if (!error.empty()) throw std::runtime_error(error);
   }
 
+  template <class S>
+  uint32_t add_own(const S& shape, double area, Layer layer);
   uint32_t attach(RTCGeometry geometry, double area, const Box& box, Layer layer) {
     const auto number = static_cast<uint32_t>(areas.size());
     layers.push_back(layer);
@@ -215,22 +242,27 @@ uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
   return impl_->attach(geometry, area, box, layer);
 }
 
-uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
-  assert(!impl_->committed);
-  if (!in_range(sphere.centre)) throw InputError("sphere: the centre is not finite or beyond 1e9 m");
-  if (!(sphere.radius > 0.0f && sphere.radius <= kMaxCoordinate)) {
-    throw InputError("sphere: the radius is " + std::to_string(sphere.radius) +
-                     " m, it must be positive and at most 1e9 m");
-  }
-  impl_->shapes.emplace_back(sphere);
-  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_USER);
+template <class S>
+uint32_t Geometry::Impl::add_own(const S& shape, double area, Layer layer) {
+  assert(!committed);
+  shapes.emplace_back(shape);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, 1);
-  rtcSetGeometryUserData(geometry, &std::get<SphereShape>(impl_->shapes.back()));
-  rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
-  const double radius = sphere.radius;
-  return impl_->attach(geometry, 4.0 * kPiD * radius * radius,
-                       {sphere.centre - sphere.radius, sphere.centre + sphere.radius}, layer);
+  rtcSetGeometryUserData(geometry, &std::get<S>(shapes.back()));
+  rtcSetGeometryBoundsFunction(geometry, own_bounds<S>, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, own_intersect<S>);
+  return attach(geometry, area, bounds_of(shape), layer);
+}
+
+uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
+  check_round("sphere", sphere.centre, sphere.radius);
+  return impl_->add_own(sphere, 4.0 * kPiD * double{sphere.radius} * sphere.radius, layer);
+}
+
+uint32_t Geometry::add(const DiscShape& disc, Layer layer) {
+  check_round("disc", disc.centre, disc.radius);
+  assert(std::abs(glm::length(disc.normal) - 1.0f) < 1e-5f);
+  return impl_->add_own(disc, kPiD * double{disc.radius} * disc.radius, layer);
 }
 
 void Geometry::commit() {
@@ -303,11 +335,9 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t lay
   hit.t = found.ray.tfar;
   hit.shape = found.hit.geomID;
   const ShapeData& shape = impl_->shapes[hit.shape];
-  if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
-    locate(*sphere, ray, hit);
-  } else {
-    locate(std::get<MeshShape>(shape), found, hit);
-  }
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) locate(*mesh, found, hit);
+  if (const auto* sphere = std::get_if<SphereShape>(&shape)) locate(*sphere, ray, hit);
+  if (const auto* disc = std::get_if<DiscShape>(&shape)) locate(*disc, ray, hit);
   return hit;
 }
 

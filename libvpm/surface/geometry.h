@@ -1,5 +1,5 @@
-// Where rays meet shapes: triangles and quads through Embree, spheres by our own intersection. Every offset of a
-// ray's origin is made in this folder.
+// Where rays meet shapes: triangles and quads through Embree, spheres and discs by our own intersection. Every offset
+// of a ray's origin is made in this folder.
 #pragma once
 
 #include <array>
@@ -20,6 +20,12 @@ struct TriangleMesh {
 struct SphereShape {
   Vec3 centre{0.0f};    // m
   float radius = 1.0f;  // m, > 0
+};
+/// One flat disc.
+struct DiscShape {
+  Vec3 centre{0.0f};              // m
+  Vec3 normal{0.0f, 1.0f, 0.0f};  // unit, outward
+  float radius = 1.0f;            // m, > 0
 };
 
 /// The point where a ray meets a shape.
@@ -60,6 +66,7 @@ class Geometry {
   /// coordinates or radii that are not finite or beyond 1e9 m, radii not positive.
   uint32_t add(const TriangleMesh& mesh, Layer layer = Layer::surface);
   uint32_t add(const SphereShape& sphere, Layer layer = Layer::surface);
+  uint32_t add(const DiscShape& disc, Layer layer = Layer::surface);
   void commit();
 
   /// The nearest hit with 0 < t < t_max, seen from either side. Allocates nothing.
@@ -101,6 +108,10 @@ Vec3 leave_surface_at(const Vec3& position, const Vec3& normal, const Vec3& dire
 /// the largest distance from the point to the vertices (m); `twice_area` > 0 is in m^2. For needles (length over width
 /// above about 1000, not across an axis) it stops at a thousandth of their length, and they may be met again.
 float flat_slack(const Vec3& normal, const Vec3& reach, double twice_area);
+/// Slack of a disc, m.
+float disc_slack(const DiscShape& disc);
+/// Does a surface that the ray met lie at `distance` (m) along it, or beyond, as far as rounding can tell?
+bool stands_at(const Hit& hit, const Ray& ray, float distance);
 /// Slack of a sphere, m, at its points as point_on() gives them.
 float sphere_slack(const SphereShape& sphere);
 /// The point of a sphere where its outward normal is `normal` (of any length but 0), off it by the rounding of its

@@ -42,6 +42,18 @@ float flat_slack(const Vec3& normal, const Vec3& reach, double twice_area) {
   return static_cast<float>(6.0 * kUlp * vertices + product + kUlp * kUlp * longest);
 }
 
+float disc_slack(const DiscShape& disc) {
+  // The intersection is in double: all that is left is to keep the origin off a plane through 0.
+  return 0x1p-40f * disc.radius;
+}
+
+bool stands_at(const Hit& hit, const Ray& ray, float distance) {
+  // The direction's rounding moves the far end of the ray sideways, and that of coordinates both its ends; over the
+  // cosine it is the way along the ray. As in coincidence of hits, eight units.
+  const float rounding = 8.0f * kUlp * (hit.t + glm::length(hit.position)) + hit.slack;
+  return (distance - hit.t) * std::abs(glm::dot(hit.normal, ray.direction)) <= rounding;
+}
+
 float sphere_slack(const SphereShape& sphere) {
   // The intersection is in double, but the normal has float's direction: an origin that leaves outward by the normal
   // may approach the sphere, by the square of its rounding.

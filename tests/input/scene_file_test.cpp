@@ -218,10 +218,17 @@ TEST(SceneFile, ReadsLights) {
       "[[lights]]\ntype = 'environment'\nradiance = 10\n"
       "[[shapes]]\ntype = 'quad'\nmaterial = 'grey'\ncorner = [0, 0, 0]\nedge_u = [2, 0, 0]\nedge_v = [0, 0, "
       "3]\nemission = 11\n"
-      "[[shapes]]\ntype = 'sphere'\nmaterial = 'grey'\ncenter = [0, 5, 0]\nradius = 2\nemission = 12\n";
-  const Scene scene = load_scene(write_scene(text)).scene;
-  ASSERT_EQ(scene.lights.size(), 7u);
-  const auto power = [&](size_t i) { return light_power(scene.lights[i], scene.sphere); };
+      "[[shapes]]\ntype = 'sphere'\nmaterial = 'grey'\ncenter = [0, 5, 0]\nradius = 2\nemission = 12\n"
+      "[[shapes]]\nname = 'plate'\ntype = 'disc'\nmaterial = 'grey'\ncenter = [0, 9, 0]\nnormal = [0, -5, 0]\n"
+      "radius = 0.5\nemission = 13\n"
+      "[[shapes]]\ntype = 'box'\nmaterial = 'grey'\nmin = [0, 12, 0]\nmax = [1, 13, 1]\nemission = 14\n"
+      "transform = [{ scale = [-1, 1, 2] }]\n";
+  const LoadedScene loaded = load_scene(write_scene(text));
+  const Scene& scene = loaded.scene;
+  ASSERT_EQ(scene.lights.size(), 9u);
+  EXPECT_EQ(loaded.light_names,
+            (std::vector<std::string>{"", "", "", "", "", "shape 0", "shape 1", "plate", "shape 3"}));
+  const auto power = [&](size_t i) { return light_power(scene.lights[i], scene.bounds); };
   EXPECT_LT(relative_difference(power(0), Rgb(4, 5, 6)), 1e-6f);
   EXPECT_LT(relative_difference(power(1), Rgb(7)), 1e-6f);
   EXPECT_EQ(std::get<SpotLight>(scene.lights[1]).direction, Vec3(0, -1, 0));
@@ -232,6 +239,16 @@ TEST(SceneFile, ReadsLights) {
   EXPECT_EQ(std::get<ConstantEnvironment>(scene.lights[4]).radiance, Rgb(10));
   EXPECT_LT(relative_difference(power(5), Rgb(kPi * 6 * 11)), 1e-6f);
   EXPECT_LT(relative_difference(power(6), Rgb(kPi * 4 * kPi * 4 * 12)), 1e-6f);
+  EXPECT_LT(relative_difference(power(7), Rgb(kPi * kPi * 0.25f * 13)), 1e-6f);
+  EXPECT_EQ(std::get<DiscLight>(scene.lights[7]).normal, Vec3(0, -1, 0));
+  EXPECT_LT(relative_difference(power(8), Rgb(kPi * 10 * 14)), 1e-6f);
+  Rng rng(1, 0, 0);
+  for (int i = 0; i < 100; ++i) {  // mirrored, and still outwards: below, nothing but the lower side is seen
+    const auto in = sample_towards(scene.lights[8], {-0.5f, 10, 1}, rng);
+    ASSERT_LT(in ? in->distance * in->direction.y : 0.0f, 2.00001f);
+  }
+  EXPECT_EQ(scene.shapes[2].light, 7);
+  EXPECT_EQ(scene.shapes[3].light, 8);
   EXPECT_EQ(scene.shapes[0].light, 5);
   EXPECT_EQ(scene.shapes[1].light, 6);
 }

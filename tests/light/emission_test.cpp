@@ -1,10 +1,11 @@
 // Emission of photons: exact power, exact density of places and directions, and agreement with sample_towards().
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "base/warp.h"
 #include "light/lights.h"
 #include "support/statistics.h"
-#include "surface/geometry.h"
+#include "surface/mesh.h"
 
 namespace vpm {
 namespace {
@@ -18,7 +19,7 @@ double azimuth_share(const Vec3& d, const Vec3& axis) {
 }
 
 TEST(Emission, PowerIsTheClosedForm) {
-  const SceneSphere scene{{0, 0, 0}, 2.0f};
+  const Box scene{{-1, -2, 0}, {1, 2, 3}};  // faces of 12, 6 and 8 m^2
   const auto red = [&](const Light& light) { return light_power(light, scene).r; };
   EXPECT_FLOAT_EQ(red(PointLight{{}, Rgb(3)}), 12.0f * kPi);
   // Cones of 60 and 90 degrees: 2 pi I (1 - (1/2 + 0) / 2).
@@ -27,10 +28,35 @@ TEST(Emission, PowerIsTheClosedForm) {
   EXPECT_FLOAT_EQ(red(BeamLight{{}, {0, -1, 0}, 0.1f, Rgb(5)}), 5.0f);
   EXPECT_FLOAT_EQ(red(QuadLight{{}, {2, 0, 0}, {1, 3, 0}, Rgb(2)}), 12.0f * kPi);
   EXPECT_FLOAT_EQ(red(SphereLight{{}, 0.5f, Rgb(2)}), 2.0f * kPi * kPi);
-  EXPECT_FLOAT_EQ(red(DirectionalLight{{0, -1, 0}, Rgb(2)}), 8.0f * kPi);
-  EXPECT_FLOAT_EQ(red(ConstantEnvironment{Rgb(2)}), 32.0f * kPi * kPi);
+  EXPECT_FLOAT_EQ(red(DiscLight{{}, {0, -1, 0}, 0.5f, Rgb(2)}), 0.5f * kPi * kPi);
+  const TriangleMesh box = box_mesh(Vec3d(0.0), Vec3d(1, 2, 3));
+  EXPECT_FLOAT_EQ(red(MeshLight{std::make_shared<const EmittingMesh>(box), Rgb(2)}), 44.0f * kPi);
+  EXPECT_FLOAT_EQ(red(DirectionalLight{{0, -1, 0}, Rgb(2)}), 12.0f);
+  EXPECT_FLOAT_EQ(red(DirectionalLight{{0.6f, 0, -0.8f}, Rgb(2)}), 2.0f * (0.6f * 12 + 0.8f * 8));
+  EXPECT_FLOAT_EQ(red(ConstantEnvironment{Rgb(2)}), 2.0f * kPi * 52.0f);
   const EnvironmentMap constant{std::make_shared<const ImageEnvironment>(5, 3, std::vector<Rgb>(15, Rgb(2)))};
-  EXPECT_FLOAT_EQ(red(constant), 32.0f * kPi * kPi);
+  EXPECT_FLOAT_EQ(red(constant), 2.0f * kPi * 52.0f);
+}
+
+// Of a picture of odd numbers of rows and columns, whose texels lie across the axes: the area that the box shows,
+// integrated over the directions by the midpoint rule.
+TEST(Emission, PowerOfAMapIsTheIntegralOfTheAreaShown) {
+  std::vector<Rgb> texels;
+  for (int i = 0; i < 35; ++i) texels.emplace_back(static_cast<float>((7 * i) % 11) + 0.5f, i % 3, 1.0f);
+  const EnvironmentMap map{std::make_shared<const ImageEnvironment>(7, 5, texels)};
+  const Vec3d e(kScene.extent()), faces(e.y * e.z, e.z * e.x, e.x * e.y);
+  Rgbd power(0.0);
+  constexpr int kRows = 1000, kColumns = 1400;
+  for (int r = 0; r < kRows; ++r) {
+    for (int c = 0; c < kColumns; ++c) {
+      const double theta = (r + 0.5) * kPiD / kRows, phi = (c + 0.5) * 2.0 * kPiD / kColumns;
+      const Vec3d d(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi));
+      const double solid_angle = std::sin(theta) * kPiD / kRows * 2.0 * kPiD / kColumns;
+      power += Rgbd(texels[r / 200 * 7 + c / 200]) * glm::dot(glm::abs(d), faces) * solid_angle;
+    }
+  }
+  const Rgb stated = light_power(map, kScene);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(stated[c] / power[c], 1.0, 1e-5) << "channel " << c;
 }
 
 // False-alarm rate 1e-5 per channel of the one light whose photons differ.
@@ -143,6 +169,53 @@ TEST(Emission, OfAnObliqueQuadIsUniformOverItAndCosineAboutItsNormal) {
   expect_distribution(around, even(16), 1e-5, "azimuth");
 }
 
+TEST(Emission, OfADiscIsUniformOverItAndCosineAboutItsNormal) {
+  const DiscLight disc{{1, 2, 3}, glm::normalize(Vec3(1, -2, 0.5f)), 0.5f, Rgb(1)};
+  Rng rng = test_rng(205);
+  std::vector<double> place(64, 0.0), cosine(16, 0.0), around(16, 0.0);
+  for (int i = 0; i < 100000; ++i) {
+    const Ray ray = emit(disc, kScene, rng).ray;
+    const Vec3 d = (ray.origin - disc.centre) / disc.radius;
+    ASSERT_GT(glm::dot(d, disc.normal), -1e-6f);
+    ASSERT_LT(glm::dot(d, disc.normal), 1e-5f);
+    place[8 * cell(glm::dot(d, d), 8) + cell(azimuth_share(d, disc.normal), 8)] += 1.0;
+    const float c = glm::dot(ray.direction, disc.normal);
+    ASSERT_GT(c, -1e-6f);
+    cosine[cell(c * c, 16)] += 1.0;
+    around[cell(azimuth_share(ray.direction, disc.normal), 16)] += 1.0;
+  }
+  expect_distribution(place, even(64), 1e-5, "place");
+  expect_distribution(cosine, even(16), 1e-5, "cosine");
+  expect_distribution(around, even(16), 1e-5, "azimuth");
+}
+
+// A box whose faces have unequal areas, one of its triangles without any.
+TEST(Emission, OfAMeshIsUniformOverItsAreaAndCosineOutward) {
+  TriangleMesh mesh = box_mesh(Vec3d(0.0), Vec3d(1, 2, 3));
+  mesh.triangles.insert(mesh.triangles.begin() + 3, glm::uvec3(0, 1, 1));
+  const MeshLight light{std::make_shared<const EmittingMesh>(mesh), Rgb(1)};
+  Rng rng = test_rng(206);
+  std::vector<double> place(6 * 16, 0.0), expected, cosine(16, 0.0);
+  for (int face = 0; face < 6; ++face)
+    expected.insert(expected.end(), 16, (face / 2 == 0 ? 6.0 : face / 2 == 1 ? 3.0 : 2.0) / 22.0 / 16.0);
+  for (int i = 0; i < 100000; ++i) {
+    const Ray ray = emit(light, kScene, rng).ray;
+    const Vec3 p = ray.origin / Vec3(1, 2, 3), off = glm::max(-p, p - 1.0f);  // > 0 where outside
+    const int axis = off.x > off.y ? (off.x > off.z ? 0 : 2) : off.y > off.z ? 1 : 2;
+    ASSERT_GT(off[axis], 0.0f);
+    ASSERT_LT(off[axis], 1e-5f);
+    const bool upper = p[axis] > 0.5f;
+    place[(2 * axis + upper) * 16 + 4 * cell(std::max(0.0f, p[(axis + 1) % 3]), 4) +
+          cell(std::max(0.0f, p[(axis + 2) % 3]), 4)] += 1.0;
+    const float c = upper ? ray.direction[axis] : -ray.direction[axis];
+    ASSERT_GT(c, 0.0f);
+    cosine[cell(c * c, 16)] += 1.0;
+  }
+  expect_distribution(place, expected, 1e-5, "place");
+  expect_distribution(cosine, even(16), 1e-5, "cosine");
+  EXPECT_THROW(EmittingMesh(TriangleMesh{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}}), InputError);
+}
+
 TEST(Emission, OfASphereIsUniformOverItAndCosineOutward) {
   const SphereLight sphere{{10, -20, 5}, 0.5f, Rgb(1)};
   Rng rng = test_rng(203);
@@ -181,12 +254,30 @@ TEST(Emission, FromInfinityStartsOutsideTheSceneAndEntersIt) {
     Rng rng = test_rng(300 + light.index());
     for (int i = 0; i < 10000; ++i) {
       const Ray ray = emit(light, kScene, rng).ray;
-      const Vec3 from = ray.origin - kScene.centre;
-      ASSERT_GT(glm::length(from), kScene.radius * 0.999999f);
-      ASSERT_NEAR(glm::dot(from, ray.direction), -kScene.radius, 1e-5f);
-      ASSERT_LT(glm::length(from + kScene.radius * ray.direction), kScene.radius * 1.000001f);
+      int faces = 0;  // that the photon starts on and leaves inwards
+      for (int a = 0; a < 3; ++a) {
+        ASSERT_TRUE(kScene.lo[a] <= ray.origin[a] && ray.origin[a] <= kScene.hi[a]);
+        faces += ray.origin[a] == (ray.direction[a] > 0.0f ? kScene.lo[a] : kScene.hi[a]) ? 1 : 0;
+      }
+      ASSERT_GE(faces, 1);
     }
   }
+}
+
+// Light across a plate without thickness comes through its two sides only, and light along it does not arrive.
+TEST(Emission, FromInfinityEntersAPlate) {
+  const Box plate{{-1, 2, -1}, {1, 2, 1}};
+  Rng rng = test_rng(301);
+  for (const Light& light : test_lights()) {
+    if (!is_infinite(light)) continue;
+    for (int i = 0; i < 1000; ++i) {
+      const Ray ray = emit(light, plate, rng).ray;
+      ASSERT_EQ(ray.origin.y, 2.0f);
+      ASSERT_TRUE(is_finite(ray.origin) && is_finite(ray.direction));
+    }
+  }
+  EXPECT_EQ(light_power(DirectionalLight{{1, 0, 0}, Rgb(2)}, plate), Rgb(0));
+  EXPECT_FLOAT_EQ(light_power(ConstantEnvironment{Rgb(2)}, plate).r, 16.0f * kPi);
 }
 
 // A million photons of area lights that are shapes of the scene, near the origin and far from it, small and large.
@@ -200,12 +291,23 @@ TEST(Emission, NeverMeetsItsOwnEmitter) {
     Geometry quad;
     quad.add(TriangleMesh{{corner, corner + u, corner + u + v, corner + v}, {{0, 1, 2}, {0, 2, 3}}});
     quad.commit();
+    Geometry mesh;  // a box, which is met no more from any of its faces
+    const TriangleMesh box = box_mesh(Vec3d(corner), Vec3d(corner + size * Vec3(1.0f, 0.5f, 0.7f)));
+    const MeshLight mesh_light{std::make_shared<const EmittingMesh>(box), Rgb(1)};
+    mesh.add(box);
+    mesh.commit();
+    Geometry disc;
+    const DiscLight disc_light{corner, glm::normalize(glm::cross(u, v)), size, Rgb(1)};
+    disc.add(DiscShape{disc_light.centre, disc_light.normal, disc_light.radius});
+    disc.commit();
     Geometry sphere;
     sphere.add(SphereShape{corner, size});
     sphere.commit();
     for (int i = 0; i < 500; ++i) {
       const Ray from_quad = emit(QuadLight{corner, u, v, Rgb(1)}, kScene, rng).ray;
       ASSERT_FALSE(quad.intersect(from_quad)) << "quad of " << size << " at " << away;
+      ASSERT_FALSE(mesh.intersect(emit(mesh_light, kScene, rng).ray)) << "box of " << size << " at " << away;
+      ASSERT_FALSE(disc.intersect(emit(disc_light, kScene, rng).ray)) << "disc of " << size << " at " << away;
       const Ray from_sphere = emit(SphereLight{corner, size, Rgb(1)}, kScene, rng).ray;
       ASSERT_FALSE(sphere.intersect(from_sphere)) << "sphere of " << size << " at " << away;
     }

@@ -142,7 +142,7 @@ TEST(PhotonTracing, TheLedgerCloses) {
     const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(gone[c] / ledger.emitted[c], 1.0, 20.0 / std::sqrt(n)) << strategy << " channel " << c;
-    EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene->sphere).g, 0.2) << strategy;
+    EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene->bounds).g, 0.2) << strategy;
     EXPECT_EQ(ledger.non_finite, 0u);
     EXPECT_EQ(ledger.cut_count, 0u);
     EXPECT_EQ(ledger.walk.medium_mismatches, 0u);
@@ -212,7 +212,7 @@ TEST(PhotonTracing, LightPhotonsEndOrBecomeATenth) {
   TraceSettings settings;
   settings.emitted = 5000;
   const TracedPhotons photons = trace(scene, "mean-extinction", settings);
-  const double tenth = 0.1 * sum_channels(light_power(kSpot, scene.sphere));
+  const double tenth = 0.1 * sum_channels(light_power(kSpot, scene.bounds));
   int at_the_limit = 0;
   double collided = 0.0;
   for (const Photon& p : photons.volume[0]) {
@@ -257,7 +257,7 @@ TEST(PhotonTracing, ADensityFloorBoundsThePowersAndNothingElse) {
   const TracedPhotons with_floor = trace_photons(scene, *strategy, settings, silent);
   const std::vector<Photon>& floored = with_floor.volume[0];
   ASSERT_EQ(bare.size(), floored.size());
-  const float emitted = light_power(kSpot, scene.sphere).r;
+  const float emitted = light_power(kSpot, scene.bounds).r;
   const float bound = 1.001f * emitted / 0.05f;
   int heavy = 0;
   for (size_t i = 0; i < bare.size(); ++i) {

@@ -55,6 +55,12 @@ Scene lit_floor(const Lamp& lamp, const Surface& surface) {
 }
 const Ray kAtFloor{Vec3(0.0f, 0.2f, 2.0f), glm::normalize(Vec3(0.0f, -0.2f, -2.0f))};  // meets it at the origin
 
+/// The irradiance, over pi, under the centre of a parallel square of radiance 1, half edge h over its height.
+double square_irradiance(double h) {
+  const double s = h / std::sqrt(1.0 + h * h);
+  return 4.0 / M_PI * s * std::atan(s);
+}
+
 // The irradiance under a sphere of radiance 1 is pi sin^2 of its half angle, in whatever shares shadow rays and
 // scattered rays find it: a small lamp is nearly all the former's, one that fills the sky nearly all the latter's.
 TEST(PathTracer, LampsOfAllSizes) {
@@ -66,10 +72,40 @@ TEST(PathTracer, LampsOfAllSizes) {
   // Under the centre of a parallel square of half edge h at height 1: the polygon formula with its four equal edges.
   for (const float h : {0.02f, 1.5f}) {
     const QuadLight lamp{Vec3(-h, 1, -h), Vec3(2 * h, 0, 0), Vec3(0, 0, 2 * h), Rgb(1.0f)};
-    const double s = h / std::sqrt(1.0 + h * h), exact = 4.0 / M_PI * s * std::atan(s);
+    const double exact = square_irradiance(h);
     const Moments seen = samples(lit_floor(lamp, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v)), kAtFloor, 40000);
     expect_mean(seen, 0.6 * exact, kFalseAlarms, "quad");
   }
+}
+
+// A disc's irradiance is that of a sphere of the same half angle.
+TEST(PathTracer, DiscsOfAllSizes) {
+  for (const float radius : {0.02f, 1.5f}) {
+    const DiscLight lamp{Vec3(0, 1, 0), Vec3(0, -1, 0), radius, Rgb(1.0f)};
+    const Moments seen = samples(lit_floor(lamp, DiscShape{lamp.centre, lamp.normal, radius}), kAtFloor, 40000);
+    expect_mean(seen, 0.6 * radius * radius / (1.0 + radius * radius), kFalseAlarms, "disc");
+    EXPECT_LT(seen.variance(), 2.0 * seen.mean() * seen.mean()) << "both ways share";
+  }
+}
+
+// Two squares over each other as one mesh. The lower one takes away as much of the upper one as it sends itself; turned
+// round it only takes away.
+TEST(PathTracer, MeshesStandInTheirOwnLight) {
+  for (const bool lower_shines : {true, false})
+    for (const double h : {0.1, 1.2}) {
+      TriangleMesh mesh = quad_mesh(Vec3d(-h, 1, -h), Vec3d(2 * h, 0, 0), Vec3d(0, 0, 2 * h));
+      const double low = 0.25 * h;  // seen as large as half of the upper one
+      const TriangleMesh lower = quad_mesh(Vec3d(-low, 0.5, -low), Vec3d(2 * low, 0, 0), Vec3d(0, 0, 2 * low));
+      for (glm::uvec3 t : lower.triangles) {
+        if (!lower_shines) std::swap(t.y, t.z);
+        mesh.triangles.push_back(t + 4u);
+      }
+      mesh.positions.insert(mesh.positions.end(), lower.positions.begin(), lower.positions.end());
+      const MeshLight lamp{std::make_shared<const EmittingMesh>(mesh), Rgb(1.0f)};
+      const Moments seen = samples(lit_floor(lamp, mesh), kAtFloor, 40000);
+      const double exact = square_irradiance(h) - (lower_shines ? 0.0 : square_irradiance(0.5 * h));
+      expect_mean(seen, 0.6 * exact, kFalseAlarms, "mesh");
+    }
 }
 
 // Without multiple importance sampling, a strongly forward medium before a small bright lamp is noise. With it the

@@ -90,20 +90,22 @@ TEST(MediumAt, IsTheWorldsWhereNothingSeparates) {
 TEST(Finish, BoundsTheShapes) {
   Scene scene = nested();
   finish(scene);
-  EXPECT_LT(glm::length(scene.sphere.centre - Vec3(1.25f, 0, 0)), 1e-6f);
-  const float half_diagonal = 0.5f * glm::length(Vec3(10.5f, 8, 8));
-  EXPECT_GE(scene.sphere.radius, half_diagonal);
-  EXPECT_LT(scene.sphere.radius, half_diagonal * 1.00001f);
+  const Box shapes{{-4, -4, -4}, {6.5f, 4, 4}};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(scene.bounds.lo[i] < shapes.lo[i] && scene.bounds.lo[i] > shapes.lo[i] - 1e-5f);
+    EXPECT_TRUE(scene.bounds.hi[i] > shapes.hi[i] && scene.bounds.hi[i] < shapes.hi[i] + 1e-5f);
+  }
   Scene empty;
   empty.geometry.commit();
   finish(empty);
-  EXPECT_EQ(empty.sphere.centre, Vec3(0));
-  EXPECT_EQ(empty.sphere.radius, 1.0f);
+  EXPECT_EQ(empty.bounds.centre(), Vec3(0));
+  EXPECT_FLOAT_EQ(empty.bounds.diagonal(), 2.0f);
   EXPECT_TRUE(empty.grey);
 }
 
 TEST(Finish, FindsTheMediaOfLights) {
   Scene scene = nested();
+  const TriangleMesh lid = quad_mesh(Vec3d(-1, 4, -1), Vec3d(2, 0, 0), Vec3d(0, 0, 2));
   scene.lights = {PointLight{{1.5f, 0, 0}, Rgb(1)},
                   PointLight{{0, 0, 0}, Rgb(1)},
                   BeamLight{{0, 5, 0}, {0, -1, 0}, 0.1f, Rgb(1)},
@@ -111,9 +113,12 @@ TEST(Finish, FindsTheMediaOfLights) {
                   SphereLight{{0, 0, 0}, 2.0f, Rgb(1)},  // boundaries within its bounds: decided photon by photon
                   QuadLight{{-1, 4, -1}, {2, 0, 0}, {0, 0, 2}, Rgb(1)},  // on the outer box's lid, facing down
                   QuadLight{{-1, 4, -1}, {0, 0, 2}, {2, 0, 0}, Rgb(1)},  // facing up
-                  DirectionalLight{}};
+                  DirectionalLight{},
+                  DiscLight{{0, 4, 0}, {0, -1, 0}, 1.0f, Rgb(1)},  // as the quads
+                  DiscLight{{0, 4, 0}, {0, 1, 0}, 1.0f, Rgb(1)},
+                  MeshLight{std::make_shared<const EmittingMesh>(lid), Rgb(1)}};
   finish(scene);
-  EXPECT_EQ(scene.light_medium, (std::vector<MediumId>{2, kVacuum, 0, 1, kSeveralMedia, 1, 0, 0}));
+  EXPECT_EQ(scene.light_medium, (std::vector<MediumId>{2, kVacuum, 0, 1, kSeveralMedia, 1, 0, 0, 1, 0, 1}));
 }
 
 TEST(Finish, ChoosesLightsByMeanPower) {

@@ -154,6 +154,48 @@ TEST(Geometry, HitsOfFarAndTinyAndHugeSpheresLieOnThem) {
   }
 }
 
+// Discs of any size and place, met from both sides, near the rim and beyond it; the truth in long double.
+TEST(Geometry, MeetsDiscsWithinTheirRims) {
+  Rng rng(6, static_cast<uint64_t>(RngUse::test), 0);
+  int inside = 0, outside = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const float radius = power_of_ten(rng, -3.0f, 5.0f);
+    const DiscShape disc{10.0f * radius * in_cube(rng), uniform_sphere(rng.uniform2()), radius};
+    Geometry geometry;
+    geometry.add(disc);
+    geometry.commit();
+    Vec3 s, t;
+    make_frame(disc.normal, s, t);
+    for (int i = 0; i < 20; ++i) {
+      const Vec2 aim = 1.5f * radius * uniform_disc(rng.uniform2());
+      const Vec3 direction = grazing_direction(disc.normal, rng);
+      const Ray ray{disc.centre + aim.x * s + aim.y * t - radius * power_of_ten(rng, -2.0f, 2.0f) * direction,
+                    direction};
+      using Real = long double;
+      Real ahead = 0, slope = 0, square = 0;
+      for (int a = 0; a < 3; ++a) ahead += (Real(disc.centre[a]) - ray.origin[a]) * disc.normal[a];
+      for (int a = 0; a < 3; ++a) slope += Real(ray.direction[a]) * disc.normal[a];
+      for (int a = 0; a < 3; ++a) {
+        const Real p = Real(ray.origin[a]) - disc.centre[a] + ahead / slope * ray.direction[a];
+        square += p * p;
+      }
+      const double share = static_cast<double>(std::sqrt(square) / radius), far = static_cast<double>(ahead / slope);
+      if (std::abs(share - 1.0) < 1e-6 || std::abs(far) < 1e-6 * radius) continue;
+      const auto hit = geometry.intersect(ray);
+      ASSERT_EQ(hit.has_value(), share < 1.0 && far > 0.0) << "radius " << radius << ", share " << share;
+      ++(hit ? inside : outside);
+      if (!hit) continue;
+      EXPECT_EQ(hit->normal, disc.normal);
+      EXPECT_NEAR(hit->t, far, 1e-6 * far);
+      const Vec3d off = Vec3d(hit->position) - Vec3d(disc.centre);
+      EXPECT_LT(std::abs(glm::dot(off, Vec3d(disc.normal))), 2e-6 * radius);
+      EXPECT_LT(glm::length(off), 1.000003 * radius);
+    }
+  }
+  EXPECT_GT(inside, 5000);
+  EXPECT_GT(outside, 5000);
+}
+
 TEST(Geometry, KnowsAreaBoundsAndMemory) {
   Geometry geometry;
   EXPECT_TRUE(geometry.bounds().empty());
@@ -167,6 +209,12 @@ TEST(Geometry, KnowsAreaBoundsAndMemory) {
   EXPECT_EQ(geometry.bounds().lo, Vec3(-2, -2, 0));
   EXPECT_EQ(geometry.bounds().hi, Vec3(2, 3, 12));
   EXPECT_GT(geometry.memory_bytes(), 100u);
+  Geometry disc;
+  disc.add(DiscShape{{1, 2, 3}, {0.6f, 0, 0.8f}, 5.0f});
+  disc.commit();
+  EXPECT_FLOAT_EQ(static_cast<float>(disc.area(0)), 25.0f * kPi);
+  EXPECT_LT(glm::length(disc.bounds().lo - Vec3(-3, -3, 0)), 1e-5f);
+  EXPECT_LT(glm::length(disc.bounds().hi - Vec3(5, 7, 6)), 1e-5f);
   Geometry empty;
   empty.commit();
   EXPECT_FALSE(empty.intersect({{0, 0, 0}, {0, 0, 1}}));
@@ -183,6 +231,8 @@ TEST(Geometry, RefusesWhatIsNoShape) {
   EXPECT_THROW(geometry.add(SphereShape{{0, 0, 0}, 0.0f}), InputError);
   EXPECT_THROW(geometry.add(SphereShape{{0, 0, 0}, nan}), InputError);
   EXPECT_THROW(geometry.add(SphereShape{{0, kInfinity, 0}, 1.0f}), InputError);
+  EXPECT_THROW(geometry.add(DiscShape{{0, 0, 0}, {0, 1, 0}, 0.0f}), InputError);
+  EXPECT_THROW(geometry.add(DiscShape{{0, nan, 0}, {0, 1, 0}, 1.0f}), InputError);
 }
 
 TEST(Geometry, LeavesTheRoundingModeAlone) {
@@ -257,6 +307,57 @@ TEST(LeaveSurface, LeavesASphereOutwardForGoodAndInwardToItsFarSide) {
     }
   }
   EXPECT_GT(left, 900000);
+}
+
+TEST(LeaveSurface, NeverMeetsTheSameDiscAgain) {
+  Rng rng(7, static_cast<uint64_t>(RngUse::test), 0);
+  int left = 0;
+  for (int k = 0; k < 2500; ++k) {
+    const float away = power_of_ten(rng, -4.0f, 6.0f);
+    const float radius = std::max(power_of_ten(rng, -4.0f, 6.0f), 1e-5f * away);
+    const DiscShape disc{away * in_cube(rng), uniform_sphere(rng.uniform2()), radius};
+    Geometry geometry;
+    geometry.add(disc);
+    geometry.commit();
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 direction = uniform_sphere(rng.uniform2());
+      const float back = radius * power_of_ten(rng, -2.0f, 2.0f);
+      const auto hit = geometry.intersect({disc.centre + 0.5f * radius * in_cube(rng) - back * direction, direction});
+      if (!hit) continue;
+      for (int j = 0; j < 4; ++j) {
+        const Vec3 out = grazing_direction(hit->normal, rng);
+        ++left;
+        ASSERT_FALSE(geometry.intersect({leave_surface(*hit, out), out})) << "radius " << radius << ", away " << away;
+      }
+    }
+  }
+  EXPECT_GT(left, 300000);
+}
+
+// What a ray was sent to is where it stands, from near and far and at grazing angles; what is a hundredth of the way
+// before it is not.
+TEST(StandsAt, TellsThePointAimedAtFromWhatIsBefore) {
+  Rng rng(8, static_cast<uint64_t>(RngUse::test), 0);
+  int before = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const float size = power_of_ten(rng, -2.0f, 2.0f);
+    const Vec3 a = size * in_cube(rng), b = size * in_cube(rng), c = size * in_cube(rng);
+    Geometry geometry;
+    geometry.add(triangle(a, b, c));
+    geometry.commit();
+    const Vec3 target = (a + b + c) / 3.0f;
+    const Vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    const Vec3 origin = target - size * power_of_ten(rng, -1.0f, 3.0f) * grazing_direction(normal, rng);
+    const float distance = glm::distance(origin, target);
+    const Ray ray{origin, glm::normalize(target - origin)};
+    const auto hit = geometry.intersect(ray);
+    if (!hit) continue;  // beside a needle
+    ASSERT_TRUE(stands_at(*hit, ray, distance)) << "size " << size << ", distance " << distance;
+    if (std::abs(glm::dot(hit->normal, ray.direction)) < 0.01f) continue;
+    ++before;
+    ASSERT_FALSE(stands_at(*hit, ray, 1.01f * distance)) << "size " << size << ", distance " << distance;
+  }
+  EXPECT_GT(before, 5000);
 }
 
 // Near the origin coordinates are so exact that the sphere's own rounding is what counts.

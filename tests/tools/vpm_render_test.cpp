@@ -38,6 +38,7 @@ corner = [-1, 0, 1]
 edge_u = [2, 0, 0]
 edge_v = [0, 0, -2]
 [[lights]]
+name = "lamp"
 type = "spot"
 position = [1, 2, 1]
 target = [0, 0.5, 0]
@@ -141,6 +142,34 @@ TEST_F(VpmRender, TheImageTellsWhereItIsFrom) {
   EXPECT_EQ(exr.metadata.at("vpm.passes"), "2");
   EXPECT_EQ(exr.metadata.at("vpm.seed"), "1");
   EXPECT_EQ(exr.metadata.at("vpm.sceneHash"), report("a.json")["scene_hash"]);
+}
+
+TEST_F(VpmRender, TheReportNamesEveryLightAndItsPower) {
+  write("two.toml", std::string(kScene) +
+                        "[[lights]]\ntype = 'environment'\nradiance = [1, 2, 3]\n"
+                        "[[shapes]]\nname = 'plate'\ntype = 'disc'\nmaterial = 'floor'\ncenter = [0, 3, 0]\n"
+                        "normal = [0, -1, 0]\nradius = 0.5\nemission = 2\n");
+  vpm_succeeds({"render", "two.toml", "-o", "a.exr"});
+  const Json all = report("a.json")["lights"];
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0]["name"], "lamp");
+  EXPECT_EQ(all[0]["kind"], "spot");
+  EXPECT_NEAR(all[0]["power_W"][0].get<double>(), 10.0, 1e-5);
+  EXPECT_EQ(all[1]["name"], "");
+  EXPECT_EQ(all[1]["number"], 1);
+  EXPECT_EQ(all[1]["kind"], "constant environment");
+  // pi L times the surface of the box around floor, smoke and plate, 2 m x 3 m x 2 m.
+  EXPECT_NEAR(all[1]["power_W"][2].get<double>(), 3.0 * M_PI * 32.0, 0.01);
+  EXPECT_EQ(all[2]["name"], "plate");
+  EXPECT_EQ(all[2]["kind"], "disc");
+  EXPECT_NEAR(all[2]["power_W"][1].get<double>(), 2.0 * M_PI * M_PI * 0.25, 1e-5);
+  double total = 0.0, share = 0.0;
+  for (const Json& light : all) {
+    total += light["power_W"][1].get<double>();  // green, the mean of the channels here
+    share += light["share"].get<double>();
+  }
+  EXPECT_NEAR(share, 1.0, 1e-6);
+  EXPECT_NEAR(all[0]["share"].get<double>(), 10.0 / total, 1e-6);
 }
 
 // --- Interruption
@@ -330,7 +359,7 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
 TEST_F(VpmRender, InfoTellsWhatFilesHold) {
   expect_words(vpm_succeeds({"info", "scene.toml"}).out,
                {"40 x 24 pixels", "medium smoke: grid", "sigma_t 30 1/m", "mean free path", "around everything: vacuum",
-                "light 0: power 10 W", "runs volume photon map", "runs surface photon map",
+                "light 0, lamp: spot, power 10 W", "runs volume photon map", "runs surface photon map",
                 "skips shadow rays in media", "coefficients differ between channels"});
   expect_words(
       vpm_succeeds({"info", "scene.toml", "--set", "media.smoke.albedo=0.5", "--set", "volume.direct=shadow-rays"}).out,

@@ -99,7 +99,7 @@ TEST_P(VpmEveryScene, RendersAndItsEnergyLedgerCloses) {
   const std::vector<std::string> overrides(grid->begin() + (grid->empty() ? 0 : 1), grid->end());
   const Scene scene = load_scene(scene_folder() + GetParam() + ".toml", overrides).scene;
   Rgbd power(0.0);
-  for (const Light& light : scene.lights) power += Rgbd(light_power(light, scene.sphere));
+  for (const Light& light : scene.lights) power += Rgbd(light_power(light, scene.bounds));
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(report["energy"]["emitted"][c].get<double>(), power[c], 0.011 * power[c]) << "channel " << c;
 

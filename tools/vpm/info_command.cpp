@@ -77,8 +77,9 @@ void print_scene(const InfoOptions& options) {
     fmt::print("{} shapes in {} to {} m\n", scene.shapes.size(), text(box.lo), text(box.hi));
   fmt::print("around everything: {}\n", medium_text(scene, scene.world_medium));
   for (size_t i = 0; i < scene.lights.size(); ++i)
-    fmt::print("light {}: power {} W, chosen with probability {:.4g}\n", i,
-               rgb(light_power(scene.lights[i], scene.sphere)), scene.light_probability[i]);
+    fmt::print("light {}{}: {}, power {} W, chosen with probability {:.4g}\n", i,
+               loaded.light_names[i].empty() ? "" : ", " + loaded.light_names[i], light_kind(scene.lights[i]),
+               rgb(light_power(scene.lights[i], scene.bounds)), scene.light_probability[i]);
   for (const Medium& m : scene.media) print_medium(m, scene, loaded.settings);
   for (const std::string& line : stage_lines(scene, loaded.settings)) fmt::print("{}\n", line);
 }

@@ -53,6 +53,19 @@ Json photons(const RenderStatistics& s) {
           {"dropped_non_finite", s.ledger.non_finite}};
 }
 
+/// What each light sends into the scene, exactly; `share`: of the power of all, and of the photons.
+Json lights(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  Json all = Json::array();
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    all.push_back({{"number", i},
+                   {"name", loaded.light_names[i]},
+                   {"kind", light_kind(scene.lights[i])},
+                   {"power_W", rgb(Rgbd(light_power(scene.lights[i], scene.bounds)))},
+                   {"share", scene.light_probability[i]}});
+  return all;
+}
+
 /// Flows of energy per second, each summed where it happens; `imbalance` is their difference from what was emitted, in
 /// standard errors.
 Json ledger(const Ledger& l) {
@@ -128,6 +141,7 @@ std::string render_report(const std::string& scene_path, const std::string& imag
               {"notes", loaded.notes},
               {"clamped_density_values", loaded.clamped_density_values},
               {"times", times(result)},
+              {"lights", lights(loaded)},
               {"error", errors(result.film)},
               {"photons", photons(s)},
               {"energy", ledger(s.ledger)},

@@ -33,7 +33,7 @@ Moments estimate_wall_hits(const Cavity& cavity, uint64_t photons, uint64_t seed
   const Scene scene = cavity_scene(cavity);
   const auto strategy = make_distance_strategy({});
   return sample_moments(1, photons, seed, [&](Rng& rng, double* out) {
-    const Emission emission = emit(scene.lights[0], scene.sphere, rng);
+    const Emission emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
     follow_photon(scene, *strategy, {emission.ray, kVacuum, emission.power}, kMaxEvents, rng, counters,
                   [&](const Event& event, const PathState& state) {

@@ -104,7 +104,7 @@ std::vector<Moments> estimate_collisions_within(const PointSource& source, const
   const Scene scene = point_source_scene(source, missing_light(source, largest).end);
   const auto strategy = make_distance_strategy({});
   return sample_moments(radii.size(), photons, seed, [&](Rng& rng, double* out) {
-    const Emission emission = emit(scene.lights[0], scene.sphere, rng);
+    const Emission emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
     follow_photon(scene, *strategy, {emission.ray, 0, emission.power}, kMaxEvents, rng, counters,
                   [&](const Event& event, const PathState& state) {

@@ -107,7 +107,7 @@ SlabEstimate estimate_slab(const Slab& slab, const DistanceStrategy& strategy, c
   const Scene scene = slab_scene(slab, SlabLight::spot);
   const Layout at(tallies);
   const std::vector<Moments> all = sample_moments(at.size, photons, seed, [&](Rng& rng, double* out) {
-    const Emission emission = emit(scene.lights[0], scene.sphere, rng);
+    const Emission emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
     PhotonTally tally(at, tallies, slab.layers.thickness(), out);
     follow_photon(scene, strategy, {emission.ray, kVacuum, emission.power}, kMaxEvents, rng, counters,

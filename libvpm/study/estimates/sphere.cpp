@@ -36,9 +36,9 @@ SpherePhotons estimate_sphere_photons(const FoggySphere& sphere, uint64_t photon
   const auto strategy = make_distance_strategy({});
   const double entering_power = 4.0 * kPiD * kPiD;  // irradiance pi on the area 4 pi
   const std::vector<Moments> all = sample_moments(quantities, photons, seed, [&](Rng& rng, double* out) {
-    Emission emission = emit(scene.lights[0], scene.sphere, rng);
+    Emission emission = emit(scene.lights[0], scene.bounds, rng);
     if (scene.geometry.intersect(emission.ray)) out[entering] = emission.power.r / entering_power;
-    while (!scene.geometry.intersect(emission.ray)) emission = emit(scene.lights[0], scene.sphere, rng);
+    while (!scene.geometry.intersect(emission.ray)) emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
     Event last;
     follow_photon(scene, *strategy, {emission.ray, kVacuum, Rgb(1.0f)}, kMaxEvents, rng, counters,

@@ -56,7 +56,7 @@ std::vector<Check> check_box(const TestField& field, std::string_view strategy_n
   return checks;
 }
 
-/// Coloured fog over a floor, a sphere of glass, three lights.
+/// Coloured fog over a floor, a sphere of glass, lights of many kinds.
 Scene scene_with_everything() {
   Scene scene;
   scene.media.push_back(coloured_medium(test_fields()[5]));
@@ -68,6 +68,13 @@ Scene scene_with_everything() {
   scene.lights.push_back(PointLight{field_point({2.0, 3.0, 0.0}), Rgb(1.0f, 0.5f, 0.2f)});
   scene.lights.push_back(ConstantEnvironment{Rgb(0.2f)});
   scene.lights.push_back(BeamLight{test_ray().origin, test_ray().direction, 0.2f, Rgb(4.0f)});
+  scene.lights.push_back(DirectionalLight{glm::normalize(Vec3(0.3f, -0.8f, 0.1f)), Rgb(0.1f, 0.2f, 0.3f)});
+  const DiscShape disc{Vec3(0.2f, 1.9f, -0.3f), glm::normalize(Vec3(0.1f, -1.0f, 0.2f)), 0.3f};
+  add_shape(scene, disc, Lambertian{Rgb(0.2f)}, nullptr, static_cast<int>(scene.lights.size()));
+  scene.lights.push_back(DiscLight{disc.centre, disc.normal, disc.radius, Rgb(1.0f, 0.7f, 0.4f)});
+  const TriangleMesh lamp = box_mesh(Vec3d(1.6, 1.7, 1.6), Vec3d(1.9, 1.9, 1.8));
+  add_shape(scene, lamp, Lambertian{Rgb(0.4f)}, nullptr, static_cast<int>(scene.lights.size()));
+  scene.lights.push_back(MeshLight{std::make_shared<EmittingMesh>(lamp), Rgb(0.8f)});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -118,7 +125,7 @@ Check check_arrivals(const std::string& name, const Scene& scene, double reflect
   const auto strategy = make_distance_strategy({});
   const auto samples =
       sample_moments(1, effort.count(20'000, 4'000'000), effort.seed_of("cavity, " + name), [&](Rng& rng, double* out) {
-        const Emission emission = emit(scene.lights[0], scene.sphere, rng);
+        const Emission emission = emit(scene.lights[0], scene.bounds, rng);
         WalkCounters counters;
         follow_photon(scene, *strategy, {emission.ray, kVacuum, emission.power}, kNoLimit, rng, counters,
                       [&](const Event& event, const PathState& now) {

@@ -19,9 +19,15 @@ constexpr size_t kRings = 6;
 /// What is summed over a photon's way, for each channel.
 enum Tally : size_t { length, collisions, escapes, tallies = escapes + kRings * kSectors };
 
+/// The area that the lit box shows to a direction, over its mean, a quarter of the surface: what even light enters by.
+double shown_share(const Box& lit, const Vec3& direction) {
+  const Vec3d e(lit.extent()), faces(e.y * e.z, e.z * e.x, e.x * e.y);
+  return 2.0 * glm::dot(glm::abs(Vec3d(direction)), faces) / (faces.x + faces.y + faces.z);
+}
+
 /// Adds up one photon's way. `hit_share` is the share of the photons that meet the body.
 void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_share, Rng& rng, double* out) {
-  const Emission emission = emit(body.scene.lights[0], body.scene.sphere, rng);
+  const Emission emission = emit(body.scene.lights[0], body.scene.bounds, rng);
   const Encounter entry = body.scene.geometry.encounter(emission.ray);
   Vec3 last = entry ? entry.hits[0].position : emission.ray.origin;
   WalkCounters counters;
@@ -35,7 +41,8 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
       if (event.kind == EventKind::collision) sums[collisions] += now.power[c] / hit_share;
       if (event.kind == EventKind::escape) {
         const size_t ring = cell_of(0.5 * away_from(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction), kRings);
-        sums[escapes + ring * kSectors + sector_about(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction)] += now.power[c];
+        sums[escapes + ring * kSectors + sector_about(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction)] +=
+            now.power[c] / shown_share(body.scene.bounds, now.ray.direction);
       }
     }
   });
@@ -44,8 +51,9 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
 void check_body(std::vector<Check>& checks, const LitBody& body, std::string_view strategy_name, const Effort& effort) {
   const Medium& medium = body.scene.media[0];
   const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name), .step = 0.1f});
-  const double radius = body.scene.sphere.radius;
-  const double hit_share = body.area / (4.0 * kPiD * radius * radius);  // mean projected area over the lit disc's
+  const Vec3d lit(body.scene.bounds.extent());
+  const double hit_share =
+      0.5 * body.area / (lit.x * lit.y + lit.y * lit.z + lit.z * lit.x);  // of surfaces, as of mean projections
   const std::string name = fmt::format("{}, {}", body.name, strategy_name);
   const auto samples = sample_moments(3 * tallies, effort.count(40'000, 2'000'000), effort.seed_of(name),
                                       [&](Rng& rng, double* out) { follow(body, *strategy, hit_share, rng, out); });

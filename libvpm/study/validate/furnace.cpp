@@ -74,6 +74,24 @@ Scene glowing_room(const Medium& medium) {
   return scene;
 }
 
+/// A room and a box in it, both glowing, as one mesh: points of it stand in each other's light.
+Scene glowing_mesh(const Medium& medium) {
+  TriangleMesh mesh = box_mesh(Vec3d(-1.5, -1.0, -0.75), Vec3d(1.5, 1.0, 0.75));
+  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // the walls face inwards
+  const TriangleMesh box = box_mesh(Vec3d(-0.2, -0.6, -0.3), Vec3d(0.2, 0.1, 0.2));
+  for (const glm::uvec3& t : box.triangles) mesh.triangles.push_back(t + static_cast<uint32_t>(mesh.positions.size()));
+  mesh.positions.insert(mesh.positions.end(), box.positions.begin(), box.positions.end());
+  const Interface media{kVacuum, 0};
+  Scene scene;
+  scene.media.push_back(medium);
+  scene.lights.push_back(MeshLight{std::make_shared<EmittingMesh>(mesh), Rgb(1.0f)});
+  add_shape(scene, mesh, Lambertian{Rgb(0.0f)}, &media, 0);
+  add_shape(scene, SphereShape{Vec3(-0.8f, 0.1f, 0.0f), 0.3f}, Lambertian{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
 /// A ball of glass, seen from within: there radiance is ior^2, along every ray. Near the middle of a ball none is
 /// totally reflected, and caught.
 std::vector<Check> check_inside_glass(const Effort& effort) {
@@ -123,6 +141,9 @@ std::vector<Check> check_radiances(const Effort& effort) {
   append(checks, check_inside_glass(effort));
   const Scene room = glowing_room(white_medium(nullptr, sigma_t, HenyeyGreenstein{0.5f}));
   checks.push_back(check_radiance("a room of glowing walls", room, Vec3(0.4f, -0.2f, 0.1f), "homogeneous", effort));
+  const Scene mesh = glowing_mesh(white_medium(nullptr, sigma_t, HenyeyGreenstein{0.5f}));
+  checks.push_back(
+      check_radiance("a glowing mesh in its own light", mesh, Vec3(0.4f, -0.2f, 0.1f), "homogeneous", effort));
   return checks;
 }
 
@@ -158,6 +179,8 @@ std::vector<Check> check_maps(const Effort& effort) {
   append(checks, check_map(again, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
   const LitBody room{"a room of glowing walls", glowing_room(white_medium(nullptr, sigma_t, phase))};
   append(checks, check_map(room, Vec3(0.6f, 0.0f, 0.0f), "homogeneous", VolumeForm::density_at_query, effort));
+  const LitBody mesh{"a glowing mesh", glowing_mesh(white_medium(nullptr, sigma_t, phase))};
+  append(checks, check_map(mesh, Vec3(0.85f, 0.2f, 0.0f), "homogeneous", VolumeForm::density_at_query, effort));
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
     for (const char* strategy : {"regular", "mean-extinction"})
       append(checks, check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)),

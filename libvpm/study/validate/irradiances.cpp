@@ -1,6 +1,6 @@
 // Light sampled from a point: irradiance, radiance integrated over directions, and solid angle, against closed forms.
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "light/light.h"
 #include "study/sample_moments.h"
@@ -24,10 +24,29 @@ struct Received {
   double angle = 0.0;  // solid angle from which it comes, sr; 0 for a single direction
 };
 
-/// Four unit vectors to the corners of a parallelogram, in order.
-std::array<Vec3d, 4> corners(const QuadLight& light, const Vec3& point) {
-  const Vec3d a = Vec3d(light.corner) - Vec3d(point), u(light.edge_u), v(light.edge_v);
-  return {glm::normalize(a), glm::normalize(a + u), glm::normalize(a + u + v), glm::normalize(a + v)};
+/// Unit vectors to the corners of a polygon, in order.
+using Polygon = std::vector<Vec3d>;
+
+Polygon seen_from(const Vec3& point, Polygon corners) {
+  for (Vec3d& corner : corners) corner = glm::normalize(corner - Vec3d(point));
+  return corners;
+}
+
+Polygon corners(const QuadLight& light, const Vec3& point) {
+  const Vec3d a(light.corner), u(light.edge_u), v(light.edge_v);
+  return seen_from(point, {a, a + u, a + u + v, a + v});
+}
+
+/// A disc as a polygon of the same area.
+Polygon corners(const DiscLight& light, const Vec3& point) {
+  constexpr int kEdges = 2000;
+  const double turn = 2.0 * kPiD / kEdges, radius = light.radius * std::sqrt(turn / std::sin(turn));
+  const Vec3d normal(light.normal), s = glm::normalize(glm::cross(normal, Vec3d(1.0, 0.0, 0.0)));
+  const Vec3d t = glm::cross(normal, s);
+  Polygon all;
+  for (int i = 0; i < kEdges; ++i)
+    all.push_back(Vec3d(light.centre) + radius * (std::cos(i * turn) * s + std::sin(i * turn) * t));
+  return seen_from(point, std::move(all));
 }
 
 /// The solid angle of the triangle of three unit vectors [VanOosterom1983, eq. 8].
@@ -36,13 +55,21 @@ double triangle_angle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
          std::atan2(std::fabs(glm::dot(a, glm::cross(b, c))), 1.0 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
 }
 
+double polygon_angle(const Polygon& v) {
+  double sum = 0.0;
+  for (size_t i = 2; i < v.size(); ++i) sum += triangle_angle(v[0], v[i - 1], v[i]);
+  return sum;
+}
+
 /// Lambert's formula for a polygon above the horizon [Arvo1994, eq. 1]: half the sum over the edges of the angle that
 /// each subtends times the cosine of the receiver's normal to the plane through edge and point.
-double polygon_irradiance(const std::array<Vec3d, 4>& v, const Vec3d& normal) {
+double polygon_irradiance(const Polygon& v, const Vec3d& normal) {
   double sum = 0.0;
-  for (size_t i = 0; i < 4; ++i) {
-    const Vec3d &a = v[i], &b = v[(i + 1) % 4];
-    sum += std::acos(glm::dot(a, b)) * glm::dot(glm::normalize(glm::cross(a, b)), normal);
+  for (size_t i = 0; i < v.size(); ++i) {
+    const Vec3d &a = v[i], &b = v[(i + 1) % v.size()];
+    const Vec3d across = glm::cross(a, b);
+    const double sine = glm::length(across);
+    sum += std::atan2(sine, glm::dot(a, b)) * glm::dot(across / sine, normal);
   }
   return 0.5 * std::fabs(sum);
 }
@@ -50,9 +77,32 @@ double polygon_irradiance(const std::array<Vec3d, 4>& v, const Vec3d& normal) {
 Received from_quad() {
   const QuadLight light{{-0.5f, 1.2f, -0.6f}, {1.0f, 0.1f, 0.0f}, {0.3f, 0.2f, 1.1f}, Rgb(1.0f)};  // shines down
   const Vec3 point(0.3f, 0.1f, -0.2f);
-  const auto c = corners(light, point);
-  const double angle = triangle_angle(c[0], c[1], c[2]) + triangle_angle(c[0], c[2], c[3]);
+  const Polygon c = corners(light, point);
+  const double angle = polygon_angle(c);
   return {"quad", light, point, angle, polygon_irradiance(c, Vec3d(kUp)), angle};
+}
+
+Received from_disc() {
+  const DiscLight light{{-0.4f, 1.3f, 0.2f}, kAxis, 0.6f, Rgb(1.0f)};
+  const Vec3 point(0.4f, 0.1f, -0.1f);
+  const Polygon c = corners(light, point);
+  const double angle = polygon_angle(c);
+  return {"disc", light, point, angle, polygon_irradiance(c, Vec3d(kUp)), angle};
+}
+
+/// A tetrahedron. Of a convex body what faces the point is what is seen from it.
+Received from_mesh() {
+  const TriangleMesh mesh = test_tetrahedron();
+  const Vec3 point(-0.7f, 0.4f, -0.6f);
+  double angle = 0.0, plane = 0.0;
+  for (const glm::uvec3& v : mesh.triangles) {
+    const Vec3d a(mesh.positions[v.x]), b(mesh.positions[v.y]), c(mesh.positions[v.z]);
+    if (glm::dot(glm::cross(b - a, c - a), Vec3d(point) - a) <= 0.0) continue;
+    const Polygon face = seen_from(point, {a, b, c});
+    angle += polygon_angle(face);
+    plane += polygon_irradiance(face, Vec3d(kUp));
+  }
+  return {"mesh", MeshLight{std::make_shared<EmittingMesh>(mesh), Rgb(1.0f)}, point, angle, plane, angle};
 }
 
 Received from_sphere() {
@@ -127,7 +177,9 @@ std::vector<Experiment> irradiance_experiments() {
   return {{0, "light received", [](const Effort& effort) {
              std::vector<Received> all = single_directions();
              all.push_back(from_quad());
+             all.push_back(from_disc());
              all.push_back(from_sphere());
+             all.push_back(from_mesh());
              all.push_back(
                  {"constant environment", ConstantEnvironment{Rgb(1.0f)}, Vec3(0.0f), 4.0 * kPiD, kPiD, 4.0 * kPiD});
              all.push_back(from_map());

@@ -12,9 +12,15 @@ namespace vpm {
 
 inline const Vec3 kAxis = glm::normalize(Vec3(0.2f, -0.9f, 0.3f));
 inline const Rgb kColour(3.0f, 2.0f, 0.5f);
-inline const SceneSphere kLitSphere{{0.5f, -1.0f, 2.0f}, 3.0f};
+inline const Box kLitBox{{-2.5f, -3.5f, -1.0f}, {3.5f, 1.5f, 3.0f}};
 
 inline QuadLight test_quad() { return {{-0.5f, 1.2f, -0.6f}, {1.0f, 0.1f, 0.0f}, {0.3f, 0.2f, 1.1f}, kColour}; }
+inline DiscLight test_disc() { return {{-0.4f, 1.3f, 0.2f}, kAxis, 0.6f, kColour}; }
+/// A tetrahedron of four unequal faces.
+inline TriangleMesh test_tetrahedron() {
+  return {{{0.0f, 1.0f, 0.0f}, {1.2f, 1.1f, 0.2f}, {0.3f, 2.0f, 0.1f}, {0.2f, 1.2f, 0.9f}},
+          {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};  // each without the vertex of its number
+}
 inline SphereLight test_sphere() { return {{0.2f, 1.3f, 0.1f}, 0.7f, kColour}; }
 
 /// A picture of 8 x 4 radiances of unequal brightness and colour, with the geometry of its texels by their definition.
