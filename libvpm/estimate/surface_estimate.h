@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimate/kernel_sum.h"
+#include "surface/shading.h"
 
 namespace vpm {
 
@@ -11,16 +12,32 @@ namespace vpm {
 inline constexpr float kFlatness = 0.05f;
 inline constexpr float kSlope = 0.3f;
 
-/// Irradiance, W/m^2, on the side of a surface that `normal` (unit) points to: sum_p Phi_p K_r over the discs of
-/// photons that arrive at that side. A Lambertian surface of that reflectance sends out reflectance/pi times it.
-/// `Photons` are a PhotonMap, or a plain list for the brute-force twin.
-template <class... Photons>
-Rgb surface_irradiance(const Vec3& point, const Vec3& normal, float radius, const Photons&... photons) {
+/// The sum of value(travel, power) K_r over the discs of photons that arrive at the side of a surface that `normal`
+/// (unit) points to. `Photons` are a PhotonMap, or a plain list for the brute-force twin.
+template <class Value, class... Photons>
+Rgb surface_sum(const Vec3& point, const Vec3& normal, float radius, Value&& value, const Photons&... photons) {
   const auto arrives = [&](const Vec3& travel, const Vec3& offset) {
     const float height = std::abs(glm::dot(offset, normal));
     return glm::dot(travel, normal) < 0.0f && height <= kFlatness * radius + kSlope * glm::length(offset);
   };
-  return kernel_sum<2>(photons..., point, arrives, [](const Vec3&, const Rgb& power) { return power; });
+  return kernel_sum<2>(photons..., point, arrives, value);
+}
+
+/// Irradiance, W/m^2, on the side that `normal` (unit) points to: sum_p Phi_p K_r. A Lambertian surface of that
+/// reflectance sends out reflectance/pi times it.
+template <class... Photons>
+Rgb surface_irradiance(const Vec3& point, const Vec3& normal, float radius, const Photons&... photons) {
+  return surface_sum(point, normal, radius, [](const Vec3&, const Rgb& power) { return power; }, photons...);
+}
+
+/// The same by the cosines to the shading normal of a hit: what a Lambertian surface there reflects. `normal` is the
+/// hit's geometric one, turned to the side that is asked for.
+template <class... Photons>
+Rgb shaded_irradiance(const Hit& hit, const Vec3& normal, float radius, const Photons&... photons) {
+  const auto shaded = [&](const Vec3& travel, const Rgb& power) {
+    return power * shading_irradiance_scale(hit, travel);
+  };
+  return surface_sum(hit.position, normal, radius, shaded, photons...);
 }
 
 }  // namespace vpm

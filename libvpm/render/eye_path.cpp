@@ -4,6 +4,7 @@
 #include "estimate/surface_estimate.h"
 #include "estimate/volume_estimate.h"
 #include "path/direct_light.h"
+#include "surface/shading.h"
 
 namespace vpm {
 namespace {
@@ -139,7 +140,7 @@ class EyePath {
   bool pass_shapes(const Encounter& met) {
     const Hit& hit = met.hits[0];
     const Shape& shape = c_.scene.shapes[hit.shape];
-    const Material& material = c_.scene.materials[shape.material];
+    const Material material = material_at(c_.scene, hit);
     if (shape.light >= 0)
       radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
     if (is_boundary(material)) {
@@ -160,8 +161,9 @@ class EyePath {
   }
 
   /// Irradiance on the eye's side of a surface: direct light by a shadow ray to each light, the rest from the photon
-  /// map.
+  /// map. By the cosines to the shading normal; none where the eye and the light are on different sides of the normals.
   Rgb irradiance(const Hit& hit) {
+    if (shading_irradiance_scale(hit, ray_.direction) == 0.0f) return Rgb(0.0f);
     const Vec3 normal = glm::dot(hit.normal, ray_.direction) < 0.0f ? hit.normal : -hit.normal;
     Rgb result(0.0f);
     if (c_.stages.surface_shadow_rays) {
@@ -170,12 +172,13 @@ class EyePath {
         ++counters_.shadow_rays;
         const DirectSample light =
             sample_direct(c_.scene, i, *c_.transmittance, point, normal, medium_, rng_, counters_.walk);
-        result += light.irradiance * std::max(0.0f, glm::dot(light.direction, normal));
+        result += light.irradiance * std::max(0.0f, glm::dot(light.direction, normal)) *
+                  shading_irradiance_scale(hit, -light.direction);
       }
     }
     if (c_.stages.surface_map) {
       ++counters_.surface_queries;
-      result += surface_irradiance(hit.position, normal, c_.surface.settings.radius, c_.surface);
+      result += shaded_irradiance(hit, normal, c_.surface.settings.radius, c_.surface);
     }
     return result;
   }

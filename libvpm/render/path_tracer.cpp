@@ -2,6 +2,7 @@
 #include "render/path_tracer.h"
 
 #include "path/direct_light.h"
+#include "surface/shading.h"
 
 namespace vpm {
 namespace {
@@ -48,13 +49,13 @@ class TracedPath {
       radiance_ += state_.power * emitted * share_of_path(light, from, glm::distance(from, hit.position));
     }
     if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
-    const Material& material = c_.scene.material_of(hit);
+    const Material material = material_at(c_.scene, hit);
     const Vec3 travel = state_.ray.direction;
     if (is_diffuse(material)) {
       const Vec3 normal = glm::dot(hit.normal, travel) < 0.0f ? hit.normal : -hit.normal;
       const DirectSample sample = sample_light(leave_surface(hit, normal), normal);
       if (!is_black(sample.irradiance)) {
-        const ScatterValue scattered = scatter_value(material, hit.normal, travel, sample.direction);
+        const ScatterValue scattered = scatter_value(material, hit, travel, sample.direction);
         radiance_ += state_.power * scattered.value * sample.irradiance * share(sample.pdf, scattered.pdf);
       }
     }
@@ -62,7 +63,7 @@ class TracedPath {
     if (!scatter_at_surface(c_.scene, hit, state_, rng_, scatter)) return false;
     state_.power *= scatter.radiance_scale;
     scatter_pdf_ =
-        is_diffuse(material) ? scatter_value(material, hit.normal, travel, scatter.direction).pdf : kInfinity;
+        is_diffuse(material) ? scatter_value(material, hit, travel, scatter.direction).pdf : kInfinity;
     return true;
   }
 
