@@ -1,5 +1,6 @@
 // The sections [materials.*] and [[shapes]].
 #include <algorithm>
+#include <glm/gtc/matrix_inverse.hpp>
 
 #include "base/error.h"
 #include "input/mesh_file.h"
@@ -8,22 +9,23 @@
 namespace vpm {
 namespace {
 
-Material read_material(TableReader& table) {
+MaterialPlan read_material(TableReader& table) {
   enum class Kind { lambertian, mirror, dielectric, boundary };
   const Kind kind = table.choice<Kind>("type", {{"lambertian", Kind::lambertian},
                                                 {"mirror", Kind::mirror},
                                                 {"dielectric", Kind::dielectric},
                                                 {"boundary", Kind::boundary}});
-  Material material = Boundary{};
-  if (kind == Kind::lambertian) material = Lambertian{table.rgb("reflectance", kFraction)};
-  if (kind == Kind::mirror) material = Mirror{table.rgb("reflectance", kFraction, Rgb(1.0f))};
+  MaterialPlan plan;
+  Material& material = plan.material;
+  if (kind == Kind::lambertian) material = Lambertian{read_reflectance(table, plan)};
+  if (kind == Kind::mirror) material = Mirror{read_reflectance(table, plan, Rgb(1.0f))};
   if (kind == Kind::dielectric) material = Dielectric{table.number("ior", kPositive)};
   table.finish();
-  return material;
+  return plan;
 }
 
 /// The number of the shape's material, which it names or defines in place.
-uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<Material>& materials) {
+uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<MaterialPlan>& materials) {
   if (table.require("material").table()) {
     TableReader inline_table(table.require("material"), "'material' of " + table.title());
     materials.push_back(read_material(inline_table));
@@ -71,11 +73,11 @@ QuadLight quad_light(const TriangleMesh& mesh, const Rgb& radiance) {
   return mirrored ? QuadLight{p[0], v, u, radiance} : QuadLight{p[0], u, v, radiance};
 }
 
-void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::vector<Material>& materials) {
+void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::vector<MaterialPlan>& materials) {
   if (!table.has("emission")) return;
   const Rgb radiance = table.rgb("emission", kNotNegative);
   if (is_black(radiance)) table.fail("emission", "the emission of " + table.title() + " is black", "remove the key");
-  if (is_boundary(materials[plan.shape.material]))
+  if (is_boundary(materials[plan.shape.material].material))
     table.fail("emission", "a boundary has no surface that could emit", "give " + table.title() + " another material");
   if (quad) {
     plan.light = quad_light(std::get<TriangleMesh>(plan.surface), radiance);
@@ -86,7 +88,7 @@ void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::ve
 }
 
 ShapePlan read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
-                     std::vector<Material>& materials) {
+                     std::vector<MaterialPlan>& materials) {
   enum class Kind { sphere, quad, box, mesh };
   ShapePlan plan;
   plan.place = table.place();
@@ -110,6 +112,11 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
     plan.surface = std::move(mesh);
   }
   if (kind == Kind::sphere || kind == Kind::quad) read_emission(table, plan, kind == Kind::quad, materials);
+  if (const auto* mesh = std::get_if<TriangleMesh>(&plan.surface);
+      mesh && mesh->uvs.empty() && materials[plan.shape.material].texture)
+    table.fail("material",
+               "the material of " + table.title() + " has a texture, but the shape has no coordinates in it",
+               "spheres and quads have them, and meshes whose file gives them to the vertices");
   table.finish();
   return plan;
 }
@@ -118,18 +125,20 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
 
 void transform_mesh(const Mat4d& transform, TriangleMesh& mesh) {
   for (Vec3& p : mesh.positions) p = Vec3(transform * glm::dvec4(Vec3d(p), 1.0));
+  const Mat3d of_normals = glm::inverseTranspose(Mat3d(transform));
+  for (Vec3& n : mesh.normals) n = Vec3(glm::normalize(of_normals * Vec3d(n)));
   if (glm::determinant(Mat3d(transform)) > 0.0) return;
   for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // a mirror turns triangles round: outward stays outward
 }
 
-std::vector<Material> read_materials(TableReader& section) {
-  std::vector<Material> materials;
+std::vector<MaterialPlan> read_materials(TableReader& section) {
+  std::vector<MaterialPlan> materials;
   for (auto& [name, table] : section.named_tables("materials")) materials.push_back(read_material(table));
   return materials;
 }
 
 std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
-                                   MediumId world, std::vector<Material>& materials) {
+                                   MediumId world, std::vector<MaterialPlan>& materials) {
   std::vector<ShapePlan> plans;
   for (TableReader& table : tables) {
     ShapePlan plan = read_shape(table, media, material_names, world, materials);

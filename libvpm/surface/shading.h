@@ -12,7 +12,8 @@
 
 namespace vpm {
 
-/// sample_scatter() at a hit; with Scatter::flux_scale. Where the normals are equal, what the material says bit for bit.
+/// sample_scatter() at a hit; with Scatter::flux_scale. Where the normals are equal, what the material says bit for
+/// bit.
 Scatter sample_scatter(const Material& material, const Hit& hit, const Vec3& travel, float u_choice, const Vec2& u);
 
 /// scatter_value() at a hit. Its value is BSDF times the cosine to the shading normal of `direction`: what the radiance
