@@ -27,7 +27,8 @@ Rgb surface_sum(const Vec3& point, const Vec3& normal, float radius, Value&& val
 /// reflectance sends out reflectance/pi times it.
 template <class... Photons>
 Rgb surface_irradiance(const Vec3& point, const Vec3& normal, float radius, const Photons&... photons) {
-  return surface_sum(point, normal, radius, [](const Vec3&, const Rgb& power) { return power; }, photons...);
+  return surface_sum(
+      point, normal, radius, [](const Vec3&, const Rgb& power) { return power; }, photons...);
 }
 
 /// The same by the cosines to the shading normal of a hit: what a Lambertian surface there reflects. `normal` is the

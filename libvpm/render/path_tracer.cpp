@@ -62,8 +62,7 @@ class TracedPath {
     Scatter scatter;
     if (!scatter_at_surface(c_.scene, hit, state_, rng_, scatter)) return false;
     state_.power *= scatter.radiance_scale;
-    scatter_pdf_ =
-        is_diffuse(material) ? scatter_value(material, hit, travel, scatter.direction).pdf : kInfinity;
+    scatter_pdf_ = is_diffuse(material) ? scatter_value(material, hit, travel, scatter.direction).pdf : kInfinity;
     return true;
   }
 

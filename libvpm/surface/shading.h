@@ -3,7 +3,7 @@
 // The material sees the shading normal. Light passes only where both its directions lie on the same sides of the
 // geometric normal as of the shading one, by the geometric normal reflected or transmitted as the material says, and is
 // absorbed elsewhere; what goes straight on is untouched. The BSDF with respect to the true, geometric cosines is
-// f |cos_s| / |cos_g|, the cosines those of the light's arrival [Veach1997, sec. 5.3.2]. It is not symmetric: what
+// f |cos_s| / |cos_g|, the cosines those of the light's arrival [Veach1997, sec. 5.3]. It is not symmetric: what
 // weighs radiance by w = f |cos_s| / pdf for paths from the eye weighs flux by w times flux_scale().
 #pragma once
 
