@@ -64,7 +64,7 @@ inline Material material_at(const Scene& scene, const Hit& hit) {
   const uint32_t number = scene.shapes[hit.shape].material;
   Material material = scene.materials[number];
   if (number < scene.textures.size() && scene.textures[number])
-    *reflectance_of(material) = scene.textures[number]->at(hit.uv);
+    *reflectance_of(material) = scene.textures[number]->at(scene.geometry.uv(hit));
   return material;
 }
 

@@ -135,18 +135,19 @@ void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
 
 /// The value at the point of a triangle with Embree's barycentric coordinates.
 template <class T>
-T interpolated(const std::vector<T>& values, const glm::uvec3& v, float u, float w) {
-  return (1.0f - u - w) * values[v.x] + u * values[v.y] + w * values[v.z];
+T interpolated(const std::vector<T>& values, const glm::uvec3& v, const Vec2& barycentric) {
+  return (1.0f - barycentric.x - barycentric.y) * values[v.x] + barycentric.x * values[v.y] +
+         barycentric.y * values[v.z];
 }
 
 /// The normal for shading, on the side of the geometric one.
-Vec3 shading_normal(const MeshShape& mesh, const glm::uvec3& v, const RTCHit& found, const Vec3& geometric) {
-  if (mesh.normals.empty()) return geometric;
-  const Vec3d sum(interpolated(mesh.normals, v, found.u, found.v));
+Vec3 shading_normal(const MeshShape& mesh, const glm::uvec3& v, const Hit& hit) {
+  if (mesh.normals.empty()) return hit.normal;
+  const Vec3d sum(interpolated(mesh.normals, v, hit.barycentric));
   const double length = glm::length(sum);
-  if (length == 0.0) return geometric;
+  if (length == 0.0) return hit.normal;
   const Vec3 normal(sum / length);
-  return glm::dot(normal, geometric) < 0.0f ? -normal : normal;
+  return glm::dot(normal, hit.normal) < 0.0f ? -normal : normal;
 }
 
 /// The point of the triangle with Embree's barycentric coordinates: in its plane, wherever the ray came from.
@@ -161,8 +162,9 @@ void locate(const MeshShape& mesh, const RTCRayHit& found, Hit& hit) {
   const Vec3& p = hit.position;
   const Vec3 reach = glm::max(glm::max(glm::abs(a - p), glm::abs(b - p)), glm::abs(c - p));
   hit.slack = flat_slack(hit.normal, reach, twice_area);
-  hit.shading_normal = shading_normal(mesh, v, found.hit, hit.normal);
-  if (!mesh.uvs.empty()) hit.uv = interpolated(mesh.uvs, v, found.hit.u, found.hit.v);
+  hit.triangle = found.hit.primID;
+  hit.barycentric = {found.hit.u, found.hit.v};
+  hit.shading_normal = shading_normal(mesh, v, hit);
 }
 
 /// The point of the sphere, found again in double and projected onto it.
@@ -172,7 +174,6 @@ void locate(const SphereShape& sphere, const Ray& ray, Hit& hit) {
   hit.normal = Vec3(normal);
   hit.slack = sphere_slack(sphere);
   hit.shading_normal = hit.normal;
-  hit.uv = sphere_uv(hit.normal);
 }
 
 }  // namespace
@@ -365,6 +366,12 @@ Box Geometry::bounds() const {
 }
 
 const Box& Geometry::bounds(uint32_t shape) const { return impl_->bounds[shape]; }
+
+Vec2 Geometry::uv(const Hit& hit) const {
+  assert(has_uvs(hit.shape));
+  const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[hit.shape]);
+  return mesh ? interpolated(mesh->uvs, mesh->triangles[hit.triangle], hit.barycentric) : sphere_uv(hit.normal);
+}
 
 bool Geometry::has_uvs(uint32_t shape) const {
   const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);

@@ -34,7 +34,8 @@ struct Hit {
   /// Unit: interpolated between those of the vertices, and turned to the side of `normal` where it points to the other
   /// one. Equal to `normal` where the shape has no others, or where they cancel.
   Vec3 shading_normal{0.0f};
-  Vec2 uv{0.0f};  // coordinates in a texture; 0 where the shape has none
+  uint32_t triangle = 0;   // of a mesh, counted without those that add() left out
+  Vec2 barycentric{0.0f};  // of a mesh: weights of the triangle's second and third vertex
 };
 
 /// What a shape is to a ray: a surface that light scatters at, with one medium around it or with different ones on its
@@ -82,7 +83,9 @@ class Geometry {
   Box bounds() const;
   /// The box around one shape.
   const Box& bounds(uint32_t shape) const;
-  /// Have the hits of a shape coordinates in a texture? Spheres do, and meshes with uvs.
+  /// The coordinates of a hit in a texture, of a shape that has them.
+  Vec2 uv(const Hit& hit) const;
+  /// Has a shape coordinates in a texture? Spheres do, and meshes with uvs.
   bool has_uvs(uint32_t shape) const;
   /// The area of a shape, m^2.
   double area(uint32_t shape) const;
