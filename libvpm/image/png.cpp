@@ -1,9 +1,10 @@
-// The preview that people look at: tone curve and libpng.
+// Pictures of bytes: tone curve and libpng.
 #include "image/png.h"
 
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -24,7 +25,61 @@ uint8_t srgb_byte(float linear) {
   return static_cast<uint8_t>(std::lround(255.0f * encoded));
 }
 
+/// The linear value that a step of the sRGB curve stands for [IEC1999].
+float linear_of_srgb(int byte) {
+  const double c = byte / 255.0;
+  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
+
+/// An open picture; frees what libpng holds on every way out.
+struct OpenPng {
+  png_image png{};
+  explicit OpenPng(const std::filesystem::path& path) {
+    png.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&png, path.c_str())) fail(path);
+  }
+  ~OpenPng() { png_image_free(&png); }
+  OpenPng(const OpenPng&) = delete;
+  OpenPng& operator=(const OpenPng&) = delete;
+  [[noreturn]] void fail(const std::filesystem::path& path) const {
+    throw InputError("cannot read '" + path.string() + "': " + png.message);
+  }
+};
+
+/// The four bytes of each pixel: red, green, blue, opacity.
+std::vector<uint8_t> read_bytes(const std::filesystem::path& path, int& width, int& height) {
+  constexpr double kMostBytes = 0x1p30;
+  OpenPng open(path);
+  if (double{sizeof(Rgb)} * open.png.width * open.png.height > kMostBytes)
+    throw InputError("'" + path.string() + "' takes more than 1 GiB in memory");
+  if (open.png.format & PNG_FORMAT_FLAG_LINEAR)
+    throw InputError("'" + path.string() + "' has 16 bits a channel; write it with 8, or as an .exr");
+  width = static_cast<int>(open.png.width);
+  height = static_cast<int>(open.png.height);
+  open.png.format = PNG_FORMAT_RGBA;
+  std::vector<uint8_t> bytes(PNG_IMAGE_SIZE(open.png));
+  if (!png_image_finish_read(&open.png, nullptr, bytes.data(), 0, nullptr)) open.fail(path);
+  return bytes;
+}
+
 }  // namespace
+
+Image read_png(const std::filesystem::path& path, PngValues values) {
+  std::array<float, 256> linear{};
+  for (int i = 0; i < 256; ++i)
+    linear[static_cast<size_t>(i)] = values == PngValues::srgb ? linear_of_srgb(i) : static_cast<float>(i) / 255.0f;
+  int width = 0, height = 0;
+  const std::vector<uint8_t> bytes = read_bytes(path, width, height);
+  Image image(width, height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const uint8_t* pixel = &bytes[4 * i];
+    if (pixel[3] != 255)
+      throw InputError("'" + path.string() + "' is transparent at column " + std::to_string(i % image.width) +
+                       ", row " + std::to_string(i / image.width) + "; all of it must be opaque");
+    image.pixels[i] = Rgb(linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]);
+  }
+  return image;
+}
 
 size_t write_png(const std::filesystem::path& path, const Image& radiance, float exposure) {
   assert(!radiance.pixels.empty() && std::isfinite(exposure));

@@ -1,4 +1,4 @@
-// The preview that people look at: 8 bits a channel in a PNG file.
+// PNG files of 8 bits a channel: the preview that people look at, and pictures as textures.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,14 @@ namespace vpm {
 /// with a non-finite channel are drawn magenta; returns their number. Equal pictures give equal bytes. The file appears
 /// whole or not at all; throws InputError where it cannot be written.
 size_t write_png(const std::filesystem::path& path, const Image& radiance, float exposure);
+
+/// What the bytes of a PNG file stand for: the sRGB curve [IEC1999] of linear values, or these themselves, over 255.
+enum class PngValues { srgb, linear };
+
+/// Reads a PNG file, grey or of colours, into linear values in [0, 1]. Where the file names a transfer curve other than
+/// sRGB's, libpng converts its bytes to that first. Throws InputError where the file is missing, damaged, over 1 GiB in
+/// memory, of 16 bits a channel, or transparent anywhere.
+Image read_png(const std::filesystem::path& path, PngValues values);
 
 /// The exposure, in stops, that takes the 99th percentile of the luminance of the lit (finite, > 0) pixels to 0.8; 0
 /// for a black picture.

@@ -35,6 +35,25 @@ constexpr std::array<ScalarType, 8> kTypes = {{{"int8", "char", 1, true, decode_
                                                {"float32", "float", 4, false, decode_as<float>},
                                                {"float64", "double", 8, false, decode_as<double>}}};
 
+/// The values of a vertex: position, normal, texture coordinate; and what writers call them.
+constexpr size_t kSlots = 8;
+struct SlotName {
+  std::string_view name;
+  int slot;
+};
+constexpr std::array<SlotName, 12> kSlotNames = {{{"x", 0},
+                                                  {"y", 1},
+                                                  {"z", 2},
+                                                  {"nx", 3},
+                                                  {"ny", 4},
+                                                  {"nz", 5},
+                                                  {"u", 6},
+                                                  {"v", 7},
+                                                  {"s", 6},
+                                                  {"t", 7},
+                                                  {"texture_u", 6},
+                                                  {"texture_v", 7}}};
+
 struct Property {
   std::string name;
   const ScalarType* type = nullptr;
@@ -201,26 +220,56 @@ class PlyReader {
       for (const Property& property : element.properties) skip(property);
   }
 
-  void read_vertices(const Element& element) {
-    std::vector<int> axis;  // of each property: 0 to 2, or -1
+  /// Which of a vertex' kSlots values each property holds, or -1.
+  std::vector<int> slots_of(const Element& element) const {
+    std::vector<int> slots;
     for (const Property& p : element.properties) {
-      const bool coordinate = p.name.size() == 1 && p.name[0] >= 'x' && p.name[0] <= 'z' && !p.count_type;
-      axis.push_back(coordinate ? p.name[0] - 'x' : -1);
+      const auto known = std::find_if(kSlotNames.begin(), kSlotNames.end(),
+                                      [&](const SlotName& slot) { return slot.name == p.name && !p.count_type; });
+      slots.push_back(known == kSlotNames.end() ? -1 : known->slot);
     }
-    for (const int a : {0, 1, 2})
-      if (std::count(axis.begin(), axis.end(), a) != 1) fail("a vertex needs the properties x, y and z once each");
+    return slots;
+  }
+
+  /// Do the slots from `first` to `last` stand among a vertex' properties? Once each, or all of them not.
+  bool has_slots(const std::vector<int>& slots, int first, int last, const std::string& what) const {
+    const auto within = [&](int slot) { return slot >= first && slot <= last; };
+    if (std::none_of(slots.begin(), slots.end(), within)) return false;
+    for (int slot = first; slot <= last; ++slot)
+      if (std::count(slots.begin(), slots.end(), slot) != 1) fail("a vertex needs the properties " + what);
+    return true;
+  }
+
+  void read_vertices(const Element& element) {
+    const std::vector<int> slots = slots_of(element);
+    if (!has_slots(slots, 0, 2, "x, y and z once each")) fail("a vertex needs the properties x, y and z once each");
+    const bool normals = has_slots(slots, 3, 5, "nx, ny and nz once each, or none of them");
+    const bool uvs = has_slots(slots, 6, 7, "u and v (or s and t, texture_u and texture_v) once each, or none of them");
     mesh_.positions.reserve(element.count);
     for (uint64_t i = 0; i < element.count; ++i) {
-      Vec3 position(0.0f);
-      for (size_t p = 0; p < axis.size(); ++p) {
-        if (axis[p] < 0)
+      std::array<float, kSlots> value{};
+      for (size_t p = 0; p < slots.size(); ++p) {
+        if (slots[p] < 0)
           skip(element.properties[p]);
         else
-          position[axis[p]] = static_cast<float>(next(*element.properties[p].type));
+          value[static_cast<size_t>(slots[p])] = static_cast<float>(next(*element.properties[p].type));
       }
-      if (!is_finite(position)) fail("the position of vertex " + std::to_string(i) + " is not finite");
-      mesh_.positions.push_back(position);
+      add_vertex(value, normals, uvs);
     }
+  }
+
+  void add_vertex(const std::array<float, kSlots>& value, bool normals, bool uvs) {
+    const auto refuse = [&](const std::string& what, const std::string& wrong) {
+      fail("the " + what + " of vertex " + std::to_string(mesh_.positions.size()) + " is " + wrong);
+    };
+    const Vec3 position(value[0], value[1], value[2]), normal(value[3], value[4], value[5]);
+    if (!is_finite(position)) refuse("position", "not finite");
+    if (!is_finite(normal)) refuse("normal", "not finite");
+    if (normals && normal == Vec3(0.0f)) refuse("normal", "the zero vector");
+    if (!std::isfinite(value[6]) || !std::isfinite(value[7])) refuse("texture coordinate", "not finite");
+    mesh_.positions.push_back(position);
+    if (normals) mesh_.normals.push_back(normal);
+    if (uvs) mesh_.uvs.emplace_back(value[6], value[7]);
   }
 
   void read_faces(const Element& element) {

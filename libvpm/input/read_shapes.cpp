@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/gtc/matrix_inverse.hpp>
 
 #include "base/error.h"
 #include "input/mesh_file.h"
@@ -54,29 +55,31 @@ Material read_rough_dielectric(TableReader& table) {
   return RoughDielectric{ior, read_roughness(table, "dielectric")};
 }
 
-Material read_material(TableReader& table) {
-  using Reader = Material (*)(TableReader&);
+MaterialPlan read_material(TableReader& table) {
+  using Reader = Material (*)(TableReader&, MaterialPlan&);
   const auto read = table.choice<Reader>(
       "type",
-      {{"lambertian", [](TableReader& t) -> Material { return Lambertian{t.rgb("reflectance", kFraction)}; }},
-       {"phong", read_phong},
-       {"mirror", [](TableReader& t) -> Material { return Mirror{t.rgb("reflectance", kFraction, Rgb(1.0f))}; }},
-       {"conductor", [](TableReader& t) -> Material { return read_metal(t); }},
+      {{"lambertian", [](TableReader& t, MaterialPlan& p) -> Material { return Lambertian{read_reflectance(t, p)}; }},
+       {"phong", [](TableReader& t, MaterialPlan&) { return read_phong(t); }},
+       {"mirror",
+        [](TableReader& t, MaterialPlan& p) -> Material { return Mirror{read_reflectance(t, p, Rgb(1.0f))}; }},
+       {"conductor", [](TableReader& t, MaterialPlan&) -> Material { return read_metal(t); }},
        {"rough-conductor",
-        [](TableReader& t) -> Material {
+        [](TableReader& t, MaterialPlan&) -> Material {
           const Conductor metal = read_metal(t);
           return RoughConductor{metal.eta, metal.k, read_roughness(t, "conductor")};
         }},
-       {"dielectric", [](TableReader& t) -> Material { return Dielectric{t.number("ior", kPositive)}; }},
-       {"rough-dielectric", read_rough_dielectric},
-       {"boundary", [](TableReader&) -> Material { return Boundary{}; }}});
-  Material material = read(table);
+       {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kPositive)}; }},
+       {"rough-dielectric", [](TableReader& t, MaterialPlan&) { return read_rough_dielectric(t); }},
+       {"boundary", [](TableReader&, MaterialPlan&) -> Material { return Boundary{}; }}});
+  MaterialPlan plan;
+  plan.material = read(table, plan);
   table.finish();
-  return material;
+  return plan;
 }
 
 /// The number of the shape's material, which it names or defines in place.
-uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<Material>& materials) {
+uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<MaterialPlan>& materials) {
   if (table.require("material").table()) {
     TableReader inline_table(table.require("material"), "'material' of " + table.title());
     materials.push_back(read_material(inline_table));
@@ -139,17 +142,17 @@ Light light_of(const ShapePlan& plan, bool quad, const Rgb& radiance) {
   return MeshLight{std::make_shared<EmittingMesh>(mesh), radiance};
 }
 
-void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::vector<Material>& materials) {
+void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::vector<MaterialPlan>& materials) {
   if (!table.has("emission")) return;
   const Rgb radiance = table.rgb("emission", kNotNegative);
   if (is_black(radiance)) table.fail("emission", "the emission of " + table.title() + " is black", "remove the key");
-  if (is_boundary(materials[plan.shape.material]))
+  if (is_boundary(materials[plan.shape.material].material))
     table.fail("emission", "a boundary has no surface that could emit", "give " + table.title() + " another material");
   plan.light = light_of(plan, quad, radiance);
 }
 
 ShapePlan read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
-                     std::vector<Material>& materials) {
+                     std::vector<MaterialPlan>& materials) {
   enum class Kind { sphere, disc, quad, box, mesh };
   ShapePlan plan;
   plan.place = table.place();
@@ -176,6 +179,11 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
     plan.surface = std::move(mesh);
   }
   read_emission(table, plan, kind == Kind::quad, materials);
+  if (const auto* mesh = std::get_if<TriangleMesh>(&plan.surface);
+      mesh && mesh->uvs.empty() && materials[plan.shape.material].texture)
+    table.fail("material",
+               "the material of " + table.title() + " has a texture, but the shape has no coordinates in it",
+               "spheres and quads have them, and meshes whose file gives them to the vertices");
   table.finish();
   return plan;
 }
@@ -184,18 +192,20 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
 
 void transform_mesh(const Mat4d& transform, TriangleMesh& mesh) {
   for (Vec3& p : mesh.positions) p = Vec3(transform * glm::dvec4(Vec3d(p), 1.0));
+  const Mat3d of_normals = glm::inverseTranspose(Mat3d(transform));
+  for (Vec3& n : mesh.normals) n = Vec3(glm::normalize(of_normals * Vec3d(n)));
   if (glm::determinant(Mat3d(transform)) > 0.0) return;
   for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // a mirror turns triangles round: outward stays outward
 }
 
-std::vector<Material> read_materials(TableReader& section) {
-  std::vector<Material> materials;
+std::vector<MaterialPlan> read_materials(TableReader& section) {
+  std::vector<MaterialPlan> materials;
   for (auto& [name, table] : section.named_tables("materials")) materials.push_back(read_material(table));
   return materials;
 }
 
 std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
-                                   MediumId world, std::vector<Material>& materials) {
+                                   MediumId world, std::vector<MaterialPlan>& materials) {
   std::vector<ShapePlan> plans;
   for (TableReader& table : tables) {
     ShapePlan plan = read_shape(table, media, material_names, world, materials);

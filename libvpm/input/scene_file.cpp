@@ -15,7 +15,7 @@ namespace {
 struct ScenePlan {
   MediumId world = kVacuum;
   std::vector<MediumPlan> media;
-  std::vector<Material> materials;
+  std::vector<MaterialPlan> materials;
   std::vector<ShapePlan> shapes;
   std::vector<LightPlan> lights;
   Camera camera;
@@ -123,7 +123,7 @@ TriangleMesh support_box(const DensityGrid& grid) {
 
 void add_box(ScenePlan& plan, MediumId id) {
   const MediumPlan& medium = plan.media[static_cast<size_t>(id)];
-  plan.materials.push_back(Boundary{});
+  plan.materials.push_back({Boundary{}, nullptr});
   ShapePlan shape;
   shape.place = medium.place;
   shape.shape.name = "box of " + medium.medium.name;
@@ -172,8 +172,12 @@ void add_shapes(ScenePlan& plan, LoadedScene& loaded) {
     if (shape.degenerate_triangles > 0)
       loaded.notes.push_back("shape '" + shape.shape.name + "': " + std::to_string(shape.degenerate_triangles) +
                              " triangles without area dropped");
-    const Layer layer = layer_of(shape.shape, plan.materials[shape.shape.material]);
-    std::visit([&](const auto& surface) { scene.geometry.add(surface, layer); }, shape.surface);
+    const Layer layer = layer_of(shape.shape, plan.materials[shape.shape.material].material);
+    try {
+      std::visit([&](const auto& surface) { scene.geometry.add(surface, layer); }, shape.surface);
+    } catch (const InputError& error) {
+      fail_at(shape.place, error.what());
+    }
     scene.shapes.push_back(std::move(shape.shape));
   }
   scene.geometry.commit();
@@ -227,7 +231,10 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
   Scene& scene = loaded.scene;
   add_shapes(plan, loaded);
   for (MediumPlan& medium : plan.media) scene.media.push_back(std::move(medium.medium));
-  scene.materials = std::move(plan.materials);
+  for (MaterialPlan& material : plan.materials) {
+    scene.materials.push_back(material.material);
+    scene.textures.push_back(std::move(material.texture));
+  }
   for (LightPlan& light : plan.lights) {
     scene.lights.push_back(std::move(light.light));
     loaded.light_names.push_back(std::move(light.name));

@@ -37,8 +37,16 @@ struct MediumPlan {
 /// Reads [media.*]. `world` is what [world] names.
 std::vector<MediumPlan> read_media(TableReader& section, const Names& names, MediumId world);
 
+/// A material and the picture that its reflectance is read from, null without.
+struct MaterialPlan {
+  Material material = Boundary{};
+  std::shared_ptr<const Texture> texture;
+};
 /// Reads [materials.*], in the file's order.
-std::vector<Material> read_materials(TableReader& section);
+std::vector<MaterialPlan> read_materials(TableReader& section);
+/// The key `reflectance`: an rgb in [0, 1], or a table that names a picture, which the plan then holds; its mean is
+/// returned. A fallback is what a missing key stands for.
+Rgb read_reflectance(TableReader& table, MaterialPlan& plan, std::optional<Rgb> fallback = {});
 
 /// A shape as the file describes it.
 struct ShapePlan {
@@ -50,7 +58,7 @@ struct ShapePlan {
 };
 /// Reads [[shapes]]; appends materials that shapes define in place to `materials`.
 std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
-                                   MediumId world, std::vector<Material>& materials);
+                                   MediumId world, std::vector<MaterialPlan>& materials);
 
 /// Moves a mesh by an affine map. Its normals stay outward under mirrors too.
 void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);

@@ -2,6 +2,7 @@
 #include "path/walk.h"
 
 #include "medium/distance/mixture.h"
+#include "surface/shading.h"
 
 namespace vpm {
 
@@ -64,7 +65,7 @@ bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng) {
 
 bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter) {
   const float choice = rng.uniform();
-  scatter = sample_scatter(scene.material_of(hit), hit.normal, state.ray.direction, choice, rng.uniform2());
+  scatter = sample_scatter(material_at(scene, hit), hit, state.ray.direction, choice, rng.uniform2());
   const Rgb after = state.power * scatter.weight;
   const float survival = std::min(1.0f, max_channel(after) / max_channel(state.power));
   if (!(rng.uniform() < survival)) return false;

@@ -62,7 +62,8 @@ bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
 
 /// The outcome at a surface: samples the material and plays Russian roulette, surviving with the ratio of largest
 /// channels after and before, at most 1. The path goes on from just off the surface, in the medium there. False where
-/// absorbed.
+/// absorbed. The power is not multiplied by Scatter::radiance_scale, which is for eye paths, nor by flux_scale, which
+/// is for photons.
 bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter);
 
 }  // namespace vpm

@@ -14,7 +14,7 @@ struct Ledger {
   uint64_t emitted_count = 0;
   Rgbd emitted{0.0};
   Rgbd absorbed_in_media{0.0};
-  Rgbd absorbed_on_surfaces{0.0};
+  Rgbd absorbed_on_surfaces{0.0};  // less what shading normals add: Scatter::flux_scale may be above 1
   Rgbd escaped{0.0};
   Rgbd cut{0.0};  // carried by photons that reached the limit of events
   uint64_t cut_count = 0;

@@ -110,7 +110,8 @@ class PhotonPath {
     Scatter scatter;
     direct_ = false;
     alive_ = scatter_at_surface(scene_, hit, state_, rng, scatter);
-    deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight)));
+    state_.power *= scatter.flux_scale;
+    deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale)));
   }
 
   const Scene& scene_;

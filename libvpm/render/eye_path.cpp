@@ -4,6 +4,7 @@
 #include "estimate/surface_estimate.h"
 #include "estimate/volume_estimate.h"
 #include "path/direct_light.h"
+#include "surface/shading.h"
 
 namespace vpm {
 namespace {
@@ -139,7 +140,7 @@ class EyePath {
   bool pass_shapes(const Encounter& met) {
     const Hit& hit = met.hits[0];
     const Shape& shape = c_.scene.shapes[hit.shape];
-    const Material& material = c_.scene.materials[shape.material];
+    const Material material = material_at(c_.scene, hit);
     if (shape.light >= 0)
       radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
     if (is_boundary(material)) {
@@ -170,8 +171,7 @@ class EyePath {
     }
     if (c_.stages.surface_map) {
       ++counters_.surface_queries;
-      result += scattered_radiance(material, hit.position, hit.normal, -ray_.direction, c_.surface.settings.radius,
-                                   c_.surface);
+      result += scattered_radiance(material, hit, -ray_.direction, c_.surface.settings.radius, c_.surface);
     }
     return result;
   }
@@ -184,7 +184,7 @@ class EyePath {
       const DirectSample light =
           sample_direct(c_.scene, i, *c_.transmittance, side.point, side.normal, side.medium, rng_, counters_.walk);
       if (is_black(light.irradiance)) continue;
-      const ScatterValue scattered = scatter_value(material, hit.normal, ray_.direction, light.direction);
+      const ScatterValue scattered = scatter_value(material, hit, ray_.direction, light.direction);
       result += scattered.value * scattered.radiance_scale * light.irradiance;
     }
     return result;

@@ -2,6 +2,7 @@
 #include "render/path_tracer.h"
 
 #include "path/direct_light.h"
+#include "surface/shading.h"
 
 namespace vpm {
 namespace {
@@ -50,7 +51,7 @@ class TracedPath {
           state_.power * emitted * share_of_path(light, from, {travel, glm::distance(from, hit.position), hit.normal});
     }
     if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
-    const Material& material = c_.scene.material_of(hit);
+    const Material material = material_at(c_.scene, hit);
     if (is_rough(material)) {
       add_direct_light(hit, material, near_side(hit, state_.ray.direction, state_.medium));
       if (scatters_through(material))
@@ -67,7 +68,7 @@ class TracedPath {
   void add_direct_light(const Hit& hit, const Material& material, const SurfaceSide& side) {
     const DirectSample light = sample_light(side.point, side.normal, side.medium);
     if (is_black(light.irradiance)) return;
-    const ScatterValue scattered = scatter_value(material, hit.normal, state_.ray.direction, light.direction);
+    const ScatterValue scattered = scatter_value(material, hit, state_.ray.direction, light.direction);
     radiance_ +=
         state_.power * scattered.value * scattered.radiance_scale * light.irradiance * share(light.pdf, scattered.pdf);
   }

@@ -46,7 +46,8 @@ Box wider_box(const Box& box) {
 bool all_grey(const Scene& scene) {
   return std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return is_grey(l); }) &&
          std::all_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grey(); }) &&
-         std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return is_grey(m); });
+         std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return is_grey(m); }) &&
+         std::all_of(scene.textures.begin(), scene.textures.end(), [](const auto& t) { return !t || t->grey(); });
 }
 
 std::vector<float> probability_by_power(const std::vector<Light>& lights, const Box& bounds) {
@@ -154,6 +155,7 @@ MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& dire
 
 void finish(Scene& scene) {
   assert(scene.light_probability.empty() && scene.light_medium.empty());
+  assert(scene.textures.size() <= scene.materials.size());
   scene.bounds = wider_box(scene.geometry.bounds());
   scene.grey = all_grey(scene);
   scene.light_probability = probability_by_power(scene.lights, scene.bounds);

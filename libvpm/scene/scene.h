@@ -11,6 +11,7 @@
 #include "scene/camera.h"
 #include "surface/geometry.h"
 #include "surface/material.h"
+#include "surface/texture.h"
 
 namespace vpm {
 
@@ -38,6 +39,9 @@ struct Scene {
   Geometry geometry;
   std::vector<Shape> shapes;
   std::vector<Material> materials;
+  /// Of the material of the same number: the picture its reflectance is read from, in [0, 1]. The material itself holds
+  /// the picture's mean. Null, or missing at the list's end: the reflectance is the same everywhere.
+  std::vector<std::shared_ptr<const Texture>> textures;
   std::vector<Medium> media;
   std::vector<Light> lights;
   MediumId world_medium = kVacuum;  // fills all space outside the shapes that separate media
@@ -51,8 +55,18 @@ struct Scene {
   // That a light's photons start in; kSeveralMedia where a boundary cuts the light, or runs through its point.
   std::vector<MediumId> light_medium;
 
+  /// The material of a hit shape: what it is, with the mean of a reflectance that a texture gives.
   const Material& material_of(const Hit& hit) const { return materials[shapes[hit.shape].material]; }
 };
+
+/// The material as light meets it at a hit, its reflectance read from the texture where it has one.
+inline Material material_at(const Scene& scene, const Hit& hit) {
+  const uint32_t number = scene.shapes[hit.shape].material;
+  Material material = scene.materials[number];
+  if (number < scene.textures.size() && scene.textures[number])
+    *reflectance_of(material) = scene.textures[number]->at(scene.geometry.uv(hit));
+  return material;
+}
 
 /// The medium on the side of a surface that `direction` points to, for a path that is in `current`.
 inline MediumId medium_beyond(const Shape& shape, const Vec3& normal, const Vec3& direction, MediumId current) {

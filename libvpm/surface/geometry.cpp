@@ -24,14 +24,18 @@ namespace {
 
 /// Embree leaves out what is beyond 1.8e18 m; squares of coordinates must stay finite in float too.
 constexpr float kMaxCoordinate = 1e9f;
+/// Beyond it floats tell too few places in a repeated picture apart.
+constexpr float kMaxUv = 1e6f;
 constexpr uint32_t kAllLayers = ~0u;
 /// Hits lie beyond this t, m: the smallest normal float, so that t > 0 in every rounding mode.
 constexpr float kMinT = std::numeric_limits<float>::min();
 
-/// A mesh in Embree's own buffers.
+/// A mesh in Embree's own buffers, and what Embree need not know of it.
 struct MeshShape {
   const Vec3* positions = nullptr;
   const glm::uvec3* triangles = nullptr;
+  std::vector<Vec3> normals;
+  std::vector<Vec2> uvs;
 };
 using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
 
@@ -63,6 +67,25 @@ std::vector<glm::uvec3> proper_triangles(const TriangleMesh& mesh) {
   }
   if (proper.empty()) throw InputError("mesh: it has no triangle with an area, at least one is needed");
   return proper;
+}
+
+/// Checks one of the lists that hold a value for each vertex, or none at all.
+template <class T, class Good>
+void check_attribute(const std::vector<T>& values, size_t vertices, const std::string& name, const std::string& rule,
+                     Good&& good) {
+  if (values.empty()) return;
+  if (values.size() != vertices)
+    throw InputError("mesh: there are " + std::to_string(values.size()) + " " + name + "s for " +
+                     std::to_string(vertices) + " vertices; it needs one each, or none");
+  for (size_t i = 0; i < values.size(); ++i)
+    if (!good(values[i])) throw InputError("mesh: the " + name + " of vertex " + std::to_string(i) + " is " + rule);
+}
+
+void check_attributes(const TriangleMesh& mesh) {
+  check_attribute(mesh.normals, mesh.positions.size(), "normal", "zero or not finite",
+                  [](const Vec3& n) { return is_finite(n) && n != Vec3(0.0f); });
+  check_attribute(mesh.uvs, mesh.positions.size(), "uv", "not finite or beyond 1e6",
+                  [](const Vec2& uv) { return std::abs(uv.x) <= kMaxUv && std::abs(uv.y) <= kMaxUv; });
 }
 
 double first_meeting(const SphereShape& s, const Ray& ray, float t_min) { return intersect_sphere(s, ray, t_min); }
@@ -120,6 +143,23 @@ void own_intersect(const RTCIntersectFunctionNArguments* args) {
   ray_hit.hit.instID[0] = args->context->instID[0];
 }
 
+/// The value at the point of a triangle with Embree's barycentric coordinates.
+template <class T>
+T interpolated(const std::vector<T>& values, const glm::uvec3& v, const Vec2& barycentric) {
+  return (1.0f - barycentric.x - barycentric.y) * values[v.x] + barycentric.x * values[v.y] +
+         barycentric.y * values[v.z];
+}
+
+/// The normal for shading, on the side of the geometric one.
+Vec3 shading_normal(const MeshShape& mesh, const glm::uvec3& v, const Hit& hit) {
+  if (mesh.normals.empty()) return hit.normal;
+  const Vec3d sum(interpolated(mesh.normals, v, hit.barycentric));
+  const double length = glm::length(sum);
+  if (length == 0.0) return hit.normal;
+  const Vec3 normal(sum / length);
+  return glm::dot(normal, hit.normal) < 0.0f ? -normal : normal;
+}
+
 /// The point of the triangle with Embree's barycentric coordinates: in its plane, wherever the ray came from.
 void locate(const MeshShape& mesh, const RTCRayHit& found, Hit& hit) {
   const glm::uvec3& v = mesh.triangles[found.hit.primID];
@@ -132,6 +172,9 @@ void locate(const MeshShape& mesh, const RTCRayHit& found, Hit& hit) {
   const Vec3& p = hit.position;
   const Vec3 reach = glm::max(glm::max(glm::abs(a - p), glm::abs(b - p)), glm::abs(c - p));
   hit.slack = flat_slack(hit.normal, reach, twice_area);
+  hit.triangle = found.hit.primID;
+  hit.barycentric = {found.hit.u, found.hit.v};
+  hit.shading_normal = shading_normal(mesh, v, hit);
 }
 
 /// The point of the sphere, found again in double and projected onto it.
@@ -140,6 +183,7 @@ void locate(const SphereShape& sphere, const Ray& ray, Hit& hit) {
   hit.position = point_on(sphere, normal);
   hit.normal = Vec3(normal);
   hit.slack = sphere_slack(sphere);
+  hit.shading_normal = hit.normal;
 }
 
 /// The point of the disc, found again in double.
@@ -147,6 +191,7 @@ void locate(const DiscShape& disc, const Ray& ray, Hit& hit) {
   hit.position = Vec3(disc_point(disc, ray, intersect_disc(disc, ray, kMinT)));
   hit.normal = disc.normal;
   hit.slack = disc_slack(disc);
+  hit.shading_normal = hit.normal;
 }
 
 void check_round(const char* title, const Vec3& centre, float radius) {
@@ -224,6 +269,7 @@ Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
   assert(!impl_->committed);
   const std::vector<glm::uvec3> proper = proper_triangles(mesh);
+  check_attributes(mesh);
   RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                sizeof(Vec3), mesh.positions.size()));
@@ -238,7 +284,10 @@ uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
     area += 0.5 * glm::length(area_vector(positions[v.x], positions[v.y], positions[v.z]));
     for (int corner = 0; corner < 3; ++corner) box.add(positions[v[corner]]);
   }
-  impl_->shapes.emplace_back(MeshShape{positions, triangles});
+  MeshShape shape{positions, triangles, mesh.normals, mesh.uvs};
+  for (Vec3& normal : shape.normals) normal = Vec3(glm::normalize(Vec3d(normal)));
+  impl_->bytes += static_cast<int64_t>(shape.normals.size() * sizeof(Vec3) + shape.uvs.size() * sizeof(Vec2));
+  impl_->shapes.emplace_back(std::move(shape));
   return impl_->attach(geometry, area, box, layer);
 }
 
@@ -348,6 +397,17 @@ Box Geometry::bounds() const {
 }
 
 const Box& Geometry::bounds(uint32_t shape) const { return impl_->bounds[shape]; }
+
+Vec2 Geometry::uv(const Hit& hit) const {
+  assert(has_uvs(hit.shape));
+  const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[hit.shape]);
+  return mesh ? interpolated(mesh->uvs, mesh->triangles[hit.triangle], hit.barycentric) : sphere_uv(hit.normal);
+}
+
+bool Geometry::has_uvs(uint32_t shape) const {
+  const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);
+  return !mesh || !mesh->uvs.empty();
+}
 
 double Geometry::area(uint32_t shape) const {
   assert(shape < impl_->areas.size());

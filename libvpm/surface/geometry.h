@@ -16,6 +16,8 @@ namespace vpm {
 struct TriangleMesh {
   std::vector<Vec3> positions;  // m
   std::vector<glm::uvec3> triangles;
+  std::vector<Vec3> normals{};  // of the vertices, of any length but 0, for shading; empty: the triangles' own
+  std::vector<Vec2> uvs{};      // of the vertices, coordinates in a texture; empty: none
 };
 struct SphereShape {
   Vec3 centre{0.0f};    // m
@@ -35,6 +37,11 @@ struct Hit {
   Vec3 position{0.0f};  // m, on the surface but for the rounding of its coordinates
   Vec3 normal{0.0f};    // unit, outward, geometric: not turned towards the ray
   float slack = 0.0f;   // m, by how much rounding may displace the surface from `position` in later queries
+  /// Unit: interpolated between those of the vertices, and turned to the side of `normal` where it points to the other
+  /// one. Equal to `normal` where the shape has no others, or where they cancel.
+  Vec3 shading_normal{0.0f};
+  uint32_t triangle = 0;   // of a mesh, counted without those that add() left out
+  Vec2 barycentric{0.0f};  // of a mesh: weights of the triangle's second and third vertex
 };
 
 /// What a shape is to a ray: a surface that light scatters at, with one medium around it or with different ones on its
@@ -63,7 +70,8 @@ class Geometry {
 
   /// Adds a shape and returns its number: 0, 1, 2, ... Triangles without area are left out, as no ray can meet them.
   /// Throws InputError where a mesh has no other, where a triangle names a vertex that does not exist, and for
-  /// coordinates or radii that are not finite or beyond 1e9 m, radii not positive.
+  /// coordinates or radii that are not finite or beyond 1e9 m, radii not positive; and for normals or uvs that are not
+  /// as many as the vertices, not finite, zero (normals) or beyond 1e6 (uvs).
   uint32_t add(const TriangleMesh& mesh, Layer layer = Layer::surface);
   uint32_t add(const SphereShape& sphere, Layer layer = Layer::surface);
   uint32_t add(const DiscShape& disc, Layer layer = Layer::surface);
@@ -82,9 +90,13 @@ class Geometry {
   Box bounds() const;
   /// The box around one shape.
   const Box& bounds(uint32_t shape) const;
+  /// The coordinates of a hit in a texture, of a shape that has them.
+  Vec2 uv(const Hit& hit) const;
+  /// Has a shape coordinates in a texture? Spheres do, and meshes with uvs.
+  bool has_uvs(uint32_t shape) const;
   /// The area of a shape, m^2.
   double area(uint32_t shape) const;
-  /// What Embree holds, its copy of the shapes included.
+  /// What Embree holds, its copy of the shapes included, and their normals and uvs.
   size_t memory_bytes() const;
 
  private:

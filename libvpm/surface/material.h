@@ -72,7 +72,22 @@ struct Scatter {
   /// over ior^2 is what refraction keeps; photons carry flux and do not.
   float radiance_scale = 1.0f;
   float pdf = std::numeric_limits<float>::infinity();  // of `direction`, 1/sr; infinite: the only one of its kind
+  /// What photons multiply by, and eye paths do not: other than 1 only where a shading normal differs from the
+  /// geometric one (surface/shading.h).
+  float flux_scale = 1.0f;
 };
+
+/// The reflectance of a material, which a texture may replace; null where it has none.
+inline Rgb* reflectance_of(Material& material) {
+  return std::visit(
+      [](auto& m) -> Rgb* {
+        if constexpr (requires { m.reflectance; })
+          return &m.reflectance;
+        else
+          return nullptr;
+      },
+      material);
+}
 
 /// Samples the scattering of a path that travels along `travel` (unit) and meets a surface of normal `normal` (unit,
 /// outward) from either side. `u_choice` and `u` are uniform in [0, 1). Black weight: absorbed. A boundary, and a

@@ -16,6 +16,7 @@ TriangleMesh quad_mesh(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
   TriangleMesh mesh;
   mesh.positions = {Vec3(corner), Vec3(corner + u), Vec3(corner + u + v), Vec3(corner + v)};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.uvs = {{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}};
   return mesh;
 }
 

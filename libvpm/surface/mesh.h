@@ -8,7 +8,8 @@ namespace vpm {
 /// The box [lo, hi] as twelve triangles with normals outward.
 TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi);
 
-/// The parallelogram of a corner and two edges as two triangles, with the normal cross(u, v).
+/// The parallelogram of a corner and two edges as two triangles, with the normal cross(u, v). Its coordinates in
+/// a texture are the shares of the edges: (0, 0) at the corner, (1, 0) at the end of u, (0, 1) at that of v.
 TriangleMesh quad_mesh(const Vec3d& corner, const Vec3d& u, const Vec3d& v);
 
 }  // namespace vpm

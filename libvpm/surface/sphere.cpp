@@ -1,6 +1,8 @@
 // Rays against spheres, in double precision: robust for spheres that are far, tiny or huge, from inside and outside.
 #include "surface/sphere.h"
 
+#include <algorithm>
+
 namespace vpm {
 
 double intersect_sphere(const SphereShape& sphere, const Ray& ray, float t_min) {
@@ -31,6 +33,11 @@ Vec3 point_on(const SphereShape& sphere, const Vec3d& normal) {
 
 Vec3d sphere_normal(const SphereShape& sphere, const Ray& ray, double t) {
   return glm::normalize((Vec3d(ray.origin) - Vec3d(sphere.centre)) + t * Vec3d(ray.direction));
+}
+
+Vec2 sphere_uv(const Vec3& normal) {
+  const float turn = std::atan2(normal.x, normal.z) / (2.0f * kPi);
+  return {turn < 0.0f ? turn + 1.0f : turn, 0.5f + std::asin(std::clamp(normal.y, -1.0f, 1.0f)) / kPi};
 }
 
 }  // namespace vpm

@@ -120,5 +120,29 @@ TEST(AutoExposure, IgnoresBlackSurroundingsAndNonFinitePixels) {
   EXPECT_FLOAT_EQ(auto_exposure(image), 3.0f);
 }
 
+TEST_F(Png, ReadsWhatItWrote) {
+  Image image(2, 2);
+  image.pixels = {Rgb(0.0f, 0.5f, 1.0f), Rgb(0.18f), Rgb(0.002f, 0.9f, 0.3f), Rgb(1.0f)};
+  write_png(file_, image, 0.0f);
+  const Image linear = read_png(file_, PngValues::srgb), raw = read_png(file_, PngValues::linear);
+  ASSERT_EQ(linear.width, 2);
+  ASSERT_EQ(linear.height, 2);
+  for (size_t i = 0; i < 4; ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(linear.pixels[i][c], image.pixels[i][c], 0.0045f);  // half a step at 1
+  EXPECT_EQ(raw.pixels[0], Rgb(0.0f, 188.0f / 255.0f, 1.0f));
+  // A byte read and written again is the same byte.
+  write_png(file_, linear, 0.0f);
+  EXPECT_EQ(read_png(file_, PngValues::linear).pixels, raw.pixels);
+}
+
+TEST_F(Png, ReadsGreyAndOpaqueFiles) {
+  const fs::path folder = fs::path(VPM_SOURCE_DIR) / "tests/input/textures";
+  const Image grey = read_png(folder / "grey.png", PngValues::linear);
+  EXPECT_EQ(grey.pixels, (std::vector<Rgb>{Rgb(0.0f), Rgb(188.0f / 255.0f)}));
+  EXPECT_EQ(read_png(folder / "opaque.png", PngValues::linear).pixels[0], Rgb(1.0f, 0.0f, 188.0f / 255.0f));
+  for (const char* name : {"damaged.png", "transparent.png", "16_bits.png", "none.png"})
+    EXPECT_THROW(read_png(folder / name, PngValues::srgb), InputError) << name;
+}
+
 }  // namespace
 }  // namespace vpm

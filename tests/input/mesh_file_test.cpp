@@ -35,6 +35,7 @@ void expect_square(const LoadedMesh& loaded) {
   EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0.25}, {1, 0, 0.25}, {1, 1, 0.25}, {0, 1, 0.25}}));
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(loaded.degenerate_triangles, 0u);
+  EXPECT_TRUE(mesh.normals.empty() && mesh.uvs.empty());
 }
 
 TEST(MeshFile, ReadsAsciiPly) {
@@ -74,7 +75,47 @@ TEST(MeshFile, ReadsObj) {
   expect_square(
       load_mesh(write_file("square.obj",
                            "# a square\nmtllib none.mtl\no square\nv 0 0 .25\nv 1 0 .25 1.0\r\nv 1 1 .25 # corner\n"
-                           "\tv 0 1 0.25\nvn 0 0 1\nvt 0 0\nusemtl none\nf 1/1/1 2//1 -2/1 4")));
+                           "\tv 0 1 0.25\nvn 0 0 1\nvt 0 0\nusemtl none\nf 1/ 2// -2 4")));
+}
+
+TEST(MeshFile, SplitsObjVerticesByWhatCornersName) {
+  const TriangleMesh mesh =
+      load_mesh(write_file("fold.obj",
+                           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0 0.5\nvt 1 1\nvt 0 1\nvt 9 9\n"
+                           "vn 0 0 2\nvn 1 0 1\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/-1 4/-2/1\n"))
+          .mesh;
+  EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 3, 4}}));
+  EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.uvs, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(mesh.normals, (std::vector<Vec3>{{0, 0, 2}, {0, 0, 2}, {0, 0, 2}, {1, 0, 1}, {0, 0, 2}}));
+}
+
+TEST(MeshFile, ReadsObjWithOneOfTheTwo) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 -2\nvn 0 1 0\n";
+  const TriangleMesh uvs = load_mesh(write_file("uvs.obj", corners + "f 3/1 1/1 2/1\n")).mesh;
+  EXPECT_EQ(uvs.uvs, std::vector<Vec2>(3, Vec2(0.5f, -2.0f)));
+  EXPECT_EQ(uvs.positions, (std::vector<Vec3>{{0, 1, 0}, {0, 0, 0}, {1, 0, 0}}));
+  EXPECT_TRUE(uvs.normals.empty());
+  const TriangleMesh normals = load_mesh(write_file("normals.obj", corners + "f 1//1 2//1 3//1\n")).mesh;
+  EXPECT_EQ(normals.normals, std::vector<Vec3>(3, Vec3(0, 1, 0)));
+  EXPECT_TRUE(normals.uvs.empty());
+}
+
+TEST(MeshFile, ReadsNormalsAndTextureCoordinatesOfPly) {
+  for (const auto& [u, v] : {std::pair("u", "v"), {"s", "t"}, {"texture_u", "texture_v"}}) {
+    const std::string header =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float nx\nproperty float x\n"
+        "property double ny\nproperty float y\nproperty float z\nproperty float nz\n"
+        "property float " +
+        std::string(v) + "\nproperty float " + u +
+        "\nelement face 1\nproperty list uchar int vertex_index\nend_header\n";
+    const TriangleMesh mesh =
+        load_mesh(write_file("full.ply", header + "1 0 2 0 0 3 .25 .5\n1 1 2 0 0 3 0 1\n1 0 2 1 0 -3 -1 7\n3 0 1 2\n"))
+            .mesh;
+    EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(mesh.normals, (std::vector<Vec3>{{1, 2, 3}, {1, 2, 3}, {1, 2, -3}}));
+    EXPECT_EQ(mesh.uvs, (std::vector<Vec2>{{0.5f, 0.25f}, {1, 0}, {7, -1}}));
+  }
 }
 
 TEST(MeshFile, CountsDegenerateTriangles) {

@@ -290,6 +290,50 @@ TEST(SceneFile, KeepsNormalsOutwardUnderMirrors) {
   EXPECT_EQ(glm::cross(quad.edge_u, quad.edge_v), Vec3(0, -1, 0));
 }
 
+TEST(SceneFile, ReadsTextures) {
+  const std::string folder = std::string(VPM_SOURCE_DIR) + "/tests/input/textures/";
+  const auto wall = [&](const std::string& reflectance) {
+    return "[materials.plain]\ntype = \"mirror\"\n[materials.wall]\ntype = \"lambertian\"\nreflectance = " +
+           reflectance + "\n[[shapes]]\ntype = \"quad\"\nmaterial = \"wall\"\ncorner = [0, 0, 0]\n" +
+           "edge_u = [2, 0, 0]\nedge_v = [0, 2, 0]\n";
+  };
+  const auto at = [](const Scene& scene, float x, float y) {
+    return std::get<Lambertian>(material_at(scene, *scene.geometry.intersect({Vec3(x, y, 1), Vec3(0, 0, -1)})))
+        .reflectance;
+  };
+  const LoadedScene checker = load_with(wall("{ texture = \"" + folder + "checker.png\", filter = \"nearest\" }"));
+  EXPECT_EQ(at(checker.scene, 0.5f, 0.5f), Rgb(1.0f));  // the lower left quarter
+  EXPECT_EQ(at(checker.scene, 1.5f, 0.5f), Rgb(0.0f));
+  EXPECT_EQ(at(checker.scene, 0.5f, 1.5f), Rgb(0.0f));
+  EXPECT_EQ(checker.scene.textures[0], nullptr);
+  EXPECT_EQ(std::get<Lambertian>(checker.scene.materials[1]).reflectance, Rgb(0.5f));
+  EXPECT_TRUE(checker.scene.grey);
+  const LoadedScene smooth = load_with(wall("{ texture = \"" + folder + "checker.png\" }"));
+  EXPECT_NEAR(at(smooth.scene, 1.0f, 0.5f).r, 0.5f, 1e-6f);
+  const LoadedScene colours = load_with(wall("{ texture = \"" + folder + "colours.png\", filter = \"nearest\" }"));
+  EXPECT_LT(glm::distance(at(colours.scene, 0.5f, 1.0f), Rgb(0.50289f, 0.0f, 1.0f)), 1e-4f);
+  EXPECT_FALSE(colours.scene.grey);
+  const LoadedScene raw =
+      load_with(wall("{ texture = \"" + folder + "colours.png\", filter = \"nearest\", raw = true }"));
+  EXPECT_LT(glm::distance(at(raw.scene, 1.5f, 1.0f), Rgb(0.2f, 0.4f, 128.0f / 255.0f)), 1e-6f);
+}
+
+TEST(SceneFile, TurnsNormalsWithTheirMesh) {
+  const std::string path = test_file("slope.obj");
+  std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 3 0 4\nf 1//1 2//1 3//1\n";
+  const auto normal = [&](const std::string& transform, const Vec3& at) {
+    const LoadedScene loaded = load_with(kGrey + "[[shapes]]\ntype = \"mesh\"\nmaterial = \"grey\"\npath = \"" + path +
+                                         "\"\ntransform = [" + transform + "]\n");
+    return loaded.scene.geometry.intersect({at + Vec3(0, 0, 5), Vec3(0, 0, -1)})->shading_normal;
+  };
+  EXPECT_LT(glm::distance(normal("", Vec3(0.2f)), Vec3(0.6f, 0, 0.8f)), 1e-6f);
+  EXPECT_LT(glm::distance(normal("{ scale = [2, 1, 1] }", Vec3(0.2f)), glm::normalize(Vec3(0.3f, 0, 0.8f))), 1e-6f);
+  EXPECT_LT(glm::distance(normal("{ scale = [-1, 1, 1] }", Vec3(-0.2f, 0.2f, 0)), Vec3(-0.6f, 0, 0.8f)), 1e-6f);
+  EXPECT_LT(glm::distance(normal("{ rotate = { axis = [0, 0, 1], degrees = 90 } }", Vec3(-0.2f, 0.2f, 0)),
+                          Vec3(0, 0.6f, 0.8f)),
+            1e-6f);
+}
+
 TEST(SceneFile, ReadsCameraAndFilm) {
   const Camera camera = load_with("[film]\nwidth = 30\nheight = 20\nfilter = 'tent'\n", {"camera.fov=90"}).scene.camera;
   EXPECT_EQ(camera.position, Vec3(0, 0, 3));

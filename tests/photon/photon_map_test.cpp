@@ -10,6 +10,13 @@
 namespace vpm {
 namespace {
 
+Hit hit_at(const Vec3& position, const Vec3& normal) {
+  Hit hit;
+  hit.position = position;
+  hit.normal = hit.shading_normal = normal;
+  return hit;
+}
+
 enum class Layout { spread, flat, clustered, coinciding, line };
 
 std::vector<Photon> photons(Layout layout, size_t count) {
@@ -64,9 +71,10 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
             expect_near(surface_irradiance(at, Vec3(0, 1, 0), radius, map),
                         surface_irradiance(at, Vec3(0, 1, 0), radius, all, settings, uint64_t{1000}), "surface");
             for (const Material& rough : {Material(Phong{}), Material(RoughDielectric{1.5f, 0.5f})})
-              expect_near(scattered_radiance(rough, at, Vec3(0, 1, 0), towards, radius, map),
-                          scattered_radiance(rough, at, Vec3(0, 1, 0), towards, radius, all, settings, uint64_t{1000}),
-                          "rough surface");
+              expect_near(
+                  scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, radius, map),
+                  scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, radius, all, settings, uint64_t{1000}),
+                  "rough surface");
           }
         }
   }
@@ -95,11 +103,11 @@ TEST(PhotonMap, OnePhotonCountsAsTheEstimatesSay) {
   const PhotonMap behind = map(Vec3(0.03f, 0.0f, 0.0f), rising.unpack());
   const Material diffuse = Lambertian{Rgb(0.5f)}, glass = RoughDielectric{1.5f, 0.5f}, metal = RoughConductor{};
   for (const Material& m : {diffuse, glass, metal})
-    expect_near(scattered_radiance(m, at, up, eye, 0.1f, beside),
+    expect_near(scattered_radiance(m, hit_at(at, up), eye, 0.1f, beside),
                 scatter_value(m, up, stored, eye).value / eye.y * disc, "scattered");
   for (const Material& m : {diffuse, metal})
-    expect_near(scattered_radiance(m, at, -up, eye, 0.1f, behind), Rgb(0.0f), "behind");
-  const Rgb passed = scattered_radiance(glass, at, up, eye, 0.1f, behind);
+    expect_near(scattered_radiance(m, hit_at(at, -up), eye, 0.1f, behind), Rgb(0.0f), "behind");
+  const Rgb passed = scattered_radiance(glass, hit_at(at, up), eye, 0.1f, behind);
   expect_near(passed, scatter_value(glass, up, rising.unpack(), eye).value / eye.y * disc, "through glass");
   EXPECT_GT(passed.r, 0.0f);
   const float low = 0.01f, high = 0.02f;

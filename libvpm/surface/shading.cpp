@@ -1,0 +1,52 @@
+// The two normals of a hit: which directions pass, and what weighs flux.
+#include "surface/shading.h"
+
+namespace vpm {
+
+namespace {
+
+/// The cosines of a direction to the two normals.
+struct Cosines {
+  float geometric, shading;
+  bool agree() const { return geometric * shading > 0.0f; }
+  float ratio() const { return std::abs(shading) / std::abs(geometric); }
+};
+Cosines cosines(const Hit& hit, const Vec3& direction) {
+  return {glm::dot(hit.normal, direction), glm::dot(hit.shading_normal, direction)};
+}
+
+bool single_normal(const Hit& hit) { return hit.shading_normal == hit.normal; }
+
+/// Does light pass from one direction of travel to the other, being transmitted or not?
+bool passes(const Cosines& in, const Cosines& out, bool transmitted) {
+  return in.agree() && out.agree() && (in.geometric * out.geometric > 0.0f) == transmitted;
+}
+
+}  // namespace
+
+Scatter sample_scatter(const Material& material, const Hit& hit, const Vec3& travel, float u_choice, const Vec2& u) {
+  Scatter scatter = sample_scatter(material, hit.shading_normal, travel, u_choice, u);
+  if (single_normal(hit) || scatter.direction == travel) return scatter;
+  const Cosines in = cosines(hit, travel), out = cosines(hit, scatter.direction);
+  if (passes(in, out, scatter.transmitted))
+    scatter.flux_scale = in.ratio() / out.ratio();
+  else
+    scatter.weight = Rgb(0.0f);
+  return scatter;
+}
+
+ScatterValue scatter_value(const Material& material, const Hit& hit, const Vec3& travel, const Vec3& direction) {
+  const ScatterValue scattered = scatter_value(material, hit.shading_normal, travel, direction);
+  if (single_normal(hit)) return scattered;
+  const Cosines in = cosines(hit, travel), out = cosines(hit, direction);
+  const bool transmitted = in.shading * out.shading > 0.0f;
+  return passes(in, out, transmitted) ? scattered : ScatterValue{};
+}
+
+float shading_irradiance_scale(const Hit& hit, const Vec3& travel) {
+  if (single_normal(hit)) return 1.0f;
+  const Cosines in = cosines(hit, travel);
+  return in.agree() ? in.ratio() : 0.0f;
+}
+
+}  // namespace vpm
