@@ -140,7 +140,12 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   read_section(root, "surface", [&](TableReader& table) {
     read_gather(table, s.surface);
     s.surface_direct = read_direct(table, s.surface_direct);
+    s.surface_indirect = table.choice<IndirectLight>(
+        "indirect", {{"photons", IndirectLight::photons}, {"final-gather", IndirectLight::final_gather}},
+        s.surface_indirect);
+    s.gather_rays = small_integer(table, "gather_rays", 1'000'000, s.gather_rays);
   });
+  read_section(root, "caustics", [&](TableReader& table) { read_gather(table, s.caustics); });
   return s;
 }
 

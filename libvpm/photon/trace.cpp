@@ -53,6 +53,7 @@ class PhotonPath {
     emitted_power_ = sum_channels(emission.power);
     balance_ = -static_cast<double>(emitted_power_);
     direct_ = true;
+    from_rough_ = false;
     alive_ = emitted_power_ > 0.0f;
     ++out_.ledger.emitted_count;
     out_.ledger.emitted += Rgbd(emission.power);
@@ -86,7 +87,7 @@ class PhotonPath {
       out_.volume[state_.medium].push_back({state_.ray.origin, PackedDirection(state_.ray.direction), power});
     }
     deposit(out_.ledger.absorbed_in_media, Rgbd(state_.power * (Rgb(1.0f) - medium.albedo())));
-    direct_ = false;
+    direct_ = from_rough_ = false;
     alive_ = scatter_in_medium(medium, state_, rng);
   }
 
@@ -104,14 +105,22 @@ class PhotonPath {
         std::max<double>(out_.ledger.largest_weight, sum_channels(state_.power) / emitted_power_);
     alive_ = max_channel(state_.power) > 0.0f;
     if (!alive_) return;
-    if (settings_.keep_surface && is_rough(scene_.material_of(hit)) && (settings_.keep_direct_surface || !direct_))
-      out_.surface.push_back({hit.position, PackedDirection(state_.ray.direction), state_.power});
+    const bool rough = is_rough(scene_.material_of(hit));
+    if (rough) store(hit);
     const Rgb before = state_.power;
     Scatter scatter;
     direct_ = false;
+    from_rough_ |= rough;
     alive_ = scatter_at_surface(scene_, hit, state_, rng, scatter);
     state_.power *= scatter.flux_scale;
     deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale)));
+  }
+
+  void store(const Hit& hit) {
+    const Photon photon{hit.position, PackedDirection(state_.ray.direction), state_.power};
+    if (settings_.keep_surface && (settings_.keep_direct_surface || !direct_)) out_.surface.push_back(photon);
+    if (settings_.keep_caustics && !from_rough_ && (settings_.keep_direct_caustics || !direct_))
+      out_.caustics.push_back(photon);
   }
 
   const Scene& scene_;
@@ -122,6 +131,7 @@ class PhotonPath {
   float emitted_power_ = 0.0f;
   double balance_ = 0.0;  // gone minus emitted, W
   bool direct_ = true;
+  bool from_rough_ = false;  // the last scattering, but for mirrors and glass, was at a rough surface
   bool alive_ = true;
 };
 
@@ -129,6 +139,7 @@ void append(TracedPhotons& all, const TracedPhotons& part) {
   for (size_t m = 0; m < all.volume.size(); ++m)
     all.volume[m].insert(all.volume[m].end(), part.volume[m].begin(), part.volume[m].end());
   all.surface.insert(all.surface.end(), part.surface.begin(), part.surface.end());
+  all.caustics.insert(all.caustics.end(), part.caustics.begin(), part.caustics.end());
   all.ledger.merge(part.ledger);
 }
 

@@ -22,6 +22,7 @@ struct TraceSettings {
   int max_events = 100'000;  // of one photon
   bool keep_volume = true, keep_surface = true;                // store at all
   bool keep_direct_volume = true, keep_direct_surface = true;  // store photons that have not scattered yet
+  bool keep_caustics = false, keep_direct_caustics = false;    // the same of the caustic map
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // density at the query: the least to divide by, over the medium's largest, in [0, 1]
   const std::atomic<bool>* stop = nullptr;  // once true, tracing ends as soon as it can, with photons of no use
@@ -31,6 +32,7 @@ struct TraceSettings {
 struct TracedPhotons {
   std::vector<std::vector<Photon>> volume;  // by medium
   std::vector<Photon> surface;
+  std::vector<Photon> caustics;  // those of the surface photons that no rough surface has scattered last
   Ledger ledger;
 };
 
@@ -42,7 +44,8 @@ struct TracedPhotons {
 /// multiply by what belongs to the query. That density is relative, over the medium's largest: powers then fit into
 /// floats whatever the scale of densities. A floor makes the power Phi / max(density, floor): that bounds the powers,
 /// and what is thinner than the floor scatters less, by density / floor. A photon is direct until its first scattering,
-/// reflection or refraction; crossing a boundary is none.
+/// reflection or refraction; crossing a boundary is none. A caustic photon comes from a light or a medium, through
+/// mirrors and glass alone; photons that rough surfaces scattered are what final gathering is for.
 TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,
                             Progress& progress);
 

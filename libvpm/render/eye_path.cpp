@@ -1,10 +1,9 @@
 // Radiance along camera rays.
 #include "render/eye_path.h"
 
-#include "estimate/surface_estimate.h"
 #include "estimate/volume_estimate.h"
 #include "path/direct_light.h"
-#include "surface/shading.h"
+#include "render/surface_light.h"
 
 namespace vpm {
 namespace {
@@ -148,7 +147,8 @@ class EyePath {
       return true;
     }
     if (is_rough(material)) {
-      radiance_ += throughput_ * scattered_light(hit, material);
+      const SurfaceView view{hit, material, ray_.direction, medium_};
+      radiance_ += throughput_ * surface_light(c_, view, c_.settings.gather_rays, rng_, counters_);
       return false;
     }
     PathState state{ray_, medium_, throughput_};
@@ -158,36 +158,6 @@ class EyePath {
     medium_ = state.medium;
     throughput_ = state.power * scatter.radiance_scale;
     return true;
-  }
-
-  /// What a rough surface sends towards the eye: direct light by a shadow ray to each light, the rest from the photon
-  /// map.
-  Rgb scattered_light(const Hit& hit, const Material& material) {
-    Rgb result(0.0f);
-    if (c_.stages.surface_shadow_rays) {
-      result += direct_light(hit, material, near_side(hit, ray_.direction, medium_));
-      if (scatters_through(material))
-        result += direct_light(hit, material, far_side(c_.scene, hit, ray_.direction, medium_));
-    }
-    if (c_.stages.surface_map) {
-      ++counters_.surface_queries;
-      result += scattered_radiance(material, hit, -ray_.direction, c_.surface.settings.radius, c_.surface);
-    }
-    return result;
-  }
-
-  /// The light of all lamps that arrives on that side, scattered towards the eye.
-  Rgb direct_light(const Hit& hit, const Material& material, const SurfaceSide& side) {
-    Rgb result(0.0f);
-    for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
-      ++counters_.shadow_rays;
-      const DirectSample light =
-          sample_direct(c_.scene, i, *c_.transmittance, side.point, side.normal, side.medium, rng_, counters_.walk);
-      if (is_black(light.irradiance)) continue;
-      const ScatterValue scattered = scatter_value(material, hit, ray_.direction, light.direction);
-      result += scattered.value * scattered.radiance_scale * light.irradiance;
-    }
-    return result;
   }
 
   const EyeContext& c_;

@@ -33,7 +33,9 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
   trace.keep_volume = stages.volume_map;
   trace.keep_surface = stages.surface_map;
   trace.keep_direct_volume = !stages.volume_shadow_rays;
-  trace.keep_direct_surface = !stages.surface_shadow_rays;
+  trace.keep_direct_surface = !stages.surface_shadow_rays || stages.final_gather;  // rays that gather end in all light
+  trace.keep_caustics = stages.final_gather;
+  trace.keep_direct_caustics = !stages.surface_shadow_rays;
   trace.volume_form = settings.volume_form;
   trace.density_floor = settings.density_floor;
   trace.stop = &stop;
@@ -64,7 +66,8 @@ float default_share(const GatherSettings& gather) {
 void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgress& progress,
                RenderStatistics& statistics) {
   const int pass = static_cast<int>(trace.pass);
-  const auto& [scene, settings, stages, volume, surface, transmittance] = context;
+  const Scene& scene = context.scene;
+  const RenderSettings& settings = context.settings;
   const Stopwatch tracing;
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Progress bar("photons", settings.photons_emitted, progress.stages);
@@ -89,6 +92,13 @@ void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgre
       make_photon_map(std::move(photons.surface), gather_in_pass(settings.surface, first, 2, settings, pass), emitted);
   statistics.last_surface_radius = context.surface.settings.radius;
   statistics.photon_map_bytes += context.surface.memory_bytes();
+  if (context.stages.final_gather) {
+    statistics.caustic_photons = photons.caustics.size();
+    context.caustics = make_photon_map(
+        std::move(photons.caustics),
+        gather_in_pass(settings.caustics, first_caustic_radius(scene, settings), 2, settings, pass), emitted);
+    statistics.photon_map_bytes += context.caustics.memory_bytes();
+  }
   statistics.build_seconds = building.seconds();
 }
 
@@ -102,7 +112,8 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
   return {.volume_map = scatters,
           .surface_map = rough,
           .volume_shadow_rays = scatters && settings.volume_direct == DirectLight::shadow_rays,
-          .surface_shadow_rays = rough && settings.surface_direct == DirectLight::shadow_rays};
+          .surface_shadow_rays = rough && settings.surface_direct == DirectLight::shadow_rays,
+          .final_gather = rough && settings.surface_indirect == IndirectLight::final_gather};
 }
 
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium) {
@@ -115,11 +126,16 @@ float first_surface_radius(const Scene& scene, const RenderSettings& settings) {
                                         : default_share(settings.surface) * scene.bounds.diagonal();
 }
 
+float first_caustic_radius(const Scene& scene, const RenderSettings& settings) {
+  return settings.caustics.radius > 0.0f ? settings.caustics.radius
+                                         : default_share(settings.caustics) * scene.bounds.diagonal();
+}
+
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress) {
   RenderStatistics statistics;
-  EyeContext context{scene, settings, plan_stages(scene, settings),
-                     {},    {},       make_transmittance_estimator(settings.transmittance)};
+  EyeContext context{
+      scene, settings, plan_stages(scene, settings), {}, {}, {}, make_transmittance_estimator(settings.transmittance)};
   if (context.stages.photons())
     make_maps(context, trace_settings(settings, context.stages, pass, stop), progress, statistics);
   const RayRadiance radiance = [&](const Ray& ray, Rng& rng, EyeCounters& counters) {

@@ -11,6 +11,7 @@ struct Stages {
   bool surface_map = false;
   bool volume_shadow_rays = false;
   bool surface_shadow_rays = false;
+  bool final_gather = false;  // with a caustic map beside the surface map
   bool photons() const { return volume_map || surface_map; }
 };
 Stages plan_stages(const Scene& scene, const RenderSettings& settings);
@@ -19,6 +20,7 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 /// nearest mode: a tenth) of the diagonal of the medium's bounds (grids) or of the scene.
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium);
 float first_surface_radius(const Scene& scene, const RenderSettings& settings);
+float first_caustic_radius(const Scene& scene, const RenderSettings& settings);
 
 /// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

@@ -13,6 +13,11 @@ namespace vpm {
 /// Where light that has not scattered yet comes from: the photon map, or rays towards the lights.
 enum class DirectLight { photons, shadow_rays };
 
+/// Where light comes from that surfaces have scattered on: the photon map itself, or final gathering, rays over the
+/// hemisphere that end in the map. Light that only mirrors, glass and media have led to a surface has a map of its own
+/// then, the caustic map.
+enum class IndirectLight { photons, final_gather };
+
 /// What estimates radiance: photon maps, or the path tracer that referees them.
 enum class Integrator { photon, path };
 
@@ -34,11 +39,14 @@ struct RenderSettings {
 
   GatherSettings volume;     // volumetric radiance estimate
   GatherSettings surface;    // surface radiance estimate
+  GatherSettings caustics;   // that of the caustic map, under final gathering
   bool shrink_radii = true;  // progressive passes [Knaus2011]; false: every pass has the first one's radii
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]
   DirectLight volume_direct = DirectLight::photons;  // single scattering
   DirectLight surface_direct = DirectLight::shadow_rays;
+  IndirectLight surface_indirect = IndirectLight::photons;
+  int gather_rays = 8;            // of final gathering, at each point of a surface that the eye sees, >= 1
   float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0
 };
 

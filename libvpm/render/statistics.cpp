@@ -11,6 +11,7 @@ void EyeCounters::merge(const EyeCounters& other) {
   volume_queries += other.volume_queries;
   surface_queries += other.surface_queries;
   shadow_rays += other.shadow_rays;
+  gather_rays += other.gather_rays;
   cut_paths += other.cut_paths;
   non_finite += other.non_finite;
   walk.merge(other.walk);
@@ -24,6 +25,7 @@ void RenderStatistics::merge(const RenderStatistics& pass) {
   ledger.merge(pass.ledger);
   volume_photons += pass.volume_photons;
   surface_photons += pass.surface_photons;
+  caustic_photons += pass.caustic_photons;
   photon_map_bytes = std::max(photon_map_bytes, pass.photon_map_bytes);
   last_volume_radius = pass.last_volume_radius;
   last_surface_radius = pass.last_surface_radius;

@@ -12,8 +12,9 @@ struct EyeCounters {
   uint64_t volume_queries = 0;
   uint64_t surface_queries = 0;
   uint64_t shadow_rays = 0;
-  uint64_t cut_paths = 0;   // that reached the limit of events
-  uint64_t non_finite = 0;  // samples that were dropped because they were not finite
+  uint64_t gather_rays = 0;  // of final gathering
+  uint64_t cut_paths = 0;    // that reached the limit of events
+  uint64_t non_finite = 0;   // samples that were dropped because they were not finite
   WalkCounters walk;
 
   void merge(const EyeCounters& other);
@@ -24,9 +25,9 @@ struct RenderStatistics {
   int passes = 0;
   double trace_seconds = 0.0, build_seconds = 0.0, eye_seconds = 0.0;  // wall clock
   Ledger ledger;
-  uint64_t volume_photons = 0, surface_photons = 0;             // stored
-  uint64_t photon_map_bytes = 0;                                // of the largest pass
-  float last_volume_radius = 0.0f, last_surface_radius = 0.0f;  // m; of the last pass, the largest over media
+  uint64_t volume_photons = 0, surface_photons = 0, caustic_photons = 0;  // stored
+  uint64_t photon_map_bytes = 0;                                          // of the largest pass
+  float last_volume_radius = 0.0f, last_surface_radius = 0.0f;            // m; of the last pass, the largest over media
   EyeCounters eye;
 
   void merge(const RenderStatistics& pass);

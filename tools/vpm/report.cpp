@@ -40,6 +40,7 @@ Json photons(const RenderStatistics& s) {
   return {{"emitted", s.ledger.emitted_count},
           {"stored_volume", s.volume_photons},
           {"stored_surface", s.surface_photons},
+          {"stored_caustic", s.caustic_photons},
           {"collisions", s.ledger.collisions},
           {"surface_hits", s.ledger.surface_hits},
           {"emitted_per_second", per_second(s.ledger.emitted_count, s.trace_seconds)},
@@ -88,6 +89,7 @@ Json eye(const RenderStatistics& s) {
           {"volume_queries", s.eye.volume_queries},
           {"surface_queries", s.eye.surface_queries},
           {"shadow_rays", s.eye.shadow_rays},
+          {"gather_rays", s.eye.gather_rays},
           {"density_lookups", s.eye.walk.lookups},
           {"paths_cut_at_max_events", s.eye.cut_paths},
           {"dropped_non_finite", s.eye.non_finite},
@@ -166,13 +168,16 @@ std::string settings_line(const RenderSettings& s) {
       "volume={} form={} "
       "density_floor={} "
       "volume_direct={} "
-      "surface={} surface_direct={} shrink_radii={} max_optical_step={} max_events={}",
+      "surface={} surface_direct={} surface_indirect={} shrink_radii={} max_optical_step={} max_events={}",
       s.integrator == Integrator::path ? "path" : "photon", s.samples_per_pixel, s.photons_emitted, s.photons_stored,
       s.distance.strategy, s.distance.step, s.distance.extinction_floor, s.transmittance.estimator,
       s.transmittance.step, gather(s.volume),
       s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
-      direct(s.volume_direct), gather(s.surface), direct(s.surface_direct), s.shrink_radii, s.max_optical_step,
-      s.max_events);
+      direct(s.volume_direct), gather(s.surface), direct(s.surface_direct),
+      s.surface_indirect == IndirectLight::photons
+          ? "photons"
+          : fmt::format("final-gather:{}:{}", s.gather_rays, gather(s.caustics)),
+      s.shrink_radii, s.max_optical_step, s.max_events);
 }
 
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings) {
@@ -197,6 +202,9 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
                stages.volume_map ? "single scattering comes from the photon map" : no_medium),
           line(stages.surface_shadow_rays, "shadow rays at surfaces", transmittance,
                stages.surface_map ? "direct light comes from the photon map" : "no rough surface"),
+          line(stages.final_gather, "final gathering and a caustic map",
+               fmt::format(", {} rays at a point", settings.gather_rays),
+               stages.surface_map ? "indirect light comes from the photon map" : "no rough surface"),
           line(grids, "grid look-ups", "", "all media are homogeneous"),
           channels};
 }

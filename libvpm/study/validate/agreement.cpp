@@ -60,6 +60,7 @@ Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order
   RenderSettings halved = settings;
   halved.volume.radius *= 0.5f;
   halved.surface.radius *= 0.5f;
+  halved.caustics.radius *= 0.5f;
   std::vector<Rgbd> means(static_cast<size_t>(passes));
   std::vector<double> effective(means.size());
   parallel_for_chunks(means.size(), 1, [&](size_t i, size_t, size_t) {
@@ -104,12 +105,13 @@ struct Subject {
 RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
   RenderSettings settings;
   settings.photons_emitted = photons;
-  settings.volume.radius = settings.surface.radius = subject.radius;
+  settings.volume.radius = settings.surface.radius = settings.caustics.radius = subject.radius;
   return settings;
 }
 
-/// The forms of gathering: in media by both forms and both ways to single scattering, in both modes.
-std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSettings& base, bool media) {
+/// The forms of gathering: in media by both forms and both ways to single scattering, in both modes; on surfaces from
+/// the map and by final gathering.
+std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSettings& base, bool media, bool surfaces) {
   std::vector<std::pair<std::string, RenderSettings>> all;
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
     const std::string by = direct == DirectLight::photons ? "photons" : "shadow rays";
@@ -127,17 +129,24 @@ std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSetti
     gather->count = 200'000;  // more than lie within the radius, so that this is what bounds the search
   }
   all.emplace_back("k nearest within the radius", nearest);
+  if (surfaces) {
+    RenderSettings gathering = base;
+    gathering.surface_indirect = IndirectLight::final_gather;
+    all.emplace_back("final gathering", gathering);
+    gathering.surface_direct = DirectLight::photons;
+    all.emplace_back("final gathering, direct light by photons", gathering);
+  }
   return all;
 }
 
 std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
-  const bool media = !scene.media.empty();
+  const bool media = !scene.media.empty(), surfaces = plan_stages(scene, {}).surface_map;
   RenderSettings referee;
   referee.seed = effort.seed_of(subject.name + " referee");
   const Measured reference = by_referee(scene, referee, effort.count(40'000, 1'500'000));
   std::vector<Check> checks;
-  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(6'000, 40'000)), media)) {
+  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(6'000, 40'000)), media, surfaces)) {
     settings.seed = effort.seed_of(subject.name + name);
     const int passes = static_cast<int>(effort.count(24, 80));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);

@@ -1,0 +1,23 @@
+// What the eye pass reads: one pass's maps and methods.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "estimate/photon_map.h"
+#include "render/photon_pass.h"
+
+namespace vpm {
+
+/// Immutable while rays run.
+struct EyeContext {
+  const Scene& scene;
+  const RenderSettings& settings;
+  Stages stages;
+  std::vector<PhotonMap> volume;  // by medium; empty without a volume map
+  PhotonMap surface;
+  PhotonMap caustics;  // under final gathering
+  std::unique_ptr<TransmittanceEstimator> transmittance;
+};
+
+}  // namespace vpm

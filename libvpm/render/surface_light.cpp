@@ -1,0 +1,115 @@
+// Direct light, photon maps, and rays that gather.
+#include "render/surface_light.h"
+
+#include "estimate/surface_estimate.h"
+#include "path/direct_light.h"
+#include "surface/shading.h"
+
+namespace vpm {
+namespace {
+
+class SurfaceLight {
+ public:
+  SurfaceLight(const EyeContext& context, Rng& rng, EyeCounters& counters)
+      : c_(context), rng_(rng), counters_(counters) {}
+
+  Rgb towards_eye(const SurfaceView& view, int gather_rays) {
+    Rgb result(0.0f);
+    if (c_.stages.surface_shadow_rays) {
+      result += direct_light(view, near_side(view.hit, view.travel, view.medium));
+      if (scatters_through(view.material))
+        result += direct_light(view, far_side(c_.scene, view.hit, view.travel, view.medium));
+    }
+    if (c_.stages.final_gather)
+      result += of_map(view, c_.caustics) + gathered(view, gather_rays);
+    else if (c_.stages.surface_map)
+      result += of_map(view, c_.surface);
+    return result;
+  }
+
+ private:
+  /// The light of all lamps that arrives on that side.
+  Rgb direct_light(const SurfaceView& view, const SurfaceSide& side) {
+    Rgb result(0.0f);
+    for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
+      ++counters_.shadow_rays;
+      const DirectSample light =
+          sample_direct(c_.scene, i, *c_.transmittance, side.point, side.normal, side.medium, rng_, counters_.walk);
+      if (is_black(light.irradiance)) continue;
+      const ScatterValue scattered = scatter_value(view.material, view.hit, view.travel, light.direction);
+      result += scattered.value * scattered.radiance_scale * light.irradiance;
+    }
+    return result;
+  }
+
+  Rgb of_map(const SurfaceView& view, const PhotonMap& map) {
+    ++counters_.surface_queries;
+    return scattered_radiance(view.material, view.hit, -view.travel, map.settings.radius, map);
+  }
+
+  /// The light that rough surfaces scattered last, by rays drawn as the material scatters.
+  Rgb gathered(const SurfaceView& view, int rays) {
+    Rgb sum(0.0f);
+    for (int i = 0; i < rays; ++i) {
+      const float choice = rng_.uniform();
+      const Scatter scatter = sample_scatter(view.material, view.hit, view.travel, choice, rng_.uniform2());
+      if (is_black(scatter.weight)) continue;
+      const Shape& shape = c_.scene.shapes[view.hit.shape];
+      const MediumId medium =
+          scatter.transmitted ? medium_beyond(shape, view.hit.normal, scatter.direction, view.medium) : view.medium;
+      const Ray ray{leave_surface(view.hit, scatter.direction), scatter.direction};
+      sum += scatter.weight * scatter.radiance_scale * at_the_end_of({ray, medium, Rgb(1.0f)});
+    }
+    return sum / static_cast<float>(rays);
+  }
+
+  /// Radiance of the rough surface that a gathering ray ends at. Lamps on its way are left out: their light is direct,
+  /// or the caustic map's.
+  Rgb at_the_end_of(PathState path) {
+    ++counters_.gather_rays;
+    float length = 0.0f;
+    for (int events = 0; events < c_.settings.max_events; ++events) {
+      const Encounter met = meet(c_.scene, path.ray, kInfinity, path.medium, counters_.walk);
+      if (!met) return Rgb(0.0f);
+      const Hit& hit = met.hits[0];
+      attenuate(path, hit.t);
+      if (is_black(path.power)) return Rgb(0.0f);
+      length += hit.t;
+      const Material material = material_at(c_.scene, hit);
+      if (is_boundary(material)) {
+        cross_boundaries(c_.scene, met, path.ray, path.medium, counters_.walk);
+        continue;
+      }
+      if (is_rough(material)) {
+        const SurfaceView view{hit, material, path.ray.direction, path.medium};
+        return path.power * (length < c_.surface.settings.radius ? towards_eye(view, 1) : of_map(view, c_.surface));
+      }
+      Scatter scatter;
+      if (!scatter_at_surface(c_.scene, hit, path, rng_, scatter)) return Rgb(0.0f);
+      path.power *= scatter.radiance_scale;
+    }
+    ++counters_.cut_paths;
+    return Rgb(0.0f);
+  }
+
+  void attenuate(PathState& path, float length) {
+    if (path.medium == kVacuum) return;
+    const Medium& medium = c_.scene.media[path.medium];
+    const Column crossed = column(medium, path.ray, {0.0f, length});
+    counters_.walk.lookups += crossed.lookups;
+    path.power *= transmittance(medium, crossed.value);
+  }
+
+  const EyeContext& c_;
+  Rng& rng_;
+  EyeCounters& counters_;
+};
+
+}  // namespace
+
+Rgb surface_light(const EyeContext& context, const SurfaceView& view, int gather_rays, Rng& rng,
+                  EyeCounters& counters) {
+  return SurfaceLight(context, rng, counters).towards_eye(view, gather_rays);
+}
+
+}  // namespace vpm

@@ -1,0 +1,27 @@
+// What a rough surface sends towards the eye: direct light, and the rest from the photon maps, straight or by final
+// gathering.
+//
+// Final gathering [Jensen2001, ch. 9] leaves the light that a rough surface scattered last to rays over the hemisphere,
+// each of which ends at the next rough surface with the light that all photons there tell of. What the eye sees of the
+// map's blur is then an average over many places. Where a ray is shorter than the map's radius the blur would show as
+// bright or dark edges: there the surface it meets gathers once more. Light that mirrors, glass and media led to the
+// surface is too sharp for few rays; it comes from the caustic map.
+#pragma once
+
+#include "base/rng.h"
+#include "render/eye_context.h"
+
+namespace vpm {
+
+/// A rough surface as a path that travels along `travel` in `medium` meets it.
+struct SurfaceView {
+  const Hit& hit;
+  const Material& material;
+  Vec3 travel{0.0f};  // unit
+  MediumId medium = kVacuum;
+};
+
+/// Radiance that leaves against `travel`, W/(m^2 sr), but for what the surface emits. `gather_rays` >= 1.
+Rgb surface_light(const EyeContext& context, const SurfaceView& view, int gather_rays, Rng& rng, EyeCounters& counters);
+
+}  // namespace vpm
