@@ -24,12 +24,16 @@ auto with_kernel(KernelKind kind, F&& f) {
   switch (kind) {
     case KernelKind::constant:
       return f([](float q) { return kernel_profile<KernelKind::constant>(q); });
+    case KernelKind::cone:
+      return f([](float q) { return kernel_profile<KernelKind::cone>(q); });
     case KernelKind::epanechnikov:
       return f([](float q) { return kernel_profile<KernelKind::epanechnikov>(q); });
     case KernelKind::biweight:
+      return f([](float q) { return kernel_profile<KernelKind::biweight>(q); });
+    case KernelKind::triweight:
       break;
   }
-  return f([](float q) { return kernel_profile<KernelKind::biweight>(q); });
+  return f([](float q) { return kernel_profile<KernelKind::triweight>(q); });
 }
 
 /// Sum over the photons within the map's radius that `accept`(travel, offset) takes.

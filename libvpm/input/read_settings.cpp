@@ -29,11 +29,9 @@ void read_gather(TableReader& table, GatherSettings& gather) {
                                          gather.mode);
   gather.radius = table.number("radius", kRadius, gather.radius);
   gather.count = static_cast<uint32_t>(table.integer("count", 2, 1'000'000, gather.count));
-  gather.kernel = table.choice<KernelKind>("kernel",
-                                           {{"constant", KernelKind::constant},
-                                            {"epanechnikov", KernelKind::epanechnikov},
-                                            {"biweight", KernelKind::biweight}},
-                                           gather.kernel);
+  std::vector<std::pair<std::string, KernelKind>> kernels;
+  for (const KernelInfo& kernel : kKernels) kernels.emplace_back(kernel.name, kernel.kind);
+  gather.kernel = table.choice<KernelKind>("kernel", kernels, gather.kernel);
 }
 
 DirectLight read_direct(TableReader& table, DirectLight fallback) {

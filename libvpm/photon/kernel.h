@@ -1,29 +1,43 @@
 // Density estimation kernels in two and three dimensions, normalised over the unit ball.
 #pragma once
 
+#include <array>
+#include <cmath>
+
 #include "base/vec.h"
 
 namespace vpm {
 
-enum class KernelKind { constant, epanechnikov, biweight };
+/// Cone: [Jensen2001, sec. 7.2]; the others: [Silverman1986, sec. 4.2].
+enum class KernelKind { constant, cone, epanechnikov, biweight, triweight };
 
-/// The kernels' profiles in q = (distance / radius)^2, q <= 1, without their normalisation: (1 - q)^n.
+struct KernelInfo {
+  KernelKind kind;
+  const char* name;
+  float disc, ball;  // pi times what the profile is multiplied by for its integral over the unit disc, or ball, to be 1
+};
+
+/// All kernels, in the order of KernelKind.
+inline constexpr std::array<KernelInfo, 5> kKernels{{{KernelKind::constant, "constant", 1.0f, 0.75f},
+                                                     {KernelKind::cone, "cone", 3.0f, 3.0f},
+                                                     {KernelKind::epanechnikov, "epanechnikov", 2.0f, 1.875f},
+                                                     {KernelKind::biweight, "biweight", 3.0f, 3.28125f},
+                                                     {KernelKind::triweight, "triweight", 4.0f, 4.921875f}}};
+
+inline const KernelInfo& kernel_info(KernelKind kind) { return kKernels[static_cast<size_t>(kind)]; }
+
+/// The kernels' profiles in q = (distance / radius)^2, q <= 1, without their normalisation: (1 - q)^n, and 1 - sqrt(q).
 template <KernelKind K>
 float kernel_profile(float q) {
   if constexpr (K == KernelKind::constant) return 1.0f;
+  if constexpr (K == KernelKind::cone) return 1.0f - std::sqrt(q);
   if constexpr (K == KernelKind::epanechnikov) return 1.0f - q;
   if constexpr (K == KernelKind::biweight) return (1.0f - q) * (1.0f - q);
+  if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (1.0f - q);
 }
 
-/// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m^2 or 1/m^3 [Silverman1986,
-/// sec. 4.2].
-inline float kernel_norm_2d(KernelKind kind, float r) {
-  const float n = kind == KernelKind::constant ? 1.0f : kind == KernelKind::epanechnikov ? 2.0f : 3.0f;
-  return n / (kPi * r * r);
-}
-inline float kernel_norm_3d(KernelKind kind, float r) {
-  const float n = kind == KernelKind::constant ? 0.75f : kind == KernelKind::epanechnikov ? 1.875f : 3.28125f;
-  return n / (kPi * r * r * r);
-}
+/// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m^2 or 1/m^3.
+inline float kernel_norm_2d(KernelKind kind, float r) { return kernel_info(kind).disc / (kPi * r * r); }
+inline float kernel_norm_3d(KernelKind kind, float r) { return kernel_info(kind).ball / (kPi * r * r * r); }
 
 }  // namespace vpm

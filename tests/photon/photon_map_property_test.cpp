@@ -10,7 +10,8 @@ namespace vpm {
 namespace {
 
 rc::Gen<KernelKind> any_kernel() {
-  return rc::gen::element(KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight);
+  return rc::gen::map(rc::gen::elementOf(std::vector<KernelInfo>(kKernels.begin(), kKernels.end())),
+                      [](const KernelInfo& k) { return k.kind; });
 }
 
 RC_GTEST_PROP(KernelProperty, IsNormalisedFallsAndEndsAtItsRadius, ()) {

@@ -58,7 +58,7 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
   for (const Layout layout : kLayouts) {
     const std::vector<Photon> all = photons(layout, 5000);
     for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
-      for (const KernelKind kernel : {KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight})
+      for (const auto& [kernel, kernel_name, disc_norm, ball_norm] : kKernels)
         for (const float radius : {0.02f, 0.11f, 3.0f}) {
           const GatherSettings settings{mode, radius, 40, kernel};
           const PhotonMap map = make_photon_map(all, settings, 1000);
@@ -132,7 +132,7 @@ TEST(PhotonMap, SmallAndEmptyMapsAnswer) {
 TEST(PhotonMap, KNearestIsUnbiasedInUniformPhotons) {
   // 2000 photons of power 1/2000 uniform in the unit cube: the density at its middle is 1. With k counted instead of k
   // - 1 the mean would be k/(k-1).
-  for (const KernelKind kernel : {KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight}) {
+  for (const auto& [kernel, kernel_name, disc_norm, ball_norm] : kKernels) {
     Moments density;
     for (uint64_t trial = 0; trial < 1000; ++trial) {
       Rng rng(4, rng_stream(RngUse::test, 30), trial);
@@ -171,7 +171,7 @@ TEST(PhotonMap, TakesAtMost40BytesAPhoton) {
 
 TEST(Kernel, IsNormalised) {
   constexpr int kSteps = 100000;
-  for (const KernelKind kind : {KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight}) {
+  for (const auto& [kind, kernel_name, disc_norm, ball_norm] : kKernels) {
     const float r = 0.7f;
     double disc = 0.0, ball = 0.0;
     with_kernel(kind, [&](auto profile) {

@@ -29,7 +29,7 @@ TEST_F(VpmOracles, PassesRightNumbers) {
   oracle("s4_slab.json", slab("0.09739"));
   const ProcessResult result = check();
   EXPECT_EQ(result.status, 0) << result.out << result.err;
-  EXPECT_NE(result.out.find("1 cases, 0 unchecked, 0 unchecked (known)"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 cases, 0 unchecked;"), std::string::npos) << result.out;
 }
 
 TEST_F(VpmOracles, SeesAWrongNumber) {
@@ -80,13 +80,6 @@ TEST_F(VpmOracles, WhatItDoesNotKnowIsNotPassed) {
     EXPECT_EQ(result.status, 1) << file;
     EXPECT_NE(result.out.find(std::string("unchecked: ") + words), std::string::npos) << result.out;
   }
-}
-
-TEST_F(VpmOracles, KnownLimitsDoNotFailARun) {
-  oracle("s6_density.json", R"({"kernels": [{"dimension": 2, "kernel": "triweight"}]})");
-  const ProcessResult result = check();
-  EXPECT_EQ(result.status, 0) << result.out;
-  EXPECT_NE(result.out.find("unchecked (known)"), std::string::npos) << result.out;
 }
 
 TEST_F(VpmOracles, RefusesMalformedFiles) {

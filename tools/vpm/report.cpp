@@ -157,8 +157,7 @@ std::string render_report(const std::string& scene_path, const std::string& imag
 
 std::string settings_line(const RenderSettings& s) {
   const auto gather = [](const GatherSettings& g) {
-    const char* kernels[] = {"constant", "epanechnikov", "biweight"};
-    const std::string kernel = kernels[static_cast<int>(g.kernel)];
+    const char* kernel = kernel_info(g.kernel).name;
     return g.mode == GatherMode::radius ? fmt::format("radius:{}:{}", g.radius, kernel)
                                         : fmt::format("nearest:{}:{}:{}", g.count, g.radius, kernel);
   };

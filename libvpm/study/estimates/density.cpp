@@ -10,7 +10,7 @@
 namespace vpm {
 namespace {
 
-using Densities = std::array<double, 3>;  // by kernel
+using Densities = std::array<double, kKernels.size()>;  // by kernel
 
 Rgb kernel_estimate(int dimension, const PhotonMap& map, const Vec3& point) {
   const auto all = [](const Vec3&, const Vec3&) { return true; };
@@ -41,7 +41,7 @@ Densities middle_estimates(int dimension, uint64_t photons, const GatherSettings
   PhotonMap map = make_photon_map(middle_photons(dimension, photons, reach, rng), settings, photons);
   Densities found{};
   for (size_t i = 0; i < kKernels.size(); ++i) {
-    map.settings.kernel = kKernels[i];
+    map.settings.kernel = kKernels[i].kind;
     found[i] = kernel_estimate(dimension, map, Vec3(0.5f, 0.5f, dimension == 3 ? 0.5f : 0.0f)).r;
   }
   return found;

@@ -11,13 +11,12 @@
 
 namespace vpm {
 
-inline constexpr std::array kKernels{KernelKind::constant, KernelKind::epanechnikov, KernelKind::biweight};
-
 /// Estimates of a density of 1 at one point, by each of kKernels. A sample is a map.
 struct DensityFacts {
-  std::array<Moments, 3> mean, square_error;  // square error: (estimate - 1)^2
-  std::array<Moments, 3> square_ratio;        // (estimate / that of the constant kernel)^2, at most the kernel's peak^2
-  std::vector<double> volumes;                // of the ball or disc of the estimate
+  std::array<Moments, kKernels.size()> mean, square_error;  // square error: (estimate - 1)^2
+  std::array<Moments, kKernels.size()>
+      square_ratio;             // (estimate / that of the constant kernel)^2, at most the kernel's peak^2
+  std::vector<double> volumes;  // of the ball or disc of the estimate
 };
 
 /// By the k nearest of `photons` photons, in `dimension` 2 or 3. The ball's volume is the one whose k - 1 photons give

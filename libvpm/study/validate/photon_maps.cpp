@@ -17,14 +17,6 @@ namespace {
 
 constexpr uint64_t kPhotons = 200;  // of a total of 1 W in a cube or square of side 2 m
 
-struct NamedKernel {
-  const char* name;
-  KernelKind kind;
-};
-constexpr std::array<NamedKernel, 3> kKernels{{{"constant", KernelKind::constant},
-                                               {"Epanechnikov", KernelKind::epanechnikov},
-                                               {"biweight", KernelKind::biweight}}};
-
 /// Photons that travel down, uniform over [-1, 1]^3 or over its section z = 0.
 std::vector<Photon> even_photons(bool flat, Rng& rng) {
   std::vector<Photon> photons(kPhotons);
@@ -46,7 +38,7 @@ double estimate(bool flat, const GatherSettings& settings, Rng& rng) {
 std::vector<Check> check_maps(bool flat, const Effort& effort) {
   const double exact = flat ? 1.0 / 4.0 : 1.0 / 8.0;
   std::vector<Check> checks;
-  for (const NamedKernel& kernel : kKernels)
+  for (const KernelInfo& kernel : kKernels)
     for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest}) {
       const bool nearest = mode == GatherMode::nearest;
       const GatherSettings settings{mode, nearest ? 0.85f : 0.5f, 12, kernel.kind};

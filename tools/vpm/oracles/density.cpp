@@ -13,18 +13,17 @@
 namespace vpm::tools {
 namespace {
 
-/// The number of a kernel in kKernels; none where the framework has no such kernel.
-std::optional<size_t> kernel_number(const std::string& name) {
-  static const std::map<std::string, size_t> kNames{
-      {"constant", 0}, {"epanechnikov", 1}, {"biweight_simpson", 2}, {"biweight", 2}};
-  const auto found = kNames.find(name);
-  return found == kNames.end() ? std::nullopt : std::optional(found->second);
+/// The kernel of that name; none where the framework has no such kernel.
+std::optional<KernelKind> kernel_named(const std::string& name) {
+  if (name == "biweight_simpson") return KernelKind::biweight;
+  for (const KernelInfo& kernel : kKernels)
+    if (kernel.name == name) return kernel.kind;
+  return std::nullopt;
 }
 
 CaseResult no_kernel(const std::string& name) {
   CaseResult result;
   result.unchecked = "the framework has no kernel \"" + name + "\"";
-  result.known_limit = name == "triweight";
   return result;
 }
 
@@ -35,10 +34,10 @@ int read_dimension(const OracleCase& c, int lowest) {
 }
 
 CaseResult run_kernel(const OracleCase& c, const Effort&) {
-  const std::optional<size_t> kernel = kernel_number(c.text("kernel"));
+  const std::optional<KernelKind> kernel = kernel_named(c.text("kernel"));
   if (!kernel) return no_kernel(c.text("kernel"));
   const int d = read_dimension(c, 1);
-  const KernelIntegrals sums = integrate_kernel(d, kKernels[*kernel]);
+  const KernelIntegrals sums = integrate_kernel(d, *kernel);
   CaseResult result;
   const auto check = [&](const char* field, double found) {
     const double exact = c.number(field);
@@ -50,8 +49,7 @@ CaseResult run_kernel(const OracleCase& c, const Effort&) {
   if (d == 1)
     check("unit_integral_prefactor", 1.0 / sums.profile);
   else
-    check("unit_integral_prefactor",
-          d == 2 ? kernel_norm_2d(kKernels[*kernel], 1.0f) : kernel_norm_3d(kKernels[*kernel], 1.0f));
+    check("unit_integral_prefactor", d == 2 ? kernel_norm_2d(*kernel, 1.0f) : kernel_norm_3d(*kernel, 1.0f));
   return result;
 }
 
@@ -133,9 +131,9 @@ CaseResult run_nearest(const OracleCase& c, NearestMaps& maps) {
     return result;
   }
   if (c.has("kernel")) {
-    const std::optional<size_t> kernel = kernel_number(c.text("kernel"));
+    const std::optional<KernelKind> kernel = kernel_named(c.text("kernel"));
     if (!kernel) return no_kernel(c.text("kernel"));
-    check_nearest_kernel(result.checks, c, maps.facts(read_dimension(c, 2), n, k), *kernel);
+    check_nearest_kernel(result.checks, c, maps.facts(read_dimension(c, 2), n, k), static_cast<size_t>(*kernel));
   } else {
     for (const int dimension : {2, 3}) check_nearest_constant(result.checks, c, maps.facts(dimension, n, k), dimension);
   }
@@ -143,7 +141,7 @@ CaseResult run_nearest(const OracleCase& c, NearestMaps& maps) {
 }
 
 CaseResult run_radius(const OracleCase& c, const Effort& effort) {
-  const std::optional<size_t> kernel = kernel_number(c.text("kernel"));
+  const std::optional<KernelKind> kernel = kernel_named(c.text("kernel"));
   if (!kernel) return no_kernel(c.text("kernel"));
   const int d = read_dimension(c, 2);
   const uint64_t n = c.count("N");
@@ -152,8 +150,9 @@ CaseResult run_radius(const OracleCase& c, const Effort& effort) {
   const auto maps = static_cast<uint64_t>(std::clamp(photons / static_cast<double>(n), 500.0, 1e6));
   const DensityFacts facts = estimate_radius_density(d, n, h, maps, effort.seed_of(c.place()));
   CaseResult result;
-  result.checks.push_back(check_mean("mean", facts.mean[*kernel], c.number("mean")));
-  result.checks.push_back(check_mean("variance_binomial", facts.square_error[*kernel], c.number("variance_binomial")));
+  result.checks.push_back(check_mean("mean", facts.mean[static_cast<size_t>(*kernel)], c.number("mean")));
+  result.checks.push_back(
+      check_mean("variance_binomial", facts.square_error[static_cast<size_t>(*kernel)], c.number("variance_binomial")));
   const double volume = d == 2 ? kPiD * h * h : 4.0 / 3.0 * kPiD * h * h * h;
   result.checks.push_back(check_mean("expected_photons over N V", facts.mean[0],
                                      c.number("expected_photons") / (static_cast<double>(n) * volume)));
@@ -161,20 +160,20 @@ CaseResult run_radius(const OracleCase& c, const Effort& effort) {
 }
 
 CaseResult run_bias(const OracleCase& c, const Effort& effort) {
-  const std::optional<size_t> kernel = kernel_number(c.text("kernel"));
+  const std::optional<KernelKind> kernel = kernel_named(c.text("kernel"));
   if (!kernel) return no_kernel(c.text("kernel"));
   const int d = read_dimension(c, 1);
   const double h = c.number_in("h", 1e-6, 0.5);
   const std::vector<double> multipliers = c.numbers("cosine_multiplier", 3);
   CaseResult result;
-  const KernelIntegrals sums = integrate_kernel(d, kKernels[*kernel]);
+  const KernelIntegrals sums = integrate_kernel(d, *kernel);
   result.checks.push_back(check_bound("quadratic_bias of the profile", h * h * sums.second_moment / sums.profile,
                                       c.number("quadratic_bias"), 1e-6 * h * h));
   for (size_t i = 0; i < 3; ++i)
     result.checks.push_back(check_bound(fmt::format("cosine_multiplier[{}] of the profile", i),
                                         sums.cosine[i] / sums.profile, multipliers[i], 1e-6));
   if (d == 1) return result;  // maps have two or three dimensions
-  const auto found = estimate_kernel_bias(d, kKernels[*kernel], h, effort.count(200, 5000), effort.seed_of(c.place()));
+  const auto found = estimate_kernel_bias(d, *kernel, h, effort.count(200, 5000), effort.seed_of(c.place()));
   const std::array<double, kBiasDensities> exact{1.0 + c.number("linear_density_bias"),
                                                  1.0 + c.number("quadratic_bias"), 1.0 + multipliers[0],
                                                  1.0 + multipliers[1], 1.0 + multipliers[2]};

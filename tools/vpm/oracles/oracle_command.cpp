@@ -85,7 +85,7 @@ double judge_all(std::vector<ListResult>& lists, double rate) {
 
 /// What one list, or all of them, come to.
 struct Totals {
-  size_t cases = 0, unchecked = 0, known = 0, checks = 0, passed = 0, failed = 0, undetermined = 0;
+  size_t cases = 0, unchecked = 0, checks = 0, passed = 0, failed = 0, undetermined = 0;
   double smallest_p = 1.0;
   std::string where;  // of the smallest p-value
   double seconds = 0.0;
@@ -94,8 +94,7 @@ struct Totals {
     seconds += list.seconds;
     for (const CaseResult& c : list.cases) {
       ++cases;
-      unchecked += !c.unchecked.empty() && !c.known_limit;
-      known += c.known_limit;
+      unchecked += !c.unchecked.empty();
       checks += c.checks.size();
       passed += count_verdicts(c.checks, Verdict::pass);
       failed += count_verdicts(c.checks, Verdict::fail);
@@ -115,8 +114,7 @@ struct Totals {
 void print_cases(const ListResult& list) {
   fmt::print("\n{}\n", list.title);
   for (const CaseResult& c : list.cases) {
-    if (!c.unchecked.empty())
-      fmt::print("  {:<84} unchecked{}: {}\n", c.id, c.known_limit ? " (known)" : "", c.unchecked);
+    if (!c.unchecked.empty()) fmt::print("  {:<84} unchecked: {}\n", c.id, c.unchecked);
     for (const Check& check : c.checks)
       fmt::print("  {:<84} {}\n", fmt::format("{:<40} {}", c.id, check.name), check_row(check));
   }
@@ -126,8 +124,8 @@ void print_totals(const std::vector<ListResult>& lists, const Totals& all) {
   fmt::print("\n{:<36} {:>6} {:>9} {:>7} {:>7} {:>15} {:>8}  largest deviation (as of a normal distribution)\n", "file",
              "cases", "unchecked", "checks", "failed", "not determined", "seconds");
   const auto line = [](const std::string& title, const Totals& t) {
-    fmt::print("{:<36} {:>6} {:>9} {:>7} {:>7} {:>15} {:>8.1f}  {:.2f} s.e. {}\n", title, t.cases,
-               t.unchecked + t.known, t.checks, t.failed, t.undetermined, t.seconds, t.largest_deviation(), t.where);
+    fmt::print("{:<36} {:>6} {:>9} {:>7} {:>7} {:>15} {:>8.1f}  {:.2f} s.e. {}\n", title, t.cases, t.unchecked,
+               t.checks, t.failed, t.undetermined, t.seconds, t.largest_deviation(), t.where);
   };
   for (const ListResult& list : lists) {
     Totals totals;
@@ -145,16 +143,21 @@ std::string json_report(const std::vector<ListResult>& lists, const ValidateOpti
     for (const CaseResult& c : list.cases) {
       Json checks = Json::array();
       for (const Check& check : c.checks) checks.push_back(Json::parse(check_json(check)));
-      cases.push_back({{"id", c.id}, {"unchecked", c.unchecked}, {"known", c.known_limit}, {"checks", checks}});
+      cases.push_back({{"id", c.id}, {"unchecked", c.unchecked}, {"checks", checks}});
     }
     files.push_back({{"file", list.title}, {"seconds", list.seconds}, {"cases", std::move(cases)}});
   }
-  const Json report{{"vpm", version()},           {"mode", options.full ? "full" : "quick"},
-                    {"seed", options.seed},       {"threads", thread_count()},
-                    {"seconds", all.seconds},     {"false_alarm_rate_of_the_run", options.rate},
-                    {"p_threshold", threshold},   {"cases", all.cases},
-                    {"unchecked", all.unchecked}, {"unchecked_known", all.known},
-                    {"failed", all.failed},       {"not_determined", all.undetermined},
+  const Json report{{"vpm", version()},
+                    {"mode", options.full ? "full" : "quick"},
+                    {"seed", options.seed},
+                    {"threads", thread_count()},
+                    {"seconds", all.seconds},
+                    {"false_alarm_rate_of_the_run", options.rate},
+                    {"p_threshold", threshold},
+                    {"cases", all.cases},
+                    {"unchecked", all.unchecked},
+                    {"failed", all.failed},
+                    {"not_determined", all.undetermined},
                     {"files", std::move(files)}};
   return report.dump(2) + "\n";
 }
@@ -172,10 +175,10 @@ int oracle_command(const ValidateOptions& options) {
   }
   print_totals(lists, all);
   fmt::print(
-      "\n{} cases, {} unchecked, {} unchecked (known); {} checks: {} passed, {} FAILED, {} not determined; {:.1f} s, "
+      "\n{} cases, {} unchecked; {} checks: {} passed, {} FAILED, {} not determined; {:.1f} s, "
       "{} thread(s), seed {}\n",
-      all.cases, all.unchecked, all.known, all.checks, all.passed, all.failed, all.undetermined, all.seconds,
-      thread_count(), options.seed);
+      all.cases, all.unchecked, all.checks, all.passed, all.failed, all.undetermined, all.seconds, thread_count(),
+      options.seed);
   fmt::print("a check fails where p < {:.3g}: right code fails one run in {:.0f}\n", threshold, 1.0 / options.rate);
   if (!options.json.empty()) write_text(options.json, json_report(lists, options, all, threshold));
   return all.passes() ? 0 : 1;
