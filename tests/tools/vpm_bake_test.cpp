@@ -156,7 +156,7 @@ TEST_F(VpmBake, RefusesSettingsOfOtherIntegrators) {
   refuses("floor", {"render.integrator is \"path\"", "--set render.integrator=photon"},
           {"--set", "render.integrator=path"});
   refuses("floor", {"render.error", "--passes N"}, {"--set", "render.error=0.1"});
-  refuses("floor", {"must end in .exr"}, {"-o", "a.png"});
+  vpm_refuses({"bake", "scene.toml", "--mesh", "floor", "-o", "a.png"}, {"must end in .exr"});
   refuses("floor", {"--resolution"}, {"--resolution", "0"});
   vpm_refuses({"bake", "scene.toml"}, {"--mesh is required"});
 }
