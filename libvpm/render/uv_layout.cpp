@@ -22,7 +22,7 @@ double signed_area(const UvPolygon& p) {
   return 0.5 * twice;
 }
 
-/// The part of a polygon where distance(point) >= 0; `distance` is affine.
+/// The part of a polygon where distance(point) >= 0; `distance` is affine [Sutherland1974].
 template <class Distance>
 UvPolygon clip(const UvPolygon& polygon, Distance&& distance) {
   UvPolygon kept;
@@ -173,6 +173,7 @@ UvLayout lay_out(const Geometry& geometry, uint32_t shape, int resolution) {
   if (layout.of_texels.empty()) throw InputError("its triangles have no area in texture coordinates");
   std::vector<UvPiece> pieces;
   for (size_t texel = 0; texel < layout.texels(); ++texel) {
+    if (layout.begin[texel + 1] - layout.begin[texel] < 2) continue;
     find_pieces(layout, texel, pieces);
     check_overlaps(layout, pieces);
   }
