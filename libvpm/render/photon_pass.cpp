@@ -50,14 +50,6 @@ GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dim
   return gather;
 }
 
-/// Of the map whose kernels matter more: the volume map's where there is one. Both shrink at nearly the same rate.
-double kernel_size(const RenderSettings& settings, const Stages& stages, int pass) {
-  if (!stages.photons()) return 0.0;
-  const GatherSettings& gather = stages.volume_map ? settings.volume : settings.surface;
-  const float radius = gather_in_pass(gather, 1.0f, stages.volume_map ? 3 : 2, settings, pass).radius;
-  return double{radius} * radius;
-}
-
 float default_share(const GatherSettings& gather) {
   return gather.mode == GatherMode::radius ? kDefaultRadius : kDefaultSearch;
 }
@@ -131,19 +123,31 @@ float first_caustic_radius(const Scene& scene, const RenderSettings& settings) {
                                          : default_share(settings.caustics) * scene.bounds.diagonal();
 }
 
+EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
+                            const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics) {
+  EyeContext context{scene, settings, stages, {}, {}, {}, make_transmittance_estimator(settings.transmittance)};
+  if (stages.photons()) make_maps(context, trace_settings(settings, stages, pass, stop), progress, statistics);
+  return context;
+}
+
+double kernel_size(const RenderSettings& settings, const Stages& stages, int pass) {
+  if (!stages.photons()) return 0.0;
+  const GatherSettings& gather = stages.volume_map ? settings.volume : settings.surface;
+  const float radius = gather_in_pass(gather, 1.0f, stages.volume_map ? 3 : 2, settings, pass).radius;
+  return double{radius} * radius;
+}
+
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress) {
   RenderStatistics statistics;
-  EyeContext context{
-      scene, settings, plan_stages(scene, settings), {}, {}, {}, make_transmittance_estimator(settings.transmittance)};
-  if (context.stages.photons())
-    make_maps(context, trace_settings(settings, context.stages, pass, stop), progress, statistics);
+  const Stages stages = plan_stages(scene, settings);
+  const EyeContext context = make_eye_context(scene, settings, stages, pass, stop, progress, statistics);
   const RayRadiance radiance = [&](const Ray& ray, Rng& rng, EyeCounters& counters) {
     static thread_local Marcher marcher;
     return eye_radiance(context, ray, marcher, rng, counters);
   };
   Pass result = render_image(scene, settings, pass, radiance, stop, progress);
-  result.kernel_size = kernel_size(settings, context.stages, pass);
+  result.kernel_size = kernel_size(settings, stages, pass);
   result.statistics.merge(statistics);
   return result;
 }

@@ -16,6 +16,15 @@ struct Stages {
 };
 Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 
+struct EyeContext;
+/// Traces the photons of pass number `pass` and sorts them into the maps of those stages.
+EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
+                            const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics);
+
+/// The squared radius of the pass's kernels over that of the first pass, of the map whose kernels matter more: the
+/// volume map's where there is one. Both shrink at nearly the same rate. 0 without photons.
+double kernel_size(const RenderSettings& settings, const Stages& stages, int pass);
+
 /// The radius of a map in the first pass: the settings', or where that is 0 one hundredth (the largest radius of the
 /// nearest mode: a tenth) of the diagonal of the medium's bounds (grids) or of the scene.
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium);

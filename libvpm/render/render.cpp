@@ -36,18 +36,24 @@ double estimated_error(const Film& film) {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const std::atomic<bool>& stop, ProgressMode progress,
                     const std::function<void(const RenderResult&)>& finished) {
+  const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
+  const auto run = [&](int pass, const PassProgress& shown) { return render_pass(scene, settings, pass, stop, shown); };
+  return run_passes(settings, run, tile_count(scene.camera), std::move(result), stop, progress, finished);
+}
+
+RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint64_t work, RenderResult result,
+                        const std::atomic<bool>& stop, ProgressMode progress,
+                        const std::function<void(const RenderResult&)>& finished) {
   const Clock::time_point start = Clock::now();
   const double before = result.seconds;
   // One pass shows its stages. Of several the whole is shown: as tiles of all passes, or as thousandths of the limit.
   const bool counted = settings.seconds == 0.0 && settings.error == 0.0;
   const int missing = counted ? std::max(0, settings.passes - result.film.passes()) : 0;
   const bool single = counted && missing == 1;
-  Progress bar("render", counted ? tile_count(scene.camera) * static_cast<uint64_t>(missing) : 1000,
-               progress_enabled(progress) && !single);
+  Progress bar("render", counted ? work * static_cast<uint64_t>(missing) : 1000, progress_enabled(progress) && !single);
   const PassProgress pass_progress{progress_enabled(progress) && single, counted ? &bar : nullptr};
-  const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
   while (!stop && share_done(settings, result) < 1.0) {
-    const Pass done = render_pass(scene, settings, result.film.passes(), stop, pass_progress);
+    const Pass done = run(result.film.passes(), pass_progress);
     if (stop) break;
     result.film.add(done.image, done.kernel_size);
     result.statistics.merge(done.statistics);

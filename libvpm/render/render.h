@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "render/film.h"
+#include "render/image_pass.h"
 #include "render/settings.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
@@ -25,6 +26,11 @@ struct RenderResult {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const std::atomic<bool>& stop, ProgressMode progress,
                     const std::function<void(const RenderResult&)>& finished = {});
+/// The same loop over any passes of a film: `run` makes one, and advances the bar by `work` units in its course.
+using RunPass = std::function<Pass(int pass, const PassProgress& progress)>;
+RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint64_t work, RenderResult result,
+                        const std::atomic<bool>& stop, ProgressMode progress,
+                        const std::function<void(const RenderResult&)>& finished = {});
 /// A render of the camera's film before its first pass.
 RenderResult nothing_rendered(const Camera& camera);
 

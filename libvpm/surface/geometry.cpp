@@ -34,6 +34,7 @@ constexpr float kMinT = std::numeric_limits<float>::min();
 struct MeshShape {
   const Vec3* positions = nullptr;
   const glm::uvec3* triangles = nullptr;
+  size_t count = 0;  // of triangles
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
 };
@@ -161,10 +162,10 @@ Vec3 shading_normal(const MeshShape& mesh, const glm::uvec3& v, const Hit& hit) 
 }
 
 /// The point of the triangle with Embree's barycentric coordinates: in its plane, wherever the ray came from.
-void locate(const MeshShape& mesh, const RTCRayHit& found, Hit& hit) {
-  const glm::uvec3& v = mesh.triangles[found.hit.primID];
+void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit) {
+  const glm::uvec3& v = mesh.triangles[triangle];
   const Vec3 &a = mesh.positions[v.x], &b = mesh.positions[v.y], &c = mesh.positions[v.z];
-  const double u = found.hit.u, w = found.hit.v;
+  const double u = barycentric.x, w = barycentric.y;
   hit.position = Vec3((1.0 - u - w) * Vec3d(a) + u * Vec3d(b) + w * Vec3d(c));
   const Vec3d across = area_vector(a, b, c);
   const double twice_area = glm::length(across);
@@ -172,8 +173,8 @@ void locate(const MeshShape& mesh, const RTCRayHit& found, Hit& hit) {
   const Vec3& p = hit.position;
   const Vec3 reach = glm::max(glm::max(glm::abs(a - p), glm::abs(b - p)), glm::abs(c - p));
   hit.slack = flat_slack(hit.normal, reach, twice_area);
-  hit.triangle = found.hit.primID;
-  hit.barycentric = {found.hit.u, found.hit.v};
+  hit.triangle = triangle;
+  hit.barycentric = barycentric;
   hit.shading_normal = shading_normal(mesh, v, hit);
 }
 
@@ -284,7 +285,7 @@ uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
     area += 0.5 * glm::length(area_vector(positions[v.x], positions[v.y], positions[v.z]));
     for (int corner = 0; corner < 3; ++corner) box.add(positions[v[corner]]);
   }
-  MeshShape shape{positions, triangles, mesh.normals, mesh.uvs};
+  MeshShape shape{positions, triangles, proper.size(), mesh.normals, mesh.uvs};
   for (Vec3& normal : shape.normals) normal = Vec3(glm::normalize(Vec3d(normal)));
   impl_->bytes += static_cast<int64_t>(shape.normals.size() * sizeof(Vec3) + shape.uvs.size() * sizeof(Vec2));
   impl_->shapes.emplace_back(std::move(shape));
@@ -384,7 +385,8 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t lay
   hit.t = found.ray.tfar;
   hit.shape = found.hit.geomID;
   const ShapeData& shape = impl_->shapes[hit.shape];
-  if (const auto* mesh = std::get_if<MeshShape>(&shape)) locate(*mesh, found, hit);
+  if (const auto* mesh = std::get_if<MeshShape>(&shape))
+    locate(*mesh, found.hit.primID, {found.hit.u, found.hit.v}, hit);
   if (const auto* sphere = std::get_if<SphereShape>(&shape)) locate(*sphere, ray, hit);
   if (const auto* disc = std::get_if<DiscShape>(&shape)) locate(*disc, ray, hit);
   return hit;
@@ -407,6 +409,19 @@ Vec2 Geometry::uv(const Hit& hit) const {
 bool Geometry::has_uvs(uint32_t shape) const {
   const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);
   return !mesh || !mesh->uvs.empty();
+}
+
+size_t Geometry::triangle_count(uint32_t shape) const {
+  const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);
+  return mesh ? mesh->count : 0;
+}
+
+Hit Geometry::point_of_triangle(uint32_t shape, uint32_t triangle, const Vec2& barycentric) const {
+  assert(triangle < triangle_count(shape));
+  Hit hit;
+  hit.shape = shape;
+  locate(std::get<MeshShape>(impl_->shapes[shape]), triangle, barycentric, hit);
+  return hit;
 }
 
 double Geometry::area(uint32_t shape) const {

@@ -220,6 +220,30 @@ TEST(Geometry, KnowsAreaBoundsAndMemory) {
   EXPECT_FALSE(empty.intersect({{0, 0, 0}, {0, 0, 1}}));
 }
 
+TEST(Geometry, FindsPointsOfTrianglesAsRaysDo) {
+  Rng rng(1, rng_stream(RngUse::test, 40), 0);
+  for (int i = 0; i < 200; ++i) {
+    TriangleMesh mesh = triangle(in_cube(rng), in_cube(rng), in_cube(rng));
+    mesh.normals = {in_cube(rng), in_cube(rng), in_cube(rng)};
+    const Vec3 inside = (mesh.positions[0] + mesh.positions[1] + 2.0f * mesh.positions[2]) / 4.0f;
+    Geometry geometry;
+    geometry.add(SphereShape{Vec3(10.0f), 1.0f});
+    geometry.add(mesh);
+    geometry.commit();
+    EXPECT_EQ(geometry.triangle_count(0), 0u);
+    EXPECT_EQ(geometry.triangle_count(1), 1u);
+    const Vec3 origin = 2.0f * in_cube(rng);
+    const std::optional<Hit> met = geometry.intersect({origin, glm::normalize(inside - origin)});
+    if (!met) continue;  // edge on
+    const Hit found = geometry.point_of_triangle(1, met->triangle, met->barycentric);
+    EXPECT_EQ(found.shape, met->shape);
+    EXPECT_EQ(found.position, met->position);
+    EXPECT_EQ(found.normal, met->normal);
+    EXPECT_EQ(found.shading_normal, met->shading_normal);
+    EXPECT_EQ(found.slack, met->slack);
+  }
+}
+
 TEST(Geometry, RefusesWhatIsNoShape) {
   Geometry geometry;
   const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -27,6 +27,21 @@ struct RenderOptions {
 /// With a checkpoint a killed render loses the pass under way, and goes on to the same bits.
 int render_command(const RenderOptions& options);
 
+struct BakeOptions {
+  std::string scene;                   // a scene file
+  std::string mesh;                    // the name of a shape in it
+  std::string output;                  // .exr; empty: the scene's name in the current folder
+  int resolution = 256;                // texels along an edge
+  std::vector<std::string> overrides;  // key.path=value
+  int threads = 0;                     // 0: all
+  std::optional<int> passes;
+  std::optional<uint64_t> seed;
+  ProgressMode progress = ProgressMode::automatic;
+};
+/// Bakes the irradiance on a shape into an EXR file over its texture coordinates, with a PNG preview and a JSON report
+/// beside it. 130 when interrupted: the finished passes are written.
+int bake_command(const BakeOptions& options);
+
 struct InfoOptions {
   std::string file;                    // a scene or a .vdb
   std::vector<std::string> overrides;  // key.path=value, for scenes

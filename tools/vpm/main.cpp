@@ -78,6 +78,25 @@ void add_render(CLI::App& app, RenderOptions& options) {
   add_progress(command, options.progress);
 }
 
+void add_bake(CLI::App& app, BakeOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("bake", "Bake the irradiance on a shape over its texture coordinates into an EXR light map");
+  command->add_option("scene", options.scene, "Scene file (.toml)")->required();
+  command->add_option("--mesh", options.mesh, "Name of the shape: a quad, or a mesh with texture coordinates")
+      ->required();
+  command->add_option("-o,--output", options.output,
+                      "Light map to write (.exr); default: the scene's name in the current folder");
+  command->add_option("--resolution", options.resolution, "Texels along an edge of the map")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
+  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
+  command->add_option("--passes", options.passes, "Passes to bake")->check(CLI::Range(1, 1'000'000'000));
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
+  add_progress(command, options.progress);
+}
+
 void add_info(CLI::App& app, InfoOptions& options) {
   CLI::App* command = app.add_subcommand("info", "Tell what a scene or a .vdb file holds, and what a scene would run");
   command->add_option("file", options.file, "Scene (.toml) or grid file (.vdb)")->required();
@@ -127,11 +146,13 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("vpm {}", version()));
   app.require_subcommand(1);
   RenderOptions render;
+  BakeOptions bake;
   InfoOptions info;
   MediaOptions media;
   ValidateOptions validate;
   ExactOptions exact;
   add_render(app, render);
+  add_bake(app, bake);
   add_info(app, info);
   add_media(app, media);
   add_validate(app, validate);
@@ -142,6 +163,7 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
   if (app.got_subcommand("render")) return render_command(render);
+  if (app.got_subcommand("bake")) return bake_command(bake);
   if (app.got_subcommand("info")) return info_command(info);
   if (app.got_subcommand("validate")) return validate_command(validate);
   if (app.got_subcommand("exact")) return exact_command(exact);

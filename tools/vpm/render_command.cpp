@@ -1,8 +1,6 @@
 // vpm render: scene file in, picture and report out.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 
@@ -15,6 +13,7 @@
 #include "image/png.h"
 #include "input/checkpoint.h"
 #include "input/scene_file.h"
+#include "pass_run.h"
 #include "render/photon_pass.h"
 #include "render/render.h"
 #include "report.h"
@@ -22,32 +21,13 @@
 namespace vpm::tools {
 namespace {
 
-constexpr int kInterrupted = 130;  // as shells report a process ended by SIGINT
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-/// A first SIGINT or SIGTERM ends the render after writing what is finished; a second one kills.
-void stop_on_signals() {
-  const auto request = [](int number) {
-    stop_requested = true;
-    std::signal(number, SIG_DFL);
-  };
-  std::signal(SIGINT, request);
-  std::signal(SIGTERM, request);
-}
-
 struct Outputs {
   std::filesystem::path exr, png, json, checkpoint;
 };
 
 Outputs output_paths(const RenderOptions& options) {
-  namespace fs = std::filesystem;
-  const fs::path exr =
-      options.output.empty() ? fs::path(options.scene).filename().replace_extension(".exr") : fs::path(options.output);
-  if (exr.extension() != ".exr")
-    throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
-  const auto beside = [&](const char* extension) { return fs::path(exr).replace_extension(extension); };
+  const std::filesystem::path exr = exr_path(options.output, options.scene);
+  const auto beside = [&](const char* extension) { return std::filesystem::path(exr).replace_extension(extension); };
   return {exr, beside(".png"), beside(".json"), beside(".checkpoint")};
 }
 
@@ -113,30 +93,6 @@ std::string error_text(const Film& film) {
                      film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen");
 }
 
-/// What went wrong without stopping the render; stderr, so that it is seen.
-void print_warnings(const LoadedScene& loaded, const RenderStatistics& s) {
-  for (const std::string& note : loaded.notes) fmt::print(stderr, "note: {}\n", note);
-  const auto warn = [](uint64_t count, const char* what) {
-    if (count > 0) fmt::print(stderr, "warning: {} {}\n", count, what);
-  };
-  const Stages stages = plan_stages(loaded.scene, loaded.settings);
-  if (stages.volume_map && s.volume_photons == 0)
-    fmt::print(stderr, "warning: the volume photon map is empty: no photon scattered in a medium\n");
-  if (stages.surface_map && s.surface_photons == 0)
-    fmt::print(stderr, "warning: the surface photon map is empty: no photon to store met a rough surface\n");
-  warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
-  warn(s.eye.non_finite, "samples were dropped because they were not finite");
-  warn(s.ledger.cut_count, "photons were cut at render.max_events");
-  warn(s.eye.cut_paths, "eye paths were cut at render.max_events");
-  // Rays through the very edges of boundaries need a correction now and then: some in 1e7. More means media that
-  // overlap.
-  WalkCounters walk = s.ledger.walk;
-  walk.merge(s.eye.walk);
-  if (walk.medium_mismatches > 100 + walk.crossings / 1'000'000)
-    warn(walk.medium_mismatches,
-         "boundaries were met from a medium that is not the one before them: check that media do not overlap");
-}
-
 }  // namespace
 
 int render_command(const RenderOptions& options) {
@@ -149,12 +105,12 @@ int render_command(const RenderOptions& options) {
   const std::string identity = identity_of(loaded);
   RenderResult begun =
       options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(loaded.scene.camera);
-  stop_on_signals();
-  const RenderResult result = render(loaded.scene, loaded.settings, std::move(begun), stop_requested, options.progress,
-                                     [&](const RenderResult& so_far) {
-                                       if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
-                                     });
-  print_warnings(loaded, result.statistics);
+  const std::atomic<bool>& stop = stop_on_signals();
+  const RenderResult result =
+      render(loaded.scene, loaded.settings, std::move(begun), stop, options.progress, [&](const RenderResult& so_far) {
+        if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
+      });
+  print_warnings(loaded, plan_stages(loaded.scene, loaded.settings), result.statistics);
   if (result.film.passes() == 0) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;
@@ -162,7 +118,7 @@ int render_command(const RenderOptions& options) {
   write_outputs(outputs, options, loaded, result);
   fmt::print("{}: {} passes in {:.1f} s{}; preview {}, report {}\n", outputs.exr.string(), result.film.passes(),
              result.seconds, error_text(result.film), outputs.png.string(), outputs.json.string());
-  return stop_requested ? kInterrupted : 0;
+  return stop ? kInterrupted : 0;
 }
 
 }  // namespace vpm::tools

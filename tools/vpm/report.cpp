@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "base/version.h"
@@ -122,36 +123,54 @@ Json memory(const Scene& scene, const RenderStatistics& s) {
       {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
 }
 
+/// Of a render or a light map, with what it is of.
+Json report_of(const std::string& scene_path, const std::string& image, const std::string& quantity,
+               const LoadedScene& loaded, const RenderResult& result) {
+  const RenderStatistics& s = result.statistics;
+  return {{"program", fmt::format("vpm {}", version())},
+          {"scene", scene_path},
+          {"scene_hash", loaded.hash},
+          {"image", image},
+          {"quantity", quantity},
+          {"width", result.film.width()},
+          {"height", result.film.height()},
+          {"seed", loaded.settings.seed},
+          {"threads", thread_count()},
+          {"passes", s.passes},
+          {"settings", settings_line(loaded.settings)},
+          {"stages", stage_lines(loaded.scene, loaded.settings)},
+          {"notes", loaded.notes},
+          {"clamped_density_values", loaded.clamped_density_values},
+          {"times", times(result)},
+          {"lights", lights(loaded)},
+          {"error", errors(result.film)},
+          {"photons", photons(s)},
+          {"energy", ledger(s.ledger)},
+          {"eye", eye(s)},
+          {"boundaries",
+           {{"crossings", s.ledger.walk.crossings + s.eye.walk.crossings},
+            {"met_in_another_medium", s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches}}},
+          {"memory", memory(loaded.scene, s)}};
+}
+
 }  // namespace
 
 std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded,
                           const RenderResult& result) {
-  const RenderStatistics& s = result.statistics;
-  const Camera& camera = loaded.scene.camera;
-  Json report{{"program", fmt::format("vpm {}", version())},
-              {"scene", scene_path},
-              {"scene_hash", loaded.hash},
-              {"image", image},
-              {"quantity", "radiance, W/(m^2 sr)"},
-              {"width", camera.width},
-              {"height", camera.height},
-              {"seed", loaded.settings.seed},
-              {"threads", thread_count()},
-              {"passes", s.passes},
-              {"settings", settings_line(loaded.settings)},
-              {"stages", stage_lines(loaded.scene, loaded.settings)},
-              {"notes", loaded.notes},
-              {"clamped_density_values", loaded.clamped_density_values},
-              {"times", times(result)},
-              {"lights", lights(loaded)},
-              {"error", errors(result.film)},
-              {"photons", photons(s)},
-              {"energy", ledger(s.ledger)},
-              {"eye", eye(s)},
-              {"boundaries",
-               {{"crossings", s.ledger.walk.crossings + s.eye.walk.crossings},
-                {"met_in_another_medium", s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches}}},
-              {"memory", memory(loaded.scene, s)}};
+  return report_of(scene_path, image, "radiance, W/(m^2 sr)", loaded, result).dump(2) + "\n";
+}
+
+std::string light_map_report(const std::string& scene_path, const std::string& image, const std::string& mesh,
+                             const LoadedScene& loaded, const UvLayout& layout, const RenderResult& result) {
+  Json report = report_of(scene_path, image, "irradiance, W/m^2", loaded, result);
+  report.erase("error");   // its means over pixels would count texels that show nothing
+  report.erase("stages");  // those of a render
+  report["light_map"] = {{"mesh", mesh},
+                         {"covered_texels", layout.covered_texels()},
+                         {"area_m2", std::accumulate(layout.areas.begin(), layout.areas.end(), 0.0)},
+                         {"area_of_mesh_m2", loaded.scene.geometry.area(layout.shape)},
+                         {"triangles_without_texels", layout.flat_triangles},
+                         {"power_received_W", rgb(received_power(layout, result.film.mean()))}};
   return report.dump(2) + "\n";
 }
 

@@ -1,16 +1,20 @@
-// The JSON report of a render: provenance, times, counts and the energy ledger, each with its unit.
+// The JSON report of a render or of a light map: provenance, times, counts and the energy ledger, each with its unit.
 #pragma once
 
 #include <string>
 
 #include "input/scene_file.h"
-#include "render/render.h"
+#include "render/light_map.h"
 
 namespace vpm::tools {
 
 /// The report as JSON text. `image` is the path of the image it belongs to.
 std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded,
                           const RenderResult& result);
+
+/// The same of a light map of the shape named `mesh`.
+std::string light_map_report(const std::string& scene_path, const std::string& image, const std::string& mesh,
+                             const LoadedScene& loaded, const UvLayout& layout, const RenderResult& result);
 
 /// The settings that decide what is estimated, in one line of key=value.
 std::string settings_line(const RenderSettings& settings);

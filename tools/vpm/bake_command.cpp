@@ -1,0 +1,130 @@
+// vpm bake: scene file and the name of a shape in, light map and report out.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <cstdio>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/version.h"
+#include "commands.h"
+#include "image/exr.h"
+#include "image/png.h"
+#include "input/source.h"
+#include "pass_run.h"
+#include "report.h"
+
+namespace vpm::tools {
+namespace {
+
+constexpr int kDilation = 2;  // texels
+
+struct Outputs {
+  std::filesystem::path exr, png, json;
+};
+
+Outputs output_paths(const BakeOptions& options) {
+  const std::filesystem::path exr = exr_path(options.output, options.scene);
+  const auto beside = [&](const char* extension) { return std::filesystem::path(exr).replace_extension(extension); };
+  return {exr, beside(".png"), beside(".json")};
+}
+
+void check_outputs(const Outputs& outputs, int resolution) {
+  constexpr uint64_t kReportBytes = 1 << 16;
+  const uint64_t texels = static_cast<uint64_t>(resolution) * resolution;
+  const uint64_t bytes = texels * (9 * sizeof(float) + 3) + kReportBytes;  // of all, which share a folder
+  for (const std::filesystem::path& path : {outputs.exr, outputs.png, outputs.json}) check_writable(path, bytes);
+}
+
+void apply_options(const BakeOptions& options, RenderSettings& settings) {
+  if (options.seed) settings.seed = *options.seed;
+  if (options.passes) {
+    settings.passes = *options.passes;
+    settings.seconds = settings.error = 0.0;
+  }
+  if (settings.integrator != Integrator::photon)
+    throw InputError(
+        "light maps are made of photon maps, but render.integrator is \"path\"; add: --set render.integrator=photon");
+  if (settings.error > 0.0)
+    throw InputError("a light map is not baked until an error is reached, as render.error asks; add: --passes N");
+}
+
+uint32_t find_shape(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Shape& shape : scene.shapes) {
+    if (shape.name == name) return static_cast<uint32_t>(names.size());
+    names.push_back(shape.name);
+  }
+  throw InputError(fmt::format("--mesh {}: there is no such shape\n  {}", name, suggest(name, names, "there are")));
+}
+
+UvLayout lay_out(const Scene& scene, const BakeOptions& options) {
+  const uint32_t shape = find_shape(scene, options.mesh);
+  try {
+    return lay_out_light_map(scene, shape, options.resolution);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--mesh {}: {}", options.mesh, error.what()));
+  }
+}
+
+Image grey_image(const UvLayout& layout, const std::vector<float>& values) {
+  Image image(layout.resolution, layout.resolution);
+  std::transform(values.begin(), values.end(), image.pixels.begin(), [](float value) { return Rgb(value); });
+  return image;
+}
+
+void write_outputs(const Outputs& outputs, const BakeOptions& options, const LoadedScene& loaded,
+                   const UvLayout& layout, const RenderResult& result) {
+  const Film& film = result.film;
+  const Image map = dilated(film.mean(), layout, kDilation);
+  const Image coverage = grey_image(layout, layout.coverage);
+  const Image variance = film.passes() > 1 ? film.variance_of_mean() : Image();
+  std::vector<ExrLayer> layers{{"coverage", coverage}};
+  if (film.passes() > 1) layers.push_back({"variance", variance});
+  write_exr(outputs.exr, map, layers,
+            {{"vpm.version", std::string(version())},
+             {"vpm.scene", std::filesystem::path(options.scene).filename().string()},
+             {"vpm.sceneHash", loaded.hash},
+             {"vpm.overrides", fmt::format("{}", fmt::join(options.overrides, " "))},
+             {"vpm.settings", settings_line(loaded.settings)},
+             {"vpm.mesh", options.mesh},
+             {"vpm.quantity",
+              "irradiance on the side of the outward normal, W/m^2; variance.*: variance of the mean of passes; "
+              "coverage.*: share of the texel that the mesh covers"},
+             {"vpm.uncovered",
+              fmt::format("texels of coverage 0, {} of {}: black, but within {} texels of covered ones the mean of "
+                          "their neighbours; their variance is given as 0",
+                          layout.texels() - layout.covered_texels(), layout.texels(), kDilation)},
+             {"vpm.seed", std::to_string(loaded.settings.seed)},
+             {"vpm.passes", std::to_string(film.passes())}});
+  write_png(outputs.png, map, auto_exposure(map));
+  write_text(outputs.json, light_map_report(options.scene, outputs.exr.string(), options.mesh, loaded, layout, result));
+}
+
+}  // namespace
+
+int bake_command(const BakeOptions& options) {
+  set_threads(options.threads);
+  const Outputs outputs = output_paths(options);
+  LoadedScene loaded = load_scene(options.scene, options.overrides);
+  apply_options(options, loaded.settings);
+  const UvLayout layout = lay_out(loaded.scene, options);
+  check_outputs(outputs, options.resolution);
+  const std::atomic<bool>& stop = stop_on_signals();
+  const RenderResult result = bake_light_map(loaded.scene, loaded.settings, layout, stop, options.progress);
+  print_warnings(loaded, light_map_stages(loaded.scene, loaded.settings), result.statistics);
+  if (layout.flat_triangles > 0)
+    fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
+               layout.flat_triangles);
+  if (result.film.passes() == 0) {
+    fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
+    return kInterrupted;
+  }
+  write_outputs(outputs, options, loaded, layout, result);
+  fmt::print("{}: {} passes in {:.1f} s; {} of {} texels covered; preview {}, report {}\n", outputs.exr.string(),
+             result.film.passes(), result.seconds, layout.covered_texels(), layout.texels(), outputs.png.string(),
+             outputs.json.string());
+  return stop ? kInterrupted : 0;
+}
+
+}  // namespace vpm::tools
