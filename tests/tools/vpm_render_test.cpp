@@ -390,5 +390,15 @@ TEST_F(VpmBinary, MakesTheSameGridEachTime) {
   vpm_refuses({"media", "cloud", "--resolution", "4", "-o", "missing/a.vdb"}, {"there is no folder"});
 }
 
+TEST_F(VpmBinary, MakesMeshes) {
+  expect_words(vpm_succeeds({"mesh"}).out, {"ring", "waves"});
+  vpm_succeeds({"mesh", "waves", "--resolution", "12", "-o", "a.ply"});
+  vpm_succeeds({"mesh", "ring"});
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.ply", "ring.ply"}));
+  vpm_refuses({"mesh", "nothing"}, {"nothing", "waves"});
+  vpm_refuses({"mesh", "ring", "--resolution", "2"}, {"resolution"});
+  vpm_refuses({"mesh", "ring", "-o", "missing/a.ply"}, {"there is no folder"});
+}
+
 }  // namespace
 }  // namespace vpm

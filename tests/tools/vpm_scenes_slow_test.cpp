@@ -13,15 +13,17 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Where the grid of a scene comes from: a real file, or one of our generators.
-struct GridSource {
-  std::string scene, key, file, generator;
+/// Where the grid or mesh of a scene comes from: one of our generators, or a real file.
+struct FileSource {
+  std::string scene, key, command, name;  // `vpm command name`; no command: the file of that name
 };
-const std::vector<GridSource> kGrids{{"smoke", "media.smoke.path", "", "smoke"},
-                                     {"cloud", "media.cloud.path", "", "cloud"},
-                                     {"smoke1", "media.smoke.path", "smoke1.vdb", ""},
-                                     {"wdas_cloud", "media.cloud.path", "wdas_cloud_sixteenth.vdb", ""},
-                                     {"usd_smoke", "media.smoke.path", "usd_smoke3.vdb", ""}};
+const std::vector<FileSource> kFiles{{"smoke", "media.smoke.path", "media", "smoke"},
+                                     {"cloud", "media.cloud.path", "media", "cloud"},
+                                     {"ring_caustic", "shapes.ring.path", "mesh", "ring"},
+                                     {"pool", "shapes.water.path", "mesh", "waves"},
+                                     {"smoke1", "media.smoke.path", "", "smoke1.vdb"},
+                                     {"wdas_cloud", "media.cloud.path", "", "wdas_cloud_sixteenth.vdb"},
+                                     {"usd_smoke", "media.smoke.path", "", "usd_smoke3.vdb"}};
 
 std::string scene_folder() { return std::string(VPM_SOURCE_DIR) + "/scenes/"; }
 
@@ -36,15 +38,16 @@ std::vector<std::string> scene_names() {
 
 class VpmScenes : public VpmBinary {
  protected:
-  /// The option that gives the scene its grid; none where it has none. Nothing at all where a real grid is missing.
-  std::optional<std::vector<std::string>> grid_option(const std::string& scene) const {
+  /// The option that gives the scene its grid or mesh; none where it has none. Nothing at all where a real grid is
+  /// missing.
+  std::optional<std::vector<std::string>> file_option(const std::string& scene) const {
     const auto source =
-        std::find_if(kGrids.begin(), kGrids.end(), [&](const GridSource& g) { return g.scene == scene; });
-    if (source == kGrids.end()) return std::vector<std::string>{};
-    std::string file = std::string(VPM_SHARED_DIR) + "/vdb/" + source->file;
-    if (!source->generator.empty()) {
-      file = path("grid.vdb");
-      vpm_succeeds({"media", source->generator, "--resolution", "48", "-o", file});
+        std::find_if(kFiles.begin(), kFiles.end(), [&](const FileSource& f) { return f.scene == scene; });
+    if (source == kFiles.end()) return std::vector<std::string>{};
+    std::string file = std::string(VPM_SHARED_DIR) + "/vdb/" + source->name;
+    if (!source->command.empty()) {
+      file = path(source->command == "mesh" ? "made.ply" : "made.vdb");
+      vpm_succeeds({source->command, source->name, "--resolution", "48", "-o", file});
     } else if (!std::filesystem::exists(file)) {
       return std::nullopt;
     }
@@ -89,14 +92,14 @@ void expect_closed_ledger(const Json& report) {
 class VpmEveryScene : public VpmScenes, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(VpmEveryScene, RendersAndItsEnergyLedgerCloses) {
-  const auto grid = grid_option(GetParam());
-  if (!grid) GTEST_SKIP() << "the grid of this scene is not here";
-  const Json report = render(GetParam(), *grid);
+  const auto made = file_option(GetParam());
+  if (!made) GTEST_SKIP() << "the grid of this scene is not here";
+  const Json report = render(GetParam(), *made);
   expect_closed_ledger(report);
 
   // What was emitted is what the lights have; which light a photon comes from is chance, so channels vary by at most
   // 5/sqrt(2e5) = 1.1 %.
-  const std::vector<std::string> overrides(grid->begin() + (grid->empty() ? 0 : 1), grid->end());
+  const std::vector<std::string> overrides(made->begin() + (made->empty() ? 0 : 1), made->end());
   const Scene scene = load_scene(scene_folder() + GetParam() + ".toml", overrides).scene;
   Rgbd power(0.0);
   for (const Light& light : scene.lights) power += Rgbd(light_power(light, scene.bounds));
@@ -126,7 +129,7 @@ void PrintTo(const Strategy& strategy, std::ostream* out) { *out << strategy.nam
 class VpmEveryStrategy : public VpmScenes, public ::testing::WithParamInterface<Strategy> {};
 
 TEST_P(VpmEveryStrategy, ClosesTheLedgerOfTheSmoke) {
-  std::vector<std::string> options = *grid_option("smoke");
+  std::vector<std::string> options = *file_option("smoke");
   options.insert(options.end(), {"--set", "distance.strategy=" + GetParam().name});
   for (const std::string& option : GetParam().options) options.insert(options.end(), {"--set", option});
   const Json report = render("smoke", options);
@@ -150,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(VpmScenes, TheHomogeneousStrategyRefusesGrids) {
   std::vector<std::string> arguments{"render", scene_folder() + "smoke.toml", "--set", "distance.strategy=homogeneous"};
-  const auto grid = *grid_option("smoke");
+  const auto grid = *file_option("smoke");
   arguments.insert(arguments.end(), grid.begin(), grid.end());
   vpm_refuses(arguments, {"homogeneous", "grid"});
 }

@@ -57,6 +57,14 @@ struct MediaOptions {
 /// Writes one of our own generated grids.
 int media_command(const MediaOptions& options);
 
+struct MeshOptions {
+  std::string name;      // of a generator; empty: list them
+  int resolution = 256;  // edges along its side or around its axis
+  std::string output;    // .ply; empty: NAME.ply in the current folder
+};
+/// Writes one of our own generated meshes.
+int mesh_command(const MeshOptions& options);
+
 struct ValidateOptions {
   std::optional<int> level;  // 0 to 4; none: all
   std::string oracles;       // folder of reference numbers to check against instead; empty: none

@@ -111,6 +111,14 @@ void add_media(CLI::App& app, MediaOptions& options) {
   command->add_option("-o,--output", options.output, "File to write (.vdb); default: NAME.vdb in the current folder");
 }
 
+void add_mesh(CLI::App& app, MeshOptions& options) {
+  CLI::App* command = app.add_subcommand("mesh", "Make one of vpm's own triangle meshes; without a name: list them");
+  command->add_option("name", options.name, "Which one");
+  command->add_option("--resolution", options.resolution, "Edges along its side or around its axis")
+      ->capture_default_str();
+  command->add_option("-o,--output", options.output, "File to write (.ply); default: NAME.ply in the current folder");
+}
+
 void add_validate(CLI::App& app, ValidateOptions& options) {
   CLI::App* command = app.add_subcommand("validate", "Check vpm's numbers against identities and transport theory");
   CLI::Option* level = command
@@ -149,12 +157,14 @@ int run(int argc, char** argv) {
   BakeOptions bake;
   InfoOptions info;
   MediaOptions media;
+  MeshOptions mesh;
   ValidateOptions validate;
   ExactOptions exact;
   add_render(app, render);
   add_bake(app, bake);
   add_info(app, info);
   add_media(app, media);
+  add_mesh(app, mesh);
   add_validate(app, validate);
   add_exact(app, exact);
   try {
@@ -165,6 +175,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("render")) return render_command(render);
   if (app.got_subcommand("bake")) return bake_command(bake);
   if (app.got_subcommand("info")) return info_command(info);
+  if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("validate")) return validate_command(validate);
   if (app.got_subcommand("exact")) return exact_command(exact);
   return media_command(media);
