@@ -219,7 +219,8 @@ std::vector<Experiment> agreement_experiments() {
       {"a floor under a ball of glass", [] { return lit_corner(1.5f); }, BiasOrder::smooth, 0.03f},
       {"a floor under a ball of IOR 1", [] { return lit_corner(1.0f); }, BiasOrder::smooth, 0.08f},
       {"rough glass beside rough metal", rough_corner, BiasOrder::smooth, 0.2f},
-      {"a floor in fog", foggy_floor, BiasOrder::edges, 0.06f}};
+      {"a floor in fog", foggy_floor, BiasOrder::edges, 0.06f},
+      {"a hollow cube", hollow_cube, BiasOrder::edges, 0.1f}};
   const std::vector<Subject> by_strategy{
       {"strategies in a puff", [] { return puff(Viewpoint::outside, 1.0f); }, BiasOrder::smooth, 0.3f},
       {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.2f}};

@@ -118,6 +118,14 @@ Scene rough_corner() {
   return finished(std::move(scene));
 }
 
+Scene hollow_cube() {
+  Scene scene;
+  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Lambertian{Rgb(0.7f, 0.5f, 0.3f)});
+  scene.lights.push_back(PointLight{Vec3(0.0f, 0.1f, 0.2f), Rgb(1.0f)});
+  look(scene, Vec3(0.3f, 0.2f, 0.1f), Vec3(1.0f, 0.1f, 0.0f), 50.0f);
+  return finished(std::move(scene));
+}
+
 Scene foggy_floor() {
   Scene scene;
   Medium fog = make_medium(nullptr, Rgb(0.6f), 0.9f);

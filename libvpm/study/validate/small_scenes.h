@@ -31,4 +31,7 @@ Scene rough_corner();
 /// A floor in a fog, under a lamp; seen is the floor.
 Scene foggy_floor();
 
+/// A wall of a closed cube about a lamp: most of what is seen was reflected before.
+Scene hollow_cube();
+
 }  // namespace vpm
