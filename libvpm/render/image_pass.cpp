@@ -14,19 +14,12 @@ Rgb render_pixel(const Scene& scene, const RenderSettings& settings, int pass, c
                  const glm::ivec2& pixel, EyeCounters& counters) {
   const Camera& camera = scene.camera;
   const int samples = settings.samples_per_pixel;
-  Rgbd sum(0.0);
-  for (int s = 0; s < samples; ++s) {
+  return mean_of_samples(samples, counters, [&](int s) {
     const uint64_t index = (static_cast<uint64_t>(pixel.y) * camera.width + pixel.x) * samples + s;
     Rng rng(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)), index);
     const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(camera.filter, rng.uniform2());
-    const Rgb value = radiance(camera.ray(film), rng, counters);
-    ++counters.rays;
-    if (is_finite(value))
-      sum += Rgbd(value);
-    else
-      ++counters.non_finite;
-  }
-  return Rgb(sum / static_cast<double>(samples));
+    return radiance(camera.ray(film), rng, counters);
+  });
 }
 
 }  // namespace

@@ -30,8 +30,24 @@ uint64_t tile_count(const Camera& camera);
 /// Estimates the radiance along a camera ray, W/(m^2 sr). Called from many threads.
 using RayRadiance = std::function<Rgb(const Ray& ray, Rng& rng, EyeCounters& counters)>;
 
-/// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel. Samples that are not finite
-/// are counted and left out as black. Once `stop` is set it returns as soon as it can, with an image of no use.
+/// The mean of sample(0), sample(1), ... sample(samples - 1). Those that are not finite are counted and left out as
+/// black.
+template <class Sample>
+Rgb mean_of_samples(int samples, EyeCounters& counters, Sample&& sample) {
+  Rgbd sum(0.0);
+  for (int s = 0; s < samples; ++s) {
+    const Rgb value = sample(s);
+    ++counters.rays;
+    if (is_finite(value))
+      sum += Rgbd(value);
+    else
+      ++counters.non_finite;
+  }
+  return Rgb(sum / static_cast<double>(samples));
+}
+
+/// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel, by mean_of_samples(). Once
+/// `stop` is set it returns as soon as it can, with an image of no use.
 Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
                   const std::atomic<bool>& stop, const PassProgress& progress = {});
 

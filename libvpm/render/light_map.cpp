@@ -34,19 +34,12 @@ Rgb bake_texel(const EyeContext& context, const UvLayout& layout, int pass, size
   if (!layout.covers(texel)) return Rgb(0.0f);
   find_pieces(layout, texel, pieces);
   const int samples = context.settings.samples_per_pixel;
-  Rgbd sum(0.0);
-  for (int s = 0; s < samples; ++s) {
+  return mean_of_samples(samples, counters, [&](int s) {
     Rng rng(context.settings.seed, rng_stream(RngUse::texel, static_cast<uint64_t>(pass)),
             static_cast<uint64_t>(texel) * samples + s);
     const Hit point = sample_pieces(context.scene.geometry, layout, pieces, rng);
-    const Rgb value = irradiance(context, point, rng, counters);
-    ++counters.rays;
-    if (is_finite(value))
-      sum += Rgbd(value);
-    else
-      ++counters.non_finite;
-  }
-  return Rgb(sum / static_cast<double>(samples));
+    return irradiance(context, point, rng, counters);
+  });
 }
 
 }  // namespace
