@@ -8,7 +8,17 @@
 namespace vpm {
 
 /// What a stream of random numbers is used for; keeps streams of one pass apart.
-enum class RngUse : uint64_t { photon = 1, pixel = 2, probe = 3, test = 4, texel = 5 };
+enum class RngUse : uint64_t {
+  photon = 1,
+  pixel = 2,
+  probe = 3,
+  test = 4,
+  texel = 5,
+  importon = 6,
+  scout = 7,
+  caustic = 8,
+  caustic_scout = 9
+};
 
 /// A permuted congruential generator with 128 bits of state [ONeill2014, sec. 6.3, XSL RR]. Equal (seed, stream,
 /// index) give equal sequences; different ones start at hashed, unrelated states.

@@ -1,5 +1,5 @@
-// The sections about how to render: [camera], [film], [render], [photons], [distance], [transmittance], [volume],
-// [surface].
+// The sections about how to render: [camera], [film], [render], [photons], [importance], [distance],
+// [transmittance], [volume], [surface], [caustics].
 #include "input/sections.h"
 
 namespace vpm {
@@ -121,6 +121,11 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   RenderSettings s;
   read_section(root, "render", [&](TableReader& table) { read_render(table, s); });
   read_section(root, "photons", [&](TableReader& table) { read_photons(table, s); });
+  read_section(root, "importance", [&](TableReader& table) {
+    s.guide.importons = table.integer("importons", 0, 1'000'000'000, s.guide.importons);
+    s.guide.aim = table.flag("aim", s.guide.aim);
+    s.guide.split = table.flag("split", s.guide.split);
+  });
   read_section(root, "distance", [&](TableReader& table) { read_distance(table, s.distance, has_grid); });
   read_section(root, "transmittance", [&](TableReader& table) {
     s.transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), s.transmittance.estimator);
@@ -143,7 +148,10 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
         s.surface_indirect);
     s.gather_rays = small_integer(table, "gather_rays", 1'000'000, s.gather_rays);
   });
-  read_section(root, "caustics", [&](TableReader& table) { read_gather(table, s.caustics); });
+  read_section(root, "caustics", [&](TableReader& table) {
+    read_gather(table, s.caustics);
+    s.caustics_emitted = table.integer("emitted", 0, kMaxInteger, s.caustics_emitted);
+  });
   return s;
 }
 

@@ -99,8 +99,8 @@ float ImageEnvironment::pdf(const Vec3& d) const {
   return static_cast<float>(luminance(texels_[texel_at(d)]) / cumulative_.back());
 }
 
-ImageEnvironment::Sample ImageEnvironment::sample(Rng& rng) const {
-  const double target = rng.uniform_double() * cumulative_.back();
+ImageEnvironment::Sample ImageEnvironment::sample(double choice, const Vec2& u) const {
+  const double target = choice * cumulative_.back();
   const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end(), target);
   assert(above != cumulative_.end());
   const auto texel = static_cast<size_t>(above - cumulative_.begin() - 1);
@@ -108,9 +108,9 @@ ImageEnvironment::Sample ImageEnvironment::sample(Rng& rng) const {
   const auto column = static_cast<double>(texel % width), row = static_cast<double>(row_index);
   // Uniform in solid angle: uniform in azimuth and in the cosine between the row's edges.
   const double step = kPiD / height_;
-  const double azimuth = 2.0 * kPiD * (column + rng.uniform_double()) / width_;
+  const double azimuth = 2.0 * kPiD * (column + u.x) / width_;
   const double top = std::cos(row * step), bottom = std::cos((row + 1.0) * step);
-  const double y = top + (bottom - top) * rng.uniform_double();
+  const double y = top + (bottom - top) * u.y;
   const double across = std::sqrt(std::max(0.0, (1.0 - y) * (1.0 + y)));
   const Vec3 direction(Vec3d(across * std::sin(azimuth), y, across * std::cos(azimuth)));
   return {direction, static_cast<float>(luminance(texels_[texel]) / cumulative_.back()), texels_[texel]};
@@ -121,14 +121,14 @@ Rgb power_of(const ConstantEnvironment& light, const Box& scene) {
   return kPi * 2.0f * static_cast<float>(faces.x + faces.y + faces.z) * light.radiance;
 }
 
-Emission emit_from(const ConstantEnvironment& light, const Box& scene, Rng& rng) {
+Emission emit_from(const ConstantEnvironment& light, const Box& scene, const EmissionNumbers& u) {
   // Even light enters every part of the box's surface alike, by the cosine law.
-  const int axis = pick_axis(face_areas(scene), rng);
-  const bool upper = rng.uniform() < 0.5f;
+  const bool upper = u.face >= 0.5;
+  const int axis = pick_axis(face_areas(scene), 2.0 * u.face - (upper ? 1.0 : 0.0));
   Vec3 inward(0.0f);
   inward[axis] = upper ? -1.0f : 1.0f;
-  const Vec3 from = point_on_face(scene, axis, upper, rng.uniform2());
-  return {Ray{from, cosine_hemisphere(inward, rng.uniform2())}, power_of(light, scene)};
+  const Vec3 from = point_on_face(scene, axis, upper, u.place);
+  return {Ray{from, cosine_hemisphere(inward, u.direction)}, power_of(light, scene)};
 }
 
 std::optional<Incident> incident_from(const ConstantEnvironment& light, const Vec3&, Rng& rng) {
@@ -141,14 +141,15 @@ Rgb power_of(const EnvironmentMap& light, const Box& scene) {
   return Rgb(faces.x * flux[0] + faces.y * flux[1] + faces.z * flux[2]);
 }
 
-Emission emit_from(const EnvironmentMap& light, const Box& scene, Rng& rng) {
-  const ImageEnvironment::Sample s = light.image->sample(rng);
+Emission emit_from(const EnvironmentMap& light, const Box& scene, const EmissionNumbers& u) {
+  const ImageEnvironment::Sample s = light.image->sample(u.choice, u.direction);
   const auto area = static_cast<float>(area_across(scene, s.direction));
-  return {ray_into(scene, -s.direction, rng), area / s.pdf * s.radiance};
+  return {ray_into(scene, -s.direction, u), area / s.pdf * s.radiance};
 }
 
 std::optional<Incident> incident_from(const EnvironmentMap& light, const Vec3&, Rng& rng) {
-  const ImageEnvironment::Sample s = light.image->sample(rng);
+  const double choice = rng.uniform_double();
+  const ImageEnvironment::Sample s = light.image->sample(choice, rng.uniform2());
   return Incident{s.direction, kInfinity, s.radiance / s.pdf, s.pdf};
 }
 

@@ -12,9 +12,9 @@ double area_across(const Box& box, const Vec3& direction) {
   return glm::dot(glm::abs(Vec3d(direction)), face_areas(box));
 }
 
-int pick_axis(const Vec3d& weights, Rng& rng) {
-  const double choice = rng.uniform_double() * (weights.x + weights.y + weights.z);
-  return choice < weights.x ? 0 : choice < weights.x + weights.y ? 1 : 2;
+int pick_axis(const Vec3d& weights, double choice) {
+  const double target = choice * (weights.x + weights.y + weights.z);
+  return target < weights.x ? 0 : target < weights.x + weights.y ? 1 : 2;
 }
 
 Vec3 point_on_face(const Box& box, int axis, bool upper, const Vec2& u) {
@@ -27,10 +27,10 @@ Vec3 point_on_face(const Box& box, int axis, bool upper, const Vec2& u) {
   return p;
 }
 
-Ray ray_into(const Box& box, const Vec3& direction, Rng& rng) {
+Ray ray_into(const Box& box, const Vec3& direction, const EmissionNumbers& u) {
   // The three faces that look against the direction hide nothing of each other.
-  const int axis = pick_axis(glm::abs(Vec3d(direction)) * face_areas(box), rng);
-  return {point_on_face(box, axis, direction[axis] < 0.0f, rng.uniform2()), direction};
+  const int axis = pick_axis(glm::abs(Vec3d(direction)) * face_areas(box), u.face);
+  return {point_on_face(box, axis, direction[axis] < 0.0f, u.place), direction};
 }
 
 }  // namespace vpm

@@ -18,16 +18,16 @@ Rgb power_of(const ConstantEnvironment& light, const Box& scene);
 Rgb power_of(const EnvironmentMap& light, const Box& scene);
 
 // emit()
-Emission emit_from(const PointLight& light, const Box& scene, Rng& rng);
-Emission emit_from(const SpotLight& light, const Box& scene, Rng& rng);
-Emission emit_from(const BeamLight& light, const Box& scene, Rng& rng);
-Emission emit_from(const QuadLight& light, const Box& scene, Rng& rng);
-Emission emit_from(const DiscLight& light, const Box& scene, Rng& rng);
-Emission emit_from(const SphereLight& light, const Box& scene, Rng& rng);
-Emission emit_from(const MeshLight& light, const Box& scene, Rng& rng);
-Emission emit_from(const DirectionalLight& light, const Box& scene, Rng& rng);
-Emission emit_from(const ConstantEnvironment& light, const Box& scene, Rng& rng);
-Emission emit_from(const EnvironmentMap& light, const Box& scene, Rng& rng);
+Emission emit_from(const PointLight& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const SpotLight& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const BeamLight& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const QuadLight& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const DiscLight& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const SphereLight& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const MeshLight& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const DirectionalLight& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const ConstantEnvironment& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const EnvironmentMap& light, const Box& scene, const EmissionNumbers& u);
 
 // sample_towards()
 std::optional<Incident> incident_from(const PointLight& light, const Vec3& point, Rng& rng);
@@ -60,10 +60,12 @@ float pdf_by_area(float area, const SeenLight& seen);
 Vec3d face_areas(const Box& box);
 /// The area that the box shows to light along `direction`, m^2: sum |direction_i| face_areas_i.
 double area_across(const Box& box, const Vec3& direction);
-/// 0, 1 or 2 with probability in proportion to the weights, which are at least 0 and not all 0.
-int pick_axis(const Vec3d& weights, Rng& rng);
-/// Where parallel light along `direction` enters the box, uniform over the area across the direction.
-Ray ray_into(const Box& box, const Vec3& direction, Rng& rng);
+/// 0, 1 or 2 with probability in proportion to the weights, which are at least 0 and not all 0; `choice` is uniform in
+/// [0, 1).
+int pick_axis(const Vec3d& weights, double choice);
+/// Where parallel light along `direction` enters the box, uniform over the area across the direction; by the numbers
+/// `face` and `place`.
+Ray ray_into(const Box& box, const Vec3& direction, const EmissionNumbers& u);
 /// A point uniform over the face of the box across `axis`, the upper one or the lower one.
 Vec3 point_on_face(const Box& box, int axis, bool upper, const Vec2& u);
 /// A point uniform over the disc of `radius` across the unit vector `axis`.

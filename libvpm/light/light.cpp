@@ -18,8 +18,12 @@ Rgb light_power(const Light& light, const Box& scene) {
   return std::visit([&](const auto& l) { return power_of(l, scene); }, light);
 }
 
-Emission emit(const Light& light, const Box& scene, Rng& rng) {
-  return std::visit([&](const auto& l) { return emit_from(l, scene, rng); }, light);
+EmissionNumbers draw_emission_numbers(Rng& rng) {
+  return {rng.uniform_double(), rng.uniform_double(), rng.uniform2(), rng.uniform2()};
+}
+
+Emission emit(const Light& light, const Box& scene, const EmissionNumbers& u) {
+  return std::visit([&](const auto& l) { return emit_from(l, scene, u); }, light);
 }
 
 std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rng& rng) {

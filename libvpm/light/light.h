@@ -62,7 +62,8 @@ class EmittingMesh {
     Vec3 normal{0.0f};    // unit, outward
     float slack = 0.0f;   // m, as in Hit
   };
-  Sample sample(Rng& rng) const;
+  /// The point that two uniform numbers yield, on the triangle that a third one picks.
+  Sample sample(double choice, const Vec2& u) const;
   /// The box around all vertices of triangles.
   Box bounds() const;
 
@@ -93,13 +94,14 @@ class ImageEnvironment {
   ImageEnvironment(int width, int height, std::vector<Rgb> texels);
   /// Radiance that arrives from direction `d` (unit, pointing away from the scene).
   Rgb radiance(const Vec3& d) const;
-  /// A direction away from the scene, distributed as pdf().
+  /// A direction away from the scene, distributed as pdf(): in the texel that a uniform number picks, where two more
+  /// tell.
   struct Sample {
     Vec3 direction{0.0f};  // unit
     float pdf = 0.0f;      // of the sampled texel, 1/sr
     Rgb radiance{0.0f};    // of the sampled texel, where rounding may put the direction into its neighbour
   };
-  Sample sample(Rng& rng) const;
+  Sample sample(double choice, const Vec2& u) const;
   /// The density of sample() at `d`, 1/sr: luminance over its integral.
   float pdf(const Vec3& d) const;
   /// Integral of radiance over the sphere, W/m^2.
@@ -137,6 +139,15 @@ bool is_grey(const Light& light);
 /// Is the light at infinity, so that it needs vacuum around the scene?
 bool is_infinite(const Light& light);
 
+/// The uniform numbers in [0, 1) that one emission is made of. No light uses all of them.
+struct EmissionNumbers {
+  double choice = 0.0;  // of a triangle, a texel, or a part of a cone
+  double face = 0.0;    // of the scene's box, where light from infinity enters
+  Vec2 place{0.0f};     // on the light, or on that face
+  Vec2 direction{0.0f};
+};
+EmissionNumbers draw_emission_numbers(Rng& rng);
+
 /// One emitted photon: where it starts, and the power it stands for if this light emitted this photon alone. Its
 /// expectation over photons is light_power(); for all lights but EnvironmentMap every photon carries exactly that. Area
 /// lights are shapes of the scene: their photons start just off the surface, so as not to meet it. Those of lights at
@@ -145,7 +156,10 @@ struct Emission {
   Ray ray;
   Rgb power{0.0f};  // W
 };
-Emission emit(const Light& light, const Box& scene, Rng& rng);
+Emission emit(const Light& light, const Box& scene, const EmissionNumbers& u);
+inline Emission emit(const Light& light, const Box& scene, Rng& rng) {
+  return emit(light, scene, draw_emission_numbers(rng));
+}
 
 /// Light that arrives at a point without obstacles.
 struct Incident {

@@ -30,14 +30,13 @@ EmittingMesh::EmittingMesh(TriangleMesh mesh) : mesh_(std::move(mesh)) {
   if (!(area() > 0.0)) throw InputError("mesh light: no triangle has an area, at least one must");
 }
 
-EmittingMesh::Sample EmittingMesh::sample(Rng& rng) const {
-  const double target = rng.uniform_double() * area();
+EmittingMesh::Sample EmittingMesh::sample(double choice, const Vec2& u) const {
+  const double target = choice * area();
   const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end(), target);
   assert(above != cumulative_.end());
   const glm::uvec3& v = mesh_.triangles[static_cast<size_t>(above - cumulative_.begin() - 1)];
   const Vec3 &a = mesh_.positions[v.x], &b = mesh_.positions[v.y], &c = mesh_.positions[v.z];
   // Uniform over the triangle: the distance from the corner a as the square root, then across.
-  const Vec2 u = rng.uniform2();
   const double away = std::sqrt(double{u.x}), to_c = away * u.y;
   const Vec3 p((1.0 - away) * Vec3d(a) + (away - to_c) * Vec3d(b) + to_c * Vec3d(c));
   const Vec3d across = area_vector(a, b, c);
@@ -56,14 +55,15 @@ Box EmittingMesh::bounds() const {
 
 Rgb power_of(const MeshLight& light, const Box&) { return kPi * area_of(light) * light.radiance; }
 
-Emission emit_from(const MeshLight& light, const Box& scene, Rng& rng) {
-  const EmittingMesh::Sample from = light.mesh->sample(rng);
-  const Vec3 direction = cosine_hemisphere(from.normal, rng.uniform2());
+Emission emit_from(const MeshLight& light, const Box& scene, const EmissionNumbers& u) {
+  const EmittingMesh::Sample from = light.mesh->sample(u.choice, u.place);
+  const Vec3 direction = cosine_hemisphere(from.normal, u.direction);
   return {Ray{leave_surface_at(from.position, from.normal, direction, from.slack), direction}, power_of(light, scene)};
 }
 
 std::optional<Incident> incident_from(const MeshLight& light, const Vec3& point, Rng& rng) {
-  const EmittingMesh::Sample from = light.mesh->sample(rng);
+  const double choice = rng.uniform_double();
+  const EmittingMesh::Sample from = light.mesh->sample(choice, rng.uniform2());
   return incident_by_area(light.radiance, from.position, from.normal, area_of(light), point);
 }
 

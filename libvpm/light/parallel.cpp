@@ -13,9 +13,8 @@ Vec3 point_on_disc(const Vec3& centre, const Vec3& axis, float radius, const Vec
 
 Rgb power_of(const BeamLight& light, const Box&) { return light.power; }
 
-Emission emit_from(const BeamLight& light, const Box&, Rng& rng) {
-  return {Ray{point_on_disc(light.position, light.direction, light.radius, rng.uniform2()), light.direction},
-          light.power};
+Emission emit_from(const BeamLight& light, const Box&, const EmissionNumbers& u) {
+  return {Ray{point_on_disc(light.position, light.direction, light.radius, u.place), light.direction}, light.power};
 }
 
 std::optional<Incident> incident_from(const BeamLight& light, const Vec3& point, Rng&) {
@@ -29,8 +28,8 @@ Rgb power_of(const DirectionalLight& light, const Box& scene) {
   return static_cast<float>(area_across(scene, light.direction)) * light.irradiance;
 }
 
-Emission emit_from(const DirectionalLight& light, const Box& scene, Rng& rng) {
-  return {ray_into(scene, light.direction, rng), power_of(light, scene)};
+Emission emit_from(const DirectionalLight& light, const Box& scene, const EmissionNumbers& u) {
+  return {ray_into(scene, light.direction, u), power_of(light, scene)};
 }
 
 std::optional<Incident> incident_from(const DirectionalLight& light, const Vec3&, Rng&) {

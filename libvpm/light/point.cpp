@@ -29,13 +29,12 @@ SpotParts spot_parts(const SpotLight& light) {
 }
 
 /// A uniformly random azimuth and the given 1 - cosine about the spot's axis.
-Vec3 spot_direction(const SpotLight& light, Rng& rng) {
+Vec3 spot_direction(const SpotLight& light, const EmissionNumbers& u) {
   const SpotParts parts = spot_parts(light);
-  const float choice = rng.uniform() * (parts.inner + parts.rim);
-  const Vec2 u = rng.uniform2();
-  const float away =
-      choice < parts.inner ? u.x * parts.inner : parts.inner + 2.0f * parts.rim * (1.0f - sample_smoothstep(u));
-  return direction_about(light.direction, away, 2.0f * kPi * rng.uniform());
+  const bool within = u.choice * (parts.inner + parts.rim) < parts.inner;
+  const float away = within ? u.direction.x * parts.inner
+                            : parts.inner + 2.0f * parts.rim * (1.0f - sample_smoothstep({u.direction.x, u.place.x}));
+  return direction_about(light.direction, away, 2.0f * kPi * u.direction.y);
 }
 
 /// The direction, distance and geometry of a point light; irradiance for the given intensity.
@@ -51,8 +50,8 @@ std::optional<Incident> from_position(const Vec3& position, const Vec3& point, c
 
 Rgb power_of(const PointLight& light, const Box&) { return 4.0f * kPi * light.intensity; }
 
-Emission emit_from(const PointLight& light, const Box& scene, Rng& rng) {
-  return {Ray{light.position, uniform_sphere(rng.uniform2())}, power_of(light, scene)};
+Emission emit_from(const PointLight& light, const Box& scene, const EmissionNumbers& u) {
+  return {Ray{light.position, uniform_sphere(u.direction)}, power_of(light, scene)};
 }
 
 std::optional<Incident> incident_from(const PointLight& light, const Vec3& point, Rng&) {
@@ -64,8 +63,8 @@ Rgb power_of(const SpotLight& light, const Box&) {
   return 2.0f * kPi * (parts.inner + parts.rim) * light.intensity;
 }
 
-Emission emit_from(const SpotLight& light, const Box& scene, Rng& rng) {
-  return {Ray{light.position, spot_direction(light, rng)}, power_of(light, scene)};
+Emission emit_from(const SpotLight& light, const Box& scene, const EmissionNumbers& u) {
+  return {Ray{light.position, spot_direction(light, u)}, power_of(light, scene)};
 }
 
 std::optional<Incident> incident_from(const SpotLight& light, const Vec3& point, Rng&) {

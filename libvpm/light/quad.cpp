@@ -25,11 +25,11 @@ Vec3 reach_from(const QuadLight& light, const Vec3& p) {
 
 Rgb power_of(const QuadLight& light, const Box&) { return kPi * area_of(light) * light.radiance; }
 
-Emission emit_from(const QuadLight& light, const Box& scene, Rng& rng) {
+Emission emit_from(const QuadLight& light, const Box& scene, const EmissionNumbers& u) {
   const Vec3d across = area_vector(light);
   const Vec3 normal(glm::normalize(across));
-  const Vec3 p = uniform_point(light, rng.uniform2());
-  const Vec3 direction = cosine_hemisphere(normal, rng.uniform2());
+  const Vec3 p = uniform_point(light, u.place);
+  const Vec3 direction = cosine_hemisphere(normal, u.direction);
   const float slack = flat_slack(normal, reach_from(light, p), glm::length(across));
   return {Ray{leave_surface_at(p, normal, direction, slack), direction}, power_of(light, scene)};
 }

@@ -18,9 +18,9 @@ Rgb power_of(const SphereLight& light, const Box&) {
   return 4.0f * kPi * kPi * light.radius * light.radius * light.radiance;
 }
 
-Emission emit_from(const SphereLight& light, const Box& scene, Rng& rng) {
-  const Vec3 normal = uniform_sphere(rng.uniform2());
-  const Vec3 direction = cosine_hemisphere(normal, rng.uniform2());
+Emission emit_from(const SphereLight& light, const Box& scene, const EmissionNumbers& u) {
+  const Vec3 normal = uniform_sphere(u.place);
+  const Vec3 direction = cosine_hemisphere(normal, u.direction);
   const SphereShape shape{light.centre, light.radius};
   const Vec3 origin = leave_surface_at(point_on(shape, normal), normal, direction, sphere_slack(shape));
   return {Ray{origin, direction}, power_of(light, scene)};

@@ -22,12 +22,12 @@ void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, Medium
 }
 
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
-                 WalkCounters& counters) {
+                 WalkCounters& counters, float limit) {
   for (;;) {
-    const Encounter met = meet(scene, state.ray, kInfinity, state.medium, counters);
+    const Encounter met = meet(scene, state.ray, limit, state.medium, counters);
     if (state.medium != kVacuum) {
       const Medium& medium = scene.media[state.medium];
-      const Interval free{0.0f, met ? met.hits[0].t : kInfinity};
+      const Interval free{0.0f, met ? met.hits[0].t : limit};
       const Flight flight = strategy.sample(medium, state.ray, free, state.power, rng);
       counters.lookups += flight.lookups;
       state.power *= flight.weight;
@@ -36,11 +36,16 @@ Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState
         return {EventKind::collision, {}, flight.density};
       }
     }
-    if (!met) return {EventKind::escape, {}, 0.0f};
+    if (!met) {
+      if (limit == kInfinity) return {EventKind::escape, {}, 0.0f};
+      state.ray.origin = state.ray.at(limit);
+      return {EventKind::limit, {}, 0.0f};
+    }
     if (!is_boundary(scene.material_of(met.hits[0]))) {
       state.ray.origin = met.hits[0].position;
       return {EventKind::surface, met.hits[0], 0.0f};
     }
+    limit -= met.hits[0].t;
     cross_boundaries(scene, met, state.ray, state.medium, counters);
   }
 }

@@ -15,7 +15,7 @@ struct PathState {
   Rgb power{1.0f};  // W for photons, dimensionless throughput for eye paths
 };
 
-enum class EventKind { collision, surface, escape };
+enum class EventKind { collision, surface, limit, escape };
 
 /// What ends a flight. The path's state stands at the event: its ray starts there (at a surface: exactly on it).
 struct Event {
@@ -46,9 +46,9 @@ Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium
 void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, MediumId& medium, WalkCounters& counters);
 
 /// Flies to the next collision in a medium, scattering surface, or out of the scene, through any number of boundaries
-/// on the way. Multiplies the power by the flights' weights.
+/// on the way; at most `limit` metres, > 0. Multiplies the power by the flights' weights.
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
-                 WalkCounters& counters);
+                 WalkCounters& counters, float limit = kInfinity);
 
 /// Ends paths whose weight (power over what they started with) weighted strategies have made small, before they cost
 /// as much as heavy ones: below 0.1 a path survives with probability weight / 0.1, and its power is divided by that.

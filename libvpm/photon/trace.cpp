@@ -6,8 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "path/direct_light.h"
-#include "path/walk.h"
+#include "photon/emission.h"
 
 namespace vpm {
 namespace {
@@ -15,9 +14,11 @@ namespace {
 constexpr size_t kChunk = 4096;          // photons traced one after another
 constexpr size_t kFirstWave = 4;         // chunks traced before the first look at how many are stored
 constexpr size_t kLargestWave = 64;      // chunks whose records wait to be joined
+constexpr double kWorthSplitting = 2.0;  // photons: what a path is worth at least that is followed by several
+constexpr int kMostBranches = 64;        // that one event makes of a path
 constexpr uint64_t kHopeless = 1 << 22;  // photons emitted without storing one
 
-/// One photon on its way, and where it leaves its traces.
+/// One photon on its way, with the branches it is followed by, and where it leaves its traces.
 class PhotonPath {
  public:
   PhotonPath(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, TracedPhotons& out)
@@ -27,36 +28,71 @@ class PhotonPath {
   void trace(uint64_t index) {
     Rng rng(settings_.seed, rng_stream(RngUse::photon, settings_.pass), index);
     emit(rng);
-    for (int events = 0; alive_; ++events) {
-      if (events == settings_.max_events) {
-        cut();
-        break;
-      }
-      const Event event = next_event(scene_, strategy_, state_, rng, out_.ledger.walk);
-      if (!is_finite(state_.power)) {
-        ++out_.ledger.non_finite;
-        break;
-      }
-      if (event.kind == EventKind::escape) escape();
-      if (event.kind == EventKind::collision) collide(event, rng);
-      if (event.kind == EventKind::surface) meet_surface(event.hit, rng);
+    if (alive_) fly(rng);
+    for (; !waiting_.empty(); fly(rng)) {
+      at_ = waiting_.back();
+      waiting_.pop_back();
+      go_on(rng);
     }
     out_.ledger.imbalance.add(balance_);
   }
 
  private:
+  /// A path at an event that it has yet to go on from.
+  struct Branch {
+    PathState state;
+    Event event;
+    int events = 0;
+    bool direct = true;
+    bool specular = true;     // nothing but mirrors and glass has scattered it
+    bool from_rough = false;  // the last scattering, but for mirrors and glass, was at a rough surface
+  };
+
   void emit(Rng& rng) {
-    const int light = pick_light(scene_, rng.uniform());
-    Emission emission = vpm::emit(scene_.lights[light], scene_.bounds, rng);
-    emission.power /= scene_.light_probability[light];
-    state_ = {emission.ray, medium_of_ray(scene_, scene_.light_medium[light], emission.ray), emission.power};
-    emitted_power_ = sum_channels(emission.power);
+    EmissionGuide::Sample drawn{{}, 1.0f};
+    if (settings_.guide)
+      drawn = settings_.guide->emission.sample(rng);
+    else
+      drawn.point = draw_emission_point(rng);
+    at_ = {.state = emit_photon(scene_, drawn.point), .event = {}};
+    at_.state.power /= drawn.density;
+    emitted_power_ = sum_channels(at_.state.power);
     balance_ = -static_cast<double>(emitted_power_);
-    direct_ = true;
-    from_rough_ = false;
     alive_ = emitted_power_ > 0.0f;
     ++out_.ledger.emitted_count;
-    out_.ledger.emitted += Rgbd(emission.power);
+    out_.ledger.emitted += Rgbd(at_.state.power);
+  }
+
+  /// Flies from event to event, to the path's end.
+  void fly(Rng& rng) {
+    while (alive_) {
+      if (at_.events == settings_.max_events) return cut();
+      ++at_.events;
+      at_.event = next_event(scene_, strategy_, at_.state, rng, out_.ledger.walk, limit());
+      if (!is_finite(at_.state.power)) {
+        ++out_.ledger.non_finite;
+        return;
+      }
+      arrive(rng);
+      if (!alive_) return;
+      split(rng);
+      go_on(rng);
+    }
+  }
+
+  /// Leaves traces at an event.
+  void arrive(Rng& rng) {
+    if (at_.event.kind == EventKind::escape) escape();
+    if (at_.event.kind == EventKind::collision) collide(rng);
+    if (at_.event.kind == EventKind::surface) meet_surface();
+  }
+
+  /// What happens at the event.
+  void go_on(Rng& rng) {
+    alive_ = true;
+    if (at_.event.kind == EventKind::collision)
+      alive_ = scatter_in_medium(scene_.media[at_.state.medium], at_.state, rng);
+    if (at_.event.kind == EventKind::surface) scatter(rng);
   }
 
   void deposit(Rgbd& account, const Rgbd& power) {
@@ -64,31 +100,32 @@ class PhotonPath {
     balance_ += power.r + power.g + power.b;
   }
   void escape() {
-    deposit(out_.ledger.escaped, Rgbd(state_.power));
+    deposit(out_.ledger.escaped, Rgbd(at_.state.power));
     alive_ = false;
   }
   void cut() {
-    deposit(out_.ledger.cut, Rgbd(state_.power));
+    deposit(out_.ledger.cut, Rgbd(at_.state.power));
     ++out_.ledger.cut_count;
   }
 
-  void collide(const Event& event, Rng& rng) {
-    const double weight = sum_channels(state_.power) / emitted_power_;
+  void collide(Rng& rng) {
+    const double weight = sum_channels(at_.state.power) / emitted_power_;
     ++out_.ledger.collisions;
     out_.ledger.weight_sum += weight;
     out_.ledger.weight_squares += weight * weight;
     out_.ledger.largest_weight = std::max(out_.ledger.largest_weight, weight);
-    alive_ = weight > 0.0 && survive_roulette(weight, state_, rng);
+    alive_ = weight > 0.0 && survive_roulette(worth(), at_.state, rng);
     if (!alive_) return;
-    const Medium& medium = scene_.media[state_.medium];
-    if (settings_.keep_volume && medium.scatters() && (settings_.keep_direct_volume || !direct_)) {
-      const Rgb power = state_.power /
-                        (settings_.volume_form == VolumeForm::density_at_query ? divisor(medium, event.density) : 1.0f);
-      out_.volume[state_.medium].push_back({state_.ray.origin, PackedDirection(state_.ray.direction), power});
+    const Medium& medium = scene_.media[at_.state.medium];
+    const Rgb& power = at_.state.power;
+    if (settings_.keep_volume && medium.scatters() && (settings_.keep_direct_volume || !at_.direct)) {
+      const bool at_query = settings_.volume_form == VolumeForm::density_at_query;
+      const float divided = at_query ? divisor(medium, at_.event.density) : 1.0f;
+      out_.volume[at_.state.medium].push_back(
+          {at_.state.ray.origin, PackedDirection(at_.state.ray.direction), power / divided});
     }
-    deposit(out_.ledger.absorbed_in_media, Rgbd(state_.power * (Rgb(1.0f) - medium.albedo())));
-    direct_ = from_rough_ = false;
-    alive_ = scatter_in_medium(medium, state_, rng);
+    deposit(out_.ledger.absorbed_in_media, Rgbd(power * (Rgb(1.0f) - medium.albedo())));
+    at_.direct = at_.specular = at_.from_rough = false;
   }
 
   /// What a photon's power is divided by: its density over the medium's largest, or the floor. Counts the floor's use.
@@ -99,39 +136,69 @@ class PhotonPath {
     return settings_.density_floor;
   }
 
-  void meet_surface(const Hit& hit, Rng& rng) {
+  void meet_surface() {
     ++out_.ledger.surface_hits;
     out_.ledger.largest_weight =
-        std::max<double>(out_.ledger.largest_weight, sum_channels(state_.power) / emitted_power_);
-    alive_ = max_channel(state_.power) > 0.0f;
+        std::max<double>(out_.ledger.largest_weight, sum_channels(at_.state.power) / emitted_power_);
+    alive_ = max_channel(at_.state.power) > 0.0f;
     if (!alive_) return;
-    const bool rough = is_rough(scene_.material_of(hit));
-    if (rough) store(hit);
-    const Rgb before = state_.power;
-    Scatter scatter;
-    direct_ = false;
-    from_rough_ |= rough;
-    alive_ = scatter_at_surface(scene_, hit, state_, rng, scatter);
-    state_.power *= scatter.flux_scale;
-    deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale)));
+    const bool rough = is_rough(scene_.material_of(at_.event.hit));
+    if (rough) store(at_.event.hit);
+    at_.direct = false;
+    at_.from_rough |= rough;
+    at_.specular &= !rough;
   }
 
   void store(const Hit& hit) {
-    const Photon photon{hit.position, PackedDirection(state_.ray.direction), state_.power};
-    if (settings_.keep_surface && (settings_.keep_direct_surface || !direct_)) out_.surface.push_back(photon);
-    if (settings_.keep_caustics && !from_rough_ && (settings_.keep_direct_caustics || !direct_))
-      out_.caustics.push_back(photon);
+    const Photon photon{hit.position, PackedDirection(at_.state.ray.direction), at_.state.power};
+    if (settings_.keep_surface && (settings_.keep_direct_surface || !at_.direct)) out_.surface.push_back(photon);
+    if (settings_.keep_caustics && !at_.from_rough && is_kept_caustic()) out_.caustics.push_back(photon);
+  }
+
+  bool is_kept_caustic() const {
+    if (at_.direct) return settings_.keep_direct_caustics;
+    return !at_.specular || settings_.keep_specular_caustics;
+  }
+
+  void scatter(Rng& rng) {
+    const Rgb before = at_.state.power;
+    Scatter scatter;
+    alive_ = scatter_at_surface(scene_, at_.event.hit, at_.state, rng, scatter);
+    at_.state.power *= scatter.flux_scale;
+    deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale)));
+  }
+
+  /// What the path is worth next to others: its importance, or without any its power.
+  double worth() const {
+    const double power = sum_channels(at_.state.power);
+    return settings_.split ? settings_.guide->worth(power, at_.state.ray.origin) : power / emitted_power_;
+  }
+
+  /// How far the path may fly before it is worth a split.
+  float limit() const {
+    if (!settings_.split) return kInfinity;
+    return settings_.guide->rise(sum_channels(at_.state.power), at_.state.ray, kWorthSplitting);
+  }
+
+  /// Follows a path that is worth several by as many, each of them worth one.
+  void split(Rng& rng) {
+    if (!settings_.split) return;
+    const double paths = worth();
+    if (!(paths > kWorthSplitting)) return;
+    const bool many = paths > kMostBranches;
+    const int count = many ? kMostBranches : static_cast<int>(paths + rng.uniform());
+    at_.state.power /= static_cast<float>(many ? kMostBranches : paths);
+    waiting_.insert(waiting_.end(), static_cast<size_t>(count - 1), at_);
   }
 
   const Scene& scene_;
   const DistanceStrategy& strategy_;
   const TraceSettings& settings_;
   TracedPhotons& out_;
-  PathState state_;
+  Branch at_;
+  std::vector<Branch> waiting_;
   float emitted_power_ = 0.0f;
   double balance_ = 0.0;  // gone minus emitted, W
-  bool direct_ = true;
-  bool from_rough_ = false;  // the last scattering, but for mirrors and glass, was at a rough surface
   bool alive_ = true;
 };
 

@@ -2,8 +2,10 @@
 #include "render/photon_pass.h"
 
 #include <chrono>
+#include <optional>
 
 #include "base/parallel.h"
+#include "photon/caustics.h"
 #include "photon/trace.h"
 #include "render/eye_path.h"
 #include "render/radius_schedule.h"
@@ -36,6 +38,7 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
   trace.keep_direct_surface = !stages.surface_shadow_rays || stages.final_gather;  // rays that gather end in all light
   trace.keep_caustics = stages.final_gather;
   trace.keep_direct_caustics = !stages.surface_shadow_rays;
+  trace.keep_specular_caustics = settings.caustics_emitted == 0;
   trace.volume_form = settings.volume_form;
   trace.density_floor = settings.density_floor;
   trace.stop = &stop;
@@ -54,17 +57,40 @@ float default_share(const GatherSettings& gather) {
   return gather.mode == GatherMode::radius ? kDefaultRadius : kDefaultSearch;
 }
 
+/// Adds the caustic photons that are aimed, with powers as if they were as many as the others.
+void add_caustics(const EyeContext& context, const DistanceStrategy& strategy, const TraceSettings& trace,
+                  TracedPhotons& photons) {
+  CausticSettings aimed{trace.seed,       trace.pass, context.settings.caustics_emitted,
+                        trace.max_events, nullptr,    trace.stop};
+  if (trace.guide) aimed.importance = &trace.guide->importance;
+  const auto share =
+      static_cast<float>(static_cast<double>(photons.ledger.emitted_count) / static_cast<double>(aimed.emitted));
+  for (Photon& photon : trace_caustics(context.scene, strategy, aimed)) {
+    photon.power *= share;
+    photons.caustics.push_back(photon);
+  }
+}
+
 /// Traces the photons and sorts them into the context's maps.
-void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgress& progress,
-               RenderStatistics& statistics) {
+void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& progress, RenderStatistics& statistics) {
   const int pass = static_cast<int>(trace.pass);
   const Scene& scene = context.scene;
   const RenderSettings& settings = context.settings;
-  const Stopwatch tracing;
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
+  std::optional<PhotonGuide> guide;
+  if (settings.guide.importons > 0) {
+    const Stopwatch learning;
+    guide = learn_guide(scene, *strategy, settings.guide, trace.seed, trace.pass, settings.max_events);
+    trace.guide = &*guide;
+    trace.split = settings.guide.split;
+    statistics.guide_seconds = learning.seconds();
+    statistics.guide_bytes = guide->memory_bytes();
+  }
+  const Stopwatch tracing;
   Progress bar("photons", settings.photons_emitted, progress.stages);
   TracedPhotons photons = trace_photons(scene, *strategy, trace, bar);
   bar.finish();
+  if (context.stages.final_gather && settings.caustics_emitted > 0) add_caustics(context, *strategy, trace, photons);
   statistics.trace_seconds = tracing.seconds();
   statistics.ledger = photons.ledger;
   statistics.surface_photons = photons.surface.size();

@@ -7,6 +7,7 @@
 #include "estimate/gather.h"
 #include "medium/distance/strategy.h"
 #include "medium/transmittance/estimator.h"
+#include "photon/photon_guide.h"
 
 namespace vpm {
 
@@ -34,12 +35,16 @@ struct RenderSettings {
       0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
   int max_events = 100'000;  // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
+  GuideSettings guide;  // of photons, by importance
+
   DistanceSettings distance;            // how photons fly
   TransmittanceSettings transmittance;  // towards lights
 
-  GatherSettings volume;     // volumetric radiance estimate
-  GatherSettings surface;    // surface radiance estimate
-  GatherSettings caustics;   // that of the caustic map, under final gathering
+  GatherSettings volume;          // volumetric radiance estimate
+  GatherSettings surface;         // surface radiance estimate
+  GatherSettings caustics;        // that of the caustic map, under final gathering
+  uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
+                                  // what the others bring
   bool shrink_radii = true;  // progressive passes [Knaus2011]; false: every pass has the first one's radii
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]

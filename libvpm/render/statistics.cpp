@@ -19,6 +19,7 @@ void EyeCounters::merge(const EyeCounters& other) {
 
 void RenderStatistics::merge(const RenderStatistics& pass) {
   passes += pass.passes;
+  guide_seconds += pass.guide_seconds;
   trace_seconds += pass.trace_seconds;
   build_seconds += pass.build_seconds;
   eye_seconds += pass.eye_seconds;
@@ -27,6 +28,7 @@ void RenderStatistics::merge(const RenderStatistics& pass) {
   surface_photons += pass.surface_photons;
   caustic_photons += pass.caustic_photons;
   photon_map_bytes = std::max(photon_map_bytes, pass.photon_map_bytes);
+  guide_bytes = std::max(guide_bytes, pass.guide_bytes);
   last_volume_radius = pass.last_volume_radius;
   last_surface_radius = pass.last_surface_radius;
   eye.merge(pass.eye);

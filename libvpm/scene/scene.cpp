@@ -101,7 +101,8 @@ Vec3 point_before(const Light& light) {
     return leave_surface_at(l->centre, l->normal, l->normal, disc_slack({l->centre, l->normal, l->radius}));
   if (const auto* l = std::get_if<MeshLight>(&light)) {
     Rng rng(0, rng_stream(RngUse::probe, 0), 0);
-    const EmittingMesh::Sample at = l->mesh->sample(rng);
+    const double choice = rng.uniform_double();
+    const EmittingMesh::Sample at = l->mesh->sample(choice, rng.uniform2());
     return leave_surface_at(at.position, at.normal, at.normal, at.slack);
   }
   const auto& l = std::get<SphereLight>(light);

@@ -7,6 +7,7 @@
 
 #include "path/direct_light.h"
 #include "support/scenes.h"
+#include "support/statistics.h"
 
 namespace vpm {
 namespace {
@@ -90,6 +91,30 @@ TEST(Walk, ANestedMediumMayShareItsFloorWithTheOuterOne) {
       }
       EXPECT_EQ(counters.medium_mismatches, 0u);
     }
+}
+
+/// Flights that stop on the way and go on from there are as long as those that do not: collisions along a ray through
+/// a box of fog, with stops at random places before, on and behind its faces.
+TEST(Walk, FlightsMayStopOnTheWay) {
+  const Scene scene = boxed_medium(make_medium(nullptr, Rgb(0.8f)), PointLight{Vec3(3.0f), Rgb(1.0f)});
+  const auto strategy = make_distance_strategy({});
+  const Vec3 from(-2.0f, 0.3f, -0.2f), along(1.0f, 0.0f, 0.0f);
+  std::vector<double> counts(9, 0.0), probabilities(9, std::exp(-0.8 * 2.0));
+  WalkCounters counters;
+  for (uint64_t i = 0; i < 50'000; ++i) {
+    Rng rng(1, 2, i);
+    PathState state{{from, along}, kVacuum, Rgb(1.0f)};
+    Event event;
+    do event = next_event(scene, *strategy, state, rng, counters, 0.1f + 1.5f * rng.uniform());
+    while (event.kind == EventKind::limit && state.ray.origin.x < 5.0f);
+    if (event.kind == EventKind::collision)
+      ++counts[static_cast<size_t>((state.ray.origin.x + 1.0f) * 4.0f)];
+    else
+      ++counts[8];
+  }
+  for (int i = 0; i < 8; ++i) probabilities[i] = std::exp(-0.8 * 0.25 * i) - std::exp(-0.8 * 0.25 * (i + 1));
+  expect_distribution(counts, probabilities, 1e-6);
+  EXPECT_EQ(counters.medium_mismatches, 0u);
 }
 
 TEST(Walk, SurfacesInTheFaceOfALargeBoxAreMetFromOutsideAndNeverTwice) {

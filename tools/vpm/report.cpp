@@ -29,11 +29,8 @@ double per_second(uint64_t count, double seconds) { return seconds > 0.0 ? stati
 
 Json times(const RenderResult& result) {
   const RenderStatistics& s = result.statistics;
-  return {{"unit", "s, wall clock"},
-          {"total", result.seconds},
-          {"photon_tracing", s.trace_seconds},
-          {"map_building", s.build_seconds},
-          {"eye_pass", s.eye_seconds}};
+  return {{"unit", "s, wall clock"},       {"total", result.seconds},         {"photon_tracing", s.trace_seconds},
+          {"importance", s.guide_seconds}, {"map_building", s.build_seconds}, {"eye_pass", s.eye_seconds}};
 }
 
 Json photons(const RenderStatistics& s) {
@@ -119,6 +116,7 @@ Json memory(const Scene& scene, const RenderStatistics& s) {
       {"grids", grids},
       {"geometry", scene.geometry.memory_bytes()},
       {"largest_photon_maps", s.photon_map_bytes},
+      {"importance", s.guide_bytes},
       {"per_stored_photon", stored > 0 ? static_cast<double>(s.photon_map_bytes) / static_cast<double>(stored) : 0.0},
       {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
 }
@@ -182,19 +180,20 @@ std::string settings_line(const RenderSettings& s) {
   };
   const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
   return fmt::format(
-      "integrator={} samples_per_pixel={} emitted={} stored={} distance={}:step={}:floor={} transmittance={}:step={} "
+      "integrator={} samples_per_pixel={} emitted={} stored={} importons={}:aim={}:split={} "
+      "distance={}:step={}:floor={} transmittance={}:step={} "
       "volume={} form={} "
       "density_floor={} "
       "volume_direct={} "
       "surface={} surface_direct={} surface_indirect={} shrink_radii={} max_optical_step={} max_events={}",
       s.integrator == Integrator::path ? "path" : "photon", s.samples_per_pixel, s.photons_emitted, s.photons_stored,
-      s.distance.strategy, s.distance.step, s.distance.extinction_floor, s.transmittance.estimator,
-      s.transmittance.step, gather(s.volume),
+      s.guide.importons, s.guide.aim, s.guide.split, s.distance.strategy, s.distance.step, s.distance.extinction_floor,
+      s.transmittance.estimator, s.transmittance.step, gather(s.volume),
       s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
       direct(s.volume_direct), gather(s.surface), direct(s.surface_direct),
       s.surface_indirect == IndirectLight::photons
           ? "photons"
-          : fmt::format("final-gather:{}:{}", s.gather_rays, gather(s.caustics)),
+          : fmt::format("final-gather:{}:{}:aimed={}", s.gather_rays, gather(s.caustics), s.caustics_emitted),
       s.shrink_radii, s.max_optical_step, s.max_events);
 }
 

@@ -46,7 +46,7 @@ Moments estimate_wall_irradiance(const Cavity& sphere, bool reflected_only, uint
   constexpr int kBatches = 40, kPoints = 400;
   const Scene scene = cavity_scene(sphere);
   const auto strategy = make_distance_strategy({});
-  const float radius = 0.1f * static_cast<float>(sphere.size);
+  const auto radius = static_cast<float>(kCapRadius * sphere.size);
   const GatherSettings gather{GatherMode::radius, radius, 0, KernelKind::epanechnikov};
   Progress silent("photons", 0, false);
   Moments result;

@@ -36,9 +36,15 @@ struct Cavity {
 
 /// How often a photon hits the walls. A sample is a photon.
 Moments estimate_wall_hits(const Cavity& cavity, uint64_t photons, uint64_t seed);
+/// The share of even light from the walls of a sphere that the radiance estimate over the radius r misses there, over
+/// (r/R)^2. The part of the sphere within the distance r has the area pi r^2 of a flat disc. But of the light that the
+/// walls send evenly to the part at distance d, tilted by theta, the share (1 - cos theta)/2 = d^2 / (4 R^2) comes from
+/// behind the point and is left out: on the average of the Epanechnikov kernel r^2 / (12 R^2).
+inline constexpr double kCapLoss = 1.0 / 12.0;
+/// The radius of estimate_wall_irradiance(), over the sphere's.
+inline constexpr double kCapRadius = 0.1;
 /// The mean over the walls of a sphere of what a surface photon map shows, W/m^2: of all photons, or of those that have
-/// been reflected. A sample is a batch. On a sphere the part within a chord h has the area pi h^2, as on a plane:
-/// kernels are not biased where the irradiance is the same everywhere.
+/// been reflected; less kCapLoss of the latter. A sample is a batch.
 Moments estimate_wall_irradiance(const Cavity& sphere, bool reflected_only, uint64_t photons, uint64_t seed);
 /// Irradiance at a point of a sphere's wall straight from the source, W/m^2.
 double direct_wall_irradiance(const Cavity& sphere, const Vec3& outward);

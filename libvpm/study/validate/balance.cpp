@@ -4,6 +4,7 @@
 
 #include "estimate/surface_estimate.h"
 #include "scene/build.h"
+#include "study/estimates/irradiance.h"
 #include "study/photon_walk.h"
 #include "study/sample_moments.h"
 #include "study/validate/fields.h"
@@ -135,10 +136,7 @@ Check check_arrivals(const std::string& name, const Scene& scene, double reflect
   return check_mean(name, samples[0], 1.0 / (1.0 - reflectance));
 }
 
-/// The irradiance of a sphere's wall with the lamp at its centre, by the surface map. A sphere's cap within the
-/// distance r of a point of it has the area pi r^2 of a flat disc. But of the light that the wall sends evenly to the
-/// part at distance d, tilted by theta, the share (1 - cos theta)/2 = d^2/(4 R^2) comes from behind the point and is
-/// left out: on the kernel's average r^2/(12 R^2).
+/// The irradiance of a sphere's wall with the lamp at its centre, by the surface map.
 Check check_wall(float radius, float reflectance, const Effort& effort) {
   const Scene scene = cavity(SphereShape{Vec3(0.0f), radius}, reflectance, Vec3(0.0f));
   const auto strategy = make_distance_strategy({});
@@ -151,7 +149,7 @@ Check check_wall(float radius, float reflectance, const Effort& effort) {
         const Vec3 outward = glm::normalize(Vec3(0.6f, -0.5f, 0.3f));
         out[0] = surface_irradiance(radius * outward, -outward, gather.radius, map).g;
       });
-  const double ratio = double{gather.radius} / radius, left_out = reflectance * ratio * ratio / 12.0;
+  const double ratio = double{gather.radius} / radius, left_out = reflectance * kCapLoss * ratio * ratio;
   return check_mean(name, samples[0], (1.0 - left_out) / (1.0 - double{reflectance}) / (4.0 * kPiD * radius * radius));
 }
 

@@ -17,10 +17,10 @@ inline double away_from(const Vec3& axis, const Vec3& direction) {
 
 inline constexpr size_t kSectors = 6;  // of the azimuth, equal
 
-/// The number of the sector in which a direction lies about an axis.
+/// The number of the sector in which a direction lies about an axis: azimuths as in direction_about().
 inline size_t sector_about(const Vec3& axis, const Vec3& direction) {
-  const Vec3 aside = std::abs(axis.x) < 0.7f ? Vec3(1.0f, 0.0f, 0.0f) : Vec3(0.0f, 1.0f, 0.0f);
-  const Vec3 s = glm::normalize(glm::cross(axis, aside)), t = glm::cross(axis, s);
+  Vec3 s, t;
+  make_frame(axis, s, t);
   const double turn = std::atan2(glm::dot(direction, t), glm::dot(direction, s)) / (2.0 * kPiD);
   return std::min(static_cast<size_t>((turn < 0.0 ? turn + 1.0 : turn) * kSectors), kSectors - 1);
 }

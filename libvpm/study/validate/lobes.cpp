@@ -48,7 +48,8 @@ size_t LobeCells::cell_of(const Vec3& direction) const {
   return (far ? kCells : 0) + vpm::cell_of(ring, kRings) * kSectors + sector_about(axis, direction);
 }
 
-/// A midpoint rule in each cell; what lies beyond the horizon belongs to the other side.
+/// A midpoint rule in each cell, whose edges are those of the rule's azimuths, too; what lies beyond the horizon
+/// belongs to the other side.
 LobeCells::Integrals LobeCells::integrate() const {
   Integrals result{std::vector<double>(count(), 0.0)};
   const double span = std::log1p(2.0 / width_), rings = kRings * kPoints, turns = kSectors * kPoints;

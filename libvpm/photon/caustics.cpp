@@ -1,0 +1,65 @@
+// Scouts, then photons, both followed from mirror to mirror.
+#include "photon/caustics.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/parallel.h"
+#include "photon/emission.h"
+
+namespace vpm {
+namespace {
+
+constexpr size_t kChunk = 4096;            // photons traced one after another
+constexpr uint64_t kPhotonsPerScout = 4;   // scouts come in that proportion to photons ...
+constexpr uint64_t kMostScouts = 200'000;  // ... but no more
+
+/// The photon that an emission leads to, if it is a caustic one.
+std::optional<Photon> follow(const Scene& scene, const DistanceStrategy& strategy, const EmissionPoint& point,
+                             int max_events, Rng& rng) {
+  PathState state = emit_photon(scene, point);
+  WalkCounters counters;
+  for (int events = 0; events < max_events; ++events) {
+    const Event event = next_event(scene, strategy, state, rng, counters);
+    if (event.kind != EventKind::surface || !is_finite(state.power) || is_black(state.power)) return std::nullopt;
+    if (is_rough(scene.material_of(event.hit))) {
+      if (events == 0) return std::nullopt;
+      return Photon{event.hit.position, PackedDirection(state.ray.direction), state.power};
+    }
+    Scatter scatter;
+    if (!scatter_at_surface(scene, event.hit, state, rng, scatter)) return std::nullopt;
+    state.power *= scatter.flux_scale;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& strategy,
+                                   const CausticSettings& settings) {
+  const auto score = [&](const EmissionPoint& point, Rng& rng) {
+    const std::optional<Photon> photon = follow(scene, strategy, point, settings.max_events, rng);
+    if (!photon) return 0.0f;
+    return sum_channels(photon->power) * (settings.importance ? settings.importance->at(photon->position) : 1.0f);
+  };
+  const uint64_t scouts = std::clamp<uint64_t>(settings.emitted / kPhotonsPerScout, 1, kMostScouts);
+  const EmissionGuide guide =
+      EmissionGuide::learn(scouts, settings.seed, rng_stream(RngUse::caustic_scout, settings.pass), score);
+  std::vector<std::vector<Photon>> parts(chunk_count(settings.emitted, kChunk));
+  parallel_for_chunks(settings.emitted, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+    if (settings.stop && *settings.stop) return;
+    for (size_t i = begin; i < end; ++i) {
+      Rng rng(settings.seed, rng_stream(RngUse::caustic, settings.pass), i);
+      const EmissionGuide::Sample drawn = guide.sample(rng);
+      std::optional<Photon> photon = follow(scene, strategy, drawn.point, settings.max_events, rng);
+      if (!photon) continue;
+      photon->power /= drawn.density;
+      parts[chunk].push_back(*photon);
+    }
+  });
+  std::vector<Photon> all;
+  for (const std::vector<Photon>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace vpm

@@ -1,0 +1,24 @@
+// Importons, then scouts that ask where photons get to.
+#include "photon/photon_guide.h"
+
+#include "photon/emission.h"
+
+namespace vpm {
+
+PhotonGuide learn_guide(const Scene& scene, const DistanceStrategy& strategy, const GuideSettings& settings,
+                        uint64_t seed, uint64_t pass, int max_events) {
+  PhotonGuide guide{trace_importons(scene, strategy, seed, pass, settings.importons, max_events), {}, 0.0};
+  const auto score = [&](const EmissionPoint& point, Rng& rng) {
+    PathState state = emit_photon(scene, point);
+    WalkCounters counters;
+    const Event event = next_event(scene, strategy, state, rng, counters);
+    if (event.kind == EventKind::escape || !is_finite(state.power)) return 0.0f;
+    return sum_channels(state.power) * guide.importance.at(state.ray.origin);
+  };
+  guide.emission = EmissionGuide::learn(settings.importons, seed, rng_stream(RngUse::scout, pass), score);
+  guide.value = guide.emission.mean_score();
+  if (!settings.aim) guide.emission = EmissionGuide();
+  return guide;
+}
+
+}  // namespace vpm
