@@ -1,7 +1,6 @@
 // Scouts, then photons, both followed from mirror to mirror.
 #include "photon/caustics.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "base/parallel.h"
@@ -10,9 +9,8 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 4096;            // photons traced one after another
-constexpr uint64_t kPhotonsPerScout = 4;   // scouts come in that proportion to photons ...
-constexpr uint64_t kMostScouts = 200'000;  // ... but no more
+constexpr size_t kChunk = 4096;        // photons traced one after another
+constexpr uint64_t kScouts = 100'000;  // enough for ten to find what a ten thousandth of all photons meet
 
 /// The photon that an emission leads to, if it is a caustic one.
 std::optional<Photon> follow(const Scene& scene, const DistanceStrategy& strategy, const EmissionPoint& point,
@@ -42,9 +40,8 @@ std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& s
     if (!photon) return 0.0f;
     return sum_channels(photon->power) * (settings.importance ? settings.importance->at(photon->position) : 1.0f);
   };
-  const uint64_t scouts = std::clamp<uint64_t>(settings.emitted / kPhotonsPerScout, 1, kMostScouts);
   const EmissionGuide guide =
-      EmissionGuide::learn(scouts, settings.seed, rng_stream(RngUse::caustic_scout, settings.pass), score);
+      EmissionGuide::learn(kScouts, settings.seed, rng_stream(RngUse::caustic_scout, settings.pass), score);
   std::vector<std::vector<Photon>> parts(chunk_count(settings.emitted, kChunk));
   parallel_for_chunks(settings.emitted, kChunk, [&](size_t begin, size_t end, size_t chunk) {
     if (settings.stop && *settings.stop) return;

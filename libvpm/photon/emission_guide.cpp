@@ -11,7 +11,7 @@ namespace vpm {
 namespace {
 
 constexpr uint64_t kRounds = 4;
-constexpr size_t kLeastScored = 32;    // scouts that scored, in a box that is halved
+constexpr double kSignificant = 3.0;   // standard deviations from a half: the share of a half that is more than chance
 constexpr double kLeastGain = 0.02;    // of the standard deviation, by which a halving must pay
 constexpr int kDeepest = 40;           // halvings
 constexpr double kUniformShare = 0.1;  // of the density
@@ -104,21 +104,23 @@ class EmissionGuide::Grower {
 
   /// The dimension whose halving gains most; -1 where none gains enough.
   static int best_halving(std::span<const Scored> inside, const Cell& cell) {
-    size_t scored = 0;
-    double whole = 0.0;
+    double whole = 0.0, squares = 0.0;
     std::array<double, EmissionPoint::kDimensions> lower{};
     for (const Scored& s : inside) {
       if (s.square == 0.0) continue;
-      ++scored;
       whole += s.square;
+      squares += s.square * s.square;
       for (int d = 0; d < EmissionPoint::kDimensions; ++d)
         if (s.point[d] < cell.middle(d)) lower[static_cast<size_t>(d)] += s.square;
     }
-    if (scored < kLeastScored) return -1;
+    if (whole == 0.0) return -1;
+    const double chance =
+        0.5 * std::sqrt(squares) / whole;  // the standard deviation of a half's share, were both alike
     int best = -1;
     double most = kLeastGain;
     for (int d = 0; d < EmissionPoint::kDimensions; ++d) {
       const double share = std::min(1.0, lower[static_cast<size_t>(d)] / whole);
+      if (std::abs(share - 0.5) < kSignificant * chance) continue;
       const double gain = 1.0 - std::sqrt(0.5) * (std::sqrt(share) + std::sqrt(1.0 - share));
       if (gain > most) {
         most = gain;
