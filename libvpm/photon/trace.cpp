@@ -180,7 +180,7 @@ class PhotonPath {
     return settings_.guide->rise(sum_channels(at_.state.power), at_.state.ray, kWorthSplitting);
   }
 
-  /// Follows a path that is worth several by as many, each of them worth one.
+  /// Follows a path that is worth several by as many, each of them worth one [Booth1984].
   void split(Rng& rng) {
     if (!settings_.split) return;
     const double paths = worth();

@@ -142,12 +142,18 @@ Check check_weights(std::string name, const std::vector<Moments>& cells, const s
   const double dof = static_cast<double>(cells.size()) - (equal_weights ? 1.0 : 0.0);
   if (size < kLeastSampleSize || least < kLeastInCell)
     return not_determined(std::move(name), statistic, dof, few(size < kLeastSampleSize ? size : least));
-  Check check = chi_square(std::move(name), statistic, dof);
   if (equal_weights && std::fabs(across) > 1e-6) {
+    Check check = chi_square(std::move(name), statistic, dof);
     check.p = 0.0;
     check.note = "equal weights that are not 1";
+    return check;
   }
-  return check;
+  if (equal_weights && errors.empty()) {  // counts: no variance has to be estimated
+    std::vector<double> counts;
+    for (const Moments& cell : cells) counts.push_back(draws * cell.mean());
+    return check_distribution(std::move(name), counts, means);
+  }
+  return chi_square(std::move(name), statistic, dof);
 }
 
 Check check_bound(std::string name, double value, double exact, double bound) {
