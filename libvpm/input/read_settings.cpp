@@ -64,6 +64,7 @@ void read_render(TableReader& table, RenderSettings& s) {
 void read_photons(TableReader& table, RenderSettings& s) {
   s.photons_stored = table.integer("stored", 0, kMaxInteger, s.photons_stored);
   s.photons_emitted = table.integer("emitted", 0, kMaxInteger, s.photons_stored > 0 ? 0 : s.photons_emitted);
+  s.photons_in_cube = static_cast<uint32_t>(table.integer("in_cube", 0, 1'000'000, s.photons_in_cube));
   if (s.photons_emitted == 0 && s.photons_stored == 0)
     table.fail("emitted", "no photon would be emitted: 'emitted' and 'stored' are both 0", "make one of them positive");
 }

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "photon/caustics.h"
+#include "photon/density_control.h"
 #include "photon/trace.h"
 #include "render/eye_path.h"
 #include "render/radius_schedule.h"
@@ -96,25 +97,26 @@ void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& pro
   statistics.surface_photons = photons.surface.size();
 
   const Stopwatch building;
-  const uint64_t emitted = photons.ledger.emitted_count;
+  const auto make_map = [&](std::vector<Photon>& of_map, const GatherSettings& gather) {
+    if (settings.photons_in_cube > 0 && gather.mode == GatherMode::radius)
+      statistics.merged_photons += control_density(of_map, 0.5f * gather.radius, settings.photons_in_cube);
+    return make_photon_map(std::move(of_map), gather, photons.ledger.emitted_count);
+  };
   for (size_t m = 0; m < scene.media.size(); ++m) {
     const float first = first_volume_radius(scene, settings, scene.media[m]);
     statistics.volume_photons += photons.volume[m].size();
-    context.volume.push_back(make_photon_map(std::move(photons.volume[m]),
-                                             gather_in_pass(settings.volume, first, 3, settings, pass), emitted));
+    context.volume.push_back(make_map(photons.volume[m], gather_in_pass(settings.volume, first, 3, settings, pass)));
     statistics.last_volume_radius = std::max(statistics.last_volume_radius, context.volume.back().settings.radius);
     statistics.photon_map_bytes += context.volume.back().memory_bytes();
   }
   const float first = first_surface_radius(scene, settings);
-  context.surface =
-      make_photon_map(std::move(photons.surface), gather_in_pass(settings.surface, first, 2, settings, pass), emitted);
+  context.surface = make_map(photons.surface, gather_in_pass(settings.surface, first, 2, settings, pass));
   statistics.last_surface_radius = context.surface.settings.radius;
   statistics.photon_map_bytes += context.surface.memory_bytes();
   if (context.stages.final_gather) {
     statistics.caustic_photons = photons.caustics.size();
-    context.caustics = make_photon_map(
-        std::move(photons.caustics),
-        gather_in_pass(settings.caustics, first_caustic_radius(scene, settings), 2, settings, pass), emitted);
+    context.caustics = make_map(
+        photons.caustics, gather_in_pass(settings.caustics, first_caustic_radius(scene, settings), 2, settings, pass));
     statistics.photon_map_bytes += context.caustics.memory_bytes();
   }
   statistics.build_seconds = building.seconds();

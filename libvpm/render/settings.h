@@ -33,7 +33,9 @@ struct RenderSettings {
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
   uint64_t photons_stored =
       0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
-  int max_events = 100'000;  // of one photon or eye path, a guard against endless paths; what it cuts is counted
+  uint32_t photons_in_cube = 0;  // > 0: the most in a cube of half a radius that fly into one octant, see
+                                 // control_density()
+  int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
   GuideSettings guide;  // of photons, by importance
 
@@ -45,7 +47,7 @@ struct RenderSettings {
   GatherSettings caustics;        // that of the caustic map, under final gathering
   uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
                                   // what the others bring
-  bool shrink_radii = true;  // progressive passes [Knaus2011]; false: every pass has the first one's radii
+  bool shrink_radii = true;       // progressive passes [Knaus2011]; false: every pass has the first one's radii
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]
   DirectLight volume_direct = DirectLight::photons;  // single scattering

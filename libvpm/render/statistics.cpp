@@ -27,6 +27,7 @@ void RenderStatistics::merge(const RenderStatistics& pass) {
   volume_photons += pass.volume_photons;
   surface_photons += pass.surface_photons;
   caustic_photons += pass.caustic_photons;
+  merged_photons += pass.merged_photons;
   photon_map_bytes = std::max(photon_map_bytes, pass.photon_map_bytes);
   guide_bytes = std::max(guide_bytes, pass.guide_bytes);
   last_volume_radius = pass.last_volume_radius;

@@ -26,8 +26,9 @@ struct RenderStatistics {
   double guide_seconds = 0.0, trace_seconds = 0.0, build_seconds = 0.0, eye_seconds = 0.0;  // wall clock
   Ledger ledger;
   uint64_t volume_photons = 0, surface_photons = 0, caustic_photons = 0;  // stored
-  uint64_t photon_map_bytes = 0, guide_bytes = 0;                         // of the largest pass
-  float last_volume_radius = 0.0f, last_surface_radius = 0.0f;            // m; of the last pass, the largest over media
+  uint64_t merged_photons = 0;  // of these: those whose power others took over, see control_density()
+  uint64_t photon_map_bytes = 0, guide_bytes = 0;               // of the largest pass
+  float last_volume_radius = 0.0f, last_surface_radius = 0.0f;  // m; of the last pass, the largest over media
   EyeCounters eye;
 
   void merge(const RenderStatistics& pass);
