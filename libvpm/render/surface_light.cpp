@@ -14,20 +14,19 @@ class SurfaceLight {
       : c_(context), rng_(rng), counters_(counters) {}
 
   Rgb towards_eye(const SurfaceView& view, int gather_rays) {
-    Rgb result(0.0f);
-    if (c_.stages.surface_shadow_rays) {
-      result += direct_light(view, near_side(view.hit, view.travel, view.medium));
-      if (scatters_through(view.material))
-        result += direct_light(view, far_side(c_.scene, view.hit, view.travel, view.medium));
-    }
-    if (c_.stages.final_gather)
-      result += of_map(view, c_.caustics) + gathered(view, gather_rays);
-    else if (c_.stages.surface_map)
-      result += of_map(view, c_.surface);
-    return result;
+    if (c_.stages.final_gather) return not_gathered(view) + gathered(view, gather_rays);
+    return c_.stages.surface_map ? direct_light(view) + of_map(view, c_.surface) : direct_light(view);
   }
 
  private:
+  Rgb direct_light(const SurfaceView& view) {
+    if (!c_.stages.surface_shadow_rays) return Rgb(0.0f);
+    Rgb result = direct_light(view, near_side(view.hit, view.travel, view.medium));
+    if (scatters_through(view.material))
+      result += direct_light(view, far_side(c_.scene, view.hit, view.travel, view.medium));
+    return result;
+  }
+
   /// The light of all lamps that arrives on that side.
   Rgb direct_light(const SurfaceView& view, const SurfaceSide& side) {
     Rgb result(0.0f);
@@ -47,6 +46,10 @@ class SurfaceLight {
     return scattered_radiance(view.material, view.hit, -view.travel, map.settings.radius, map);
   }
 
+  /// What rays do not gather, because few of them would find it: the light of lamps, straight or by way of mirrors,
+  /// glass and media.
+  Rgb not_gathered(const SurfaceView& view) { return direct_light(view) + of_map(view, c_.caustics); }
+
   /// The light that rough surfaces scattered last, by rays drawn as the material scatters.
   Rgb gathered(const SurfaceView& view, int rays) {
     Rgb sum(0.0f);
@@ -58,22 +61,26 @@ class SurfaceLight {
       const MediumId medium =
           scatter.transmitted ? medium_beyond(shape, view.hit.normal, scatter.direction, view.medium) : view.medium;
       const Ray ray{leave_surface(view.hit, scatter.direction), scatter.direction};
-      sum += scatter.weight * scatter.radiance_scale * at_the_end_of({ray, medium, Rgb(1.0f)});
+      sum += scatter.weight * scatter.radiance_scale * met_along({ray, medium, Rgb(1.0f)});
     }
     return sum / static_cast<float>(rays);
   }
 
-  /// Radiance of the rough surface that a gathering ray ends at. Lamps on its way are left out: their light is direct,
-  /// or the caustic map's.
-  Rgb at_the_end_of(PathState path) {
+  /// Radiance of the rough surface that a gathering ray meets. Lamps on its way are left out: their light is direct, or
+  /// the caustic map's.
+  ///
+  /// At the end of a ray that is too short for the map the path goes on as a path tracer's would, with one ray at a
+  /// time and the same roulette, until a ray is long enough.
+  Rgb met_along(PathState path) {
     ++counters_.gather_rays;
+    Rgb result(0.0f);
     float length = 0.0f;
     for (int events = 0; events < c_.settings.max_events; ++events) {
       const Encounter met = meet(c_.scene, path.ray, kInfinity, path.medium, counters_.walk);
-      if (!met) return Rgb(0.0f);
+      if (!met) return result;
       const Hit& hit = met.hits[0];
       attenuate(path, hit.t);
-      if (is_black(path.power)) return Rgb(0.0f);
+      if (is_black(path.power)) return result;
       length += hit.t;
       const Material material = material_at(c_.scene, hit);
       if (is_boundary(material)) {
@@ -82,14 +89,17 @@ class SurfaceLight {
       }
       if (is_rough(material)) {
         const SurfaceView view{hit, material, path.ray.direction, path.medium};
-        return path.power * (length < c_.surface.settings.radius ? towards_eye(view, 1) : of_map(view, c_.surface));
+        if (length >= c_.surface.settings.radius) return result + path.power * of_map(view, c_.surface);
+        result += path.power * not_gathered(view);
+        ++counters_.gather_rays;
+        length = 0.0f;
       }
       Scatter scatter;
-      if (!scatter_at_surface(c_.scene, hit, path, rng_, scatter)) return Rgb(0.0f);
+      if (!scatter_at_surface(c_.scene, hit, path, rng_, scatter)) return result;
       path.power *= scatter.radiance_scale;
     }
     ++counters_.cut_paths;
-    return Rgb(0.0f);
+    return result;
   }
 
   void attenuate(PathState& path, float length) {
