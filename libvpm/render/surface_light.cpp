@@ -43,7 +43,7 @@ class SurfaceLight {
 
   Rgb of_map(const SurfaceView& view, const PhotonMap& map) {
     ++counters_.surface_queries;
-    return scattered_radiance(view.material, view.hit, -view.travel, map.settings.radius, map);
+    return scattered_radiance(view.material, view.hit, -view.travel, map);
   }
 
   /// What rays do not gather, because few of them would find it: the light of lamps, straight or by way of mirrors,
@@ -89,7 +89,7 @@ class SurfaceLight {
       }
       if (is_rough(material)) {
         const SurfaceView view{hit, material, path.ray.direction, path.medium};
-        if (length >= c_.surface.settings.radius) return result + path.power * of_map(view, c_.surface);
+        if (!is_too_short(length, view)) return result + path.power * of_map(view, c_.surface);
         result += path.power * not_gathered(view);
         ++counters_.gather_rays;
         length = 0.0f;
@@ -100,6 +100,12 @@ class SurfaceLight {
     }
     ++counters_.cut_paths;
     return result;
+  }
+
+  /// Is a ray shorter than the radius of what the map tells at its end?
+  bool is_too_short(float length, const SurfaceView& view) const {
+    return length < c_.surface.settings.radius &&
+           length < scattered_radius(view.material, view.hit, -view.travel, c_.surface);
   }
 
   void attenuate(PathState& path, float length) {

@@ -100,6 +100,17 @@ TEST(FinalGather, CutsEndlessPathsAndCountsThem) {
   EXPECT_EQ(eye.gather_rays, eye.rays * 8 * 21);
 }
 
+// The 50 nearest of some 1700 photons per m^2 lie within 0.1 m, whatever the largest radius of the search: few rays are
+// shorter, as few as at a radius of 0.1 m. All are shorter than 10 m, and would go on: twice as many rays.
+TEST(FinalGather, RaysBeyondTheNearestPhotonsEndInTheMap) {
+  const auto rays = [](const RenderSettings& settings) {
+    return static_cast<double>(render_photon_pass(hollow_cube(), settings, 0, kGoOn).statistics.eye.gather_rays);
+  };
+  RenderSettings nearest = gathering(10.0f);
+  nearest.surface.mode = GatherMode::nearest;
+  EXPECT_NEAR(rays(nearest), rays(gathering(0.1f)), 0.05 * rays(gathering(0.1f)));
+}
+
 TEST(FinalGather, CountsItsRays) {
   const Scene scene = hollow_cube();
   RenderSettings settings = gathering(1e-4f);
