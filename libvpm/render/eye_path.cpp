@@ -28,7 +28,7 @@ class EyePath {
         medium_(medium_of_ray(context.scene, context.scene.camera_medium, ray)) {}
 
   Rgb follow() {
-    for (int events = 0; events < c_.settings.max_events; ++events) {
+    for (int events = 0; events < c_.settings.max_events;) {
       const Encounter met = meet(c_.scene, ray_, kInfinity, medium_, counters_.walk);
       cross_segment({0.0f, met ? met.hits[0].t : kInfinity});
       if (is_black(throughput_)) return radiance_;
@@ -37,7 +37,15 @@ class EyePath {
           radiance_ += throughput_ * environment_radiance(light, ray_.direction);
         return radiance_;
       }
-      if (!pass_shapes(met)) return radiance_;
+      const Hit& hit = met.hits[0];
+      const Material material = material_at(c_.scene, hit);
+      see_lamp(hit);
+      if (is_boundary(material)) {  // no event
+        cross_boundaries(c_.scene, met, ray_, medium_, counters_.walk);
+        continue;
+      }
+      if (!meet_surface(hit, material)) return radiance_;
+      ++events;
     }
     ++counters_.cut_paths;
     return radiance_;
@@ -135,17 +143,14 @@ class EyePath {
     return {static_cast<float>(t0), static_cast<float>(t1)};
   }
 
-  /// Adds what a surface sends towards the eye, or passes boundaries. Returns whether the path goes on.
-  bool pass_shapes(const Encounter& met) {
-    const Hit& hit = met.hits[0];
-    const Shape& shape = c_.scene.shapes[hit.shape];
-    const Material material = material_at(c_.scene, hit);
-    if (shape.light >= 0)
-      radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
-    if (is_boundary(material)) {
-      cross_boundaries(c_.scene, met, ray_, medium_, counters_.walk);
-      return true;
-    }
+  /// Adds what a surface emits towards the eye.
+  void see_lamp(const Hit& hit) {
+    const int light = c_.scene.shapes[hit.shape].light;
+    if (light >= 0) radiance_ += throughput_ * surface_radiance(c_.scene.lights[light], hit.normal, ray_.direction);
+  }
+
+  /// Adds what a rough surface scatters towards the eye; goes on from others. Returns whether the path goes on.
+  bool meet_surface(const Hit& hit, const Material& material) {
     if (is_rough(material)) {
       const SurfaceView view{hit, material, ray_.direction, medium_};
       radiance_ += throughput_ * surface_light(c_, view, c_.settings.gather_rays, rng_, counters_);

@@ -75,7 +75,7 @@ class SurfaceLight {
     ++counters_.gather_rays;
     Rgb result(0.0f);
     float length = 0.0f;
-    for (int events = 0; events < c_.settings.max_events; ++events) {
+    for (int events = 0; events < c_.settings.max_events;) {
       const Encounter met = meet(c_.scene, path.ray, kInfinity, path.medium, counters_.walk);
       if (!met) return result;
       const Hit& hit = met.hits[0];
@@ -83,7 +83,7 @@ class SurfaceLight {
       if (is_black(path.power)) return result;
       length += hit.t;
       const Material material = material_at(c_.scene, hit);
-      if (is_boundary(material)) {
+      if (is_boundary(material)) {  // no event
         cross_boundaries(c_.scene, met, path.ray, path.medium, counters_.walk);
         continue;
       }
@@ -97,6 +97,7 @@ class SurfaceLight {
       Scatter scatter;
       if (!scatter_at_surface(c_.scene, hit, path, rng_, scatter)) return result;
       path.power *= scatter.radiance_scale;
+      ++events;
     }
     ++counters_.cut_paths;
     return result;

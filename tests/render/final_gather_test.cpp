@@ -100,6 +100,24 @@ TEST(FinalGather, CutsEndlessPathsAndCountsThem) {
   EXPECT_EQ(eye.gather_rays, eye.rays * 8 * 21);
 }
 
+// One event each: the wall that the eye sees, the wall that a gathering ray meets.
+TEST(FinalGather, BoundariesOnTheWayAreNoEvents) {
+  Scene scene;
+  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Lambertian{Rgb(kReflectance)});
+  const Interface vacuum{kVacuum, kVacuum};
+  for (const double half : {0.5, 0.6, 0.7, 0.8, 0.9})
+    add_shape(scene, box_mesh(Vec3d(-half), Vec3d(half)), Boundary{}, &vacuum);
+  scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.3f, 0.2f, 0.1f), Vec3(1.0f, 0.3f, 0.2f), Vec3(0, 1, 0), 100.0f, 8, 8, {});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings settings = gathering(1e-6f);
+  settings.max_events = 1;
+  const EyeCounters eye = render_photon_pass(scene, settings, 0, kGoOn).statistics.eye;
+  EXPECT_GT(eye.walk.crossings, 5 * eye.rays);
+  EXPECT_EQ(eye.cut_paths, 0u);
+}
+
 // The 50 nearest of some 1700 photons per m^2 lie within 0.1 m, whatever the largest radius of the search: few rays are
 // shorter, as few as at a radius of 0.1 m. All are shorter than 10 m, and would go on: twice as many rays.
 TEST(FinalGather, RaysBeyondTheNearestPhotonsEndInTheMap) {
