@@ -42,12 +42,30 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
   return trace;
 }
 
-/// The settings of a map in this pass: radii shrink in radius mode; the largest radius of the nearest mode stays.
+/// Do radii shrink from pass to pass? In radius mode; the largest radius of the nearest mode stays.
+bool shrinks(const GatherSettings& gather, const RenderSettings& settings) {
+  return settings.shrink_radii && gather.mode == GatherMode::radius;
+}
+
+/// The settings of a map in this pass.
 GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dimension, const RenderSettings& settings,
                               int pass) {
-  const bool shrinks = settings.shrink_radii && gather.mode == GatherMode::radius;
-  gather.radius = shrinks ? radius_of_pass(first_radius, dimension, pass) : first_radius;
+  gather.radius = shrinks(gather, settings) ? radius_of_pass(first_radius, dimension, pass) : first_radius;
   return gather;
+}
+
+/// A kind of map, as a pass uses it.
+struct UsedMap {
+  const char* name;
+  GatherSettings gather;
+  int dimension;
+};
+std::vector<UsedMap> used_maps(const RenderSettings& settings, const Stages& stages) {
+  std::vector<UsedMap> maps;
+  if (stages.volume_map) maps.push_back({"volume", settings.volume, 3});
+  if (stages.surface_map) maps.push_back({"surface", settings.surface, 2});
+  if (stages.final_gather) maps.push_back({"caustics", settings.caustics, 2});
+  return maps;
 }
 
 float default_share(const GatherSettings& gather) {
@@ -131,10 +149,19 @@ EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, 
 }
 
 double kernel_size(const RenderSettings& settings, const Stages& stages, int pass) {
-  if (!stages.photons()) return 0.0;
-  const GatherSettings& gather = stages.volume_map ? settings.volume : settings.surface;
-  const float radius = gather_in_pass(gather, 1.0f, stages.volume_map ? 3 : 2, settings, pass).radius;
-  return double{radius} * radius;
+  for (const UsedMap& map : used_maps(settings, stages)) {
+    if (!shrinks(map.gather, settings)) continue;
+    const float radius = radius_of_pass(1.0f, map.dimension, pass);
+    return double{radius} * radius;
+  }
+  return stages.photons() ? 1.0 : 0.0;
+}
+
+std::vector<std::string> maps_of_one_radius(const RenderSettings& settings, const Stages& stages) {
+  std::vector<std::string> names;
+  for (const UsedMap& map : used_maps(settings, stages))
+    if (!shrinks(map.gather, settings)) names.emplace_back(map.name);
+  return names;
 }
 
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

@@ -248,6 +248,27 @@ TEST(PhotonPass, RadiiShrinkFromPassToPass) {
   EXPECT_EQ(radii(settings, 7), Vec2(radius_of_pass(0.1f, 3, 7), radius_of_pass(0.2f, 2, 7)));
 }
 
+TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
+  const Stages all{.volume_map = true, .surface_map = true, .final_gather = true};
+  const auto size = [&](const RenderSettings& s, const Stages& stages) { return kernel_size(s, stages, 5); };
+  const double volume = radius_of_pass(1.0f, 3, 5), surface = radius_of_pass(1.0f, 2, 5);
+  RenderSettings settings;
+  EXPECT_NEAR(size(settings, all), volume * volume, 1e-6);
+  EXPECT_NEAR(size(settings, {.surface_map = true}), surface * surface, 1e-6);
+  EXPECT_EQ(size(settings, {}), 0.0);
+  EXPECT_TRUE(maps_of_one_radius(settings, all).empty());
+  settings.volume.mode = GatherMode::nearest;
+  EXPECT_NEAR(size(settings, all), surface * surface, 1e-6);
+  EXPECT_EQ(size(settings, {.volume_map = true}), 1.0);
+  EXPECT_EQ(maps_of_one_radius(settings, all), std::vector<std::string>{"volume"});
+  settings.surface.mode = GatherMode::nearest;
+  EXPECT_NEAR(size(settings, all), surface * surface, 1e-6);  // the caustic map's
+  EXPECT_EQ(maps_of_one_radius(settings, {.surface_map = true}), std::vector<std::string>{"surface"});
+  settings.shrink_radii = false;
+  EXPECT_EQ(size(settings, all), 1.0);
+  EXPECT_EQ(maps_of_one_radius(settings, all).size(), 3u);
+}
+
 TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {
   // A ball of IOR 1 between lamp and floor: what shadow rays lose to it, photons bring back.
   Scene with = lamp_and_floor(nullptr);
