@@ -14,9 +14,9 @@ struct EyeContext {
   const Scene& scene;
   const RenderSettings& settings;
   Stages stages;
-  std::vector<PhotonMap> volume;  // by medium; empty without a volume map
-  PhotonMap surface;
-  PhotonMap caustics;  // under final gathering
+  std::vector<PhotonMap> volume;  // by medium, under Stages::volume_map; otherwise none
+  PhotonMap surface;              // under Stages::surface_map; otherwise empty, as below
+  PhotonMap caustics;             // under Stages::final_gather
   std::unique_ptr<TransmittanceEstimator> transmittance;
 };
 

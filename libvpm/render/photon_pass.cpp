@@ -85,11 +85,10 @@ void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgre
   bar.finish();
   statistics.trace_seconds = tracing.seconds();
   statistics.ledger = photons.ledger;
-  statistics.surface_photons = photons.surface.size();
 
   const Stopwatch building;
   const uint64_t emitted = photons.ledger.emitted_count;
-  for (size_t m = 0; m < scene.media.size(); ++m) {
+  for (size_t m = 0; context.stages.volume_map && m < scene.media.size(); ++m) {
     const float first = first_volume_radius(scene, settings, scene.media[m]);
     statistics.volume_photons += photons.volume[m].size();
     context.volume.push_back(make_photon_map(std::move(photons.volume[m]),
@@ -97,11 +96,14 @@ void make_maps(EyeContext& context, const TraceSettings& trace, const PassProgre
     statistics.last_volume_radius = std::max(statistics.last_volume_radius, context.volume.back().settings.radius);
     statistics.photon_map_bytes += context.volume.back().memory_bytes();
   }
-  const float first = first_surface_radius(scene, settings);
-  context.surface =
-      make_photon_map(std::move(photons.surface), gather_in_pass(settings.surface, first, 2, settings, pass), emitted);
-  statistics.last_surface_radius = context.surface.settings.radius;
-  statistics.photon_map_bytes += context.surface.memory_bytes();
+  if (context.stages.surface_map) {
+    const float first = first_surface_radius(scene, settings);
+    statistics.surface_photons = photons.surface.size();
+    context.surface = make_photon_map(std::move(photons.surface),
+                                      gather_in_pass(settings.surface, first, 2, settings, pass), emitted);
+    statistics.last_surface_radius = context.surface.settings.radius;
+    statistics.photon_map_bytes += context.surface.memory_bytes();
+  }
   if (context.stages.final_gather) {
     statistics.caustic_photons = photons.caustics.size();
     context.caustics = make_photon_map(
