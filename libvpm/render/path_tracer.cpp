@@ -16,6 +16,7 @@ class TracedPath {
     for (int events = 0; events < c_.max_events; ++events) {
       const Vec3 from = state_.ray.origin;
       const Event event = next_event(c_.scene, *c_.distance, state_, rng_, counters_.walk);
+      if (!is_finite(state_.power)) return state_.power;  // no roulette: that would end it as if it were black
       if (event.kind == EventKind::escape) {
         see_environment(from);
         return radiance_;
