@@ -1,6 +1,8 @@
 // Shadow rays.
 #include "path/direct_light.h"
 
+#include <cassert>
+
 namespace vpm {
 
 int pick_light(const Scene& scene, float u) {
@@ -11,6 +13,7 @@ int pick_light(const Scene& scene, float u) {
     if (u < scene.light_probability[i]) break;
     u -= scene.light_probability[i];
   }
+  assert(picked >= 0);
   return picked;
 }
 

@@ -34,7 +34,7 @@ SurfaceSide far_side(const Scene& scene, const Hit& hit, const Vec3& travel, Med
 Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,
                MediumId medium, Rng& rng, WalkCounters& counters);
 
-/// The number of the light that a uniform number picks, by power (Scene::light_probability).
+/// The number of the light that a uniform number picks, by power (Scene::light_probability). The scene has a light.
 int pick_light(const Scene& scene, float u);
 
 }  // namespace vpm

@@ -87,7 +87,6 @@ class TracedPath {
   /// One light, picked by power: its irradiance over that probability, its pdf times it.
   DirectSample sample_light(const Vec3& point, const Vec3& facing, MediumId medium) {
     const int picked = pick_light(c_.scene, rng_.uniform());
-    if (picked < 0) return {};
     ++counters_.shadow_rays;
     DirectSample sample =
         sample_direct(c_.scene, picked, *c_.transmittance, point, facing, medium, rng_, counters_.walk);
