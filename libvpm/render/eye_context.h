@@ -20,4 +20,11 @@ struct EyeContext {
   std::unique_ptr<TransmittanceEstimator> transmittance;
 };
 
+/// The column of the medium over an interval of a ray, m.
+inline double counted_column(const Medium& medium, const Ray& ray, const Interval& interval, WalkCounters& counters) {
+  const Column crossed = column(medium, ray, interval);
+  counters.lookups += crossed.lookups;
+  return crossed.value;
+}
+
 }  // namespace vpm

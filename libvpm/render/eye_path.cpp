@@ -61,7 +61,7 @@ class EyePath {
     const PhotonMap* map =
         c_.stages.volume_map && !at_photon && c_.volume[medium_].size() > 0 ? &c_.volume[medium_] : nullptr;
     if (!medium.scatters() || (!map && !c_.stages.volume_shadow_rays)) {
-      throughput_ *= transmittance(medium, attenuate(medium, segment));
+      throughput_ *= transmittance(medium, counted_column(medium, ray_, segment, counters_.walk));
       return;
     }
     // Fine steps where there are photons to gather; elsewhere only single scattering is left to find, in steps of
@@ -80,7 +80,7 @@ class EyePath {
   void march_media(const Medium& medium, const Interval& interval, const PhotonMap* map) {
     if (interval.empty() || is_black(throughput_)) return;
     if (!map && !c_.stages.volume_shadow_rays) {
-      throughput_ *= transmittance(medium, attenuate(medium, interval));
+      throughput_ *= transmittance(medium, counted_column(medium, ray_, interval, counters_.walk));
       return;
     }
     const StepLimits limits{map ? step_among(*map, interval) : kInfinity, c_.settings.max_optical_step};
@@ -99,12 +99,6 @@ class EyePath {
     counters_.steps += marched.steps;
     counters_.walk.lookups += marched.lookups;
     throughput_ *= transmittance(medium, marched.column);
-  }
-
-  double attenuate(const Medium& medium, const Interval& segment) {
-    const Column crossed = column(medium, ray_, segment);
-    counters_.walk.lookups += crossed.lookups;
-    return crossed.value;
   }
 
   /// Radiance scattered once at a point, over sigma_s: phase function times what the lights send there.
@@ -126,7 +120,7 @@ class EyePath {
       const PhotonMap& map = c_.volume[m];
       const Interval near = clip(segment, map.bounds(), map.settings.radius);
       if (map.size() == 0 || near.empty()) continue;
-      const double before = around ? attenuate(*around, {segment.t0, near.t0}) : 0.0;
+      const double before = around ? counted_column(*around, ray_, {segment.t0, near.t0}, counters_.walk) : 0.0;
       const Medium& medium = c_.scene.media[m];
       counters_.walk.lookups += march_evenly(
           around, ray_, near, before, step_among(map, near), rng_, [&](const Vec3& point, const Rgb& weight) {

@@ -72,14 +72,17 @@ class SurfaceLight {
   /// At the end of a ray that is too short for the map the path goes on as a path tracer's would, with one ray at a
   /// time and the same roulette, until a ray is long enough.
   Rgb met_along(PathState path) {
-    ++counters_.gather_rays;
     Rgb result(0.0f);
-    float length = 0.0f;
+    float length = 0.0f;  // of the present ray so far, m
     for (int events = 0; events < c_.settings.max_events;) {
+      if (length == 0.0f) ++counters_.gather_rays;
       const Encounter met = meet(c_.scene, path.ray, kInfinity, path.medium, counters_.walk);
       if (!met) return result;
       const Hit& hit = met.hits[0];
-      attenuate(path, hit.t);
+      if (path.medium != kVacuum) {
+        const Medium& medium = c_.scene.media[path.medium];
+        path.power *= transmittance(medium, counted_column(medium, path.ray, {0.0f, hit.t}, counters_.walk));
+      }
       if (is_black(path.power)) return result;
       length += hit.t;
       const Material material = material_at(c_.scene, hit);
@@ -91,8 +94,7 @@ class SurfaceLight {
         const SurfaceView view{hit, material, path.ray.direction, path.medium};
         if (!is_too_short(length, view)) return result + path.power * of_map(view, c_.surface);
         result += path.power * not_gathered(view);
-        ++counters_.gather_rays;
-        length = 0.0f;
+        length = 0.0f;  // of the next ray
       }
       Scatter scatter;
       if (!scatter_at_surface(c_.scene, hit, path, rng_, scatter)) return result;
@@ -107,14 +109,6 @@ class SurfaceLight {
   bool is_too_short(float length, const SurfaceView& view) const {
     return length < c_.surface.settings.radius &&
            length < scattered_radius(view.material, view.hit, -view.travel, c_.surface);
-  }
-
-  void attenuate(PathState& path, float length) {
-    if (path.medium == kVacuum) return;
-    const Medium& medium = c_.scene.media[path.medium];
-    const Column crossed = column(medium, path.ray, {0.0f, length});
-    counters_.walk.lookups += crossed.lookups;
-    path.power *= transmittance(medium, crossed.value);
   }
 
   const EyeContext& c_;

@@ -97,7 +97,7 @@ TEST(FinalGather, CutsEndlessPathsAndCountsThem) {
   settings.max_events = 20;
   const EyeCounters eye = render_photon_pass(hollow_cube(nullptr, 1.0f), settings, 0, kGoOn).statistics.eye;
   EXPECT_EQ(eye.cut_paths, eye.rays * 8);
-  EXPECT_EQ(eye.gather_rays, eye.rays * 8 * 21);
+  EXPECT_EQ(eye.gather_rays, eye.rays * 8 * 20);
 }
 
 // One event each: the wall that the eye sees, the wall that a gathering ray meets.
