@@ -150,7 +150,7 @@ EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, 
   return context;
 }
 
-double kernel_size(const RenderSettings& settings, const Stages& stages, int pass) {
+double relative_square(const RenderSettings& settings, const Stages& stages, int pass) {
   for (const UsedMap& map : used_maps(settings, stages)) {
     if (!shrinks(map.gather, settings)) continue;
     const float radius = radius_of_pass(1.0f, map.dimension, pass);
@@ -176,7 +176,7 @@ Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int 
     return eye_radiance(context, ray, marcher, rng, counters);
   };
   Pass result = render_image(scene, settings, pass, radiance, stop, progress);
-  result.kernel_size = kernel_size(settings, stages, pass);
+  result.relative_square = relative_square(settings, stages, pass);
   result.statistics.merge(statistics);
   return result;
 }

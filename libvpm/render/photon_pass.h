@@ -27,7 +27,7 @@ EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, 
 /// The squared radius of the pass's kernels over that of the first pass, of the first map that shrinks: the volume
 /// map, the surface map, the caustic map. All that shrink do so at nearly the same rate. 1 where none does, 0 without
 /// photons.
-double kernel_size(const RenderSettings& settings, const Stages& stages, int pass);
+double relative_square(const RenderSettings& settings, const Stages& stages, int pass);
 /// The sections of the scene file whose maps are used but do not shrink from pass to pass: their kernels' bias cannot
 /// be seen.
 std::vector<std::string> maps_of_one_radius(const RenderSettings& settings, const Stages& stages);

@@ -18,7 +18,7 @@ const Vec3 kProbes[] = {glm::normalize(Vec3(0.5470f, 0.7316f, 0.4071f)),
                         glm::normalize(Vec3(0.2843f, -0.8429f, -0.4567f))};
 
 /// The near side of a shape that is no other one's far side: what a ray of unknown past comes out of.
-MediumId near_side(const Scene& scene, const Encounter& met, const Vec3& direction) {
+MediumId came_from(const Scene& scene, const Encounter& met, const Vec3& direction) {
   const auto side = [&](int i, const Vec3& d) {
     return medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, d, kVacuum);
   };
@@ -32,7 +32,7 @@ MediumId near_side(const Scene& scene, const Encounter& met, const Vec3& directi
 
 MediumId medium_along(const Scene& scene, const Ray& ray) {
   const Encounter met = scene.geometry.division(ray);
-  return met ? near_side(scene, met, ray.direction) : scene.world_medium;
+  return met ? came_from(scene, met, ray.direction) : scene.world_medium;
 }
 
 Box wider_box(const Box& box) {
@@ -138,7 +138,7 @@ MediumId medium_before(const Scene& scene, const Encounter& met, const Vec3& dir
   for (int i = 0; i < (met.surface ? 1 : met.count); ++i)
     if (medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, -direction, current) == current)
       return current;
-  return near_side(scene, met, direction);
+  return came_from(scene, met, direction);
 }
 
 MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current) {

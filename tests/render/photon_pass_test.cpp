@@ -251,22 +251,22 @@ TEST(PhotonPass, RadiiShrinkFromPassToPass) {
 
 TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
   const Stages all{.volume_map = true, .surface_map = true, .final_gather = true};
-  const auto size = [&](const RenderSettings& s, const Stages& stages) { return kernel_size(s, stages, 5); };
+  const auto square = [&](const RenderSettings& s, const Stages& stages) { return relative_square(s, stages, 5); };
   const double volume = radius_of_pass(1.0f, 3, 5), surface = radius_of_pass(1.0f, 2, 5);
   RenderSettings settings;
-  EXPECT_NEAR(size(settings, all), volume * volume, 1e-6);
-  EXPECT_NEAR(size(settings, {.surface_map = true}), surface * surface, 1e-6);
-  EXPECT_EQ(size(settings, {}), 0.0);
+  EXPECT_NEAR(square(settings, all), volume * volume, 1e-6);
+  EXPECT_NEAR(square(settings, {.surface_map = true}), surface * surface, 1e-6);
+  EXPECT_EQ(square(settings, {}), 0.0);
   EXPECT_TRUE(maps_of_one_radius(settings, all).empty());
   settings.volume.mode = GatherMode::nearest;
-  EXPECT_NEAR(size(settings, all), surface * surface, 1e-6);
-  EXPECT_EQ(size(settings, {.volume_map = true}), 1.0);
+  EXPECT_NEAR(square(settings, all), surface * surface, 1e-6);
+  EXPECT_EQ(square(settings, {.volume_map = true}), 1.0);
   EXPECT_EQ(maps_of_one_radius(settings, all), std::vector<std::string>{"volume"});
   settings.surface.mode = GatherMode::nearest;
-  EXPECT_NEAR(size(settings, all), surface * surface, 1e-6);  // the caustic map's
+  EXPECT_NEAR(square(settings, all), surface * surface, 1e-6);  // the caustic map's
   EXPECT_EQ(maps_of_one_radius(settings, {.surface_map = true}), std::vector<std::string>{"surface"});
   settings.shrink_radii = false;
-  EXPECT_EQ(size(settings, all), 1.0);
+  EXPECT_EQ(square(settings, all), 1.0);
   EXPECT_EQ(maps_of_one_radius(settings, all).size(), 3u);
 }
 
