@@ -106,7 +106,7 @@ class EyePath {
     ++counters_.shadow_rays;
     const int picked = pick_light(c_.scene, rng_.uniform());
     const DirectSample light =
-        sample_direct(c_.scene, picked, *c_.transmittance, point, Vec3(0.0f), medium_, rng_, counters_.walk);
+        sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked, {point, medium_});
     if (is_black(light.irradiance)) return Rgb(0.0f);
     return light.irradiance * phase_value(medium.phase, -light.direction, -ray_.direction) /
            c_.scene.light_probability[picked];

@@ -28,12 +28,11 @@ class SurfaceLight {
   }
 
   /// The light of all lamps that arrives on that side.
-  Rgb direct_light(const SurfaceView& view, const SurfaceSide& side) {
+  Rgb direct_light(const SurfaceView& view, const Receiver& side) {
     Rgb result(0.0f);
     for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
       ++counters_.shadow_rays;
-      const DirectSample light =
-          sample_direct(c_.scene, i, *c_.transmittance, side.point, side.normal, side.medium, rng_, counters_.walk);
+      const DirectSample light = sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, i, side);
       if (is_black(light.irradiance)) continue;
       const ScatterValue scattered = scatter_value(view.material, view.hit, view.travel, light.direction);
       result += scattered.value * scattered.radiance_scale * light.irradiance;

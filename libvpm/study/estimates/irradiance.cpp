@@ -23,7 +23,7 @@ Moments estimate_irradiance(const Light& light, const Vec3& receiver, uint64_t s
   const auto transmittance = make_transmittance_estimator({});
   return sample_moments(1, samples, seed, [&](Rng& rng, double* out) {
     WalkCounters counters;
-    const DirectSample sample = sample_direct(scene, 0, *transmittance, receiver, kUp, kVacuum, rng, counters);
+    const DirectSample sample = sample_direct({scene, *transmittance, rng, counters}, 0, {receiver, kVacuum, kUp});
     out[0] = sample.irradiance.r * std::max(0.0f, sample.direction.z);
   })[0];
 }
