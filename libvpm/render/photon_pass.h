@@ -17,6 +17,7 @@ struct Stages {
   bool final_gather = false;  // with a caustic map beside the surface map
   bool photons() const { return volume_map || surface_map; }
 };
+/// The stages that such a render of the scene runs; none by the path tracer.
 Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 
 struct EyeContext;
