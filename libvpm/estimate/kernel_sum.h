@@ -11,6 +11,12 @@
 
 namespace vpm {
 
+/// How photons are gathered, of a map as of a plain list with the number emitted.
+inline const GatherSettings& settings_of(const PhotonMap& map) { return map.settings; }
+inline const GatherSettings& settings_of(const std::vector<Photon>&, const GatherSettings& settings, uint64_t) {
+  return settings;
+}
+
 /// The kernel of a space of `Dimension` 2 or 3.
 template <int Dimension>
 float kernel_norm(KernelKind kind, float r) {
@@ -52,16 +58,24 @@ Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3&
   });
 }
 
+/// The k nearest photons that `accept`(travel, offset) takes, of those within the largest radius. Good until the
+/// thread's next call.
+template <class Accept>
+const Neighbours& nearest(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept) {
+  static thread_local Neighbours neighbours(0);
+  neighbours.reserve(settings.count);
+  map.find(point, settings.radius, neighbours,
+           [&](const Photon& p, const Vec3& offset) { return accept(p.travel.unpack(), offset); });
+  return neighbours;
+}
+
 /// Sum over the k nearest photons that `accept` takes. The k-th sets the radius and is not counted: k - 1 photons over
 /// the ball that reaches it, which is unbiased; kernels that vanish there leave it out by themselves. Where fewer than
 /// k lie within the largest radius, all count over that one.
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
                Value&& value) {
-  static thread_local Neighbours neighbours(0);
-  neighbours.reserve(settings.count);
-  map.find(point, settings.radius, neighbours,
-           [&](const Photon& p, const Vec3& offset) { return accept(p.travel.unpack(), offset); });
+  const Neighbours& neighbours = nearest(map, settings, point, accept);
   const float r2 = neighbours.limit();
   return with_kernel(settings.kernel, [&](auto profile) {
     Rgb sum(0.0f);
@@ -79,6 +93,13 @@ template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const PhotonMap& map, const Vec3& point, Accept&& accept, Value&& value) {
   return std::visit([&](const auto& index) { return kernel_sum<Dimension>(index, map.settings, point, accept, value); },
                     map.index);
+}
+
+/// The radius, m, of the ball that kernel_sum() sums over.
+template <class Accept>
+float kernel_radius(const PhotonMap& map, const Vec3& point, Accept&& accept) {
+  const auto* by_count = std::get_if<NearestMap>(&map.index);
+  return by_count ? std::sqrt(nearest(*by_count, map.settings, point, accept).limit()) : map.settings.radius;
 }
 
 /// The brute-force twin of both: looks at every photon of a plain list. Powers are divided by `emitted` here.

@@ -75,7 +75,7 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
   Numbers numbers{result.film.width(), result.film.height(), {}, result.seconds, result.statistics};
   for (size_t h = 0; h < 2; ++h) {
     const PassMoments& half = result.film.halves()[h];
-    numbers.halves[h] = {half.passes, half.mean_size, half.size_squares};
+    numbers.halves[h] = {half.passes, half.mean_square, half.square_spread};
   }
   append(bytes, &numbers, sizeof numbers);
   for (const PassMoments& half : result.film.halves())

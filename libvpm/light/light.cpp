@@ -1,18 +1,10 @@
 // The closed set of lights: each question goes to the kind of light it is asked of.
 #include "light/light.h"
 
+#include "base/overloads.h"
 #include "light/kinds.h"
 
 namespace vpm {
-
-namespace {
-template <class... F>
-struct Overloads : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloads(F...) -> Overloads<F...>;
-}  // namespace
 
 Rgb light_power(const Light& light, const Box& scene) {
   return std::visit([&](const auto& l) { return power_of(l, scene); }, light);
@@ -31,14 +23,12 @@ std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rn
 }
 
 float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen) {
-  return std::visit(
-      [&](const auto& l) {
-        if constexpr (requires { pdf_of(l, point, seen); })
-          return pdf_of(l, point, seen);
-        else
-          return 0.0f;
-      },
-      light);
+  return std::visit(Overloads{[](const UnseenLight auto&) { return 0.0f; },
+                              [&](const AreaLight auto& l) { return pdf_of(l, point, seen); },
+                              [](const DirectionalLight&) { return 0.0f; },
+                              [&](const ConstantEnvironment& l) { return pdf_of(l, point, seen); },
+                              [&](const EnvironmentMap& l) { return pdf_of(l, point, seen); }},
+                    light);
 }
 
 std::string_view light_kind(const Light& light) {
@@ -67,23 +57,27 @@ bool is_grey(const Light& light) {
 }
 
 bool is_infinite(const Light& light) {
-  return std::holds_alternative<DirectionalLight>(light) || std::holds_alternative<ConstantEnvironment>(light) ||
-         std::holds_alternative<EnvironmentMap>(light);
+  return std::visit(
+      Overloads{[](const UnseenLight auto&) { return false; }, [](const AreaLight auto&) { return false; },
+                [](const DistantLight auto&) { return true; }},
+      light);
 }
 
 Rgb environment_radiance(const Light& light, const Vec3& direction) {
-  if (const auto* constant = std::get_if<ConstantEnvironment>(&light)) return constant->radiance;
-  if (const auto* map = std::get_if<EnvironmentMap>(&light)) return map->image->radiance(direction);
-  return Rgb(0.0f);
+  return std::visit(
+      Overloads{[](const UnseenLight auto&) { return Rgb(0.0f); }, [](const AreaLight auto&) { return Rgb(0.0f); },
+                [](const DirectionalLight&) { return Rgb(0.0f); },
+                [](const ConstantEnvironment& l) { return l.radiance; },
+                [&](const EnvironmentMap& l) { return l.image->radiance(direction); }},
+      light);
 }
 
 Rgb surface_radiance(const Light& light, const Vec3& normal, const Vec3& travel) {
   if (glm::dot(normal, travel) >= 0.0f) return Rgb(0.0f);
-  if (const auto* quad = std::get_if<QuadLight>(&light)) return quad->radiance;
-  if (const auto* disc = std::get_if<DiscLight>(&light)) return disc->radiance;
-  if (const auto* sphere = std::get_if<SphereLight>(&light)) return sphere->radiance;
-  if (const auto* mesh = std::get_if<MeshLight>(&light)) return mesh->radiance;
-  return Rgb(0.0f);
+  return std::visit(
+      Overloads{[](const UnseenLight auto&) { return Rgb(0.0f); }, [](const AreaLight auto& l) { return l.radiance; },
+                [](const DistantLight auto&) { return Rgb(0.0f); }},
+      light);
 }
 
 }  // namespace vpm

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -128,6 +129,19 @@ struct EnvironmentMap {
 
 using Light = std::variant<PointLight, SpotLight, BeamLight, QuadLight, DiscLight, SphereLight, MeshLight,
                            DirectionalLight, ConstantEnvironment, EnvironmentMap>;
+
+// What kinds of lights have in common; each belongs to one of three.
+template <class L, class... Kinds>
+concept OneOf = (std::same_as<L, Kinds> || ...);
+/// Those that no ray runs into.
+template <class L>
+concept UnseenLight = OneOf<L, PointLight, SpotLight, BeamLight>;
+/// Those that are shapes of the scene. They emit `radiance`.
+template <class L>
+concept AreaLight = OneOf<L, QuadLight, DiscLight, SphereLight, MeshLight>;
+/// Those at infinity.
+template <class L>
+concept DistantLight = OneOf<L, DirectionalLight, ConstantEnvironment, EnvironmentMap>;
 
 /// Power emitted into the scene, W. Lights at infinity: what enters the box `scene`, which holds all that they have to
 /// reach and has a volume.

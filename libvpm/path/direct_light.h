@@ -13,28 +13,34 @@ struct DirectSample {
   float pdf = 0.0f;      // of the direction, 1/sr; 0 where the light has one direction only
 };
 
-/// Estimates what light number `light` sends to `point` in medium `medium`. With a normal, `facing`, only light from
-/// its side counts; zero: light from everywhere. A point on a surface must be just off it (leave_surface()).
-DirectSample sample_direct(const Scene& scene, int light, const TransmittanceEstimator& transmittance,
-                           const Vec3& point, const Vec3& facing, MediumId medium, Rng& rng, WalkCounters& counters);
-
-/// A side of a surface, as shadow rays start from it.
-struct SurfaceSide {
-  Vec3 point{0.0f};   // just off the surface
-  Vec3 normal{0.0f};  // to that side, unit
-  MediumId medium = kVacuum;
+/// What shadow rays go by, and what they count.
+struct ShadowRays {
+  const Scene& scene;
+  const TransmittanceEstimator& transmittance;
+  Rng& rng;
+  WalkCounters& counters;
 };
+
+/// Where light is asked for: at a point within a medium, or on one side of a surface.
+struct Receiver {
+  Vec3 point{0.0f};           // at a surface: just off it (leave_surface())
+  MediumId medium = kVacuum;  // there
+  Vec3 normal{0.0f};          // unit, to the side whose light counts; zero: light from everywhere
+};
+
+/// Estimates what light number `light` sends to the receiver.
+DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver);
+
 /// The side on which a path in `medium` meets the surface along `travel`; and the other one, from which light reaches
 /// the path's side where the material scatters it through.
-SurfaceSide near_side(const Hit& hit, const Vec3& travel, MediumId medium);
-SurfaceSide far_side(const Scene& scene, const Hit& hit, const Vec3& travel, MediumId medium);
+Receiver near_side(const Hit& hit, const Vec3& travel, MediumId medium);
+Receiver far_side(const Scene& scene, const Hit& hit, const Vec3& travel, MediumId medium);
 
 /// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface
 /// stands between that is no boundary, be it another part of the light's own.
-Rgb visibility(const Scene& scene, const TransmittanceEstimator& transmittance, Ray ray, float distance, int light,
-               MediumId medium, Rng& rng, WalkCounters& counters);
+Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, MediumId medium);
 
-/// The number of the light that a uniform number picks, by power (Scene::light_probability).
+/// The number of the light that a uniform number picks, by power (Scene::light_probability). The scene has a light.
 int pick_light(const Scene& scene, float u);
 
 }  // namespace vpm

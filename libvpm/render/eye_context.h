@@ -14,10 +14,17 @@ struct EyeContext {
   const Scene& scene;
   const RenderSettings& settings;
   Stages stages;
-  std::vector<PhotonMap> volume;  // by medium; empty without a volume map
-  PhotonMap surface;
-  PhotonMap caustics;  // under final gathering
+  std::vector<PhotonMap> volume;  // by medium, under Stages::volume_map; otherwise none
+  PhotonMap surface;              // under Stages::surface_map; otherwise empty, as below
+  PhotonMap caustics;             // under Stages::final_gather
   std::unique_ptr<TransmittanceEstimator> transmittance;
 };
+
+/// The column of the medium over an interval of a ray, m.
+inline double counted_column(const Medium& medium, const Ray& ray, const Interval& interval, WalkCounters& counters) {
+  const Column crossed = column(medium, ray, interval);
+  counters.lookups += crossed.lookups;
+  return crossed.value;
+}
 
 }  // namespace vpm

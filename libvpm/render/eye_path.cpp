@@ -28,7 +28,7 @@ class EyePath {
         medium_(medium_of_ray(context.scene, context.scene.camera_medium, ray)) {}
 
   Rgb follow() {
-    for (int events = 0; events < c_.settings.max_events; ++events) {
+    for (int events = 0; events < c_.settings.max_events;) {
       const Encounter met = meet(c_.scene, ray_, kInfinity, medium_, counters_.walk);
       cross_segment({0.0f, met ? met.hits[0].t : kInfinity});
       if (is_black(throughput_)) return radiance_;
@@ -37,7 +37,15 @@ class EyePath {
           radiance_ += throughput_ * environment_radiance(light, ray_.direction);
         return radiance_;
       }
-      if (!pass_shapes(met)) return radiance_;
+      const Hit& hit = met.hits[0];
+      const Material material = material_at(c_.scene, hit);
+      see_lamp(hit);
+      if (is_boundary(material)) {  // no event
+        cross_boundaries(c_.scene, met, ray_, medium_, counters_.walk);
+        continue;
+      }
+      if (!meet_surface(hit, material)) return radiance_;
+      ++events;
     }
     ++counters_.cut_paths;
     return radiance_;
@@ -53,7 +61,7 @@ class EyePath {
     const PhotonMap* map =
         c_.stages.volume_map && !at_photon && c_.volume[medium_].size() > 0 ? &c_.volume[medium_] : nullptr;
     if (!medium.scatters() || (!map && !c_.stages.volume_shadow_rays)) {
-      throughput_ *= transmittance(medium, attenuate(medium, segment));
+      throughput_ *= transmittance(medium, counted_column(medium, ray_, segment, counters_.walk));
       return;
     }
     // Fine steps where there are photons to gather; elsewhere only single scattering is left to find, in steps of
@@ -72,7 +80,7 @@ class EyePath {
   void march_media(const Medium& medium, const Interval& interval, const PhotonMap* map) {
     if (interval.empty() || is_black(throughput_)) return;
     if (!map && !c_.stages.volume_shadow_rays) {
-      throughput_ *= transmittance(medium, attenuate(medium, interval));
+      throughput_ *= transmittance(medium, counted_column(medium, ray_, interval, counters_.walk));
       return;
     }
     const StepLimits limits{map ? step_among(*map, interval) : kInfinity, c_.settings.max_optical_step};
@@ -93,18 +101,12 @@ class EyePath {
     throughput_ *= transmittance(medium, marched.column);
   }
 
-  double attenuate(const Medium& medium, const Interval& segment) {
-    const Column crossed = column(medium, ray_, segment);
-    counters_.walk.lookups += crossed.lookups;
-    return crossed.value;
-  }
-
   /// Radiance scattered once at a point, over sigma_s: phase function times what the lights send there.
   Rgb single_scattering(const Medium& medium, const Vec3& point) {
     ++counters_.shadow_rays;
     const int picked = pick_light(c_.scene, rng_.uniform());
     const DirectSample light =
-        sample_direct(c_.scene, picked, *c_.transmittance, point, Vec3(0.0f), medium_, rng_, counters_.walk);
+        sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked, {point, medium_});
     if (is_black(light.irradiance)) return Rgb(0.0f);
     return light.irradiance * phase_value(medium.phase, -light.direction, -ray_.direction) /
            c_.scene.light_probability[picked];
@@ -118,7 +120,7 @@ class EyePath {
       const PhotonMap& map = c_.volume[m];
       const Interval near = clip(segment, map.bounds(), map.settings.radius);
       if (map.size() == 0 || near.empty()) continue;
-      const double before = around ? attenuate(*around, {segment.t0, near.t0}) : 0.0;
+      const double before = around ? counted_column(*around, ray_, {segment.t0, near.t0}, counters_.walk) : 0.0;
       const Medium& medium = c_.scene.media[m];
       counters_.walk.lookups += march_evenly(
           around, ray_, near, before, step_among(map, near), rng_, [&](const Vec3& point, const Rgb& weight) {
@@ -135,17 +137,14 @@ class EyePath {
     return {static_cast<float>(t0), static_cast<float>(t1)};
   }
 
-  /// Adds what a surface sends towards the eye, or passes boundaries. Returns whether the path goes on.
-  bool pass_shapes(const Encounter& met) {
-    const Hit& hit = met.hits[0];
-    const Shape& shape = c_.scene.shapes[hit.shape];
-    const Material material = material_at(c_.scene, hit);
-    if (shape.light >= 0)
-      radiance_ += throughput_ * surface_radiance(c_.scene.lights[shape.light], hit.normal, ray_.direction);
-    if (is_boundary(material)) {
-      cross_boundaries(c_.scene, met, ray_, medium_, counters_.walk);
-      return true;
-    }
+  /// Adds what a surface emits towards the eye.
+  void see_lamp(const Hit& hit) {
+    const int light = c_.scene.shapes[hit.shape].light;
+    if (light >= 0) radiance_ += throughput_ * surface_radiance(c_.scene.lights[light], hit.normal, ray_.direction);
+  }
+
+  /// Adds what a rough surface scatters towards the eye; goes on from others. Returns whether the path goes on.
+  bool meet_surface(const Hit& hit, const Material& material) {
     if (is_rough(material)) {
       const SurfaceView view{hit, material, ray_.direction, medium_};
       radiance_ += throughput_ * surface_light(c_, view, c_.settings.gather_rays, rng_, counters_);

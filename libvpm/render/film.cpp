@@ -15,20 +15,20 @@ Film::Film(int width, int height) : width_(width), height_(height) {
 
 Film::Film(int width, int height, Halves halves) : width_(width), height_(height), halves_(std::move(halves)) {}
 
-void Film::add(const Image& pass, double size) {
+void Film::add(const Image& pass, double relative_square) {
   PassMoments& half = halves_[passes() % 2];
   assert(pass.pixels.size() == half.mean.size());
   ++half.passes;
-  const double size_step = size - half.mean_size;
-  half.mean_size += size_step / half.passes;
-  const double size_rest = size - half.mean_size;
-  half.size_squares += size_step * size_rest;
+  const double square_step = relative_square - half.mean_square;
+  half.mean_square += square_step / half.passes;
+  const double square_rest = relative_square - half.mean_square;
+  half.square_spread += square_step * square_rest;
   for (size_t i = 0; i < half.mean.size(); ++i) {
     const Rgbd value(pass.pixels[i]);
     const Rgbd step = value - half.mean[i];
     half.mean[i] += step / static_cast<double>(half.passes);
     half.squares[i] += step * (value - half.mean[i]);
-    half.products[i] += step * size_rest;
+    half.products[i] += step * square_rest;
   }
 }
 
@@ -65,14 +65,15 @@ FilmErrors Film::errors() const {
   FilmErrors errors{Image(width_, height_), Image(width_, height_)};
   const auto& [a, b] = halves_;
   const double n = passes();
-  const double size = (a.passes * a.mean_size + b.passes * b.mean_size) / n;  // the mean's, whose bias is slope * size
+  // The mean's, whose bias is slope * relative_square.
+  const double relative_square = (a.passes * a.mean_square + b.passes * b.mean_square) / n;
   const Rgbd means = channel_means(mean());
   for (size_t i = 0; i < errors.bias.pixels.size(); ++i) {
     const Rgbd variance = variance_at(i), value = mean_at(i);
     Rgbd bias_a(0.0), bias_b(0.0);
     if (shows_bias()) {
-      bias_a = a.products[i] * (size / a.size_squares);
-      bias_b = b.products[i] * (size / b.size_squares);
+      bias_a = a.products[i] * (relative_square / a.square_spread);
+      bias_b = b.products[i] * (relative_square / b.square_spread);
     }
     errors.variance.pixels[i] = Rgb(variance);
     errors.bias.pixels[i] = Rgb(0.5 * (bias_a + bias_b));

@@ -21,10 +21,11 @@ struct FilmErrors {
 /// Running moments of some passes [Welford1962].
 struct PassMoments {
   int passes = 0;
-  double mean_size = 0.0, size_squares = 0.0;  // of kernel sizes: mean, sum of squared differences from it
+  // Of the relative squares of radii: mean, sum of squared differences from it.
+  double mean_square = 0.0, square_spread = 0.0;
   std::vector<Rgbd> mean;
   std::vector<Rgbd> squares;   // sums of squared differences from the mean
-  std::vector<Rgbd> products;  // sums of products of the differences of values and of kernel sizes
+  std::vector<Rgbd> products;  // sums of products of the differences of values and of relative squares
 };
 
 /// Sums passes in double.
@@ -37,9 +38,9 @@ class Film {
   Film(int width, int height);
   Film(int width, int height, Halves halves);
 
-  /// Adds one pass of the film's size, whose kernels' squared radii are `size` times those of the first pass (0: the
-  /// pass has no kernel).
-  void add(const Image& pass, double size = 0.0);
+  /// Adds one pass of the film's size, whose kernels' squared radii are `relative_square` times those of the first
+  /// pass (0: the pass has no kernel).
+  void add(const Image& pass, double relative_square = 0.0);
   int width() const { return width_; }
   int height() const { return height_; }
   int passes() const { return halves_[0].passes + halves_[1].passes; }
@@ -49,7 +50,7 @@ class Film {
   /// The variance of that mean, estimated from the passes' differences. Needs two passes.
   Image variance_of_mean() const;
   /// Do the radii differ within each half, so that a bias shows?
-  bool shows_bias() const { return halves_[0].size_squares > 0.0 && halves_[1].size_squares > 0.0; }
+  bool shows_bias() const { return halves_[0].square_spread > 0.0 && halves_[1].square_spread > 0.0; }
   /// Needs two passes. Where no bias shows, it is 0.
   FilmErrors errors() const;
 

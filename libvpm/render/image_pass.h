@@ -14,8 +14,8 @@
 namespace vpm {
 
 struct Pass {
-  Image image;               // radiance, W/(m^2 sr)
-  double kernel_size = 0.0;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
+  Image image;                   // radiance, W/(m^2 sr)
+  double relative_square = 0.0;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
   RenderStatistics statistics;
 };
 

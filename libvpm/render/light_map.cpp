@@ -80,7 +80,7 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
   bar.finish();
   for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
   result.statistics.eye_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.kernel_size = kernel_size(settings, stages, pass);
+  result.relative_square = relative_square(settings, stages, pass);
   return result;
 }
 

@@ -47,6 +47,9 @@ class Marcher {
     double column;  // m
   };
 
+  /// Adds to the step the stretch of a piece from `s` on, of no more than `length`, m, and no more than fills the
+  /// step's column to `most_column`, m. Returns where it ends, m from the piece's start.
+  double extend(const DensityPiece& piece, double s, double length, double most_column);
   /// Where along the ray the step's column reaches `column`, m.
   double locate(double column) const;
 
@@ -92,6 +95,19 @@ uint32_t march_evenly(const Medium* medium, const Ray& ray, const Interval& inte
   return lookups;
 }
 
+inline double Marcher::extend(const DensityPiece& piece, double s, double length, double most_column) {
+  double end = std::min(piece.length(), s + length);
+  const double before = piece.column(s);
+  double here = std::max(0.0, piece.column(end) - before);
+  if (column_ + here >= most_column) {
+    here = most_column - column_;
+    end = std::max(s, piece.invert(before + here));
+  }
+  parts_.push_back({piece, s, here});
+  column_ += here;
+  return end;
+}
+
 inline double Marcher::locate(double column) const {
   for (const Part& part : parts_) {
     if (column <= part.column || &part == &parts_.back())
@@ -135,20 +151,12 @@ Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& int
     for (double s = 0.0; s < piece.length() && scale > 0.0;) {
       const double t = piece.t0 + s;
       if (parts_.empty()) start = t;
-      double end = std::min(piece.length(), s + (start + limits.length - t));
-      if (!(end > s)) {  // the step is used up: by empty space, or to the last bit
+      const double left = start + limits.length - t;
+      if (!(s + left > s)) {  // the step is used up: by empty space, or to the last bit
         finish_step();
         continue;
       }
-      const double before = piece.column(s);
-      double here = std::max(0.0, piece.column(end) - before);
-      if (column_ + here >= most_column) {
-        here = most_column - column_;
-        end = std::max(s, piece.invert(before + here));
-      }
-      parts_.push_back({piece, s, here});
-      column_ += here;
-      s = end;
+      s = extend(piece, s, left, most_column);
       if (column_ >= most_column || piece.t0 + s - start >= limits.length) finish_step();
     }
     return true;

@@ -16,6 +16,7 @@ class TracedPath {
     for (int events = 0; events < c_.max_events; ++events) {
       const Vec3 from = state_.ray.origin;
       const Event event = next_event(c_.scene, *c_.distance, state_, rng_, counters_.walk);
+      if (!is_finite(state_.power)) return state_.power;  // no roulette: that would end it as if it were black
       if (event.kind == EventKind::escape) {
         see_environment(from);
         return radiance_;
@@ -32,7 +33,7 @@ class TracedPath {
     if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
     const Medium& medium = c_.scene.media[state_.medium];
     const Vec3 travel = state_.ray.direction;
-    const DirectSample light = sample_light(state_.ray.origin, Vec3(0.0f), state_.medium);
+    const DirectSample light = sample_light({state_.ray.origin, state_.medium});
     if (!is_black(light.irradiance)) {
       const float phase = phase_value(medium.phase, travel, light.direction);
       radiance_ += state_.power * medium.albedo() * phase * light.irradiance * share(light.pdf, phase);
@@ -65,8 +66,8 @@ class TracedPath {
   }
 
   /// Adds what a rough surface scatters towards the eye of one light that arrives on that side.
-  void add_direct_light(const Hit& hit, const Material& material, const SurfaceSide& side) {
-    const DirectSample light = sample_light(side.point, side.normal, side.medium);
+  void add_direct_light(const Hit& hit, const Material& material, const Receiver& side) {
+    const DirectSample light = sample_light(side);
     if (is_black(light.irradiance)) return;
     const ScatterValue scattered = scatter_value(material, hit, state_.ray.direction, light.direction);
     radiance_ +=
@@ -84,12 +85,10 @@ class TracedPath {
   }
 
   /// One light, picked by power: its irradiance over that probability, its pdf times it.
-  DirectSample sample_light(const Vec3& point, const Vec3& facing, MediumId medium) {
+  DirectSample sample_light(const Receiver& receiver) {
     const int picked = pick_light(c_.scene, rng_.uniform());
-    if (picked < 0) return {};
     ++counters_.shadow_rays;
-    DirectSample sample =
-        sample_direct(c_.scene, picked, *c_.transmittance, point, facing, medium, rng_, counters_.walk);
+    DirectSample sample = sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked, receiver);
     sample.irradiance /= c_.scene.light_probability[picked];
     sample.pdf *= c_.scene.light_probability[picked];
     return sample;

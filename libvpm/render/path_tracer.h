@@ -24,7 +24,7 @@ PathContext make_path_context(const Scene& scene, const RenderSettings& settings
 /// One sample of the radiance along a ray that starts in `medium`, W/(m^2 sr). Each collision and each rough surface
 /// adds the light of one source by a shadow ray; lights that the path itself runs into count, too, and the two ways
 /// share by the balance heuristic [Veach1997, sec. 9.2]. Unbiased where the distance strategy and the transmittance
-/// estimator are; nothing is clamped.
+/// estimator are; nothing is clamped. Not finite where the path's throughput is not.
 Rgb path_radiance(const PathContext& context, const Ray& ray, MediumId medium, Rng& rng, EyeCounters& counters);
 
 /// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.

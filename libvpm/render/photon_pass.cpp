@@ -46,12 +46,30 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
   return trace;
 }
 
-/// The settings of a map in this pass: radii shrink in radius mode; the largest radius of the nearest mode stays.
+/// Do radii shrink from pass to pass? In radius mode; the largest radius of the nearest mode stays.
+bool shrinks(const GatherSettings& gather, const RenderSettings& settings) {
+  return settings.shrink_radii && gather.mode == GatherMode::radius;
+}
+
+/// The settings of a map in this pass.
 GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dimension, const RenderSettings& settings,
                               int pass) {
-  const bool shrinks = settings.shrink_radii && gather.mode == GatherMode::radius;
-  gather.radius = shrinks ? radius_of_pass(first_radius, dimension, pass) : first_radius;
+  gather.radius = shrinks(gather, settings) ? radius_of_pass(first_radius, dimension, pass) : first_radius;
   return gather;
+}
+
+/// A kind of map, as a pass uses it.
+struct UsedMap {
+  const char* name;
+  GatherSettings gather;
+  int dimension;
+};
+std::vector<UsedMap> used_maps(const RenderSettings& settings, const Stages& stages) {
+  std::vector<UsedMap> maps;
+  if (stages.volume_map) maps.push_back({"volume", settings.volume, 3});
+  if (stages.surface_map) maps.push_back({"surface", settings.surface, 2});
+  if (stages.final_gather) maps.push_back({"caustics", settings.caustics, 2});
+  return maps;
 }
 
 float default_share(const GatherSettings& gather) {
@@ -94,7 +112,6 @@ void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& pro
   if (context.stages.final_gather && settings.caustics_emitted > 0) add_caustics(context, *strategy, trace, photons);
   statistics.trace_seconds = tracing.seconds();
   statistics.ledger = photons.ledger;
-  statistics.surface_photons = photons.surface.size();
 
   const Stopwatch building;
   const auto make_map = [&](std::vector<Photon>& of_map, const GatherSettings& gather) {
@@ -102,17 +119,20 @@ void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& pro
       statistics.merged_photons += control_density(of_map, 0.5f * gather.radius, settings.photons_in_cube);
     return make_photon_map(std::move(of_map), gather, photons.ledger.emitted_count);
   };
-  for (size_t m = 0; m < scene.media.size(); ++m) {
+  for (size_t m = 0; context.stages.volume_map && m < scene.media.size(); ++m) {
     const float first = first_volume_radius(scene, settings, scene.media[m]);
     statistics.volume_photons += photons.volume[m].size();
     context.volume.push_back(make_map(photons.volume[m], gather_in_pass(settings.volume, first, 3, settings, pass)));
     statistics.last_volume_radius = std::max(statistics.last_volume_radius, context.volume.back().settings.radius);
     statistics.photon_map_bytes += context.volume.back().memory_bytes();
   }
-  const float first = first_surface_radius(scene, settings);
-  context.surface = make_map(photons.surface, gather_in_pass(settings.surface, first, 2, settings, pass));
-  statistics.last_surface_radius = context.surface.settings.radius;
-  statistics.photon_map_bytes += context.surface.memory_bytes();
+  if (context.stages.surface_map) {
+    const float first = first_surface_radius(scene, settings);
+    statistics.surface_photons = photons.surface.size();
+    context.surface = make_map(photons.surface, gather_in_pass(settings.surface, first, 2, settings, pass));
+    statistics.last_surface_radius = context.surface.settings.radius;
+    statistics.photon_map_bytes += context.surface.memory_bytes();
+  }
   if (context.stages.final_gather) {
     statistics.caustic_photons = photons.caustics.size();
     context.caustics = make_map(
@@ -158,11 +178,20 @@ EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, 
   return context;
 }
 
-double kernel_size(const RenderSettings& settings, const Stages& stages, int pass) {
-  if (!stages.photons()) return 0.0;
-  const GatherSettings& gather = stages.volume_map ? settings.volume : settings.surface;
-  const float radius = gather_in_pass(gather, 1.0f, stages.volume_map ? 3 : 2, settings, pass).radius;
-  return double{radius} * radius;
+double relative_square(const RenderSettings& settings, const Stages& stages, int pass) {
+  for (const UsedMap& map : used_maps(settings, stages)) {
+    if (!shrinks(map.gather, settings)) continue;
+    const float radius = radius_of_pass(1.0f, map.dimension, pass);
+    return double{radius} * radius;
+  }
+  return stages.photons() ? 1.0 : 0.0;
+}
+
+std::vector<std::string> maps_of_one_radius(const RenderSettings& settings, const Stages& stages) {
+  std::vector<std::string> names;
+  for (const UsedMap& map : used_maps(settings, stages))
+    if (!shrinks(map.gather, settings)) names.emplace_back(map.name);
+  return names;
 }
 
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
@@ -175,7 +204,7 @@ Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int 
     return eye_radiance(context, ray, marcher, rng, counters);
   };
   Pass result = render_image(scene, settings, pass, radiance, stop, progress);
-  result.kernel_size = kernel_size(settings, stages, pass);
+  result.relative_square = relative_square(settings, stages, pass);
   result.statistics.merge(statistics);
   return result;
 }

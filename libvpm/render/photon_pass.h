@@ -1,6 +1,9 @@
 // One pass of photon mapping: a pure function of scene, settings and pass number.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "render/image_pass.h"
 
 namespace vpm {
@@ -14,6 +17,7 @@ struct Stages {
   bool final_gather = false;  // with a caustic map beside the surface map
   bool photons() const { return volume_map || surface_map; }
 };
+/// The stages that such a render of the scene runs; none by the path tracer.
 Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 
 struct EyeContext;
@@ -21,9 +25,13 @@ struct EyeContext;
 EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
                             const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics);
 
-/// The squared radius of the pass's kernels over that of the first pass, of the map whose kernels matter more: the
-/// volume map's where there is one. Both shrink at nearly the same rate. 0 without photons.
-double kernel_size(const RenderSettings& settings, const Stages& stages, int pass);
+/// The squared radius of the pass's kernels over that of the first pass, of the first map that shrinks: the volume
+/// map, the surface map, the caustic map. All that shrink do so at nearly the same rate. 1 where none does, 0 without
+/// photons.
+double relative_square(const RenderSettings& settings, const Stages& stages, int pass);
+/// The sections of the scene file whose maps are used but do not shrink from pass to pass: their kernels' bias cannot
+/// be seen.
+std::vector<std::string> maps_of_one_radius(const RenderSettings& settings, const Stages& stages);
 
 /// The radius of a map in the first pass: the settings', or where that is 0 one hundredth (the largest radius of the
 /// nearest mode: a tenth) of the diagonal of the medium's bounds (grids) or of the scene.

@@ -55,7 +55,7 @@ RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint
   while (!stop && share_done(settings, result) < 1.0) {
     const Pass done = run(result.film.passes(), pass_progress);
     if (stop) break;
-    result.film.add(done.image, done.kernel_size);
+    result.film.add(done.image, done.relative_square);
     result.statistics.merge(done.statistics);
     result.seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
     if (!counted) {

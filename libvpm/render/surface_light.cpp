@@ -14,27 +14,25 @@ class SurfaceLight {
       : c_(context), rng_(rng), counters_(counters) {}
 
   Rgb towards_eye(const SurfaceView& view, int gather_rays) {
-    Rgb result(0.0f);
-    if (c_.stages.surface_shadow_rays) {
-      result += direct_light(view, near_side(view.hit, view.travel, view.medium));
-      if (scatters_through(view.material))
-        result += direct_light(view, far_side(c_.scene, view.hit, view.travel, view.medium));
-    }
-    if (c_.stages.final_gather)
-      result += of_map(view, c_.caustics) + gathered(view, gather_rays);
-    else if (c_.stages.surface_map)
-      result += of_map(view, c_.surface);
-    return result;
+    if (c_.stages.final_gather) return not_gathered(view) + gathered(view, gather_rays);
+    return c_.stages.surface_map ? direct_light(view) + of_map(view, c_.surface) : direct_light(view);
   }
 
  private:
+  Rgb direct_light(const SurfaceView& view) {
+    if (!c_.stages.surface_shadow_rays) return Rgb(0.0f);
+    Rgb result = direct_light(view, near_side(view.hit, view.travel, view.medium));
+    if (scatters_through(view.material))
+      result += direct_light(view, far_side(c_.scene, view.hit, view.travel, view.medium));
+    return result;
+  }
+
   /// The light of all lamps that arrives on that side.
-  Rgb direct_light(const SurfaceView& view, const SurfaceSide& side) {
+  Rgb direct_light(const SurfaceView& view, const Receiver& side) {
     Rgb result(0.0f);
     for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
       ++counters_.shadow_rays;
-      const DirectSample light =
-          sample_direct(c_.scene, i, *c_.transmittance, side.point, side.normal, side.medium, rng_, counters_.walk);
+      const DirectSample light = sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, i, side);
       if (is_black(light.irradiance)) continue;
       const ScatterValue scattered = scatter_value(view.material, view.hit, view.travel, light.direction);
       result += scattered.value * scattered.radiance_scale * light.irradiance;
@@ -44,8 +42,12 @@ class SurfaceLight {
 
   Rgb of_map(const SurfaceView& view, const PhotonMap& map) {
     ++counters_.surface_queries;
-    return scattered_radiance(view.material, view.hit, -view.travel, map.settings.radius, map);
+    return scattered_radiance(view.material, view.hit, -view.travel, map);
   }
+
+  /// What rays do not gather, because few of them would find it: the light of lamps, straight or by way of mirrors,
+  /// glass and media.
+  Rgb not_gathered(const SurfaceView& view) { return direct_light(view) + of_map(view, c_.caustics); }
 
   /// The light that rough surfaces scattered last, by rays drawn as the material scatters.
   Rgb gathered(const SurfaceView& view, int rays) {
@@ -58,46 +60,54 @@ class SurfaceLight {
       const MediumId medium =
           scatter.transmitted ? medium_beyond(shape, view.hit.normal, scatter.direction, view.medium) : view.medium;
       const Ray ray{leave_surface(view.hit, scatter.direction), scatter.direction};
-      sum += scatter.weight * scatter.radiance_scale * at_the_end_of({ray, medium, Rgb(1.0f)});
+      sum += scatter.weight * scatter.radiance_scale * met_along({ray, medium, Rgb(1.0f)});
     }
     return sum / static_cast<float>(rays);
   }
 
-  /// Radiance of the rough surface that a gathering ray ends at. Lamps on its way are left out: their light is direct,
-  /// or the caustic map's.
-  Rgb at_the_end_of(PathState path) {
-    ++counters_.gather_rays;
-    float length = 0.0f;
-    for (int events = 0; events < c_.settings.max_events; ++events) {
+  /// Radiance of the rough surface that a gathering ray meets. Lamps on its way are left out: their light is direct, or
+  /// the caustic map's.
+  ///
+  /// At the end of a ray that is too short for the map the path goes on as a path tracer's would, with one ray at a
+  /// time and the same roulette, until a ray is long enough.
+  Rgb met_along(PathState path) {
+    Rgb result(0.0f);
+    float length = 0.0f;  // of the present ray so far, m
+    for (int events = 0; events < c_.settings.max_events;) {
+      if (length == 0.0f) ++counters_.gather_rays;
       const Encounter met = meet(c_.scene, path.ray, kInfinity, path.medium, counters_.walk);
-      if (!met) return Rgb(0.0f);
+      if (!met) return result;
       const Hit& hit = met.hits[0];
-      attenuate(path, hit.t);
-      if (is_black(path.power)) return Rgb(0.0f);
+      if (path.medium != kVacuum) {
+        const Medium& medium = c_.scene.media[path.medium];
+        path.power *= transmittance(medium, counted_column(medium, path.ray, {0.0f, hit.t}, counters_.walk));
+      }
+      if (is_black(path.power)) return result;
       length += hit.t;
       const Material material = material_at(c_.scene, hit);
-      if (is_boundary(material)) {
+      if (is_boundary(material)) {  // no event
         cross_boundaries(c_.scene, met, path.ray, path.medium, counters_.walk);
         continue;
       }
       if (is_rough(material)) {
         const SurfaceView view{hit, material, path.ray.direction, path.medium};
-        return path.power * (length < c_.surface.settings.radius ? towards_eye(view, 1) : of_map(view, c_.surface));
+        if (!is_too_short(length, view)) return result + path.power * of_map(view, c_.surface);
+        result += path.power * not_gathered(view);
+        length = 0.0f;  // of the next ray
       }
       Scatter scatter;
-      if (!scatter_at_surface(c_.scene, hit, path, rng_, scatter)) return Rgb(0.0f);
+      if (!scatter_at_surface(c_.scene, hit, path, rng_, scatter)) return result;
       path.power *= scatter.radiance_scale;
+      ++events;
     }
     ++counters_.cut_paths;
-    return Rgb(0.0f);
+    return result;
   }
 
-  void attenuate(PathState& path, float length) {
-    if (path.medium == kVacuum) return;
-    const Medium& medium = c_.scene.media[path.medium];
-    const Column crossed = column(medium, path.ray, {0.0f, length});
-    counters_.walk.lookups += crossed.lookups;
-    path.power *= transmittance(medium, crossed.value);
+  /// Is a ray shorter than the radius of what the map tells at its end?
+  bool is_too_short(float length, const SurfaceView& view) const {
+    return length < c_.surface.settings.radius &&
+           length < scattered_radius(view.material, view.hit, -view.travel, c_.surface);
   }
 
   const EyeContext& c_;

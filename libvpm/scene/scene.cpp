@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "base/error.h"
+#include "base/overloads.h"
 #include "base/rng.h"
 #include "surface/disc.h"
 
@@ -18,7 +19,7 @@ const Vec3 kProbes[] = {glm::normalize(Vec3(0.5470f, 0.7316f, 0.4071f)),
                         glm::normalize(Vec3(0.2843f, -0.8429f, -0.4567f))};
 
 /// The near side of a shape that is no other one's far side: what a ray of unknown past comes out of.
-MediumId near_side(const Scene& scene, const Encounter& met, const Vec3& direction) {
+MediumId came_from(const Scene& scene, const Encounter& met, const Vec3& direction) {
   const auto side = [&](int i, const Vec3& d) {
     return medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, d, kVacuum);
   };
@@ -32,7 +33,7 @@ MediumId near_side(const Scene& scene, const Encounter& met, const Vec3& directi
 
 MediumId medium_along(const Scene& scene, const Ray& ray) {
   const Encounter met = scene.geometry.division(ray);
-  return met ? near_side(scene, met, ray.direction) : scene.world_medium;
+  return met ? came_from(scene, met, ray.direction) : scene.world_medium;
 }
 
 Box wider_box(const Box& box) {
@@ -65,50 +66,44 @@ std::vector<float> probability_by_power(const std::vector<Light>& lights, const 
 }
 
 /// The box around a finite light's surface: a point for point lights.
-Box bounds_of(const Light& light) {
+Box bounds_of(const UnseenLight auto& light) {
   Box box;
-  if (const auto* point = std::get_if<PointLight>(&light)) box.add(point->position);
-  if (const auto* spot = std::get_if<SpotLight>(&light)) box.add(spot->position);
-  if (const auto* beam = std::get_if<BeamLight>(&light)) {
-    box.add(beam->position - beam->radius);
-    box.add(beam->position + beam->radius);
-  }
-  if (const auto* quad = std::get_if<QuadLight>(&light))
-    for (const Vec3& p : {Vec3(0.0f), quad->edge_u, quad->edge_v, quad->edge_u + quad->edge_v})
-      box.add(quad->corner + p);
-  if (const auto* disc = std::get_if<DiscLight>(&light)) box = disc_bounds({disc->centre, disc->normal, disc->radius});
-  if (const auto* mesh = std::get_if<MeshLight>(&light)) box = mesh->mesh->bounds();
-  if (const auto* sphere = std::get_if<SphereLight>(&light)) {
-    box.add(sphere->centre - sphere->radius);
-    box.add(sphere->centre + sphere->radius);
-  }
+  box.add(light.position);
   return box;
 }
+Box bounds_of(const BeamLight& light) { return {light.position - light.radius, light.position + light.radius}; }
+Box bounds_of(const QuadLight& light) {
+  Box box;
+  for (const Vec3& p : {Vec3(0.0f), light.edge_u, light.edge_v, light.edge_u + light.edge_v}) box.add(light.corner + p);
+  return box;
+}
+Box bounds_of(const DiscLight& light) { return disc_bounds({light.centre, light.normal, light.radius}); }
+Box bounds_of(const SphereLight& light) { return {light.centre - light.radius, light.centre + light.radius}; }
+Box bounds_of(const MeshLight& light) { return light.mesh->bounds(); }
 
 /// A point of a finite light, for area lights just before their surface.
-Vec3 point_before(const Light& light) {
-  if (const auto* l = std::get_if<PointLight>(&light)) return l->position;
-  if (const auto* l = std::get_if<SpotLight>(&light)) return l->position;
-  if (const auto* l = std::get_if<BeamLight>(&light)) return l->position;
-  if (const auto* l = std::get_if<QuadLight>(&light)) {
-    const Vec3 across = glm::cross(l->edge_u, l->edge_v);
-    const Vec3 normal = glm::normalize(across);
-    const Vec3 reach = glm::abs(l->edge_u) + glm::abs(l->edge_v);
-    return leave_surface_at(l->corner + 0.5f * (l->edge_u + l->edge_v), normal, normal,
-                            flat_slack(normal, reach, glm::length(across)));
-  }
-  if (const auto* l = std::get_if<DiscLight>(&light))
-    return leave_surface_at(l->centre, l->normal, l->normal, disc_slack({l->centre, l->normal, l->radius}));
-  if (const auto* l = std::get_if<MeshLight>(&light)) {
-    Rng rng(0, rng_stream(RngUse::probe, 0), 0);
-    const double choice = rng.uniform_double();
-    const EmittingMesh::Sample at = l->mesh->sample(choice, rng.uniform2());
-    return leave_surface_at(at.position, at.normal, at.normal, at.slack);
-  }
-  const auto& l = std::get<SphereLight>(light);
-  const SphereShape shape{l.centre, l.radius};
+Vec3 point_before(const UnseenLight auto& light) { return light.position; }
+Vec3 point_before(const QuadLight& light) {
+  const Vec3 across = glm::cross(light.edge_u, light.edge_v);
+  const Vec3 normal = glm::normalize(across);
+  const Vec3 reach = glm::abs(light.edge_u) + glm::abs(light.edge_v);
+  return leave_surface_at(light.corner + 0.5f * (light.edge_u + light.edge_v), normal, normal,
+                          flat_slack(normal, reach, glm::length(across)));
+}
+Vec3 point_before(const DiscLight& light) {
+  return leave_surface_at(light.centre, light.normal, light.normal,
+                          disc_slack({light.centre, light.normal, light.radius}));
+}
+Vec3 point_before(const SphereLight& light) {
+  const SphereShape shape{light.centre, light.radius};
   const Vec3 normal = kProbes[0];
   return leave_surface_at(point_on(shape, normal), normal, normal, sphere_slack(shape));
+}
+Vec3 point_before(const MeshLight& light) {
+  Rng rng(0, rng_stream(RngUse::probe, 0), 0);
+  const double choice = rng.uniform_double();
+  const EmittingMesh::Sample at = light.mesh->sample(choice, rng.uniform2());
+  return leave_surface_at(at.position, at.normal, at.normal, at.slack);
 }
 
 /// Does a boundary between media cut the box? Judged by segments between random points in it: a cut that parts off a
@@ -129,8 +124,13 @@ bool is_cut(const Scene& scene, const Box& box) {
 
 /// The medium that all photons of a light start in: one where no boundary cuts the light.
 MediumId medium_of(const Scene& scene, const Light& light) {
-  if (is_infinite(light)) return scene.world_medium;
-  return is_cut(scene, bounds_of(light)) ? kSeveralMedia : medium_around(scene, point_before(light));
+  const auto of_finite = [&](const auto& l) {
+    return is_cut(scene, bounds_of(l)) ? kSeveralMedia : medium_around(scene, point_before(l));
+  };
+  return std::visit(Overloads{[&](const DistantLight auto&) { return scene.world_medium; },
+                              [&](const UnseenLight auto& l) { return of_finite(l); },
+                              [&](const AreaLight auto& l) { return of_finite(l); }},
+                    light);
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ MediumId medium_before(const Scene& scene, const Encounter& met, const Vec3& dir
   for (int i = 0; i < (met.surface ? 1 : met.count); ++i)
     if (medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, -direction, current) == current)
       return current;
-  return near_side(scene, met, direction);
+  return came_from(scene, met, direction);
 }
 
 MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current) {

@@ -43,7 +43,7 @@ struct Scene {
   /// the picture's mean. Null, or missing at the list's end: the reflectance is the same everywhere.
   std::vector<std::shared_ptr<const Texture>> textures;
   std::vector<Medium> media;
-  std::vector<Light> lights;
+  std::vector<Light> lights;        // one at least, in scenes that light is followed through
   MediumId world_medium = kVacuum;  // fills all space outside the shapes that separate media
   Camera camera;
   MediumId camera_medium = kVacuum;  // kSeveralMedia where the camera stands on a boundary

@@ -16,11 +16,15 @@ Scatter sample(const Dielectric& m, const Vec3& normal, const Vec3& travel, floa
 Scatter sample(const RoughDielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 Scatter sample(const Boundary& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 
-// scatter_value(), of the materials that may be rough
+// scatter_value()
 ScatterValue value(const Lambertian& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 ScatterValue value(const Phong& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Mirror& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Conductor& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 ScatterValue value(const RoughConductor& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Dielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 ScatterValue value(const RoughDielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Boundary& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 
 /// What a rough material scatters into the direction drawn; absorbed where it scatters nothing there.
 inline Scatter scattered(const Vec3& direction, const ScatterValue& v, bool transmitted) {

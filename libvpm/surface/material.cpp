@@ -1,6 +1,7 @@
 // The closed set of materials: each question goes to the kind it is asked of. And the answers of the simplest kinds.
 #include "surface/material.h"
 
+#include "base/overloads.h"
 #include "base/warp.h"
 #include "surface/fresnel.h"
 #include "surface/kinds.h"
@@ -8,13 +9,6 @@
 namespace vpm {
 
 namespace {
-
-template <class... F>
-struct Overloads : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloads(F...) -> Overloads<F...>;
 
 Scatter passed(const Vec3& travel) { return {travel, Rgb(1.0f), true, 1.0f}; }
 
@@ -54,11 +48,34 @@ ScatterValue value(const Lambertian& m, const Vec3& normal, const Vec3& travel, 
   return {m.reflectance * (cosine / kPi), cosine / kPi};
 }
 
+ScatterValue value(const Mirror&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
+ScatterValue value(const Conductor&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
+ScatterValue value(const Dielectric&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
+ScatterValue value(const Boundary&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
+
 bool is_rough(const Material& material) {
   return std::visit(Overloads{[](const Lambertian& m) { return !is_black(m.reflectance); },
                               [](const Phong& m) { return !is_black(m.diffuse) || !is_black(m.glossy); },
                               [](const RoughConductor&) { return true; }, [](const RoughDielectric&) { return true; },
-                              [](const auto&) { return false; }},
+                              [](const Mirror&) { return false; }, [](const Conductor&) { return false; },
+                              [](const Dielectric&) { return false; }, [](const Boundary&) { return false; }},
+                    material);
+}
+
+bool scatters_through(const Material& material) {
+  return std::visit(Overloads{[](const RoughDielectric&) { return true; }, [](const Lambertian&) { return false; },
+                              [](const Phong&) { return false; }, [](const RoughConductor&) { return false; },
+                              [](const Mirror&) { return false; }, [](const Conductor&) { return false; },
+                              [](const Dielectric&) { return false; }, [](const Boundary&) { return false; }},
+                    material);
+}
+
+Rgb* reflectance_of(Material& material) {
+  using None = Rgb*;
+  return std::visit(Overloads{[](Lambertian& m) { return &m.reflectance; }, [](Mirror& m) { return &m.reflectance; },
+                              [](Phong&) { return None(); }, [](Conductor&) { return None(); },
+                              [](RoughConductor&) { return None(); }, [](Dielectric&) { return None(); },
+                              [](RoughDielectric&) { return None(); }, [](Boundary&) { return None(); }},
                     material);
 }
 
@@ -79,14 +96,7 @@ Scatter sample_scatter(const Material& material, const Vec3& normal, const Vec3&
 }
 
 ScatterValue scatter_value(const Material& material, const Vec3& normal, const Vec3& travel, const Vec3& direction) {
-  return std::visit(
-      [&](const auto& m) {
-        if constexpr (requires { value(m, normal, travel, direction); })
-          return value(m, normal, travel, direction);
-        else
-          return ScatterValue{};
-      },
-      material);
+  return std::visit([&](const auto& m) { return value(m, normal, travel, direction); }, material);
 }
 
 }  // namespace vpm

@@ -59,7 +59,7 @@ inline bool is_boundary(const Material& m) { return std::holds_alternative<Bound
 /// find its scatter_value().
 bool is_rough(const Material& m);
 /// Is it rough, and does light from either side leave on both?
-inline bool scatters_through(const Material& m) { return std::holds_alternative<RoughDielectric>(m); }
+bool scatters_through(const Material& m);
 /// Are all its coefficients equal over the channels?
 bool is_grey(const Material& m);
 
@@ -78,16 +78,7 @@ struct Scatter {
 };
 
 /// The reflectance of a material, which a texture may replace; null where it has none.
-inline Rgb* reflectance_of(Material& material) {
-  return std::visit(
-      [](auto& m) -> Rgb* {
-        if constexpr (requires { m.reflectance; })
-          return &m.reflectance;
-        else
-          return nullptr;
-      },
-      material);
-}
+Rgb* reflectance_of(Material& material);
 
 /// Samples the scattering of a path that travels along `travel` (unit) and meets a surface of normal `normal` (unit,
 /// outward) from either side. `u_choice` and `u` are uniform in [0, 1). Black weight: absorbed. A boundary, and a

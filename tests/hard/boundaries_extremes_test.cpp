@@ -183,7 +183,7 @@ TEST(BoundariesExtremes, ShadowRaysToALightOnTheBorderCrossTheWayInside) {
     WalkCounters counters;
     Rng rng(1, 0, 0);
     const Vec3 point(0.1f, -0.5f, 0.2f);
-    const DirectSample light = sample_direct(scene, 0, *regular, point, Vec3(0.0f), 0, rng, counters);
+    const DirectSample light = sample_direct({scene, *regular, rng, counters}, 0, {point, 0});
     const double way = std::min(y, 1.0f) + 0.5;
     const double square = (double(y) + 0.5) * (double(y) + 0.5);
     EXPECT_NEAR(light.irradiance.r * square / std::exp(-sigma * way), 1.0, 2e-6) << y;

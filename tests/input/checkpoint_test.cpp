@@ -57,8 +57,8 @@ TEST_F(Checkpoint, ComesBackToTheLastBit) {
   for (size_t h = 0; h < 2; ++h) {
     const PassMoments &a = before.film.halves()[h], &b = after.film.halves()[h];
     EXPECT_EQ(a.passes, b.passes);
-    EXPECT_EQ(a.mean_size, b.mean_size);
-    EXPECT_EQ(a.size_squares, b.size_squares);
+    EXPECT_EQ(a.mean_square, b.mean_square);
+    EXPECT_EQ(a.square_spread, b.square_spread);
     EXPECT_TRUE(same_bits(a.mean, b.mean));
     EXPECT_TRUE(same_bits(a.squares, b.squares));
     EXPECT_TRUE(same_bits(a.products, b.products));

@@ -23,7 +23,7 @@ TriangleMesh turned(TriangleMesh mesh, const Mat4d& m) {
 double optical_thickness(const Scene& scene, const Ray& ray, float distance, MediumId start, WalkCounters& counters) {
   Rng rng(1, 0, 0);
   const auto regular = make_transmittance_estimator({});
-  return -std::log(visibility(scene, *regular, ray, distance, -2, start, rng, counters).r);
+  return -std::log(visibility({scene, *regular, rng, counters}, ray, distance, -2, start).r);
 }
 
 TEST(Walk, MediaThatTouchAreBothCrossedInAnyOrderOfShapes) {

@@ -68,13 +68,12 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
                             0.3f * radius * uniform_sphere(rng.uniform2());
             expect_near(volume_sum(phase, at, towards, map),
                         volume_sum(phase, at, towards, all, settings, uint64_t{1000}), "volume");
-            expect_near(surface_irradiance(at, Vec3(0, 1, 0), radius, map),
-                        surface_irradiance(at, Vec3(0, 1, 0), radius, all, settings, uint64_t{1000}), "surface");
+            expect_near(surface_irradiance(at, Vec3(0, 1, 0), map),
+                        surface_irradiance(at, Vec3(0, 1, 0), all, settings, uint64_t{1000}), "surface");
             for (const Material& rough : {Material(Phong{}), Material(RoughDielectric{1.5f, 0.5f})})
-              expect_near(
-                  scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, radius, map),
-                  scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, radius, all, settings, uint64_t{1000}),
-                  "rough surface");
+              expect_near(scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, map),
+                          scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, all, settings, uint64_t{1000}),
+                          "rough surface");
           }
         }
   }
@@ -95,26 +94,49 @@ TEST(PhotonMap, OnePhotonCountsAsTheEstimatesSay) {
   EXPECT_NEAR(volume_sum(phase, at, -travel, beside).r / (phase.value(-1.0f) * ball), 1.0f, 1e-3f);
   expect_near(fluence(Rgb(0.5f, 1.0f, 2.0f), at, beside), Rgb(2.0f, 1.0f, 0.5f) * ball, "fluence");
   // Surfaces: photons that arrive at the normal's side, near the plane.
-  expect_near(surface_irradiance(at, up, 0.1f, beside), Rgb(disc), "from before");
-  expect_near(surface_irradiance(at, -up, 0.1f, beside), Rgb(0.0f), "from behind");
+  expect_near(surface_irradiance(at, up, beside), Rgb(disc), "from before");
+  expect_near(surface_irradiance(at, -up, beside), Rgb(0.0f), "from behind");
   // Towards the eye goes the BSDF's share: from the eye's side, and from the other one through rough glass alone.
   const Vec3 eye = glm::normalize(Vec3(0.1f, 0.8f, 0.5f)), stored = PackedDirection(travel).unpack();
   const PackedDirection rising(glm::normalize(Vec3(0.0f, 0.8f, 0.3f)));
   const PhotonMap behind = map(Vec3(0.03f, 0.0f, 0.0f), rising.unpack());
   const Material diffuse = Lambertian{Rgb(0.5f)}, glass = RoughDielectric{1.5f, 0.5f}, metal = RoughConductor{};
   for (const Material& m : {diffuse, glass, metal})
-    expect_near(scattered_radiance(m, hit_at(at, up), eye, 0.1f, beside),
+    expect_near(scattered_radiance(m, hit_at(at, up), eye, beside),
                 scatter_value(m, up, stored, eye).value / eye.y * disc, "scattered");
   for (const Material& m : {diffuse, metal})
-    expect_near(scattered_radiance(m, hit_at(at, -up), eye, 0.1f, behind), Rgb(0.0f), "behind");
-  const Rgb passed = scattered_radiance(glass, hit_at(at, up), eye, 0.1f, behind);
+    expect_near(scattered_radiance(m, hit_at(at, -up), eye, behind), Rgb(0.0f), "behind");
+  const Rgb passed = scattered_radiance(glass, hit_at(at, up), eye, behind);
   expect_near(passed, scatter_value(glass, up, rising.unpack(), eye).value / eye.y * disc, "through glass");
   EXPECT_GT(passed.r, 0.0f);
   const float low = 0.01f, high = 0.02f;
-  expect_near(surface_irradiance(at, up, 0.1f, map(Vec3(std::sqrt(9e-4f - low * low), low, 0.0f), travel)), Rgb(disc),
+  expect_near(surface_irradiance(at, up, map(Vec3(std::sqrt(9e-4f - low * low), low, 0.0f), travel)), Rgb(disc),
               "near the plane");
-  expect_near(surface_irradiance(at, up, 0.1f, map(Vec3(std::sqrt(9e-4f - high * high), high, 0.0f), travel)),
-              Rgb(0.0f), "off the plane");
+  expect_near(surface_irradiance(at, up, map(Vec3(std::sqrt(9e-4f - high * high), high, 0.0f), travel)), Rgb(0.0f),
+              "off the plane");
+}
+
+// Where k photons lie within a small radius, looking for them in a large one finds the same, before a wall and above
+// another floor, whose photons are stronger.
+TEST(PhotonMap, TheNearestOnASurfaceAreTheSameForAnyLargestRadius) {
+  constexpr int kSide = 100;  // photons along 1 m
+  const PackedDirection travel(glm::normalize(Vec3(-1.0f, -1.0f, 0.2f)));
+  std::vector<Photon> corner;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    Rng rng(4, rng_stream(RngUse::test, 12), static_cast<uint64_t>(i));
+    const float a = rng.uniform(), b = rng.uniform();
+    corner.push_back({Vec3(a, 0.0f, b), travel, Rgb(1.0f)});
+    corner.push_back({Vec3(0.0f, a, b), travel, Rgb(10.0f)});   // wall
+    corner.push_back({Vec3(a, -0.1f, b), travel, Rgb(10.0f)});  // the other floor
+  }
+  const auto irradiance = [&](const Vec3& at, float largest_radius) {
+    const GatherSettings settings{GatherMode::nearest, largest_radius, 50, KernelKind::epanechnikov};
+    return surface_irradiance(at, Vec3(0, 1, 0), make_photon_map(corner, settings, kSide * kSide));
+  };
+  for (const float off_the_wall : {0.01f, 0.03f, 0.5f}) {
+    const Vec3 at(off_the_wall, 0.0f, 0.5f);
+    expect_near(irradiance(at, 10.0f), irradiance(at, 0.1f), "any radius");
+  }
 }
 
 TEST(PhotonMap, SmallAndEmptyMapsAnswer) {

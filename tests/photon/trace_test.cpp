@@ -55,13 +55,9 @@ Tally tally(const Scene& scene, const std::string& strategy, uint64_t seed) {
   return result;
 }
 
-/// z-tests of all boxes; nothing is determined where a weighted strategy's sample is too small.
+/// z-tests of all boxes. The weights must tell enough to decide them.
 void expect_equal(const Tally& a, const Tally& b, const std::string& what) {
-  if (std::min(a.effective_sample_size, b.effective_sample_size) < 1000.0) {
-    std::printf("%s: not determined, effective sample sizes %.0f and %.0f\n", what.c_str(), a.effective_sample_size,
-                b.effective_sample_size);
-    return;
-  }
+  EXPECT_GE(std::min(a.effective_sample_size, b.effective_sample_size), 10.0 * kLeastSampleSize) << what;
   for (size_t i = 0; i < a.values.size(); ++i) {
     const double error = std::sqrt(a.values[i].variance_of_mean() + b.values[i].variance_of_mean());
     EXPECT_LE(std::abs(a.values[i].mean() - b.values[i].mean()), normal_quantile(kFalseAlarms) * error + 1e-9)
@@ -99,6 +95,7 @@ TEST(PhotonTracing, AConstantGridEqualsTheHomogeneousMedium) {
   }
 }
 
+// Effective sample sizes: 134 thousand grey collisions by the regular strategy, 41 thousand by the mean extinction's.
 TEST(PhotonTracing, TheStrategiesAgreeOnASmoothGrid) {
   const auto smooth =
       grid_over_box([](int x, int y, int z) { return 0.25 + std::exp(-0.015 * ((x - 2) * (x - 2) + y * y + z * z)); });
@@ -128,24 +125,34 @@ Scene full_scene(bool fog_in_glass = false) {
   return scene;
 }
 
+// Photon by photon in the sum of channels; in each channel, which photons' mixtures must conserve on average.
 TEST(PhotonTracing, TheLedgerCloses) {
   const Scene in_fog = full_scene(), fog_in_glass = full_scene(true);
-  TraceSettings settings;
-  settings.emitted = 50000;
   for (const auto& [scene, strategy] : {std::pair(&in_fog, "homogeneous"), std::pair(&in_fog, "local-extinction"),
                                         std::pair(&in_fog, "mean-extinction"), std::pair(&in_fog, "ray-march"),
                                         std::pair(&in_fog, "regular"), std::pair(&fog_in_glass, "homogeneous")}) {
-    const Ledger ledger = trace(*scene, strategy, settings).ledger;
-    EXPECT_LT(std::abs(ledger.imbalance.mean()), 5.0 * std::sqrt(ledger.imbalance.variance_of_mean())) << strategy;
-    // Each channel, too: the channels' mixtures must conserve every one of them.
-    const double n = static_cast<double>(ledger.emitted_count);
-    const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
-    for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(gone[c] / ledger.emitted[c], 1.0, 20.0 / std::sqrt(n)) << strategy << " channel " << c;
-    EXPECT_NEAR(ledger.emitted.g / n, 2.0 * 4.0 * kPiD + light_power(kSpot, scene->bounds).g, 0.2) << strategy;
-    EXPECT_EQ(ledger.non_finite, 0u);
-    EXPECT_EQ(ledger.cut_count, 0u);
-    EXPECT_EQ(ledger.walk.medium_mismatches, 0u);
+    Ledger all;
+    Moments emitted;                    // green, W
+    std::array<Moments, 3> difference;  // of what went and what came, W
+    for (int batch = 0; batch < kBatches; ++batch) {
+      TraceSettings settings;
+      settings.pass = static_cast<uint64_t>(batch);
+      settings.emitted = 500;
+      const Ledger ledger = trace(*scene, strategy, settings).ledger;
+      const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
+      for (int c = 0; c < 3; ++c) difference[c].add((gone[c] - ledger.emitted[c]) / 500.0);
+      emitted.add(ledger.emitted.g / 500.0);
+      all.merge(ledger);
+    }
+    EXPECT_LT(std::abs(all.imbalance.mean()),
+              normal_quantile(kFalseAlarms) * std::sqrt(all.imbalance.variance_of_mean()))
+        << strategy;
+    for (const Moments& channel : difference) EXPECT_GE(check_mean("", channel, 0.0).p, kFalseAlarms) << strategy;
+    const double power = 2.0 * 4.0 * kPiD + light_power(kSpot, scene->bounds).g;
+    EXPECT_GE(check_mean("", emitted, power).p, kFalseAlarms) << strategy;
+    EXPECT_EQ(all.non_finite, 0u);
+    EXPECT_EQ(all.cut_count, 0u);
+    EXPECT_EQ(all.walk.medium_mismatches, 0u);
   }
 }
 

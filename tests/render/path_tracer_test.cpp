@@ -142,5 +142,25 @@ TEST(PathTracer, SpecularPathsFindLampsByThemselves) {
   EXPECT_EQ(seen.variance(), 0.0);
 }
 
+/// Every flight collides at once, with a weight that is not a number.
+class BrokenStrategy : public DistanceStrategy {
+ public:
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb&, Rng&) const override {
+    return {.collided = true, .density = 1.0f, .weight = Rgb(std::numeric_limits<float>::quiet_NaN())};
+  }
+};
+
+TEST(PathTracer, PathsThatAreNotFiniteAreCountedAndNotBlack) {
+  const Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 1.0f), ConstantEnvironment{Rgb(1.0f)});
+  PathContext context = make_path_context(scene, {});
+  context.distance = std::make_unique<BrokenStrategy>();
+  EyeCounters counters;
+  Rng rng(5, rng_stream(RngUse::test, 0), 0);
+  mean_of_samples(10, counters, [&](int) {
+    return path_radiance(context, {Vec3(0, 0, 5), Vec3(0, 0, -1)}, kVacuum, rng, counters);
+  });
+  EXPECT_EQ(counters.non_finite, 10u);
+}
+
 }  // namespace
 }  // namespace vpm

@@ -42,8 +42,9 @@ RenderSettings settings_of(uint64_t photons, float radius) {
   return settings;
 }
 
-/// A lamp over a floor, seen from above, in vacuum or fog. In fog the floor is black, so that only the fog is seen.
-Scene lamp_and_floor(const Medium* fog) {
+/// A lamp over a floor, seen from above, in vacuum or fog. In fog the floor is black by default, so that only the fog
+/// is seen.
+Scene lamp_and_floor(const Medium* fog, const Rgb& floor_in_fog = Rgb(0.0f)) {
   Scene scene;
   if (fog) {
     scene.media.push_back(*fog);
@@ -52,7 +53,7 @@ Scene lamp_and_floor(const Medium* fog) {
   const QuadLight lamp{Vec3(-0.2f, 1.5f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f), Rgb(10.0f, 5.0f, 2.0f)};
   scene.lights.push_back(lamp);
   add_shape(scene, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 0);
-  const Lambertian floor{fog ? Rgb(0.0f) : Rgb(0.6f, 0.5f, 0.4f)};
+  const Lambertian floor{fog ? floor_in_fog : Rgb(0.6f, 0.5f, 0.4f)};
   add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), floor);
   scene.camera = make_camera(Vec3(1.5f, 1.2f, 1.5f), Vec3(0.2f, 0.0f, 0.2f), Vec3(0, 1, 0), 30.0f, 12, 12, {});
   scene.camera_medium = scene.world_medium;
@@ -235,7 +236,7 @@ TEST(PhotonPass, OnlyTheDensityAtThePhotonSpreadsBeyondItsMedium) {
 
 TEST(PhotonPass, RadiiShrinkFromPassToPass) {
   Medium fog = make_medium(nullptr, Rgb(0.5f));
-  const Scene scene = lamp_and_floor(&fog);
+  const Scene scene = lamp_and_floor(&fog, Rgb(0.5f));
   static const std::atomic<bool> kGoOn{false};
   const auto radii = [&](const RenderSettings& settings, int pass) {
     const RenderStatistics s = render_photon_pass(scene, settings, pass, kGoOn).statistics;
@@ -246,6 +247,27 @@ TEST(PhotonPass, RadiiShrinkFromPassToPass) {
   EXPECT_EQ(radii(settings, 7), Vec2(0.1f, 0.2f));
   settings.shrink_radii = true;
   EXPECT_EQ(radii(settings, 7), Vec2(radius_of_pass(0.1f, 3, 7), radius_of_pass(0.2f, 2, 7)));
+}
+
+TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
+  const Stages all{.volume_map = true, .surface_map = true, .final_gather = true};
+  const auto square = [&](const RenderSettings& s, const Stages& stages) { return relative_square(s, stages, 5); };
+  const double volume = radius_of_pass(1.0f, 3, 5), surface = radius_of_pass(1.0f, 2, 5);
+  RenderSettings settings;
+  EXPECT_NEAR(square(settings, all), volume * volume, 1e-6);
+  EXPECT_NEAR(square(settings, {.surface_map = true}), surface * surface, 1e-6);
+  EXPECT_EQ(square(settings, {}), 0.0);
+  EXPECT_TRUE(maps_of_one_radius(settings, all).empty());
+  settings.volume.mode = GatherMode::nearest;
+  EXPECT_NEAR(square(settings, all), surface * surface, 1e-6);
+  EXPECT_EQ(square(settings, {.volume_map = true}), 1.0);
+  EXPECT_EQ(maps_of_one_radius(settings, all), std::vector<std::string>{"volume"});
+  settings.surface.mode = GatherMode::nearest;
+  EXPECT_NEAR(square(settings, all), surface * surface, 1e-6);  // the caustic map's
+  EXPECT_EQ(maps_of_one_radius(settings, {.surface_map = true}), std::vector<std::string>{"surface"});
+  settings.shrink_radii = false;
+  EXPECT_EQ(square(settings, all), 1.0);
+  EXPECT_EQ(maps_of_one_radius(settings, all).size(), 3u);
 }
 
 TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {
@@ -290,6 +312,14 @@ TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
   EXPECT_TRUE(plan_stages(no_surface, {}).volume_map);
   EXPECT_FALSE(plan_stages(no_surface, {}).surface_map);
   EXPECT_FALSE(plan_stages(no_surface, {}).surface_shadow_rays);
+  static const std::atomic<bool> kGoOn{false};
+  const auto statistics = [](const Scene& scene) {
+    return render_photon_pass(scene, settings_of(100, 0.1f), 0, kGoOn).statistics;
+  };
+  EXPECT_EQ(statistics(no_medium).last_volume_radius, 0.0f);
+  EXPECT_EQ(statistics(no_medium).last_surface_radius, 0.1f);
+  EXPECT_EQ(statistics(no_surface).last_volume_radius, 0.1f);
+  EXPECT_EQ(statistics(no_surface).last_surface_radius, 0.0f);
 }
 
 TEST(Render, StopsByCountAndByTime) {

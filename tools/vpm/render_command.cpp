@@ -85,12 +85,16 @@ std::string identity_of(const LoadedScene& loaded) {
 }
 
 /// The error that the passes are estimated to have, as far as they tell.
-std::string error_text(const Film& film) {
+std::string error_text(const LoadedScene& loaded, const Film& film) {
   if (film.passes() < kLeastPasses) return "";
   const FilmErrors errors = film.errors();
-  return fmt::format("; estimated relative MSE {:.2g} (variance {:.2g}, {})", estimated_error(film),
-                     errors.variance_part,
-                     film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen");
+  const std::vector<std::string> unseen =
+      maps_of_one_radius(loaded.settings, plan_stages(loaded.scene, loaded.settings));
+  return fmt::format(
+      "; estimated relative MSE {:.2g} (variance {:.2g}, {}{})", estimated_error(film), errors.variance_part,
+      film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen",
+      unseen.empty() ? ""
+                     : fmt::format("; not seen: that of [{}], where radii do not shrink", fmt::join(unseen, "], [")));
 }
 
 }  // namespace
@@ -117,7 +121,7 @@ int render_command(const RenderOptions& options) {
   }
   write_outputs(outputs, options, loaded, result);
   fmt::print("{}: {} passes in {:.1f} s{}; preview {}, report {}\n", outputs.exr.string(), result.film.passes(),
-             result.seconds, error_text(result.film), outputs.png.string(), outputs.json.string());
+             result.seconds, error_text(loaded, result.film), outputs.png.string(), outputs.json.string());
   return stop ? kInterrupted : 0;
 }
 

@@ -97,13 +97,14 @@ Json eye(const RenderStatistics& s) {
 }
 
 /// How far the image is estimated to be from the truth.
-Json errors(const Film& film) {
+Json errors(const LoadedScene& loaded, const Film& film) {
   if (film.passes() < kLeastPasses) return nullptr;
   const FilmErrors e = film.errors();
   return {{"quantity", "relative MSE: mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2)"},
           {"estimated", estimated_error(film)},
           {"variance", e.variance_part},
-          {"squared_bias", film.shows_bias() ? Json(e.bias_part) : Json()}};
+          {"squared_bias", film.shows_bias() ? Json(e.bias_part) : Json()},
+          {"bias_not_seen_of", maps_of_one_radius(loaded.settings, plan_stages(loaded.scene, loaded.settings))}};
 }
 
 Json memory(const Scene& scene, const RenderStatistics& s) {
@@ -142,7 +143,7 @@ Json report_of(const std::string& scene_path, const std::string& image, const st
           {"clamped_density_values", loaded.clamped_density_values},
           {"times", times(result)},
           {"lights", lights(loaded)},
-          {"error", errors(result.film)},
+          {"error", errors(loaded, result.film)},
           {"photons", photons(s)},
           {"energy", ledger(s.ledger)},
           {"eye", eye(s)},

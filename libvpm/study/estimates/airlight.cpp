@@ -67,12 +67,13 @@ double log_irradiance(const Scene& scene, const TransmittanceEstimator& estimato
   constexpr double kDeep = 60.0;  // optical thickness beyond which floats lose digits
   const double distance = glm::distance(Vec3d(std::get<PointLight>(scene.lights[0]).position), Vec3d(point));
   WalkCounters counters;
+  const ShadowRays rays{scene, estimator, rng, counters};
   if (distance * scene.media[0].sigma_t.r < kDeep) {
-    const DirectSample light = sample_direct(scene, 0, estimator, point, Vec3(0.0f), 0, rng, counters);
+    const DirectSample light = sample_direct(rays, 0, {point, 0});
     direction = light.direction;
     return std::log(light.irradiance.r);
   }
-  const DirectSample light = sample_direct(scene, 0, estimator, point, Vec3(0.0f), kVacuum, rng, counters);
+  const DirectSample light = sample_direct(rays, 0, {point, kVacuum});
   direction = light.direction;
   return std::log(light.irradiance.r) + log_transmittance(scene, estimator, {point, direction}, distance, rng);
 }

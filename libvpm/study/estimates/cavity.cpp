@@ -62,7 +62,7 @@ Moments estimate_wall_irradiance(const Cavity& sphere, bool reflected_only, uint
     double sum = 0.0;
     for (int i = 0; i < kPoints; ++i) {
       const Vec3 outward = uniform_sphere(rng.uniform2());
-      sum += surface_irradiance(static_cast<float>(sphere.size) * outward, -outward, radius, map).r;
+      sum += surface_irradiance(static_cast<float>(sphere.size) * outward, -outward, map).r;
     }
     result.add(sum / kPoints);
   }
@@ -74,8 +74,8 @@ double direct_wall_irradiance(const Cavity& sphere, const Vec3& outward) {
   Rng rng(0, 0, 0);
   WalkCounters counters;
   const Vec3 point = static_cast<float>(0.999999 * sphere.size) * outward;  // just off the wall
-  const DirectSample sample =
-      sample_direct(scene, 0, *make_transmittance_estimator({}), point, -outward, kVacuum, rng, counters);
+  const auto transmittance = make_transmittance_estimator({});
+  const DirectSample sample = sample_direct({scene, *transmittance, rng, counters}, 0, {point, kVacuum, -outward});
   return -sample.irradiance.r * glm::dot(sample.direction, outward);
 }
 

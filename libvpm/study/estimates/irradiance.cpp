@@ -23,7 +23,7 @@ Moments estimate_irradiance(const Light& light, const Vec3& receiver, uint64_t s
   const auto transmittance = make_transmittance_estimator({});
   return sample_moments(1, samples, seed, [&](Rng& rng, double* out) {
     WalkCounters counters;
-    const DirectSample sample = sample_direct(scene, 0, *transmittance, receiver, kUp, kVacuum, rng, counters);
+    const DirectSample sample = sample_direct({scene, *transmittance, rng, counters}, 0, {receiver, kVacuum, kUp});
     out[0] = sample.irradiance.r * std::max(0.0f, sample.direction.z);
   })[0];
 }
@@ -58,7 +58,7 @@ MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& rece
     const auto through = [&](double radius) {
       const GatherSettings gather{GatherMode::radius, static_cast<float>(radius), 0, KernelKind::epanechnikov};
       const PhotonMap map = make_photon_map(traced.surface, gather, traced.ledger.emitted_count);
-      return double{surface_irradiance(receiver, kUp, gather.radius, map).r};
+      return double{surface_irradiance(receiver, kUp, map).r};
     };
     result.unbiased.add((4.0 * through(0.5 * h) - through(h)) / 3.0);
     for (const Photon& p : traced.surface)

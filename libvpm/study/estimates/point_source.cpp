@@ -160,8 +160,7 @@ double direct_fluence(const PointSource& source, double distance) {
   WalkCounters counters;
   const Vec3 point(0.0f, metres(distance), 0.0f);
   const auto transmittance = make_transmittance_estimator({});
-  return sample_direct(scene, 0, *transmittance, point, Vec3(0.0f), 0, rng, counters).irradiance.r /
-         (kSigmaT * kSigmaT);
+  return sample_direct({scene, *transmittance, rng, counters}, 0, {point, 0}).irradiance.r / (kSigmaT * kSigmaT);
 }
 
 }  // namespace vpm

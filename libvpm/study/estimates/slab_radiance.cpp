@@ -61,7 +61,7 @@ Moments estimate_unscattered_fluence(const Slab& slab, double depth, uint64_t sa
   const MediumId medium = medium_at(scene, point);
   return sample_moments(1, samples, seed, [&](Rng& rng, double* out) {
     WalkCounters counters;
-    out[0] = sample_direct(scene, 0, *transmittance, point, Vec3(0.0f), medium, rng, counters).irradiance.r;
+    out[0] = sample_direct({scene, *transmittance, rng, counters}, 0, {point, medium}).irradiance.r;
   })[0];
 }
 

@@ -7,16 +7,16 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
+#include "image/metrics.h"
 #include "render/path_tracer.h"
 #include "render/photon_pass.h"
 #include "study/sample_moments.h"
+#include "study/validate/groups.h"
 #include "study/validate/ladder.h"
 #include "study/validate/small_scenes.h"
 
 namespace vpm {
 namespace {
-
-constexpr double kEnough = 1000.0;  // effective samples, below which a test of heavy-tailed weights says nothing
 
 /// A way to the mean radiance of the film: per channel, with the effective number of samples.
 struct Measured {
@@ -27,30 +27,21 @@ struct Measured {
 /// Rays through random places of the film.
 Measured by_referee(const Scene& scene, const RenderSettings& settings, uint64_t rays) {
   const PathContext context = make_path_context(scene, settings);
-  // The last quantity is the square of the sum over channels, for the effective sample size.
+  // The last quantity is the sum over channels, for the effective sample size.
   Measured measured{sample_moments(4, rays, settings.seed, [&](Rng& rng, double* out) {
     const Vec2 film = rng.uniform2() * Vec2(scene.camera.width, scene.camera.height);
     EyeCounters counters;
     const Rgb radiance = path_radiance(context, scene.camera.ray(film), scene.camera_medium, rng, counters);
     for (int c = 0; c < 3; ++c) out[c] = radiance[c];
-    out[3] = double{sum_channels(radiance)} * sum_channels(radiance);
+    out[3] = sum_channels(radiance);
   })};
-  double sum = 0.0;
-  for (int c = 0; c < 3; ++c) sum += measured.channels[c].mean();
-  const double squares = measured.channels[3].mean();
+  measured.effective = effective_sample_size(measured.channels[3]);
   measured.channels.pop_back();
-  measured.effective = squares > 0.0 ? static_cast<double>(rays) * sum * sum / squares : 0.0;
   return measured;
 }
 
 /// How a kernel's bias vanishes with its radius, for the extrapolation to radius 0.
 enum class BiasOrder { edges = 1, smooth = 2 };
-
-Rgbd film_mean(const Image& image) {
-  Rgbd sum(0.0);
-  for (const Rgb& pixel : image.pixels) sum += Rgbd(pixel);
-  return sum / static_cast<double>(image.pixels.size());
-}
 
 /// Photon maps: extrapolated passes.
 Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order, int passes) {
@@ -67,9 +58,9 @@ Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order
     const int pass = static_cast<int>(i);
     const Pass coarse = render_photon_pass(scene, settings, 2 * pass, kGoOn);
     const Pass fine = render_photon_pass(scene, halved, 2 * pass + 1, kGoOn);
-    means[i] = half * film_mean(fine.image) + (1.0 - half) * film_mean(coarse.image);
+    means[i] = half * channel_means(fine.image) + (1.0 - half) * channel_means(coarse.image);
     const Ledger& ledger = fine.statistics.ledger;
-    effective[i] = ledger.collisions > 0 ? ledger.effective_sample_size() : kEnough;
+    effective[i] = ledger.collisions > 0 ? ledger.effective_sample_size() : kLeastSampleSize;
   });
   Measured measured{std::vector<Moments>(3)};
   for (size_t i = 0; i < means.size(); ++i) {
@@ -82,11 +73,10 @@ Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order
 /// One check per channel (one where all are alike); none determined where the effective sample size is small.
 void compare(std::vector<Check>& checks, const std::string& name, const Measured& measured, const Measured& reference,
              bool grey) {
-  static constexpr const char* kChannels[] = {", red", ", green", ", blue"};
-  for (int c = 0; c < (grey ? 1 : 3); ++c) {
-    const std::string full = name + (grey ? "" : kChannels[c]);
+  for (size_t c = 0; c < (grey ? 1 : 3); ++c) {
+    const std::string full = name + (grey ? "" : kOfChannel[c]);
     const Moments &value = measured.channels[c], &exact = reference.channels[c];
-    if (measured.effective < kEnough)
+    if (measured.effective < kLeastSampleSize)
       checks.push_back(not_determined(full, value.mean(), exact.mean(),
                                       fmt::format("effective sample size {:.0f}", measured.effective)));
     else

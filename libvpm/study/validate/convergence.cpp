@@ -235,7 +235,7 @@ std::vector<Check> surface_photons(const Effort& effort) {
     const PhotonMap map = make_photon_map(trace(scene, seed, pass).surface, {GatherMode::radius, radius}, kPhotons);
     std::vector<double> estimates;
     for (const Vec3& axis : axes)
-      estimates.push_back(surface_irradiance(static_cast<float>(kFromFoot) * axis, Vec3(0, 1, 0), radius, map).g);
+      estimates.push_back(surface_irradiance(static_cast<float>(kFromFoot) * axis, Vec3(0, 1, 0), map).g);
     return estimates;
   };
   return density_estimation(field, "surface", effort);

@@ -31,8 +31,7 @@ std::vector<Photon> even_photons(bool flat, Rng& rng) {
 double estimate(bool flat, const GatherSettings& settings, Rng& rng) {
   const Vec3 point(0.1f, -0.05f, 0.0f);
   const PhotonMap map = make_photon_map(even_photons(flat, rng), settings, kPhotons);
-  return flat ? surface_irradiance(point, Vec3(0.0f, 0.0f, 1.0f), settings.radius, map).g
-              : fluence(Rgb(1.0f), point, map).g;
+  return flat ? surface_irradiance(point, Vec3(0.0f, 0.0f, 1.0f), map).g : fluence(Rgb(1.0f), point, map).g;
 }
 
 std::vector<Check> check_maps(bool flat, const Effort& effort) {
