@@ -49,7 +49,8 @@ TEST(ImageEnvironment, SamplesItsDensity) {
     }
   }
   for (int i = 0; i < 200000; ++i) {
-    const ImageEnvironment::Sample s = map.image->sample(rng);
+    const double choice = rng.uniform_double();
+    const ImageEnvironment::Sample s = map.image->sample(choice, rng.uniform2());
     const double turn = std::atan2(s.direction.x, s.direction.z) / (2.0 * kPiD);
     const int c = std::min(kColumns - 1, static_cast<int>((turn < 0.0 ? turn + 1.0 : turn) * kColumns));
     const int r = std::min(kRows - 1, static_cast<int>(std::acos(s.direction.y) / kPi * kRows));
@@ -70,7 +71,8 @@ TEST(ImageEnvironment, NeverDrawsABlackTexelAmongMany) {
   Rng rng = test_rng(2);
   Moments turns;
   for (int i = 0; i < 20000; ++i) {
-    const ImageEnvironment::Sample s = image.sample(rng);
+    const double choice = rng.uniform_double();
+    const ImageEnvironment::Sample s = image.sample(choice, rng.uniform2());
     ASSERT_EQ(s.radiance, Rgb(1));
     const double turn = std::atan2(s.direction.x, s.direction.z) / (2.0 * kPiD);
     turns.add(turn < 0.0 ? turn + 1.0 : turn);
