@@ -69,7 +69,7 @@ Light read_directional(TableReader& table) {
 }
 
 Light read_environment_map(TableReader& table) {
-  const std::string path = read_path(table, "path");
+  const std::string path = table.path("path");
   const float scale = table.number("scale", kPositive, 1.0f);
   Image image;
   try {

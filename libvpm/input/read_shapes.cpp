@@ -55,7 +55,7 @@ Material read_rough_dielectric(TableReader& table) {
   return RoughDielectric{ior, read_roughness(table, "dielectric")};
 }
 
-MaterialPlan read_material(TableReader& table) {
+MaterialPlan read_material(TableReader table) {
   using Reader = Material (*)(TableReader&, MaterialPlan&);
   const auto read = table.choice<Reader>(
       "type",
@@ -81,8 +81,7 @@ MaterialPlan read_material(TableReader& table) {
 /// The number of the shape's material, which it names or defines in place.
 uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<MaterialPlan>& materials) {
   if (table.require("material").table()) {
-    TableReader inline_table(table.require("material"), "'material' of " + table.title());
-    materials.push_back(read_material(inline_table));
+    materials.push_back(read_material(*table.table("material", "'material' of " + table.title())));
     return static_cast<uint32_t>(materials.size() - 1);
   }
   const std::string name = table.string("material");
@@ -113,7 +112,7 @@ TriangleMesh read_box(TableReader& table) {
 }
 
 TriangleMesh read_mesh(TableReader& table, ShapePlan& plan) {
-  const std::string path = read_path(table, "path");
+  const std::string path = table.path("path");
   try {
     LoadedMesh loaded = load_mesh(path);
     plan.degenerate_triangles = loaded.degenerate_triangles;

@@ -26,8 +26,8 @@ Image read_picture(TableReader& table, const std::string& key, const std::string
   }
 }
 
-std::shared_ptr<const Texture> read_texture(TableReader& table) {
-  const std::string path = read_path(table, "texture");
+std::shared_ptr<const Texture> read_texture(TableReader table) {
+  const std::string path = table.path("texture");
   const auto filter = table.choice<TextureFilter>(
       "filter", {{"bilinear", TextureFilter::bilinear}, {"nearest", TextureFilter::nearest}}, TextureFilter::bilinear);
   Image image = read_picture(table, "texture", path);
@@ -47,8 +47,7 @@ std::shared_ptr<const Texture> read_texture(TableReader& table) {
 Rgb read_reflectance(TableReader& table, MaterialPlan& plan, std::optional<Rgb> fallback) {
   const Node* node = table.find("reflectance");
   if (!node || !node->table()) return table.rgb("reflectance", kFraction, fallback);
-  TableReader picture(*node, "'reflectance' of " + table.title());
-  plan.texture = read_texture(picture);
+  plan.texture = read_texture(*table.table("reflectance", "'reflectance' of " + table.title()));
   return plan.texture->mean();
 }
 

@@ -20,8 +20,6 @@ using Names = std::vector<std::string>;
 
 /// The number of the medium named by `key`, kVacuum for "vacuum"; `fallback` where the key is missing.
 MediumId read_medium_name(TableReader& table, const std::string& key, const Names& media, MediumId fallback);
-/// The path under `key`, relative to the scene file's folder, or to the current one where a --set option gave it.
-std::string read_path(TableReader& table, const std::string& key);
 
 /// Who draws the surface within which a grid medium is met.
 enum class GridBoundary { automatic, box, shapes };

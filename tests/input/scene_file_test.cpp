@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "image/exr.h"
 #include "input/expectations.h"
 #include "support/test_file.h"
 
@@ -93,6 +94,41 @@ TEST(SceneFile, OptionsChangeKeys) {
   EXPECT_EQ(plain.hash.size(), 16u);
   EXPECT_NE(plain.hash, changed.hash);
   EXPECT_EQ(plain.hash, load_with(kGrey + ball).hash);
+}
+
+TEST(SceneFile, HashesTheBytesOfTheFilesItNames) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(test_file("scene.toml")).parent_path();
+  const fs::path textures = fs::path(VPM_SOURCE_DIR) / "tests/input/textures";
+  const auto picture = [&](const char* name) {
+    fs::copy_file(textures / name, folder / "picture.png", fs::copy_options::overwrite_existing);
+  };
+  const auto mesh = [&](const char* end) {
+    std::ofstream(folder / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n" << end;
+  };
+  const auto sky = [&](float radiance) {
+    Image image(1, 1);
+    image.pixels[0] = Rgb(radiance);
+    write_exr(folder / "sky.exr", image, {}, {});
+  };
+  const auto hash = [&] {
+    const LoadedScene loaded = load_with(
+        "[[lights]]\ntype = 'environment'\npath = 'sky.exr'\n[[shapes]]\ntype = 'mesh'\npath = 'one.obj'\n"
+        "material = { type = 'mirror', reflectance = { texture = 'picture.png' } }\n");
+    EXPECT_EQ(loaded.files.size(), 3u);
+    return loaded.hash;
+  };
+  picture("grey.png"), mesh(""), sky(1.0f);
+  const std::string first = hash();
+  EXPECT_EQ(hash(), first);
+  picture("checker.png");
+  EXPECT_NE(hash(), first);
+  picture("grey.png"), mesh("# other bytes");
+  EXPECT_NE(hash(), first);
+  mesh(""), sky(2.0f);
+  EXPECT_NE(hash(), first);
+  sky(1.0f);
+  EXPECT_EQ(hash(), first);
 }
 
 TEST(SceneFile, ReadsEveryMaterial) {

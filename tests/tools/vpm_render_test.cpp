@@ -244,6 +244,8 @@ TEST_F(VpmRender, ACheckpointTakesMorePassesButNoOtherScene) {
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--seed", "9"}, {"another render", "seed 9"});
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--set", "film.width=20"}, {"another render"});
   vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--resume"}, {"b.checkpoint", "there is no such file"});
+  vpm_succeeds({"media", "smoke", "--resolution", "17", "-o", "smoke.vdb"});  // other bytes under the same name
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render"});
 }
 
 TEST_F(VpmRender, StopsAtAnError) {
