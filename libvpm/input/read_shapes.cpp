@@ -7,17 +7,21 @@
 #include "base/error.h"
 #include "input/mesh_file.h"
 #include "input/sections.h"
+#include "surface/fresnel.h"
 #include "surface/metals.h"
 
 namespace vpm {
 namespace {
+
+constexpr Range kIndex{kLeastIndex, kLargestIndex, false, false};
+constexpr Range kIndexK{kLeastK, kLargestK, false, false};
 
 /// The index of a metal's refraction, by its name or as two colours.
 Conductor read_metal(TableReader& table) {
   if (!table.has("metal")) {
     if (!table.has("eta") && !table.has("k"))
       table.fail_here(table.title() + " lacks a metal", "add: metal = \"gold\", or eta and k");
-    return {table.rgb("eta", kPositive), table.rgb("k", kPositive)};
+    return {table.rgb("eta", kIndex), table.rgb("k", kIndexK)};
   }
   std::vector<std::pair<std::string, Metal>> metals;
   for (const Metal& metal : kMetals) metals.emplace_back(metal.name, metal);
@@ -47,7 +51,7 @@ Material read_phong(TableReader& table) {
 }
 
 Material read_rough_dielectric(TableReader& table) {
-  const float ior = table.number("ior", kPositive);
+  const float ior = table.number("ior", kIndex);
   if (std::abs(ior - 1.0f) < kLeastIorStep)
     table.fail("ior",
                fmt::format("the ior of {} must be at least {} away from 1, not {}", table.title(), kLeastIorStep, ior),
@@ -69,7 +73,7 @@ MaterialPlan read_material(TableReader table) {
           const Conductor metal = read_metal(t);
           return RoughConductor{metal.eta, metal.k, read_roughness(t, "conductor")};
         }},
-       {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kPositive)}; }},
+       {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kIndex)}; }},
        {"rough-dielectric", [](TableReader& t, MaterialPlan&) { return read_rough_dielectric(t); }},
        {"boundary", [](TableReader&, MaterialPlan&) -> Material { return Boundary{}; }}});
   MaterialPlan plan;

@@ -27,6 +27,11 @@ bool inside(const Range& range, double value) {
          (range.hi_open ? value < range.hi : value <= range.hi);
 }
 
+/// The range as single precision has it, so that the ends of a closed one belong to it in either.
+Range in_single(const Range& range) {
+  return {static_cast<float>(range.lo), static_cast<float>(range.hi), range.lo_open, range.hi_open};
+}
+
 /// A number of the file, checked as it is and in the single precision it is going to be kept in.
 double checked_number(const Node& node, const std::string& what, const Range& range) {
   double value = 0.0;
@@ -39,7 +44,7 @@ double checked_number(const Node& node, const std::string& what, const Range& ra
   if (!std::isfinite(value)) fail_at(node.place, what + " must be finite, not " + text_of(value));
   const auto single = static_cast<float>(value);
   if (!std::isfinite(single)) fail_at(node.place, what + " is too large for single precision: " + text_of(value));
-  if (!inside(range, value) || !inside(range, single))
+  if (!inside(range, value) || !inside(in_single(range), single))
     fail_at(node.place, what + " must be " + text_of(range) + ", not " + text_of(value));
   return value;
 }

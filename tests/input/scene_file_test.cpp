@@ -158,6 +158,14 @@ material = "frosted"
   EXPECT_EQ(std::get<RoughConductor>(m[5]).roughness, 1.0f);
 }
 
+TEST(SceneFile, ClosedRangesHoldTheirEnds) {
+  const LoadedScene loaded = load_with(
+      "[materials.a]\ntype = 'conductor'\neta = 1e-3\nk = 1e-6\n[materials.b]\ntype = 'dielectric'\nior = 1000\n"
+      "[render]\nmax_optical_step = 1e-4\n[distance]\nstep = 1e-3\n");
+  EXPECT_EQ(std::get<Conductor>(loaded.scene.materials[0]).k, Rgb(1e-6f));
+  EXPECT_EQ(loaded.settings.max_optical_step, 1e-4f);
+}
+
 TEST(SceneFile, RefusesBadOptions) {
   const std::pair<std::string, std::string> cases[] = {
       {"render.passes", "--set render.passes: there is no '='"},
