@@ -129,7 +129,8 @@ TriangleMesh read_mesh(TableReader& table, ShapePlan& plan) {
 /// The quad's light: its corner and edges, in the order that keeps the normal.
 QuadLight quad_light(const TriangleMesh& mesh, const Rgb& radiance) {
   const auto& p = mesh.positions;
-  const bool mirrored = mesh.triangles[0].y == 2;
+  const glm::uvec3& t = mesh.triangles[0];
+  const bool mirrored = t.y > t.z;
   const Vec3 u = p[1] - p[0], v = p[3] - p[0];
   return mirrored ? QuadLight{p[0], v, u, radiance} : QuadLight{p[0], u, v, radiance};
 }
@@ -154,6 +155,25 @@ void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::ve
   plan.light = light_of(plan, quad, radiance);
 }
 
+bool has_uvs(const ShapePlan& plan) {
+  const auto* mesh = std::get_if<TriangleMesh>(&plan.surface);
+  return mesh ? !mesh->uvs.empty() : std::holds_alternative<SphereShape>(plan.surface);
+}
+
+/// Boxes, quads and meshes, where their transform puts them.
+TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePlan& plan) {
+  transform_mesh(read_transform(table, "transform"), mesh);
+  for (const Vec3& p : mesh.positions)
+    if (!is_finite(p))
+      table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
+  plan.degenerate_triangles += drop_flat_triangles(mesh);
+  if (mesh.triangles.empty())
+    table.fail(table.has("transform") ? "transform" : "type",
+               "no triangle of " + table.title() + " has an area where it lies: single precision resolves none",
+               "make it larger, or move it nearer to the origin");
+  return mesh;
+}
+
 ShapePlan read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
                      std::vector<MaterialPlan>& materials) {
   enum class Kind { sphere, disc, quad, box, mesh };
@@ -172,18 +192,14 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
   } else if (kind == Kind::disc) {
     plan.surface = read_disc(table);
   } else {
-    TriangleMesh mesh = kind == Kind::quad  ? read_quad(table)
-                        : kind == Kind::box ? read_box(table)
-                                            : read_mesh(table, plan);
-    transform_mesh(read_transform(table, "transform"), mesh);
-    for (const Vec3& p : mesh.positions)
-      if (!is_finite(p))
-        table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
-    plan.surface = std::move(mesh);
+    plan.surface = read_triangles(table,
+                                  kind == Kind::quad  ? read_quad(table)
+                                  : kind == Kind::box ? read_box(table)
+                                                      : read_mesh(table, plan),
+                                  plan);
   }
   read_emission(table, plan, kind == Kind::quad, materials);
-  if (const auto* mesh = std::get_if<TriangleMesh>(&plan.surface);
-      mesh && mesh->uvs.empty() && materials[plan.shape.material].texture)
+  if (materials[plan.shape.material].texture && !has_uvs(plan))
     table.fail("material",
                "the material of " + table.title() + " has a texture, but the shape has no coordinates in it",
                "spheres and quads have them, and meshes whose file gives them to the vertices");

@@ -207,6 +207,15 @@ TEST(SceneFile, FindsFilesFromTheSceneAndFromTheCurrentFolder) {
   EXPECT_THROW(load_scene((folder / "scene.toml").string(), {"shapes.0.path=one.obj"}), InputError);
 }
 
+TEST(SceneFile, CountsTrianglesThatTheTransformFlattens) {
+  std::ofstream(test_file("two.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 900 0 0\nv 0 900 0\nf 1 2 3\nf 1 4 5\n";
+  const LoadedScene loaded = load_with(
+      "[[shapes]]\ntype = 'mesh'\nmaterial = { type = 'mirror' }\npath = 'two.obj'\nemission = 1\n"
+      "transform = [{ translate = [1e8, 1e8, 0] }]\n");  // where floats are 8 m apart
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{"shape 'shape 0': 1 triangles without area dropped"});
+  EXPECT_EQ(loaded.scene.geometry.triangle_count(0), 1u);
+}
+
 TEST(SceneFile, ReadsCoefficients) {
   const LoadedScene loaded = load_with(
       "[media.a]\ntype = 'homogeneous'\nsigma_s = [1, 2, 3]\nsigma_a = 0.5\nphase = { type = 'henyey-greenstein', g = "
