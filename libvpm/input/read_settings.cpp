@@ -1,5 +1,5 @@
 // The sections about how to render: [camera], [film], [render], [photons], [distance], [transmittance], [volume],
-// [surface].
+// [surface], [caustics].
 #include "input/sections.h"
 
 namespace vpm {

@@ -76,8 +76,8 @@ std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);
 /// Reads [camera] and [film].
 Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
 
-/// Reads [render], [photons], [distance], [transmittance], [volume] and [surface]. `has_grid`: does the scene hold a
-/// grid medium?
+/// Reads [render], [photons], [distance], [transmittance], [volume], [surface] and [caustics]. `has_grid`: does the
+/// scene hold a grid medium?
 RenderSettings read_settings(TableReader& root, bool has_grid);
 
 }  // namespace vpm
