@@ -2,7 +2,6 @@
 #include "input/mesh_file.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/error.h"
 #include "input/mesh_parts.h"
@@ -33,9 +32,7 @@ void add_fan(const std::vector<uint32_t>& corners, TriangleMesh& mesh) {
 }
 
 LoadedMesh load_mesh(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lower_extension(path);
   if (extension != ".ply" && extension != ".obj") fail_in_mesh(path, 0, "a mesh must be a .ply or .obj file");
   const std::string text = read_whole_file(path);
   LoadedMesh loaded;

@@ -26,9 +26,9 @@ struct ScenePlan {
 
 std::string hash_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path + ": cannot be read again for its hash");
   Fnv1a hash;
   hash.add(file);
+  if (file.bad() || !file.eof()) throw InputError(path + ": cannot be read again for its hash");
   return hash.digits();
 }
 

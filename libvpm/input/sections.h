@@ -46,6 +46,10 @@ std::vector<MaterialPlan> read_materials(TableReader& section);
 /// returned. A fallback is what a missing key stands for.
 Rgb read_reflectance(TableReader& table, MaterialPlan& plan, std::optional<Rgb> fallback = {});
 
+/// The first texel of a picture that is not finite, below 0, or above `largest`: "column 3, row 0"; "" where there is
+/// none.
+std::string first_texel_outside(const Image& image, float largest);
+
 /// A shape as the file describes it.
 struct ShapePlan {
   Place place;  // of the shape in the file; of its medium for the box of a grid

@@ -1,18 +1,10 @@
 // The closed set of lights: each question goes to the kind of light it is asked of.
 #include "light/light.h"
 
+#include "base/overloads.h"
 #include "light/kinds.h"
 
 namespace vpm {
-
-namespace {
-template <class... F>
-struct Overloads : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloads(F...) -> Overloads<F...>;
-}  // namespace
 
 Rgb light_power(const Light& light, const Box& scene) {
   return std::visit([&](const auto& l) { return power_of(l, scene); }, light);

@@ -1,6 +1,7 @@
 // The closed set of materials: each question goes to the kind it is asked of. And the answers of the simplest kinds.
 #include "surface/material.h"
 
+#include "base/overloads.h"
 #include "base/warp.h"
 #include "surface/fresnel.h"
 #include "surface/kinds.h"
@@ -8,13 +9,6 @@
 namespace vpm {
 
 namespace {
-
-template <class... F>
-struct Overloads : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloads(F...) -> Overloads<F...>;
 
 Scatter passed(const Vec3& travel) { return {travel, Rgb(1.0f), true, 1.0f}; }
 
