@@ -306,6 +306,24 @@ TEST(SceneFile, ReadsLights) {
   EXPECT_EQ(scene.shapes[1].light, 6);
 }
 
+TEST(SceneFile, RefusesPicturesThatNoSkyShows) {
+  const auto message = [](const Rgb& first, const Rgb& last) {
+    Image image(3, 2);
+    image.pixels.front() = first;
+    image.pixels.back() = last;
+    write_exr(test_file("sky.exr"), image, {}, {});
+    return message_of([] { load_with("[[lights]]\ntype = 'environment'\npath = 'sky.exr'\nscale = 10\n"); });
+  };
+  const auto expect = [](const std::string& found, const std::string& words) {
+    EXPECT_NE(found.find("scene.toml:10:8: "), std::string::npos) << found;
+    EXPECT_NE(found.find(words), std::string::npos) << found;
+  };
+  const Rgb one(1.0f);
+  expect(message(one, Rgb(1.0f, -1.0f, 1.0f)), "the radiance at column 2, row 1 is negative or not finite");
+  expect(message(Rgb(1.0f, 1.0f, 1e38f), one), "the radiance at column 0, row 0 is negative or not finite");
+  expect(message(Rgb(0.0f), Rgb(0.0f)), "the whole environment is black");
+}
+
 /// The normal that a downward ray at (x, z) meets first.
 Vec3 normal_below(const Scene& scene, float x, float z) {
   const std::optional<Hit> hit = scene.geometry.intersect({Vec3(x, 50, z), Vec3(0, -1, 0)});
