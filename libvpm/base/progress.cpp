@@ -26,8 +26,10 @@ double fraction_done(uint64_t done, uint64_t total) {
   return done >= total ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
 }
 
-/// "photons  [#########-----------]  47 %".
-std::string bar_text(const std::string& stage, double fraction) {
+/// "photons  [#########-----------]  47 %"; of an unknown total "photons  123456".
+std::string bar_text(const std::string& stage, uint64_t done, uint64_t total) {
+  if (total == 0) return stage + "  " + std::to_string(done);
+  const double fraction = fraction_done(done, total);
   const int filled = static_cast<int>(kBar * fraction);
   const std::string percent = std::to_string(static_cast<int>(100 * fraction));
   return stage + "  [" + std::string(filled, '#') + std::string(kBar - filled, '-') + "] " +
@@ -41,15 +43,15 @@ bool progress_enabled(ProgressMode mode) {
 }
 
 std::string progress_line(const std::string& stage, uint64_t done, uint64_t total, double seconds) {
+  const std::string bar = bar_text(stage, done, total);
+  if (done == 0 || total == 0) return bar;
   const double fraction = fraction_done(done, total);
-  const std::string bar = bar_text(stage, fraction);
-  if (fraction == 0.0) return bar;
   return bar + "  " + duration_text(seconds * (1.0 - fraction) / fraction) + " left";
 }
 
 Progress::Progress(std::string stage, uint64_t total, bool enabled)
     : stage_(std::move(stage)), total_(total), enabled_(enabled) {
-  if (enabled_) show(progress_line(stage_, 0, std::max<uint64_t>(total_, 1), 0.0), "");
+  if (enabled_) show(progress_line(stage_, 0, total_, 0.0), "");
 }
 
 void Progress::show_if_due() {
@@ -66,7 +68,7 @@ void Progress::show_if_due() {
 void Progress::finish() {
   if (!enabled_ || finished_) return;
   finished_ = true;
-  show(bar_text(stage_, fraction_done(done(), total_)) + "  in " + duration_text(seconds()), "\n");
+  show(bar_text(stage_, done(), total_) + "  in " + duration_text(seconds()), "\n");
 }
 
 void Progress::show(const std::string& line, const char* end) {

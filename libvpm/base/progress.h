@@ -14,12 +14,14 @@ enum class ProgressMode { automatic, always, never };
 bool progress_enabled(ProgressMode mode);
 
 /// "photons  [#########-----------]  47 %  12 s left": `done` of `total` units of work after `seconds` s. The time left
-/// assumes that the rest goes as fast as the part done; it is missing while nothing is done.
+/// assumes that the rest goes as fast as the part done; it is missing while nothing is done. A total of 0 is unknown:
+/// "photons  123456".
 std::string progress_line(const std::string& stage, uint64_t done, uint64_t total, double seconds);
 
 /// Shows the progress of one stage from construction to finish() or destruction. Work is counted in any unit.
 class Progress {
  public:
+  /// `total` is 0 where it is unknown.
   Progress(std::string stage, uint64_t total, bool enabled);
   ~Progress() { finish(); }
   Progress(const Progress&) = delete;

@@ -11,7 +11,6 @@ using Vec2 = glm::vec2;
 using Vec3 = glm::vec3;
 using Vec3d = glm::dvec3;
 using Vec3i = glm::ivec3;
-using Mat3 = glm::mat3;
 using Mat3d = glm::dmat3;
 using Mat4d = glm::dmat4;
 

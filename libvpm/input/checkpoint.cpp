@@ -1,19 +1,47 @@
-// The file: a line of its own kind, the line of identity, then numbers as they stand in memory.
+// The file: a line of its own kind, the line of identity, numbers as they stand in memory, and the checksum of all.
 #include "input/checkpoint.h"
 
 #include <fmt/format.h>
 #include <cassert>
 #include <fstream>
 #include <sstream>
-#include <type_traits>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/fnv.h"
 
 namespace vpm {
 namespace {
 
 constexpr const char* kKind = "vpm checkpoint of a render";
+constexpr size_t kChecksum = 16;  // characters at the end
+
+// Each number of a structure by itself: between them may stand bytes of no meaning. A structure that gains a number
+// does not compile here until that is named.
+void each_number(WalkCounters& counters, auto&& use) {
+  auto& [lookups, crossings, mismatches] = counters;
+  use(lookups, crossings, mismatches);
+}
+void each_number(Ledger& ledger, auto&& use) {
+  auto& [emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, weight_sum, weight_squares,
+         largest_weight, collisions, surface_hits, floored, non_finite, walk] = ledger;
+  use(emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, weight_sum, weight_squares,
+      largest_weight, collisions, surface_hits, floored, non_finite);
+  each_number(walk, use);
+}
+void each_number(EyeCounters& eye, auto&& use) {
+  auto& [rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, cut_paths, non_finite, walk] = eye;
+  use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, cut_paths, non_finite);
+  each_number(walk, use);
+}
+void each_number(RenderStatistics& statistics, auto&& use) {
+  auto& [passes, guide, trace, build, eye_pass, ledger, volume, surface, caustic, merged, bytes, guide_bytes,
+         volume_radius, surface_radius, eye] = statistics;
+  use(passes, guide, trace, build, eye_pass, volume, surface, caustic, merged, bytes, guide_bytes, volume_radius,
+      surface_radius);
+  each_number(ledger, use);
+  each_number(eye, use);
+}
 
 /// What stands before the film's pixels. The program's version is part of the identity, so the layout is its own.
 struct Numbers {
@@ -25,24 +53,34 @@ struct Numbers {
   Half halves[2];
   double seconds = 0.0;
   RenderStatistics statistics;
-};
-// Plain numbers throughout; only the vectors' constructors keep it from being trivially copyable.
-static_assert(std::is_standard_layout_v<Numbers> && std::is_trivially_destructible_v<Numbers>);
 
-void append(std::string& bytes, const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); }
-void append(std::string& bytes, const std::vector<Rgbd>& values) {
-  append(bytes, values.data(), values.size() * sizeof(Rgbd));
+  size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
+};
+void each_number(Numbers& numbers, auto&& use) {
+  use(numbers.width, numbers.height, numbers.seconds);
+  for (auto& [passes, mean_size, size_squares] : numbers.halves) use(passes, mean_size, size_squares);
+  each_number(numbers.statistics, use);
 }
 
-/// The bytes of a file from a place on.
+std::string checksum(std::string_view bytes) {
+  Fnv1a hash;
+  hash.add(bytes);
+  return hash.digits();
+}
+
+void append(std::string& bytes, const std::vector<Rgbd>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Rgbd));
+}
+
+/// Takes bytes off the front.
 class Reader {
  public:
-  Reader(const std::string& bytes, size_t at) : bytes_(bytes), at_(at) {}
-  size_t left() const { return bytes_.size() - at_; }
+  explicit Reader(std::string_view bytes) : left_(bytes) {}
+  size_t left() const { return left_.size(); }
   void read(void* data, size_t size) {
     assert(size <= left());
-    std::copy_n(bytes_.data() + at_, size, static_cast<char*>(data));
-    at_ += size;
+    std::copy_n(left_.data(), size, static_cast<char*>(data));
+    left_.remove_prefix(size);
   }
   std::vector<Rgbd> values(size_t count) {
     std::vector<Rgbd> all(count);
@@ -51,12 +89,25 @@ class Reader {
   }
 
  private:
-  const std::string& bytes_;
-  size_t at_;
+  std::string_view left_;
 };
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
   throw InputError(fmt::format("cannot resume from '{}': {}", path.string(), why));
+}
+
+/// Numbers that a film can have been written with.
+Numbers read_numbers(const std::filesystem::path& path, Reader& reader) {
+  Numbers numbers;
+  bool whole = true;
+  each_number(numbers, [&](auto&... number) {
+    ((whole = whole && sizeof number <= reader.left(), whole ? reader.read(&number, sizeof number) : void()), ...);
+  });
+  if (!whole || numbers.width < 1 || numbers.height < 1 || numbers.halves[0].passes < 0 ||
+      numbers.halves[1].passes < 0 || reader.left() / (6 * sizeof(Rgbd)) != numbers.pixels() ||
+      reader.left() % (6 * sizeof(Rgbd)) != 0)
+    refuse(path, "its numbers are none that a render writes");
+  return numbers;
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -71,16 +122,17 @@ std::string text_of(const std::filesystem::path& path) {
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const RenderResult& result) {
   assert(identity.find('\n') == std::string::npos);
-  std::string bytes = fmt::format("{}\n{}\n", kKind, identity);
   Numbers numbers{result.film.width(), result.film.height(), {}, result.seconds, result.statistics};
   for (size_t h = 0; h < 2; ++h) {
     const PassMoments& half = result.film.halves()[h];
     numbers.halves[h] = {half.passes, half.mean_square, half.square_spread};
   }
-  append(bytes, &numbers, sizeof numbers);
+  std::string bytes = fmt::format("{}\n{}\n", kKind, identity);
+  each_number(numbers,
+              [&](auto&... number) { (bytes.append(reinterpret_cast<const char*>(&number), sizeof number), ...); });
   for (const PassMoments& half : result.film.halves())
     for (const std::vector<Rgbd>* plane : {&half.mean, &half.squares, &half.products}) append(bytes, *plane);
-  write_text(path, bytes);
+  write_text(path, bytes + checksum(bytes));
 }
 
 RenderResult read_checkpoint(const std::filesystem::path& path, const std::string& identity) {
@@ -92,13 +144,12 @@ RenderResult read_checkpoint(const std::filesystem::path& path, const std::strin
     refuse(path,
            fmt::format("it is of another render; remove it, or render again what it is of\n  file:   {}\n  asked:  {}",
                        found, identity));
-  Reader reader(bytes, end + 1);
-  Numbers numbers;
-  if (reader.left() < sizeof numbers) refuse(path, "it is not whole");
-  reader.read(&numbers, sizeof numbers);
-  const size_t pixels = static_cast<size_t>(numbers.width) * static_cast<size_t>(numbers.height);
-  if (numbers.width < 1 || numbers.height < 1 || reader.left() != 6 * pixels * sizeof(Rgbd))
-    refuse(path, "it is not whole");
+  const size_t sum_at = bytes.size() - std::min(bytes.size() - end - 1, kChecksum);
+  const std::string_view content = std::string_view(bytes).substr(0, sum_at);
+  if (checksum(content) != bytes.substr(sum_at)) refuse(path, "it is damaged or not whole: its checksum is wrong");
+  Reader reader(content.substr(end + 1));
+  const Numbers numbers = read_numbers(path, reader);
+  const size_t pixels = numbers.pixels();
   Film::Halves halves;
   for (size_t h = 0; h < 2; ++h) {
     const auto& [passes, mean_size, size_squares] = numbers.halves[h];

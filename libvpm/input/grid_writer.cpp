@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/fnv.h"
 #include "base/parallel.h"
 #include "input/vdb_layout.h"
 #include "medium/procedural.h"
@@ -83,14 +84,11 @@ void write_file(const openvdb::FloatGrid::Ptr& grid, const std::string& path) {
 void fix_unique_number(const std::string& path) {
   constexpr std::streamoff kPlace = 21;  // after magic number, format, library version and the flag for offsets
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
-  uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a
   std::string number = "00000000-0000-0000-0000-000000000000";
   file.seekg(kPlace + static_cast<std::streamoff>(number.size()));
-  std::vector<char> bytes(1 << 16);
-  while (file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())), file.gcount() > 0)
-    for (std::streamsize i = 0; i < file.gcount(); ++i)
-      hash = (hash ^ static_cast<unsigned char>(bytes[static_cast<size_t>(i)])) * 0x100000001b3ull;
-  const std::string digits = fmt::format("{:016x}", hash);
+  Fnv1a hash;
+  hash.add(file);
+  const std::string digits = hash.digits();
   number.replace(0, 8, digits.substr(0, 8));
   number.replace(24, 8, digits.substr(8));
   file.clear();

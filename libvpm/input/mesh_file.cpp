@@ -2,19 +2,14 @@
 #include "input/mesh_file.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/error.h"
 #include "input/mesh_parts.h"
 #include "input/source.h"
+#include "surface/mesh.h"
 
 namespace vpm {
 namespace {
-
-bool degenerate(const TriangleMesh& mesh, const glm::uvec3& t) {
-  const Vec3d a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-  return glm::cross(b - a, c - a) == Vec3d(0.0);
-}
 
 void check_indices(const std::string& path, const TriangleMesh& mesh) {
   for (const glm::uvec3& t : mesh.triangles) {
@@ -37,17 +32,14 @@ void add_fan(const std::vector<uint32_t>& corners, TriangleMesh& mesh) {
 }
 
 LoadedMesh load_mesh(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lower_extension(path);
   if (extension != ".ply" && extension != ".obj") fail_in_mesh(path, 0, "a mesh must be a .ply or .obj file");
   const std::string text = read_whole_file(path);
   LoadedMesh loaded;
   loaded.mesh = extension == ".ply" ? parse_ply(path, text) : parse_obj(path, text);
   if (loaded.mesh.triangles.empty()) fail_in_mesh(path, 0, "the mesh has no faces");
   check_indices(path, loaded.mesh);
-  const auto without_area = [&](const glm::uvec3& t) { return degenerate(loaded.mesh, t); };
-  loaded.degenerate_triangles = std::erase_if(loaded.mesh.triangles, without_area);
+  loaded.degenerate_triangles = drop_flat_triangles(loaded.mesh);
   if (loaded.mesh.triangles.empty()) fail_in_mesh(path, 0, "no face of the mesh has an area");
   return loaded;
 }

@@ -69,7 +69,7 @@ Light read_directional(TableReader& table) {
 }
 
 Light read_environment_map(TableReader& table) {
-  const std::string path = read_path(table, "path");
+  const std::string path = table.path("path");
   const float scale = table.number("scale", kPositive, 1.0f);
   Image image;
   try {
@@ -77,17 +77,11 @@ Light read_environment_map(TableReader& table) {
   } catch (const InputError& error) {
     table.fail("path", error.what());
   }
-  bool black = true;
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    Rgb& texel = image.pixels[i];
-    texel *= scale;
-    const auto width = static_cast<size_t>(image.width);
-    if (!is_finite(texel) || std::min({texel.r, texel.g, texel.b}) < 0.0f)
-      table.fail("path", path + ": the radiance at column " + std::to_string(i % width) + ", row " +
-                             std::to_string(i / width) + " is negative or not finite");
-    black = black && is_black(texel);
-  }
-  if (black) table.fail("path", path + ": the whole environment is black");
+  for (Rgb& texel : image.pixels) texel *= scale;
+  const std::string wrong = first_texel_outside(image, kInfinity);
+  if (!wrong.empty()) table.fail("path", path + ": the radiance at " + wrong + " is negative or not finite");
+  if (std::all_of(image.pixels.begin(), image.pixels.end(), is_black))
+    table.fail("path", path + ": the whole environment is black");
   return EnvironmentMap{std::make_shared<ImageEnvironment>(image.width, image.height, std::move(image.pixels))};
 }
 

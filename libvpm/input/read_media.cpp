@@ -1,6 +1,4 @@
 // The section [media.*]: coefficients, phase functions, grids.
-#include <filesystem>
-
 #include "input/sections.h"
 #include "medium/measured.h"
 
@@ -61,7 +59,7 @@ void read_coefficients(TableReader& table, bool grid, Medium& medium) {
 
 GridRequest read_grid(TableReader& table) {
   GridRequest request;
-  request.path = read_path(table, "path");
+  request.path = table.path("path");
   request.name = table.string("grid", "density");
   request.interpolation = table.choice<Interpolation>(
       "interpolation", {{"trilinear", Interpolation::trilinear}, {"nearest", Interpolation::nearest}},
@@ -106,17 +104,6 @@ MediumId read_medium_name(TableReader& table, const std::string& key, const Name
   Names known = media;
   known.emplace_back("vacuum");
   table.fail(key, "there is no medium '" + name + "'", suggest(name, known, "there are"));
-}
-
-std::string read_path(TableReader& table, const std::string& key) {
-  const std::filesystem::path path = table.string(key);
-  const Source& source = *table.place_of(key).source;
-  const bool from_option = source.lines.empty();
-  const std::filesystem::path folder = from_option ? "" : std::filesystem::path(source.name).parent_path();
-  std::string found = (folder / path).string();
-  std::error_code ignored;
-  if (!std::filesystem::exists(found, ignored)) table.fail(key, "there is no file '" + found + "'");
-  return found;
 }
 
 std::vector<MediumPlan> read_media(TableReader& section, const Names& names, MediumId world) {

@@ -23,6 +23,8 @@ Filter read_filter(TableReader& film) {
 
 /// A gather radius, m: kernels, 1 over its cube, must be floats; and coordinates are at most 1e9 m.
 constexpr Range kRadius{1e-10, 1e9, false, false};
+/// A step of a march, voxels: shorter ones would never come to an end.
+constexpr Range kVoxels{1e-3, kNoLimit, false, true};
 
 void read_gather(TableReader& table, GatherSettings& gather) {
   gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}},
@@ -58,7 +60,7 @@ void read_render(TableReader& table, RenderSettings& s) {
   s.samples_per_pixel = small_integer(table, "samples_per_pixel", 1'000'000, s.samples_per_pixel);
   s.max_events = small_integer(table, "max_events", 1'000'000'000, s.max_events);
   s.shrink_radii = table.flag("shrink_radii", s.shrink_radii);
-  s.max_optical_step = table.number("max_optical_step", kPositive, s.max_optical_step);
+  s.max_optical_step = table.number("max_optical_step", {1e-4, kNoLimit, false, true}, s.max_optical_step);
 }
 
 void read_photons(TableReader& table, RenderSettings& s) {
@@ -71,7 +73,7 @@ void read_photons(TableReader& table, RenderSettings& s) {
 
 void read_distance(TableReader& table, DistanceSettings& distance, bool has_grid) {
   distance.strategy = read_listed(table, "strategy", distance_strategies(), distance.strategy);
-  distance.step = table.number("step", kPositive, distance.step);
+  distance.step = table.number("step", kVoxels, distance.step);
   distance.extinction_floor = table.number("extinction_floor", kPositive, distance.extinction_floor);
   Names others;
   bool refused = false;
@@ -130,7 +132,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   read_section(root, "distance", [&](TableReader& table) { read_distance(table, s.distance, has_grid); });
   read_section(root, "transmittance", [&](TableReader& table) {
     s.transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), s.transmittance.estimator);
-    s.transmittance.step = table.number("step", kPositive, s.transmittance.step);
+    s.transmittance.step = table.number("step", kVoxels, s.transmittance.step);
   });
   read_section(root, "volume", [&](TableReader& table) {
     read_gather(table, s.volume);

@@ -7,17 +7,21 @@
 #include "base/error.h"
 #include "input/mesh_file.h"
 #include "input/sections.h"
+#include "surface/fresnel.h"
 #include "surface/metals.h"
 
 namespace vpm {
 namespace {
+
+constexpr Range kIndex{kLeastIndex, kLargestIndex, false, false};
+constexpr Range kIndexK{kLeastK, kLargestK, false, false};
 
 /// The index of a metal's refraction, by its name or as two colours.
 Conductor read_metal(TableReader& table) {
   if (!table.has("metal")) {
     if (!table.has("eta") && !table.has("k"))
       table.fail_here(table.title() + " lacks a metal", "add: metal = \"gold\", or eta and k");
-    return {table.rgb("eta", kPositive), table.rgb("k", kPositive)};
+    return {table.rgb("eta", kIndex), table.rgb("k", kIndexK)};
   }
   std::vector<std::pair<std::string, Metal>> metals;
   for (const Metal& metal : kMetals) metals.emplace_back(metal.name, metal);
@@ -47,7 +51,7 @@ Material read_phong(TableReader& table) {
 }
 
 Material read_rough_dielectric(TableReader& table) {
-  const float ior = table.number("ior", kPositive);
+  const float ior = table.number("ior", kIndex);
   if (std::abs(ior - 1.0f) < kLeastIorStep)
     table.fail("ior",
                fmt::format("the ior of {} must be at least {} away from 1, not {}", table.title(), kLeastIorStep, ior),
@@ -55,7 +59,7 @@ Material read_rough_dielectric(TableReader& table) {
   return RoughDielectric{ior, read_roughness(table, "dielectric")};
 }
 
-MaterialPlan read_material(TableReader& table) {
+MaterialPlan read_material(TableReader table) {
   using Reader = Material (*)(TableReader&, MaterialPlan&);
   const auto read = table.choice<Reader>(
       "type",
@@ -69,7 +73,7 @@ MaterialPlan read_material(TableReader& table) {
           const Conductor metal = read_metal(t);
           return RoughConductor{metal.eta, metal.k, read_roughness(t, "conductor")};
         }},
-       {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kPositive)}; }},
+       {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kIndex)}; }},
        {"rough-dielectric", [](TableReader& t, MaterialPlan&) { return read_rough_dielectric(t); }},
        {"boundary", [](TableReader&, MaterialPlan&) -> Material { return Boundary{}; }}});
   MaterialPlan plan;
@@ -81,8 +85,7 @@ MaterialPlan read_material(TableReader& table) {
 /// The number of the shape's material, which it names or defines in place.
 uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<MaterialPlan>& materials) {
   if (table.require("material").table()) {
-    TableReader inline_table(table.require("material"), "'material' of " + table.title());
-    materials.push_back(read_material(inline_table));
+    materials.push_back(read_material(*table.table("material", "'material' of " + table.title())));
     return static_cast<uint32_t>(materials.size() - 1);
   }
   const std::string name = table.string("material");
@@ -113,7 +116,7 @@ TriangleMesh read_box(TableReader& table) {
 }
 
 TriangleMesh read_mesh(TableReader& table, ShapePlan& plan) {
-  const std::string path = read_path(table, "path");
+  const std::string path = table.path("path");
   try {
     LoadedMesh loaded = load_mesh(path);
     plan.degenerate_triangles = loaded.degenerate_triangles;
@@ -126,7 +129,8 @@ TriangleMesh read_mesh(TableReader& table, ShapePlan& plan) {
 /// The quad's light: its corner and edges, in the order that keeps the normal.
 QuadLight quad_light(const TriangleMesh& mesh, const Rgb& radiance) {
   const auto& p = mesh.positions;
-  const bool mirrored = mesh.triangles[0].y == 2;
+  const glm::uvec3& t = mesh.triangles[0];
+  const bool mirrored = t.y > t.z;
   const Vec3 u = p[1] - p[0], v = p[3] - p[0];
   return mirrored ? QuadLight{p[0], v, u, radiance} : QuadLight{p[0], u, v, radiance};
 }
@@ -151,6 +155,25 @@ void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::ve
   plan.light = light_of(plan, quad, radiance);
 }
 
+bool has_uvs(const ShapePlan& plan) {
+  const auto* mesh = std::get_if<TriangleMesh>(&plan.surface);
+  return mesh ? !mesh->uvs.empty() : std::holds_alternative<SphereShape>(plan.surface);
+}
+
+/// Boxes, quads and meshes, where their transform puts them.
+TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePlan& plan) {
+  transform_mesh(read_transform(table, "transform"), mesh);
+  for (const Vec3& p : mesh.positions)
+    if (!is_finite(p))
+      table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
+  plan.degenerate_triangles += drop_flat_triangles(mesh);
+  if (mesh.triangles.empty())
+    table.fail(table.has("transform") ? "transform" : "type",
+               "no triangle of " + table.title() + " has an area where it lies: single precision resolves none",
+               "make it larger, or move it nearer to the origin");
+  return mesh;
+}
+
 ShapePlan read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
                      std::vector<MaterialPlan>& materials) {
   enum class Kind { sphere, disc, quad, box, mesh };
@@ -169,18 +192,14 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
   } else if (kind == Kind::disc) {
     plan.surface = read_disc(table);
   } else {
-    TriangleMesh mesh = kind == Kind::quad  ? read_quad(table)
-                        : kind == Kind::box ? read_box(table)
-                                            : read_mesh(table, plan);
-    transform_mesh(read_transform(table, "transform"), mesh);
-    for (const Vec3& p : mesh.positions)
-      if (!is_finite(p))
-        table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
-    plan.surface = std::move(mesh);
+    plan.surface = read_triangles(table,
+                                  kind == Kind::quad  ? read_quad(table)
+                                  : kind == Kind::box ? read_box(table)
+                                                      : read_mesh(table, plan),
+                                  plan);
   }
   read_emission(table, plan, kind == Kind::quad, materials);
-  if (const auto* mesh = std::get_if<TriangleMesh>(&plan.surface);
-      mesh && mesh->uvs.empty() && materials[plan.shape.material].texture)
+  if (materials[plan.shape.material].texture && !has_uvs(plan))
     table.fail("material",
                "the material of " + table.title() + " has a texture, but the shape has no coordinates in it",
                "spheres and quads have them, and meshes whose file gives them to the vertices");

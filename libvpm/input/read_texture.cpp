@@ -1,6 +1,5 @@
-// The value of a reflectance: a colour, or a picture.
+// The value of a reflectance, a colour or a picture; what the values of pictures may be.
 #include <algorithm>
-#include <filesystem>
 
 #include "base/error.h"
 #include "image/exr.h"
@@ -12,9 +11,7 @@ namespace {
 
 /// The picture under `key`, PNG or EXR by its name.
 Image read_picture(TableReader& table, const std::string& key, const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lower_extension(path);
   if (extension != ".png" && extension != ".exr") table.fail(key, path + ": a texture must be a .png or .exr file");
   if (extension == ".exr" && table.has("raw"))
     table.fail("raw", "'raw' is for .png files: the values of an .exr are linear", "remove it");
@@ -26,29 +23,33 @@ Image read_picture(TableReader& table, const std::string& key, const std::string
   }
 }
 
-std::shared_ptr<const Texture> read_texture(TableReader& table) {
-  const std::string path = read_path(table, "texture");
+std::shared_ptr<const Texture> read_texture(TableReader table) {
+  const std::string path = table.path("texture");
   const auto filter = table.choice<TextureFilter>(
       "filter", {{"bilinear", TextureFilter::bilinear}, {"nearest", TextureFilter::nearest}}, TextureFilter::bilinear);
   Image image = read_picture(table, "texture", path);
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    const Rgb& texel = image.pixels[i];
-    const auto width = static_cast<size_t>(image.width);
-    if (!(is_finite(texel) && std::min({texel.r, texel.g, texel.b}) >= 0.0f && max_channel(texel) <= 1.0f))
-      table.fail("texture", path + ": the reflectance at column " + std::to_string(i % width) + ", row " +
-                                std::to_string(i / width) + " is not in [0, 1]");
-  }
+  const std::string wrong = first_texel_outside(image, 1.0f);
+  if (!wrong.empty()) table.fail("texture", path + ": the reflectance at " + wrong + " is not in [0, 1]");
   table.finish();
   return std::make_shared<Texture>(std::move(image), filter);
 }
 
 }  // namespace
 
+std::string first_texel_outside(const Image& image, float largest) {
+  const auto inside = [largest](const Rgb& texel) {
+    return is_finite(texel) && std::min({texel.r, texel.g, texel.b}) >= 0.0f && max_channel(texel) <= largest;
+  };
+  const auto found = std::find_if_not(image.pixels.begin(), image.pixels.end(), inside);
+  if (found == image.pixels.end()) return "";
+  const auto i = static_cast<size_t>(found - image.pixels.begin()), width = static_cast<size_t>(image.width);
+  return "column " + std::to_string(i % width) + ", row " + std::to_string(i / width);
+}
+
 Rgb read_reflectance(TableReader& table, MaterialPlan& plan, std::optional<Rgb> fallback) {
   const Node* node = table.find("reflectance");
   if (!node || !node->table()) return table.rgb("reflectance", kFraction, fallback);
-  TableReader picture(*node, "'reflectance' of " + table.title());
-  plan.texture = read_texture(picture);
+  plan.texture = read_texture(*table.table("reflectance", "'reflectance' of " + table.title()));
   return plan.texture->mean();
 }
 

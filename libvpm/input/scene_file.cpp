@@ -2,9 +2,10 @@
 #include "input/scene_file.h"
 
 #include <fmt/format.h>
-#include <cstdio>
+#include <fstream>
 
 #include "base/error.h"
+#include "base/fnv.h"
 #include "input/check_media.h"
 #include "input/sections.h"
 
@@ -23,18 +24,26 @@ struct ScenePlan {
   Place world_place, lights_place;
 };
 
-/// FNV-1a of the text and the options.
-std::string hash_of(const std::string& text, const std::vector<std::string>& overrides) {
-  uint64_t hash = 0xcbf29ce484222325ull;
+std::string hash_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  Fnv1a hash;
+  hash.add(file);
+  if (file.bad() || !file.eof()) throw InputError(path + ": cannot be read again for its hash");
+  return hash.digits();
+}
+
+/// Of the text, the options, and all bytes of the files.
+std::string hash_of(const std::string& text, const std::vector<std::string>& overrides,
+                    const std::vector<std::string>& files) {
+  Fnv1a hash;
   const auto add = [&hash](const std::string& part) {
-    for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-    hash = (hash ^ 0xffu) * 0x100000001b3ull;  // no byte of UTF-8: keeps parts apart
+    hash.add(part);
+    hash.add("\xff");  // no byte of UTF-8: keeps parts apart
   };
   add(text);
   for (const std::string& option : overrides) add(option);
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
+  for (const std::string& file : files) add(hash_of_file(file));
+  return hash.digits();
 }
 
 Names keys_of(const TableReader* section) { return section ? section->keys() : Names{}; }
@@ -223,10 +232,10 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
   Document document = read_toml(path);
   for (const std::string& option : overrides) apply_override(document, option);
   LoadedScene loaded;
-  loaded.hash = hash_of(document.text, overrides);
-  TableReader root(document.root, "the scene file");
+  TableReader root(document.root, "the scene file", loaded.files);
   ScenePlan plan = read_plan(root, loaded.settings);
   load_grids(plan, loaded);
+  loaded.hash = hash_of(document.text, overrides, loaded.files);
 
   Scene& scene = loaded.scene;
   add_shapes(plan, loaded);

@@ -15,7 +15,8 @@ struct LoadedScene {
   RenderSettings settings;
   std::vector<std::string> light_names;  // of Scene::lights: those of the shapes that emit; empty where none is given
   std::vector<std::string> notes;        // what a user should know of, e.g. clamped densities
-  std::string hash;                      // 16 hex digits, of the file's text and the options
+  std::vector<std::string> files;        // that the scene names: grids, meshes, textures, environments
+  std::string hash;                      // 16 hex digits, of the scene file, the options, and the bytes of those files
   uint64_t clamped_density_values = 0;   // negative densities set to 0 on the scene's request, over all grids
 };
 

@@ -20,8 +20,6 @@ using Names = std::vector<std::string>;
 
 /// The number of the medium named by `key`, kVacuum for "vacuum"; `fallback` where the key is missing.
 MediumId read_medium_name(TableReader& table, const std::string& key, const Names& media, MediumId fallback);
-/// The path under `key`, relative to the scene file's folder, or to the current one where a --set option gave it.
-std::string read_path(TableReader& table, const std::string& key);
 
 /// Who draws the surface within which a grid medium is met.
 enum class GridBoundary { automatic, box, shapes };
@@ -47,6 +45,10 @@ std::vector<MaterialPlan> read_materials(TableReader& section);
 /// The key `reflectance`: an rgb in [0, 1], or a table that names a picture, which the plan then holds; its mean is
 /// returned. A fallback is what a missing key stands for.
 Rgb read_reflectance(TableReader& table, MaterialPlan& plan, std::optional<Rgb> fallback = {});
+
+/// The first texel of a picture that is not finite, below 0, or above `largest`: "column 3, row 0"; "" where there is
+/// none.
+std::string first_texel_outside(const Image& image, float largest);
 
 /// A shape as the file describes it.
 struct ShapePlan {
@@ -78,8 +80,8 @@ std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);
 /// Reads [camera] and [film].
 Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
 
-/// Reads [render], [photons], [distance], [transmittance], [volume] and [surface]. `has_grid`: does the scene hold a
-/// grid medium?
+/// Reads [render], [photons], [distance], [transmittance], [volume], [surface] and [caustics]. `has_grid`: does the
+/// scene hold a grid medium?
 RenderSettings read_settings(TableReader& root, bool has_grid);
 
 }  // namespace vpm

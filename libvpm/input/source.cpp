@@ -2,6 +2,7 @@
 #include "input/source.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -83,6 +84,13 @@ std::string suggest(const std::string& name, std::span<const std::string> candid
   text += title + ": ";
   for (size_t i = 0; i < candidates.size(); ++i) text += (i > 0 ? ", " : "") + candidates[i];
   return candidates.empty() ? text + "none" : text;
+}
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
 }
 
 std::string read_whole_file(const std::string& path) {

@@ -31,6 +31,9 @@ std::string suggest(const std::string& name, std::span<const std::string> candid
 /// The candidate that `name` probably means (few edits away), or "".
 std::string nearest_name(const std::string& name, std::span<const std::string> candidates);
 
+/// The end of a file's name that tells its kind, in small letters: ".ply".
+std::string lower_extension(const std::string& path);
+
 /// Reads a whole file. Throws InputError where it cannot: no such file, a folder, no permission.
 std::string read_whole_file(const std::string& path);
 

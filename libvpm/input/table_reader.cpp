@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace vpm {
 namespace {
@@ -26,6 +27,11 @@ bool inside(const Range& range, double value) {
          (range.hi_open ? value < range.hi : value <= range.hi);
 }
 
+/// The range as single precision has it, so that the ends of a closed one belong to it in either.
+Range in_single(const Range& range) {
+  return {static_cast<float>(range.lo), static_cast<float>(range.hi), range.lo_open, range.hi_open};
+}
+
 /// A number of the file, checked as it is and in the single precision it is going to be kept in.
 double checked_number(const Node& node, const std::string& what, const Range& range) {
   double value = 0.0;
@@ -38,7 +44,7 @@ double checked_number(const Node& node, const std::string& what, const Range& ra
   if (!std::isfinite(value)) fail_at(node.place, what + " must be finite, not " + text_of(value));
   const auto single = static_cast<float>(value);
   if (!std::isfinite(single)) fail_at(node.place, what + " is too large for single precision: " + text_of(value));
-  if (!inside(range, value) || !inside(range, single))
+  if (!inside(range, value) || !inside(in_single(range), single))
     fail_at(node.place, what + " must be " + text_of(range) + ", not " + text_of(value));
   return value;
 }
@@ -61,7 +67,8 @@ std::vector<double> checked_numbers(const Node& node, const std::string& key, co
 
 }  // namespace
 
-TableReader::TableReader(const Node& node, std::string title) : node_(&node), title_(std::move(title)) {
+TableReader::TableReader(const Node& node, std::string title, std::vector<std::string>& files)
+    : node_(&node), title_(std::move(title)), files_(&files) {
   if (!node.table()) fail_at(node.place, title_ + " must be a table, not " + kind_of(node));
 }
 
@@ -118,6 +125,18 @@ std::string TableReader::string(const std::string& key, std::optional<std::strin
   return *value;
 }
 
+std::string TableReader::path(const std::string& key) {
+  const std::filesystem::path named = string(key);
+  const Source& source = *place_of(key).source;
+  const bool from_option = source.lines.empty();
+  const std::filesystem::path folder = from_option ? "" : std::filesystem::path(source.name).parent_path();
+  std::string found = (folder / named).string();
+  std::error_code ignored;
+  if (!std::filesystem::exists(found, ignored)) fail(key, "there is no file '" + found + "'");
+  if (std::find(files_->begin(), files_->end(), found) == files_->end()) files_->push_back(found);
+  return found;
+}
+
 std::vector<double> TableReader::numbers(const std::string& key, size_t count, const Range& range) {
   return checked_numbers(require(key), key, title_, count, range);
 }
@@ -150,13 +169,13 @@ Rgb TableReader::rgb(const std::string& key, const Range& range, std::optional<R
 
 std::optional<TableReader> TableReader::table(const std::string& key, const std::string& title) {
   const Node* node = find(key);
-  return node ? std::optional<TableReader>(TableReader(*node, title)) : std::nullopt;
+  return node ? std::optional<TableReader>(TableReader(*node, title, *files_)) : std::nullopt;
 }
 
 std::vector<std::pair<std::string, TableReader>> TableReader::named_tables(const std::string& title) {
   std::vector<std::pair<std::string, TableReader>> all;
   for (const Entry& entry : *node_->table())
-    all.emplace_back(entry.key, TableReader(entry.node, "[" + title + "." + entry.key + "]"));
+    all.emplace_back(entry.key, TableReader(entry.node, "[" + title + "." + entry.key + "]", *files_));
   return all;
 }
 
@@ -169,7 +188,7 @@ std::vector<TableReader> TableReader::tables(const std::string& key, const std::
   for (const Node& element : *node->array()) {
     const Entry* name = element.table() ? find_entry(*element.table(), "name") : nullptr;
     const auto* text = name ? std::get_if<std::string>(&name->node.value) : nullptr;
-    all.emplace_back(element, title + (text ? " '" + *text + "'" : " number " + std::to_string(all.size())));
+    all.emplace_back(element, title + (text ? " '" + *text + "'" : " number " + std::to_string(all.size())), *files_);
   }
   return all;
 }

@@ -26,14 +26,18 @@ inline constexpr Range kFraction{0.0, 1.0, false, false};
 /// it where the key is missing; one without refuses that. All errors are InputErrors that tell the place.
 class TableReader {
  public:
-  /// `title` names the table in messages, e.g. "[camera]". Refuses a node that is no table.
-  TableReader(const Node& node, std::string title);
+  /// `title` names the table in messages, e.g. "[camera]". Refuses a node that is no table. The files that path()
+  /// finds, here and in tables inside, are added to `files`, each once.
+  TableReader(const Node& node, std::string title, std::vector<std::string>& files);
 
   bool has(const std::string& key);
   float number(const std::string& key, const Range& range, std::optional<float> fallback = {});
   uint64_t integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback = {});
   bool flag(const std::string& key, bool fallback);
   std::string string(const std::string& key, std::optional<std::string> fallback = {});
+  /// The path of a file that is there, relative to the scene file's folder, or to the current one where a --set option
+  /// gave it.
+  std::string path(const std::string& key);
   /// `count` finite numbers.
   std::vector<double> numbers(const std::string& key, size_t count, const Range& range = kAny);
   /// Three numbers: a point or a vector.
@@ -76,6 +80,7 @@ class TableReader {
 
   const Node* node_;
   std::string title_;
+  std::vector<std::string>* files_;
   std::vector<std::string> known_;
 };
 

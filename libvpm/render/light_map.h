@@ -1,4 +1,5 @@
-// Light maps: the irradiance on a mesh, texel by texel of its texture coordinates, from photon maps and shadow rays.
+// Light maps: the irradiance on a mesh or a quad, texel by texel of its texture coordinates, from photon maps and
+// shadow rays.
 #pragma once
 
 #include "render/photon_pass.h"

@@ -102,31 +102,12 @@ UvTriangle lay_out_triangle(const Geometry& geometry, uint32_t shape, uint32_t t
   return result;
 }
 
-/// Sorts the triangles by the texels they cover.
-void fill_texels(UvLayout& layout) {
-  const int n = layout.resolution;
-  std::vector<std::pair<size_t, uint32_t>> covered;
-  for (uint32_t t = 0; t < layout.triangles.size(); ++t) {
-    const UvTriangle& triangle = layout.triangles[t];
-    if (triangle.area == 0.0) ++layout.flat_triangles;
-    if (triangle.area == 0.0) continue;
-    for_cells(polygon_of(triangle), 1, n, [&](int y) {
-      const UvPolygon row = clip_band(polygon_of(triangle), 1, y);
-      for_cells(row, 0, n, [&](int x) {
-        const double share = std::abs(signed_area(clip_band(row, 0, x)));
-        if (share == 0.0) return;
-        const size_t texel = static_cast<size_t>(y) * n + x;
-        covered.emplace_back(texel, t);
-        layout.coverage[texel] += static_cast<float>(share);
-        layout.areas[texel] += share * triangle.area;
-      });
-    });
-  }
-  for (const auto& [texel, triangle] : covered) ++layout.begin[texel + 1];
-  for (size_t texel = 0; texel < layout.texels(); ++texel) layout.begin[texel + 1] += layout.begin[texel];
-  layout.of_texels.resize(covered.size());
-  std::vector<size_t> next = layout.begin;
-  for (const auto& [texel, triangle] : covered) layout.of_texels[next[texel]++] = triangle;
+UvPiece piece_of(const UvLayout& layout, uint32_t triangle, size_t texel) {
+  const auto n = static_cast<size_t>(layout.resolution);
+  const UvPolygon row = clip_band(polygon_of(layout.triangles[triangle]), 1, static_cast<int>(texel / n));
+  UvPiece piece{triangle, 0.0, clip_band(row, 0, static_cast<int>(texel % n))};
+  piece.area = std::abs(signed_area(piece.polygon)) * layout.triangles[triangle].area;
+  return piece;
 }
 
 /// Throws where pieces of a texel cover the same places.
@@ -145,6 +126,44 @@ void check_overlaps(const UvLayout& layout, std::vector<UvPiece>& pieces) {
                       pieces[i].triangle, pieces[j].triangle, uv_text(layout, pieces[j].polygon.corners[0])));
     }
   }
+}
+
+using Covered = std::vector<std::pair<size_t, uint32_t>>;  // texels, and triangles that cover some of them
+
+/// Looks at once into a texel that is covered more than wholly: a mesh of many overlaps would fill the memory.
+void check_texel(const UvLayout& layout, const Covered& covered, size_t texel) {
+  std::vector<UvPiece> pieces;
+  for (const auto& [where, triangle] : covered)
+    if (where == texel) pieces.push_back(piece_of(layout, triangle, texel));
+  check_overlaps(layout, pieces);
+}
+
+/// Sorts the triangles by the texels they cover.
+void fill_texels(UvLayout& layout) {
+  const int n = layout.resolution;
+  Covered covered;
+  for (uint32_t t = 0; t < layout.triangles.size(); ++t) {
+    const UvTriangle& triangle = layout.triangles[t];
+    if (triangle.area == 0.0) ++layout.flat_triangles;
+    if (triangle.area == 0.0) continue;
+    for_cells(polygon_of(triangle), 1, n, [&](int y) {
+      const UvPolygon row = clip_band(polygon_of(triangle), 1, y);
+      for_cells(row, 0, n, [&](int x) {
+        const double share = std::abs(signed_area(clip_band(row, 0, x)));
+        if (share == 0.0) return;
+        const size_t texel = static_cast<size_t>(y) * n + x;
+        covered.emplace_back(texel, t);
+        layout.coverage[texel] += static_cast<float>(share);
+        layout.areas[texel] += share * triangle.area;
+        if (layout.coverage[texel] > 1.0 + 2.0 * kLeastOverlap) check_texel(layout, covered, texel);
+      });
+    });
+  }
+  for (const auto& [texel, triangle] : covered) ++layout.begin[texel + 1];
+  for (size_t texel = 0; texel < layout.texels(); ++texel) layout.begin[texel + 1] += layout.begin[texel];
+  layout.of_texels.resize(covered.size());
+  std::vector<size_t> next = layout.begin;
+  for (const auto& [texel, triangle] : covered) layout.of_texels[next[texel]++] = triangle;
 }
 
 /// The barycentric coordinates, as in Hit, of a point in texels.
@@ -182,15 +201,8 @@ UvLayout lay_out(const Geometry& geometry, uint32_t shape, int resolution) {
 
 void find_pieces(const UvLayout& layout, size_t texel, std::vector<UvPiece>& pieces) {
   pieces.clear();
-  const auto n = static_cast<size_t>(layout.resolution);
-  for (size_t i = layout.begin[texel]; i < layout.begin[texel + 1]; ++i) {
-    const UvTriangle& triangle = layout.triangles[layout.of_texels[i]];
-    UvPiece& piece = pieces.emplace_back();
-    piece.triangle = layout.of_texels[i];
-    const UvPolygon row = clip_band(polygon_of(triangle), 1, static_cast<int>(texel / n));
-    piece.polygon = clip_band(row, 0, static_cast<int>(texel % n));
-    piece.area = std::abs(signed_area(piece.polygon)) * triangle.area;
-  }
+  for (size_t i = layout.begin[texel]; i < layout.begin[texel + 1]; ++i)
+    pieces.push_back(piece_of(layout, layout.of_texels[i], texel));
 }
 
 Hit sample_pieces(const Geometry& geometry, const UvLayout& layout, std::span<const UvPiece> pieces, Rng& rng) {

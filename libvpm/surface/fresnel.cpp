@@ -7,18 +7,21 @@ namespace vpm {
 
 namespace {
 
-/// In real numbers: with a + i b = sqrt((eta + i k)^2 - sin^2), both polarisations depend on a and on a^2 + b^2 alone.
+float square(float x) { return x * x; }
+
+/// In real numbers: with a + i b = sqrt((eta + i k)^2 - sin^2), each polarisation is a quotient of sums of squares,
+/// which no rounding carries out of [0, 1].
 float reflectance(float cosine, float eta, float k) {
   const float sine2 = (1.0f - cosine) * (1.0f + cosine);
   const float real = eta * eta - k * k - sine2, imaginary = 2.0f * eta * k;  // of (a + i b)^2
-  const float modulus = std::hypot(real, imaginary);                         // a^2 + b^2
-  // (modulus + real) / 2, without its cancellation where eta is small against k.
-  const float a2 = real > 0.0f ? 0.5f * (modulus + real) : 0.5f * imaginary * imaginary / (modulus - real);
-  const float square = modulus + cosine * cosine, twice = 2.0f * std::sqrt(a2) * cosine;
-  const float perpendicular = (square - twice) / (square + twice);
-  const float sum = modulus * cosine * cosine + sine2 * sine2, cross = twice * sine2;
-  const float parallel = perpendicular * ((sum - cross) / (sum + cross));
-  return 0.5f * (parallel + perpendicular);
+  // a^2 and b^2 are (modulus + real) / 2 and (modulus - real) / 2: the larger so, the other by a b = imaginary / 2.
+  const float larger = 0.5f * (std::hypot(real, imaginary) + std::abs(real));
+  const float smaller = 0.25f * imaginary * imaginary / larger;
+  const float a = std::sqrt(real > 0.0f ? larger : smaller), b2 = real > 0.0f ? smaller : larger;
+  const float perpendicular = (square(a - cosine) + b2) / (square(a + cosine) + b2);
+  const float shift = b2 * square(cosine);
+  const float ratio = (square(a * cosine - sine2) + shift) / (square(a * cosine + sine2) + shift);  // parallel over it
+  return 0.5f * perpendicular * (1.0f + ratio);
 }
 
 }  // namespace

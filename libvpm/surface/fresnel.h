@@ -5,6 +5,10 @@
 
 namespace vpm {
 
+/// The indices of refraction, and of k, for which the formulas below stay finite and sound in floats.
+inline constexpr double kLeastIndex = 1e-3, kLargestIndex = 1e3;
+inline constexpr double kLeastK = 1e-6, kLargestK = 1e6;
+
 /// The cosine on the far side by Snell's law; negative at total internal reflection. In this form eta = 1 is exact, and
 /// nothing cancels at grazing incidence.
 float cos_transmitted(float cos_incident, float eta);

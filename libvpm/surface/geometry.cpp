@@ -408,7 +408,7 @@ Vec2 Geometry::uv(const Hit& hit) const {
 
 bool Geometry::has_uvs(uint32_t shape) const {
   const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);
-  return !mesh || !mesh->uvs.empty();
+  return mesh ? !mesh->uvs.empty() : std::holds_alternative<SphereShape>(impl_->shapes[shape]);
 }
 
 size_t Geometry::triangle_count(uint32_t shape) const {

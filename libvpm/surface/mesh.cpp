@@ -1,4 +1,4 @@
-// Boxes and quads as triangles.
+// Boxes and quads as triangles; triangles without area.
 #include "surface/mesh.h"
 
 namespace vpm {
@@ -18,6 +18,13 @@ TriangleMesh quad_mesh(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.uvs = {{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}};
   return mesh;
+}
+
+uint64_t drop_flat_triangles(TriangleMesh& mesh) {
+  return std::erase_if(mesh.triangles, [&p = mesh.positions](const glm::uvec3& t) {
+    const Vec3d a(p[t.x]), b(p[t.y]), c(p[t.z]);
+    return glm::cross(b - a, c - a) == Vec3d(0.0);
+  });
 }
 
 }  // namespace vpm

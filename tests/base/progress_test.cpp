@@ -20,9 +20,18 @@ TEST(ProgressLine, ShowsShareAndTimeLeft) {
 }
 
 TEST(ProgressLine, SurvivesOddNumbers) {
-  EXPECT_EQ(progress_line("none", 0, 0, 0.0), "none  [####################] 100 %  0 s left");
   EXPECT_EQ(progress_line("more", 7, 5, 1.0), "more  [####################] 100 %  0 s left");
   EXPECT_EQ(progress_line("slow", 1, uint64_t{1} << 62, 1e30).substr(0, 30), "slow  [--------------------]  ");
+}
+
+TEST(ProgressLine, TellsOfAnUnknownTotalOnlyWhatIsDone) {
+  EXPECT_EQ(progress_line("photons", 0, 0, 0.0), "photons  0");
+  EXPECT_EQ(progress_line("photons", 123456, 0, 2.0), "photons  123456");
+  testing::internal::CaptureStderr();
+  Progress progress("photons", 0, true);
+  progress.advance(7);
+  progress.finish();
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "\rphotons  0\rphotons  7  in 0 s\n");
 }
 
 /// What stderr gets while four threads do 4000 units of work; stderr is no terminal here.

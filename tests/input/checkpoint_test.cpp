@@ -5,8 +5,10 @@
 
 #include <cstring>
 #include <fstream>
+#include <iterator>
 
 #include "base/error.h"
+#include "base/fnv.h"
 
 namespace vpm {
 namespace {
@@ -30,6 +32,12 @@ class Checkpoint : public ::testing::Test {
     result.statistics.eye.rays = 18;
     return result;
   }
+
+  std::string bytes() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void put(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
 
   void refuses(const std::string& identity, const std::string& why) const {
     try {
@@ -82,10 +90,45 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   const uintmax_t size = fs::file_size(path_);
   for (const uintmax_t left : {size - 1, size / 2, uintmax_t{60}}) {
     fs::resize_file(path_, left);
-    refuses("a render", "it is not whole");
+    refuses("a render", "it is damaged or not whole");
   }
   fs::resize_file(path_, size + 8);
-  refuses("a render", "it is not whole");
+  refuses("a render", "it is damaged or not whole");
+}
+
+TEST_F(Checkpoint, OfWhichAnyByteIsAnotherIsRefused) {
+  write_checkpoint(path_, "a render", some_result());
+  const std::string whole = bytes();
+  for (size_t at = 0; at < whole.size(); at += 5) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 1 << at % 8);
+    put(flipped);
+    refuses("a render", "cannot resume from");
+  }
+}
+
+TEST_F(Checkpoint, WithARightChecksumOfNumbersThatCannotBeIsRefused) {
+  write_checkpoint(path_, "a render", some_result());
+  std::string content = bytes();
+  content.resize(content.size() - 16);
+  const size_t numbers = content.find('\n', content.find('\n') + 1) + 1;
+  const auto refuses_with = [&](const std::string& changed) {
+    Fnv1a hash;
+    hash.add(changed);
+    put(changed + hash.digits());
+    refuses("a render", "its numbers are none that a render writes");
+  };
+  const auto with = [&](size_t at, int value) {
+    std::string changed = content;
+    std::memcpy(changed.data() + numbers + at, &value, sizeof value);
+    return changed;
+  };
+  refuses_with(with(0, -3));     // width
+  refuses_with(with(0, 4));      // a pixel column too many
+  refuses_with(with(4, 0));      // height
+  refuses_with(with(16, -1));    // passes of the first half, behind the seconds
+  refuses_with(content + "\n");  // a byte too many
+  refuses_with(content.substr(0, numbers + 20));
 }
 
 }  // namespace

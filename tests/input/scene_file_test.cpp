@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "image/exr.h"
 #include "input/expectations.h"
 #include "support/test_file.h"
 
@@ -95,6 +96,41 @@ TEST(SceneFile, OptionsChangeKeys) {
   EXPECT_EQ(plain.hash, load_with(kGrey + ball).hash);
 }
 
+TEST(SceneFile, HashesTheBytesOfTheFilesItNames) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(test_file("scene.toml")).parent_path();
+  const fs::path textures = fs::path(VPM_SOURCE_DIR) / "tests/input/textures";
+  const auto picture = [&](const char* name) {
+    fs::copy_file(textures / name, folder / "picture.png", fs::copy_options::overwrite_existing);
+  };
+  const auto mesh = [&](const char* end) {
+    std::ofstream(folder / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n" << end;
+  };
+  const auto sky = [&](float radiance) {
+    Image image(1, 1);
+    image.pixels[0] = Rgb(radiance);
+    write_exr(folder / "sky.exr", image, {}, {});
+  };
+  const auto hash = [&] {
+    const LoadedScene loaded = load_with(
+        "[[lights]]\ntype = 'environment'\npath = 'sky.exr'\n[[shapes]]\ntype = 'mesh'\npath = 'one.obj'\n"
+        "material = { type = 'mirror', reflectance = { texture = 'picture.png' } }\n");
+    EXPECT_EQ(loaded.files.size(), 3u);
+    return loaded.hash;
+  };
+  picture("grey.png"), mesh(""), sky(1.0f);
+  const std::string first = hash();
+  EXPECT_EQ(hash(), first);
+  picture("checker.png");
+  EXPECT_NE(hash(), first);
+  picture("grey.png"), mesh("# other bytes");
+  EXPECT_NE(hash(), first);
+  mesh(""), sky(2.0f);
+  EXPECT_NE(hash(), first);
+  sky(1.0f);
+  EXPECT_EQ(hash(), first);
+}
+
 TEST(SceneFile, ReadsEveryMaterial) {
   const LoadedScene loaded = load_with(R"(
 [materials]
@@ -120,6 +156,14 @@ material = "frosted"
   EXPECT_EQ(std::get<Conductor>(m[4]).eta, Rgb(0.156f, 0.424f, 1.38f));
   EXPECT_EQ(std::get<RoughConductor>(m[5]).k, Rgb(3.0f, 4.0f, 5.0f));
   EXPECT_EQ(std::get<RoughConductor>(m[5]).roughness, 1.0f);
+}
+
+TEST(SceneFile, ClosedRangesHoldTheirEnds) {
+  const LoadedScene loaded = load_with(
+      "[materials.a]\ntype = 'conductor'\neta = 1e-3\nk = 1e-6\n[materials.b]\ntype = 'dielectric'\nior = 1000\n"
+      "[render]\nmax_optical_step = 1e-4\n[distance]\nstep = 1e-3\n");
+  EXPECT_EQ(std::get<Conductor>(loaded.scene.materials[0]).k, Rgb(1e-6f));
+  EXPECT_EQ(loaded.settings.max_optical_step, 1e-4f);
 }
 
 TEST(SceneFile, RefusesBadOptions) {
@@ -161,6 +205,15 @@ TEST(SceneFile, FindsFilesFromTheSceneAndFromTheCurrentFolder) {
   const std::string here = fs::relative(folder / "one.obj").string();
   EXPECT_NO_THROW(load_scene((folder / "scene.toml").string(), {"shapes.0.path=" + here}));
   EXPECT_THROW(load_scene((folder / "scene.toml").string(), {"shapes.0.path=one.obj"}), InputError);
+}
+
+TEST(SceneFile, CountsTrianglesThatTheTransformFlattens) {
+  std::ofstream(test_file("two.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 900 0 0\nv 0 900 0\nf 1 2 3\nf 1 4 5\n";
+  const LoadedScene loaded = load_with(
+      "[[shapes]]\ntype = 'mesh'\nmaterial = { type = 'mirror' }\npath = 'two.obj'\nemission = 1\n"
+      "transform = [{ translate = [1e8, 1e8, 0] }]\n");  // where floats are 8 m apart
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{"shape 'shape 0': 1 triangles without area dropped"});
+  EXPECT_EQ(loaded.scene.geometry.triangle_count(0), 1u);
 }
 
 TEST(SceneFile, ReadsCoefficients) {
@@ -251,6 +304,24 @@ TEST(SceneFile, ReadsLights) {
   EXPECT_EQ(scene.shapes[3].light, 8);
   EXPECT_EQ(scene.shapes[0].light, 5);
   EXPECT_EQ(scene.shapes[1].light, 6);
+}
+
+TEST(SceneFile, RefusesPicturesThatNoSkyShows) {
+  const auto message = [](const Rgb& first, const Rgb& last) {
+    Image image(3, 2);
+    image.pixels.front() = first;
+    image.pixels.back() = last;
+    write_exr(test_file("sky.exr"), image, {}, {});
+    return message_of([] { load_with("[[lights]]\ntype = 'environment'\npath = 'sky.exr'\nscale = 10\n"); });
+  };
+  const auto expect = [](const std::string& found, const std::string& words) {
+    EXPECT_NE(found.find("scene.toml:10:8: "), std::string::npos) << found;
+    EXPECT_NE(found.find(words), std::string::npos) << found;
+  };
+  const Rgb one(1.0f);
+  expect(message(one, Rgb(1.0f, -1.0f, 1.0f)), "the radiance at column 2, row 1 is negative or not finite");
+  expect(message(Rgb(1.0f, 1.0f, 1e38f), one), "the radiance at column 0, row 0 is negative or not finite");
+  expect(message(Rgb(0.0f), Rgb(0.0f)), "the whole environment is black");
 }
 
 /// The normal that a downward ray at (x, z) meets first.

@@ -209,10 +209,12 @@ TEST(Geometry, KnowsAreaBoundsAndMemory) {
   EXPECT_EQ(geometry.bounds().lo, Vec3(-2, -2, 0));
   EXPECT_EQ(geometry.bounds().hi, Vec3(2, 3, 12));
   EXPECT_GT(geometry.memory_bytes(), 100u);
+  EXPECT_TRUE(!geometry.has_uvs(0) && geometry.has_uvs(1));
   Geometry disc;
   disc.add(DiscShape{{1, 2, 3}, {0.6f, 0, 0.8f}, 5.0f});
   disc.commit();
   EXPECT_FLOAT_EQ(static_cast<float>(disc.area(0)), 25.0f * kPi);
+  EXPECT_FALSE(disc.has_uvs(0));
   EXPECT_LT(glm::length(disc.bounds().lo - Vec3(-3, -3, 0)), 1e-5f);
   EXPECT_LT(glm::length(disc.bounds().hi - Vec3(5, 7, 6)), 1e-5f);
   Geometry empty;

@@ -30,6 +30,26 @@ TEST(Fresnel, KnownValues) {
   EXPECT_LT(fresnel_dielectric(0.7455f, 1.0f / 1.5f), 1.0f);
 }
 
+// Of every index that scene files take, at every cosine, 0 and 1 among them: a share.
+TEST(Fresnel, IsAShareForEveryIndex) {
+  const auto powers = [](double lo, double hi) {
+    std::vector<float> all{static_cast<float>(hi), 1.0f};
+    for (double x = lo; x < hi; x *= 1.37) all.push_back(static_cast<float>(x));
+    return all;
+  };
+  std::vector<float> cosines{0.0f, 1.0f, std::nextafter(1.0f, 0.0f), std::sqrt(0.5f), 1e-20f, 1e-42f};
+  for (int i = 1; i < 100; ++i) cosines.push_back(0.01f * static_cast<float>(i));
+  for (const float eta : powers(kLeastIndex, kLargestIndex))
+    for (const float cosine : cosines) {
+      const float glass = fresnel_dielectric(cosine, eta);
+      ASSERT_TRUE(glass >= 0.0f && glass <= 1.0f) << eta << " at " << cosine << ": " << glass;
+      for (const float k : powers(kLeastK, kLargestK)) {
+        const float metal = fresnel_conductor(cosine, Rgb(eta), Rgb(k)).r;
+        ASSERT_TRUE(metal >= 0.0f && metal <= 1.0f) << eta << ", " << k << " at " << cosine << ": " << metal;
+      }
+    }
+}
+
 TEST(Dielectric, ObeysSnellOnBothSides) {
   Rng rng(1, static_cast<uint64_t>(RngUse::test), 0);
   const Dielectric glass{1.5f};
@@ -102,6 +122,12 @@ TEST(Materials, SurviveGrazingIncidence) {
                                 Dielectric{1.0f / 1.5f},
                                 Dielectric{1.0000001f},
                                 Dielectric{10.0f},
+                                Dielectric{kLeastIndex},
+                                Dielectric{kLargestIndex},
+                                RoughDielectric{kLeastIndex, 0.1f},
+                                RoughDielectric{kLargestIndex, 0.1f},
+                                RoughConductor{Rgb(1.0f), Rgb(kLeastK), 0.1f},
+                                RoughConductor{Rgb(kLargestIndex), Rgb(kLargestK), 0.1f},
                                 Conductor{Rgb(0.05f), Rgb(4.0f)},
                                 RoughConductor{Rgb(0.05f), Rgb(4.0f), 0.001f},
                                 RoughConductor{Rgb(0.05f), Rgb(4.0f), 1.0f},

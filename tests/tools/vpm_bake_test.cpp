@@ -61,6 +61,12 @@ passes = 2
 emitted = 10_000
 )";
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr uint64_t kAddressSpace = 0;  // the sanitizer reserves terabytes
+#else
+constexpr uint64_t kAddressSpace = uint64_t{1} << 30;  // bytes
+#endif
+
 class VpmBake : public VpmBinary {
  protected:
   VpmBake() { write("scene.toml", kScene); }
@@ -91,6 +97,11 @@ TEST_F(VpmBake, WritesIrradianceCoverageVarianceAndWhereItIsFrom) {
   EXPECT_LE(brightest / 16, 1);
   const nlohmann::json report = this->report("a.json");
   EXPECT_EQ(report["quantity"], "irradiance, W/m^2");
+  EXPECT_EQ(report["texels"]["points"], 2 * 16 * 16);
+  EXPECT_FALSE(report.contains("eye") || report.contains("error"));
+  const std::vector<std::string> stages = report["stages"];
+  EXPECT_NE(std::find(stages.begin(), stages.end(), "runs surface photon map"), stages.end());
+  EXPECT_NE(std::find(stages.begin(), stages.end(), "skips volume photon map: no medium"), stages.end());
   EXPECT_EQ(report["width"], 16);
   EXPECT_EQ(report["light_map"]["covered_texels"], 256);
   EXPECT_NEAR(report["light_map"]["area_m2"].get<double>(), 4.0, 1e-5);
@@ -107,6 +118,26 @@ TEST_F(VpmBake, GivesTheSameBytesOnAnyNumberOfThreads) {
   const std::string one = bake("one.exr", "1", "7");
   EXPECT_TRUE(one == bake("two.exr", "2", "7"));
   EXPECT_FALSE(one == bake("other.exr", "2", "8"));
+}
+
+TEST_F(VpmBake, LeavesThePictureOfTheSceneAlone) {
+  vpm_succeeds({"render", "scene.toml", "--set", "film.width=8", "--set", "film.height=8"});
+  const std::string picture = read("scene.exr"), report = read("scene.json");
+  vpm_succeeds({"bake", "scene.toml", "--mesh", "floor", "--resolution", "8"});
+  EXPECT_EQ(files(), (std::vector<std::string>{"scene.exr", "scene.floor.exr", "scene.floor.json", "scene.floor.png",
+                                               "scene.json", "scene.png", "scene.toml"}));
+  EXPECT_TRUE(read("scene.exr") == picture && read("scene.json") == report);
+}
+
+TEST_F(VpmBake, NeverReplacesAFileThatTheSceneIsReadFrom) {
+  write_exr(path("tiles.exr"), Image(2, 2), {}, {});
+  write("tiled.toml",
+        std::string(kScene) +
+            "[[shapes]]\nname = 'tiled'\ntype = 'quad'\ncorner = [-1, 5, 1]\nedge_u = [2, 0, 0]\n"
+            "edge_v = [0, 0, -2]\nmaterial = { type = 'mirror', reflectance = { texture = 'tiles.exr' } }\n");
+  const std::string tiles = read("tiles.exr");
+  vpm_refuses({"bake", "tiled.toml", "--mesh", "floor", "-o", "tiles.exr"}, {"tiles.exr", "the scene is read from"});
+  EXPECT_TRUE(read("tiles.exr") == tiles);
 }
 
 TEST_F(VpmBake, TexelsThatNothingCoversAreTold) {
@@ -150,6 +181,16 @@ TEST_F(VpmBake, RefusesCoordinatesThatAreNoMap) {
   refuses("bad", {"--mesh bad: a corner of triangle 0 has the texture coordinates (2, 0)", "[0, 1]"});
   with_mesh("vt 0 0\nvt 1 0\nvt 1 1\nvt 1 0\n");
   refuses("bad", {"--mesh bad: triangles 0 and 1 overlap in texture coordinates near ("});
+}
+
+TEST_F(VpmBake, RefusesManyOverlapsBeforeTheyFillTheMemory) {
+  std::string mesh = "v 0 0 0\nv 1 0 0\nv 1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\n";
+  for (int i = 0; i < 1000; ++i) mesh += "f 1/1 2/2 3/3\n";
+  write("bad.obj", mesh);
+  write("scene.toml",
+        std::string(kScene) + "[[shapes]]\nname = 'bad'\ntype = 'mesh'\npath = 'bad.obj'\nmaterial = 'white'\n");
+  vpm_refuses({"bake", "scene.toml", "--mesh", "bad", "--resolution", "1024"},
+              {"overlap in texture coordinates near ("}, kAddressSpace);
 }
 
 TEST_F(VpmBake, RefusesSettingsOfOtherIntegrators) {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "image/exr.h"
+#include "image/png.h"
 #include "tools/vpm_binary.h"
 
 namespace vpm {
@@ -172,6 +173,28 @@ TEST_F(VpmRender, TheReportNamesEveryLightAndItsPower) {
   EXPECT_NEAR(all[0]["share"].get<double>(), 10.0 / total, 1e-6);
 }
 
+TEST_F(VpmRender, TheReportDividesTheMapsByAllPhotonsInThem) {
+  write("glass.toml", std::string(kScene) +
+                          "[[shapes]]\ntype = 'sphere'\ncenter = [0.5, 1.25, 0.5]\nradius = 0.2\n"
+                          "material = { type = 'dielectric', ior = 1.5 }\n");
+  vpm_succeeds({"render", "glass.toml", "-o", "a.exr", "--set", "surface.indirect=final-gather"});
+  const Json photons = report("a.json")["photons"], memory = report("a.json")["memory"];
+  const auto stored = [&](const char* map) { return photons[std::string("stored_") + map].get<double>(); };
+  EXPECT_GT(stored("caustic"), 100.0);
+  const double of_a_pass = (stored("volume") + stored("surface") + stored("caustic")) / 2.0;
+  EXPECT_NEAR(memory["per_stored_photon_of_mean_pass"].get<double>() * of_a_pass,
+              memory["largest_photon_maps"].get<double>(), 1.0);
+}
+
+TEST_F(VpmRender, TheReportCountsTheMemoryOfTextures) {
+  std::filesystem::copy_file(std::string(VPM_SOURCE_DIR) + "/tests/input/textures/checker.png", path("checker.png"));
+  write("tiled.toml",
+        std::string(kScene) + "[materials.tiles]\ntype = 'mirror'\nreflectance = { texture = 'checker.png' }\n");
+  vpm_succeeds({"render", "tiled.toml", "-o", "a.exr"});
+  const uint64_t texels = static_cast<uint64_t>(read_png(path("checker.png"), PngValues::srgb).pixels.size());
+  EXPECT_EQ(report("a.json")["memory"]["textures"], texels * 3 * sizeof(float));
+}
+
 // --- Interruption
 
 /// Starts a render, sends it the signal when `sign` is in its error output, and waits for its end.
@@ -244,6 +267,8 @@ TEST_F(VpmRender, ACheckpointTakesMorePassesButNoOtherScene) {
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--seed", "9"}, {"another render", "seed 9"});
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--set", "film.width=20"}, {"another render"});
   vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--resume"}, {"b.checkpoint", "there is no such file"});
+  vpm_succeeds({"media", "smoke", "--resolution", "17", "-o", "smoke.vdb"});  // other bytes under the same name
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render"});
 }
 
 TEST_F(VpmRender, StopsAtAnError) {
@@ -274,6 +299,25 @@ TEST_F(VpmRender, OutputsThatCannotBeWrittenAreRefusedBeforeRendering) {
   refused("a", ".exr");
   refused("/dev/full", ".exr");
   refused("/proc/a.exr", "cannot write");
+}
+
+TEST_F(VpmRender, NeverReplacesAFileThatTheSceneIsReadFrom) {
+  std::filesystem::copy_file(std::string(VPM_SOURCE_DIR) + "/scenes/tiles.png", path("tiles.png"));
+  std::filesystem::create_symlink("scene.toml", path("link.json"));
+  write("tiled.toml",
+        std::string(kScene) + "[materials.tiles]\ntype = 'mirror'\nreflectance = { texture = 'tiles.png' }\n");
+  const std::string tiles = read("tiles.png");
+  vpm_refuses({"render", "tiled.toml", "-o", "tiles.exr"}, {"tiles.png", "the scene is read from"});
+  vpm_refuses({"render", "scene.toml", "-o", "link.exr"}, {"link.json", "the scene is read from 'scene.toml'"});
+  EXPECT_TRUE(read("tiles.png") == tiles);
+  EXPECT_EQ(read("scene.toml"), kScene);
+}
+
+TEST_F(VpmRender, NotesAreToldBeforeTheWork) {
+  write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\n");
+  write("flat.toml", std::string(kScene) + "[[shapes]]\ntype = 'mesh'\nmaterial = 'floor'\npath = 'flat.obj'\n");
+  const std::string text = vpm_succeeds({"render", "flat.toml", "-o", "a.exr", "--progress", "always"}).err;
+  EXPECT_LT(text.find("note: shape 'shape 1': 1 triangles without area dropped"), text.find("render  ["));
 }
 
 /// A file system of a few pages, while it lives.

@@ -1,12 +1,10 @@
 // vpm bake: scene file and the name of a shape in, light map and report out.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <cstdio>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/version.h"
 #include "commands.h"
 #include "image/exr.h"
 #include "image/png.h"
@@ -19,29 +17,12 @@ namespace {
 
 constexpr int kDilation = 2;  // texels
 
-struct Outputs {
-  std::filesystem::path exr, png, json;
-};
-
-Outputs output_paths(const BakeOptions& options) {
-  const std::filesystem::path exr = exr_path(options.output, options.scene);
-  const auto beside = [&](const char* extension) { return std::filesystem::path(exr).replace_extension(extension); };
-  return {exr, beside(".png"), beside(".json")};
+/// A name apart from that of the scene's pictures.
+std::string usual_name(const BakeOptions& options) {
+  return std::filesystem::path(options.scene).stem().string() + "." + options.mesh;
 }
 
-void check_outputs(const Outputs& outputs, int resolution) {
-  constexpr uint64_t kReportBytes = 1 << 16;
-  const uint64_t texels = static_cast<uint64_t>(resolution) * resolution;
-  const uint64_t bytes = texels * (9 * sizeof(float) + 3) + kReportBytes;  // of all, which share a folder
-  for (const std::filesystem::path& path : {outputs.exr, outputs.png, outputs.json}) check_writable(path, bytes);
-}
-
-void apply_options(const BakeOptions& options, RenderSettings& settings) {
-  if (options.seed) settings.seed = *options.seed;
-  if (options.passes) {
-    settings.passes = *options.passes;
-    settings.seconds = settings.error = 0.0;
-  }
+void check_settings(const RenderSettings& settings) {
   if (settings.integrator != Integrator::photon)
     throw InputError(
         "light maps are made of photon maps, but render.integrator is \"path\"; add: --set render.integrator=photon");
@@ -81,22 +62,17 @@ void write_outputs(const Outputs& outputs, const BakeOptions& options, const Loa
   const Image variance = film.passes() > 1 ? film.variance_of_mean() : Image();
   std::vector<ExrLayer> layers{{"coverage", coverage}};
   if (film.passes() > 1) layers.push_back({"variance", variance});
-  write_exr(outputs.exr, map, layers,
-            {{"vpm.version", std::string(version())},
-             {"vpm.scene", std::filesystem::path(options.scene).filename().string()},
-             {"vpm.sceneHash", loaded.hash},
-             {"vpm.overrides", fmt::format("{}", fmt::join(options.overrides, " "))},
-             {"vpm.settings", settings_line(loaded.settings)},
-             {"vpm.mesh", options.mesh},
-             {"vpm.quantity",
-              "irradiance on the side of the outward normal, W/m^2; variance.*: variance of the mean of passes; "
-              "coverage.*: share of the texel that the mesh covers"},
-             {"vpm.uncovered",
-              fmt::format("texels of coverage 0, {} of {}: black, but within {} texels of covered ones the mean of "
-                          "their neighbours; their variance is given as 0",
-                          layout.texels() - layout.covered_texels(), layout.texels(), kDilation)},
-             {"vpm.seed", std::to_string(loaded.settings.seed)},
-             {"vpm.passes", std::to_string(film.passes())}});
+  Metadata metadata = provenance(options, loaded, film);
+  metadata.emplace_back("vpm.mesh", options.mesh);
+  metadata.emplace_back("vpm.quantity",
+                        "irradiance on the side of the outward normal, W/m^2; variance.*: variance of the mean of "
+                        "passes; coverage.*: share of the texel that the mesh covers");
+  metadata.emplace_back(
+      "vpm.uncovered",
+      fmt::format("texels of coverage 0, {} of {}: black, but within {} texels of covered ones the mean of their "
+                  "neighbours; their variance is given as 0",
+                  layout.texels() - layout.covered_texels(), layout.texels(), kDilation));
+  write_exr(outputs.exr, map, layers, metadata);
   write_png(outputs.png, map, auto_exposure(map));
   write_text(outputs.json, light_map_report(options.scene, outputs.exr.string(), options.mesh, loaded, layout, result));
 }
@@ -105,14 +81,16 @@ void write_outputs(const Outputs& outputs, const BakeOptions& options, const Loa
 
 int bake_command(const BakeOptions& options) {
   set_threads(options.threads);
-  const Outputs outputs = output_paths(options);
+  const Outputs outputs = output_paths(options, usual_name(options));
   LoadedScene loaded = load_scene(options.scene, options.overrides);
   apply_options(options, loaded.settings);
+  check_settings(loaded.settings);
   const UvLayout layout = lay_out(loaded.scene, options);
-  check_outputs(outputs, options.resolution);
+  check_outputs(outputs, layout.texels(), false, options, loaded);
+  print_notes(loaded);
   const std::atomic<bool>& stop = stop_on_signals();
   const RenderResult result = bake_light_map(loaded.scene, loaded.settings, layout, stop, options.progress);
-  print_warnings(loaded, light_map_stages(loaded.scene, loaded.settings), result.statistics);
+  print_warnings(light_map_stages(loaded.scene, loaded.settings), result.statistics);
   if (layout.flat_triangles > 0)
     fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
                layout.flat_triangles);

@@ -9,34 +9,31 @@
 
 namespace vpm::tools {
 
-struct RenderOptions {
+/// What all are told that run passes.
+struct PassOptions {
   std::string scene;                   // a scene file
-  std::string output;                  // .exr; empty: the scene's name in the current folder
+  std::string output;                  // .exr; empty: a name made of the scene's in the current folder
   std::vector<std::string> overrides;  // key.path=value
   int threads = 0;                     // 0: all
   std::optional<int> passes;
+  std::optional<uint64_t> seed;
+  ProgressMode progress = ProgressMode::automatic;
+};
+
+struct RenderOptions : PassOptions {
   std::optional<double> seconds;
   std::optional<double> error;  // relative MSE to stop at
-  std::optional<uint64_t> seed;
-  bool checkpoint = false;  // keep one beside the image after each pass
-  bool resume = false;      // go on from that
-  ProgressMode progress = ProgressMode::automatic;
+  bool checkpoint = false;      // keep one beside the image after each pass
+  bool resume = false;          // go on from that
 };
 /// Renders a scene to an EXR file, with a PNG preview and a JSON report beside it. 130 when interrupted: the finished
 /// passes are written.
 /// With a checkpoint a killed render loses the pass under way, and goes on to the same bits.
 int render_command(const RenderOptions& options);
 
-struct BakeOptions {
-  std::string scene;                   // a scene file
-  std::string mesh;                    // the name of a shape in it
-  std::string output;                  // .exr; empty: the scene's name in the current folder
-  int resolution = 256;                // texels along an edge
-  std::vector<std::string> overrides;  // key.path=value
-  int threads = 0;                     // 0: all
-  std::optional<int> passes;
-  std::optional<uint64_t> seed;
-  ProgressMode progress = ProgressMode::automatic;
+struct BakeOptions : PassOptions {
+  std::string mesh;      // the name of a shape in the scene
+  int resolution = 256;  // texels along an edge
 };
 /// Bakes the irradiance on a shape into an EXR file over its texture coordinates, with a PNG preview and a JSON report
 /// beside it. 130 when interrupted: the finished passes are written.

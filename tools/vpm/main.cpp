@@ -54,16 +54,22 @@ void add_progress(CLI::App* command, ProgressMode& mode) {
       ->transform(CLI::CheckedTransformer(modes));
 }
 
-void add_render(CLI::App& app, RenderOptions& options) {
-  CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
+/// What all commands that run passes are told; returns the option --passes.
+CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std::string& usual_name) {
   command->add_option("scene", options.scene, "Scene file (.toml)")->required();
   command->add_option("-o,--output", options.output,
-                      "Image to write (.exr); default: the scene's name in the current folder");
+                      "Image to write (.exr); default: " + usual_name + ".exr in the current folder");
   command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
-  CLI::Option* passes =
-      command->add_option("--passes", options.passes, "Passes to render")->check(CLI::Range(1, 1'000'000'000));
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
+  add_progress(command, options.progress);
+  return command->add_option("--passes", options.passes, "Passes to average")->check(CLI::Range(1, 1'000'000'000));
+}
+
+void add_render(CLI::App& app, RenderOptions& options) {
+  CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
+  CLI::Option* passes = add_pass_options(command, options, "SCENE");
   command->add_option("--time", options.seconds, "Render passes until this many seconds are over")
       ->check(check_seconds)
       ->excludes(passes);
@@ -74,27 +80,17 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->excludes(passes);
   command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint beside the image after each pass");
   command->add_flag("--resume", options.resume, "Go on from that checkpoint, and keep it up to date");
-  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  add_progress(command, options.progress);
 }
 
 void add_bake(CLI::App& app, BakeOptions& options) {
   CLI::App* command =
       app.add_subcommand("bake", "Bake the irradiance on a shape over its texture coordinates into an EXR light map");
-  command->add_option("scene", options.scene, "Scene file (.toml)")->required();
+  add_pass_options(command, options, "SCENE.MESH");
   command->add_option("--mesh", options.mesh, "Name of the shape: a quad, or a mesh with texture coordinates")
       ->required();
-  command->add_option("-o,--output", options.output,
-                      "Light map to write (.exr); default: the scene's name in the current folder");
   command->add_option("--resolution", options.resolution, "Texels along an edge of the map")
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
-  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
-  command->add_option("--passes", options.passes, "Passes to bake")->check(CLI::Range(1, 1'000'000'000));
-  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  add_progress(command, options.progress);
 }
 
 void add_info(CLI::App& app, InfoOptions& options) {

@@ -1,14 +1,20 @@
-// Signals, warnings and paths.
+// Signals, warnings, and paths that can be written without harm.
 #include "pass_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <csignal>
 #include <cstdio>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/version.h"
+#include "report.h"
 
 namespace vpm::tools {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -25,8 +31,11 @@ const std::atomic<bool>& stop_on_signals() {
   return stop_requested;
 }
 
-void print_warnings(const LoadedScene& loaded, const Stages& stages, const RenderStatistics& s) {
+void print_notes(const LoadedScene& loaded) {
   for (const std::string& note : loaded.notes) fmt::print(stderr, "note: {}\n", note);
+}
+
+void print_warnings(const Stages& stages, const RenderStatistics& s) {
   const auto warn = [](uint64_t count, const char* what) {
     if (count > 0) fmt::print(stderr, "warning: {} {}\n", count, what);
   };
@@ -47,12 +56,47 @@ void print_warnings(const LoadedScene& loaded, const Stages& stages, const Rende
          "boundaries were met from a medium that is not the one before them: check that media do not overlap");
 }
 
-std::filesystem::path exr_path(const std::string& output, const std::string& scene) {
-  namespace fs = std::filesystem;
-  const fs::path exr = output.empty() ? fs::path(scene).filename().replace_extension(".exr") : fs::path(output);
+Outputs output_paths(const PassOptions& options, const std::string& name) {
+  const fs::path exr = options.output.empty() ? name + ".exr" : options.output;
   if (exr.extension() != ".exr")
     throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
-  return exr;
+  const auto beside = [&](const char* extension) { return fs::path(exr).replace_extension(extension); };
+  return {exr, beside(".png"), beside(".json"), beside(".checkpoint")};
+}
+
+void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const PassOptions& options,
+                   const LoadedScene& loaded) {
+  constexpr uint64_t kReportBytes = 1 << 16;
+  const uint64_t film = checkpoint ? 2 * pixels * 6 * sizeof(Rgbd) : 0;           // the checkpoint, and its successor
+  const uint64_t bytes = pixels * (9 * sizeof(float) + 3) + film + kReportBytes;  // of all, which share a folder
+  std::vector<fs::path> written{outputs.exr, outputs.png, outputs.json};
+  if (checkpoint) written.push_back(outputs.checkpoint);
+  std::vector<std::string> read = loaded.files;
+  read.push_back(options.scene);
+  for (const fs::path& path : written) {
+    check_writable(path, bytes);
+    for (const std::string& file : read)
+      if (std::error_code none; fs::equivalent(path, file, none))
+        throw InputError(fmt::format("cannot write '{}': the scene is read from '{}'; name another output with -o",
+                                     path.string(), file));
+  }
+}
+
+void apply_options(const PassOptions& options, RenderSettings& settings) {
+  if (options.seed) settings.seed = *options.seed;
+  if (!options.passes) return;
+  settings.passes = *options.passes;
+  settings.seconds = settings.error = 0.0;
+}
+
+Metadata provenance(const PassOptions& options, const LoadedScene& loaded, const Film& film) {
+  return {{"vpm.version", std::string(version())},
+          {"vpm.scene", fs::path(options.scene).filename().string()},
+          {"vpm.sceneHash", loaded.hash},
+          {"vpm.overrides", fmt::format("{}", fmt::join(options.overrides, " "))},
+          {"vpm.settings", settings_line(loaded.settings)},
+          {"vpm.seed", std::to_string(loaded.settings.seed)},
+          {"vpm.passes", std::to_string(film.passes())}};
 }
 
 }  // namespace vpm::tools

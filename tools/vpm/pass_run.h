@@ -1,10 +1,13 @@
-// What the subcommands that run passes have in common: they can be interrupted, and print what was suspicious.
+// What the subcommands that run passes have in common: the files they write, the options that overrule the scene, what
+// they print, and that they can be interrupted.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
 
+#include "commands.h"
 #include "input/scene_file.h"
+#include "render/film.h"
 #include "render/photon_pass.h"
 
 namespace vpm::tools {
@@ -15,10 +18,29 @@ inline constexpr int kInterrupted = 130;  // as shells report a process ended by
 /// kills.
 const std::atomic<bool>& stop_on_signals();
 
-/// What went wrong without stopping the run; on stderr, so that it is seen.
-void print_warnings(const LoadedScene& loaded, const Stages& stages, const RenderStatistics& statistics);
+/// An image, and what is written beside it.
+struct Outputs {
+  std::filesystem::path exr, png, json, checkpoint;
+};
 
-/// The image's path: `output`, which must end in .exr; where it is empty the scene's name in the current folder.
-std::filesystem::path exr_path(const std::string& output, const std::string& scene);
+/// The paths beside options.output, which must end in .exr; where it is empty: `name`.exr in the current folder.
+Outputs output_paths(const PassOptions& options, const std::string& name);
+
+/// Throws InputError where an output, of an image of that many pixels, could not be written, or would replace a file
+/// that the scene is read from.
+void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const PassOptions& options,
+                   const LoadedScene& loaded);
+
+/// The seed and the number of passes.
+void apply_options(const PassOptions& options, RenderSettings& settings);
+
+/// What the image tells of where it is from.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+Metadata provenance(const PassOptions& options, const LoadedScene& loaded, const Film& film);
+
+/// What a user should know before the run; on stderr, so that it is seen.
+void print_notes(const LoadedScene& loaded);
+/// What went wrong without stopping the run; on stderr, too.
+void print_warnings(const Stages& stages, const RenderStatistics& statistics);
 
 }  // namespace vpm::tools

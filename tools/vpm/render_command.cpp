@@ -21,33 +21,7 @@
 namespace vpm::tools {
 namespace {
 
-struct Outputs {
-  std::filesystem::path exr, png, json, checkpoint;
-};
-
-Outputs output_paths(const RenderOptions& options) {
-  const std::filesystem::path exr = exr_path(options.output, options.scene);
-  const auto beside = [&](const char* extension) { return std::filesystem::path(exr).replace_extension(extension); };
-  return {exr, beside(".png"), beside(".json"), beside(".checkpoint")};
-}
-
-void check_outputs(const Outputs& outputs, const Camera& camera, bool checkpoint) {
-  constexpr uint64_t kReportBytes = 1 << 16;
-  const uint64_t pixels = static_cast<uint64_t>(camera.width) * camera.height;
-  const uint64_t film = checkpoint ? 2 * pixels * 6 * sizeof(Rgbd) : 0;           // the checkpoint, and its successor
-  const uint64_t bytes = pixels * (9 * sizeof(float) + 3) + film + kReportBytes;  // of all, which share a folder
-  check_writable(outputs.exr, bytes);
-  check_writable(outputs.png, bytes);
-  check_writable(outputs.json, bytes);
-  if (checkpoint) check_writable(outputs.checkpoint, bytes);
-}
-
-void apply_options(const RenderOptions& options, RenderSettings& settings) {
-  if (options.seed) settings.seed = *options.seed;
-  if (options.passes) {
-    settings.passes = *options.passes;
-    settings.seconds = settings.error = 0.0;
-  }
+void apply_limits(const RenderOptions& options, RenderSettings& settings) {
   if (options.seconds) settings.seconds = *options.seconds;
   if (options.error) settings.error = *options.error;
 }
@@ -55,17 +29,11 @@ void apply_options(const RenderOptions& options, RenderSettings& settings) {
 void write_outputs(const Outputs& outputs, const RenderOptions& options, const LoadedScene& loaded,
                    const RenderResult& result) {
   const Image mean = result.film.mean();
-  const std::vector<std::pair<std::string, std::string>> metadata{
-      {"vpm.version", std::string(version())},
-      {"vpm.scene", std::filesystem::path(options.scene).filename().string()},
-      {"vpm.sceneHash", loaded.hash},
-      {"vpm.overrides", fmt::format("{}", fmt::join(options.overrides, " "))},
-      {"vpm.settings", settings_line(loaded.settings)},
-      {"vpm.quantity",
-       "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as the passes show "
-       "it"},
-      {"vpm.seed", std::to_string(loaded.settings.seed)},
-      {"vpm.passes", std::to_string(result.film.passes())}};
+  Metadata metadata = provenance(options, loaded, result.film);
+  metadata.emplace_back(
+      "vpm.quantity",
+      "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as "
+      "the passes show it");
   if (result.film.shows_bias()) {
     const FilmErrors errors = result.film.errors();
     write_exr(outputs.exr, mean, {{"variance", errors.variance}, {"bias", errors.bias}}, metadata);
@@ -101,20 +69,22 @@ std::string error_text(const LoadedScene& loaded, const Film& film) {
 
 int render_command(const RenderOptions& options) {
   set_threads(options.threads);
-  const Outputs outputs = output_paths(options);
+  const Outputs outputs = output_paths(options, std::filesystem::path(options.scene).stem().string());
   LoadedScene loaded = load_scene(options.scene, options.overrides);
   apply_options(options, loaded.settings);
+  apply_limits(options, loaded.settings);
   const bool checkpoint = options.checkpoint || options.resume;
-  check_outputs(outputs, loaded.scene.camera, checkpoint);
+  const Camera& camera = loaded.scene.camera;
+  check_outputs(outputs, static_cast<uint64_t>(camera.width) * camera.height, checkpoint, options, loaded);
   const std::string identity = identity_of(loaded);
-  RenderResult begun =
-      options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(loaded.scene.camera);
+  RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
+  print_notes(loaded);
   const std::atomic<bool>& stop = stop_on_signals();
   const RenderResult result =
       render(loaded.scene, loaded.settings, std::move(begun), stop, options.progress, [&](const RenderResult& so_far) {
         if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
       });
-  print_warnings(loaded, plan_stages(loaded.scene, loaded.settings), result.statistics);
+  print_warnings(plan_stages(loaded.scene, loaded.settings), result.statistics);
   if (result.film.passes() == 0) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;

@@ -33,8 +33,9 @@ Json times(const RenderResult& result) {
           {"importance", s.guide_seconds}, {"map_building", s.build_seconds}, {"eye_pass", s.eye_seconds}};
 }
 
+uint64_t stored_photons(const RenderStatistics& s) { return s.volume_photons + s.surface_photons + s.caustic_photons; }
+
 Json photons(const RenderStatistics& s) {
-  const uint64_t stored = s.volume_photons + s.surface_photons;
   return {{"emitted", s.ledger.emitted_count},
           {"stored_volume", s.volume_photons},
           {"stored_surface", s.surface_photons},
@@ -44,7 +45,7 @@ Json photons(const RenderStatistics& s) {
           {"surface_hits", s.ledger.surface_hits},
           {"emitted_per_second", per_second(s.ledger.emitted_count, s.trace_seconds)},
           {"emitted_per_second_and_thread", per_second(s.ledger.emitted_count, s.trace_seconds) / thread_count()},
-          {"stored_per_second", per_second(stored, s.trace_seconds)},
+          {"stored_per_second", per_second(stored_photons(s), s.trace_seconds)},
           {"density_lookups", s.ledger.walk.lookups},
           {"largest_weight", s.ledger.largest_weight},
           {"effective_sample_size", s.ledger.effective_sample_size()},
@@ -96,6 +97,18 @@ Json eye(const RenderStatistics& s) {
           {"last_surface_radius_m", s.last_surface_radius}};
 }
 
+/// What a light map has in the place of eye paths.
+Json points_of_texels(const RenderStatistics& s) {
+  return {{"points", s.eye.rays},
+          {"surface_queries", s.eye.surface_queries},
+          {"shadow_rays", s.eye.shadow_rays},
+          {"gather_rays", s.eye.gather_rays},
+          {"density_lookups", s.eye.walk.lookups},
+          {"paths_cut_at_max_events", s.eye.cut_paths},
+          {"dropped_non_finite", s.eye.non_finite},
+          {"last_surface_radius_m", s.last_surface_radius}};
+}
+
 /// How far the image is estimated to be from the truth.
 Json errors(const LoadedScene& loaded, const Film& film) {
   if (film.passes() < kLeastPasses) return nullptr;
@@ -110,22 +123,24 @@ Json errors(const LoadedScene& loaded, const Film& film) {
 Json memory(const Scene& scene, const RenderStatistics& s) {
   size_t grids = 0;
   for (const Medium& m : scene.media) grids += m.grid ? m.grid->memory_bytes() : 0;
-  const uint64_t stored = (s.volume_photons + s.surface_photons) / std::max(1, s.passes);
+  size_t textures = 0;
+  for (const auto& texture : scene.textures) textures += texture ? texture->memory_bytes() : 0;
+  const double stored = static_cast<double>(stored_photons(s)) / std::max(1, s.passes);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return {
-      {"unit", "bytes"},
-      {"grids", grids},
-      {"geometry", scene.geometry.memory_bytes()},
-      {"largest_photon_maps", s.photon_map_bytes},
-      {"importance", s.guide_bytes},
-      {"per_stored_photon", stored > 0 ? static_cast<double>(s.photon_map_bytes) / static_cast<double>(stored) : 0.0},
-      {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
+  return {{"unit", "bytes"},
+          {"grids", grids},
+          {"geometry", scene.geometry.memory_bytes()},
+          {"textures", textures},
+          {"largest_photon_maps", s.photon_map_bytes},
+          {"importance", s.guide_bytes},
+          {"per_stored_photon_of_mean_pass", stored > 0.0 ? static_cast<double>(s.photon_map_bytes) / stored : 0.0},
+          {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
 }
 
-/// Of a render or a light map, with what it is of.
+/// What the report of a render and of a light map have in common.
 Json report_of(const std::string& scene_path, const std::string& image, const std::string& quantity,
-               const LoadedScene& loaded, const RenderResult& result) {
+               const LoadedScene& loaded, const Stages& stages, const RenderResult& result) {
   const RenderStatistics& s = result.statistics;
   return {{"program", fmt::format("vpm {}", version())},
           {"scene", scene_path},
@@ -138,15 +153,13 @@ Json report_of(const std::string& scene_path, const std::string& image, const st
           {"threads", thread_count()},
           {"passes", s.passes},
           {"settings", settings_line(loaded.settings)},
-          {"stages", stage_lines(loaded.scene, loaded.settings)},
+          {"stages", stage_lines(loaded.scene, loaded.settings, stages)},
           {"notes", loaded.notes},
           {"clamped_density_values", loaded.clamped_density_values},
           {"times", times(result)},
           {"lights", lights(loaded)},
-          {"error", errors(loaded, result.film)},
           {"photons", photons(s)},
           {"energy", ledger(s.ledger)},
-          {"eye", eye(s)},
           {"boundaries",
            {{"crossings", s.ledger.walk.crossings + s.eye.walk.crossings},
             {"met_in_another_medium", s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches}}},
@@ -157,14 +170,18 @@ Json report_of(const std::string& scene_path, const std::string& image, const st
 
 std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded,
                           const RenderResult& result) {
-  return report_of(scene_path, image, "radiance, W/(m^2 sr)", loaded, result).dump(2) + "\n";
+  const Stages stages = plan_stages(loaded.scene, loaded.settings);
+  Json report = report_of(scene_path, image, "radiance, W/(m^2 sr)", loaded, stages, result);
+  report["error"] = errors(loaded, result.film);
+  report["eye"] = eye(result.statistics);
+  return report.dump(2) + "\n";
 }
 
 std::string light_map_report(const std::string& scene_path, const std::string& image, const std::string& mesh,
                              const LoadedScene& loaded, const UvLayout& layout, const RenderResult& result) {
-  Json report = report_of(scene_path, image, "irradiance, W/m^2", loaded, result);
-  report.erase("error");   // its means over pixels would count texels that show nothing
-  report.erase("stages");  // those of a render
+  const Stages stages = light_map_stages(loaded.scene, loaded.settings);
+  Json report = report_of(scene_path, image, "irradiance, W/m^2", loaded, stages, result);
+  report["texels"] = points_of_texels(result.statistics);
   report["light_map"] = {{"mesh", mesh},
                          {"covered_texels", layout.covered_texels()},
                          {"area_m2", std::accumulate(layout.areas.begin(), layout.areas.end(), 0.0)},
@@ -199,9 +216,11 @@ std::string settings_line(const RenderSettings& s) {
       s.shrink_radii, s.max_optical_step, s.max_events);
 }
 
-std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings) {
-  const Stages stages = plan_stages(scene, settings);
-  const std::string no_medium = scene.media.empty() ? "no medium" : "no medium scatters";
+std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Stages& stages) {
+  const bool scatters = plan_stages(scene, settings).volume_map;
+  const std::string no_medium = scene.media.empty() ? "no medium"
+                                : scatters          ? "a light map shows no medium"
+                                                    : "no medium scatters";
   const auto line = [](bool runs, const std::string& what, const std::string& how, const std::string& why_not) {
     return runs ? "runs " + what + how : "skips " + what + ": " + why_not;
   };
