@@ -1,6 +1,7 @@
 // Scouts, then photons, both followed from mirror to mirror.
 #include "photon/caustics.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "base/parallel.h"
@@ -9,8 +10,9 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 4096;        // photons traced one after another
-constexpr uint64_t kScouts = 100'000;  // enough for ten to find what a ten thousandth of all photons meet
+constexpr size_t kChunk = 4096;  // photons traced one after another
+// Scouts for each photon, and at most: enough for ten to find what a ten thousandth of all emission meets.
+constexpr uint64_t kScouts = 4, kMostScouts = 100'000;
 
 /// The photon that an emission leads to, if it is a caustic one.
 std::optional<Photon> follow(const Scene& scene, const DistanceStrategy& strategy, const EmissionPoint& point,
@@ -40,8 +42,8 @@ std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& s
     if (!photon) return 0.0f;
     return sum_channels(photon->power) * (settings.importance ? settings.importance->at(photon->position) : 1.0f);
   };
-  const EmissionGuide guide =
-      EmissionGuide::learn(kScouts, settings.seed, rng_stream(RngUse::caustic_scout, settings.pass), score);
+  const EmissionGuide guide = EmissionGuide::learn(std::min(kScouts * settings.emitted, kMostScouts), settings.seed,
+                                                   rng_stream(RngUse::caustic_scout, settings.pass), score);
   std::vector<std::vector<Photon>> parts(chunk_count(settings.emitted, kChunk));
   parallel_for_chunks(settings.emitted, kChunk, [&](size_t begin, size_t end, size_t chunk) {
     if (settings.stop && *settings.stop) return;

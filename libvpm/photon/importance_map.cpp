@@ -140,7 +140,9 @@ void trace_importon(const Scene& scene, const DistanceStrategy& strategy, Rng& r
 
 ImportanceMap trace_importons(const Scene& scene, const DistanceStrategy& strategy, uint64_t seed, uint64_t pass,
                               uint64_t count, int max_events) {
-  ImportanceMap all(scene.bounds, kResolution);
+  Box box = scene.bounds;
+  box.add(scene.camera.position);
+  ImportanceMap all(box, kResolution);
   std::vector<ImportanceMap> parts(chunk_count(count, kChunk), all);
   parallel_for_chunks(count, kChunk, [&](size_t begin, size_t end, size_t chunk) {
     for (size_t i = begin; i < end; ++i) {

@@ -421,12 +421,15 @@ TEST(SceneFile, ReadsEverySetting) {
       load_with(
           "[render]\nintegrator = 'photon'\npasses = 3\nseconds = 1.5\nseed = 9\nsamples_per_pixel = 2\nmax_events = "
           "77\nshrink_radii = false\n"
-          "max_optical_step = 0.25\n[photons]\nemitted = 1000\nstored = 500\n[distance]\nstrategy = 'ray-march'\nstep "
+          "max_optical_step = 0.25\n[photons]\nemitted = 1000\nstored = 500\nin_cube = 4\n[importance]\nimportons = "
+          "70\n"
+          "aim = false\nsplit = false\n[distance]\nstrategy = 'ray-march'\nstep "
           "= 0.5\nextinction_floor = 0.2\n"
           "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\n"
           "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
           "'density-at-photon'\ndirect = 'shadow-rays'\n"
-          "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n")
+          "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n"
+          "[caustics]\nradius = 0.01\nemitted = 800\n")
           .settings;
   EXPECT_EQ(s.integrator, Integrator::photon);
   EXPECT_EQ(s.passes, 3);
@@ -438,6 +441,12 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.max_optical_step, 0.25f);
   EXPECT_EQ(s.photons_emitted, 1000u);
   EXPECT_EQ(s.photons_stored, 500u);
+  EXPECT_EQ(s.photons_in_cube, 4u);
+  EXPECT_EQ(s.guide.importons, 70u);
+  EXPECT_FALSE(s.guide.aim);
+  EXPECT_FALSE(s.guide.split);
+  EXPECT_EQ(s.caustics.radius, 0.01f);
+  EXPECT_EQ(s.caustics_emitted, 800u);
   EXPECT_EQ(s.distance.strategy, "ray-march");
   EXPECT_EQ(s.distance.step, 0.5f);
   EXPECT_EQ(s.distance.extinction_floor, 0.2f);

@@ -89,18 +89,19 @@ struct Subject {
   std::string name;
   std::function<Scene()> make;
   BiasOrder order;
-  float radius;  // m, of the coarser map
+  float radius;        // m, of the coarser map
+  uint64_t times = 1;  // as many photons as for others: more where few come near the camera
 };
 
 RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
   RenderSettings settings;
-  settings.photons_emitted = photons;
+  settings.photons_emitted = photons * subject.times;
   settings.volume.radius = settings.surface.radius = settings.caustics.radius = subject.radius;
   return settings;
 }
 
-/// The forms of gathering: in media by both forms and both ways to single scattering, in both modes; on surfaces from
-/// the map and by final gathering.
+/// The forms of gathering: in media by both forms and both ways to single scattering, in both modes; from photons that
+/// are guided; on surfaces from the map and by final gathering.
 std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSettings& base, bool media, bool surfaces) {
   std::vector<std::pair<std::string, RenderSettings>> all;
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
@@ -119,12 +120,16 @@ std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSetti
     gather->count = 200'000;  // more than lie within the radius, so that this is what bounds the search
   }
   all.emplace_back("k nearest within the radius", nearest);
+  RenderSettings guided = base;
+  guided.guide.importons = 1'000;
+  all.emplace_back("photons guided by importance", guided);
   if (surfaces) {
     RenderSettings gathering = base;
     gathering.surface_indirect = IndirectLight::final_gather;
     all.emplace_back("final gathering", gathering);
     gathering.surface_direct = DirectLight::photons;
-    all.emplace_back("final gathering, direct light by photons", gathering);
+    gathering.caustics_emitted = base.photons_emitted;
+    all.emplace_back("final gathering, direct light by photons, caustics aimed", gathering);
   }
   return all;
 }
@@ -136,9 +141,9 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   referee.seed = effort.seed_of(subject.name + " referee");
   const Measured reference = by_referee(scene, referee, effort.count(40'000, 1'500'000));
   std::vector<Check> checks;
-  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(6'000, 40'000)), media, surfaces)) {
+  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(6'000, 30'000)), media, surfaces)) {
     settings.seed = effort.seed_of(subject.name + name);
-    const int passes = static_cast<int>(effort.count(24, 80));
+    const int passes = static_cast<int>(effort.count(24, 64));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
   }
   return checks;
@@ -147,7 +152,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
 /// Every strategy, for photons and for the referee's paths, and every estimator of transmittance.
 std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
-  RenderSettings base = photon_settings(subject, effort.count(6'000, 40'000));
+  RenderSettings base = photon_settings(subject, effort.count(6'000, 30'000));
   base.distance.step = base.transmittance.step = 0.1f;  // voxels: the bias of marching is far below the noise
   base.seed = effort.seed_of(subject.name + " reference");
   const uint64_t rays = effort.count(40'000, 1'500'000);
@@ -164,7 +169,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
             scene.grey);
     settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
-    const int passes = static_cast<int>(effort.count(24, 80));
+    const int passes = static_cast<int>(effort.count(24, 64));
     compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
             reference, scene.grey);
   }
@@ -182,10 +187,10 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
 std::vector<Check> constant_grid(const Effort& effort) {
   const Scene plain = filled_box(false), grid = filled_box(true);
   std::vector<Check> checks;
-  RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(6'000, 40'000));
+  RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(6'000, 30'000));
   const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
     settings.seed = effort.seed_of(name);
-    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(24, 80)))
+    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(24, 64)))
                    : by_referee(scene, settings, effort.count(40'000, 1'500'000));
   };
   const Measured reference = measure(plain, "plain", false);
@@ -201,7 +206,7 @@ std::vector<Check> constant_grid(const Effort& effort) {
 std::vector<Experiment> agreement_experiments() {
   const auto seen_from = [](Viewpoint viewpoint) { return [=] { return puff(viewpoint, 2.0f); }; };
   const std::vector<Subject> by_gathering{
-      {"a lamp in chromatic fog, seen from inside", foggy_lamp, BiasOrder::smooth, 0.2f},
+      {"a lamp in chromatic fog, seen from inside", foggy_lamp, BiasOrder::smooth, 0.25f, 3},
       {"a puff from outside", seen_from(Viewpoint::outside), BiasOrder::smooth, 0.3f},
       {"a puff from its border", seen_from(Viewpoint::border), BiasOrder::smooth, 0.3f},
       {"a puff from inside", seen_from(Viewpoint::inside), BiasOrder::smooth, 0.3f},
@@ -213,7 +218,7 @@ std::vector<Experiment> agreement_experiments() {
       {"a hollow cube", hollow_cube, BiasOrder::edges, 0.1f}};
   const std::vector<Subject> by_strategy{
       {"strategies in a puff", [] { return puff(Viewpoint::outside, 1.0f); }, BiasOrder::smooth, 0.3f},
-      {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.2f}};
+      {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.25f, 3}};
   std::vector<Experiment> all;
   for (const Subject& s : by_gathering)
     all.push_back({3, s.name, [s](const Effort& effort) { return compare_gatherings(s, effort); }});
