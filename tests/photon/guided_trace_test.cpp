@@ -5,7 +5,6 @@
 #include "photon/caustics.h"
 #include "photon/trace.h"
 #include "scene/build.h"
-#include "support/scenes.h"
 #include "support/statistics.h"
 
 namespace vpm {
@@ -16,8 +15,12 @@ constexpr int kBoxes = 3;  // along an edge of [-1, 1]^3
 
 /// Fog in a box, a lamp in one of its corners and a camera that looks into the opposite one, between diffuse plates.
 Scene foggy_box() {
-  Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.5f), 0.9f), PointLight{Vec3(-0.9f, -0.8f, 0.7f), Rgb(1.0f)});
+  Scene scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(1.5f), 0.9f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
   add_shape(scene, SphereShape{Vec3(0.0f, 0.0f, 0.2f), 0.3f}, Lambertian{Rgb(0.7f)});
+  scene.lights.push_back(PointLight{Vec3(-0.9f, -0.8f, 0.7f), Rgb(1.0f)});
   scene.geometry.commit();
   scene.camera = make_camera(Vec3(0.5f, 0.5f, -0.8f), Vec3(0.9f, 0.9f, -0.9f), Vec3(0, 1, 0), 40.0f, 8, 8, {});
   finish(scene);
