@@ -1,5 +1,7 @@
 // The sections about how to render: [camera], [film], [render], [photons], [importance], [distance],
 // [transmittance], [volume], [surface], [caustics].
+#include <tuple>
+
 #include "input/sections.h"
 
 namespace vpm {
@@ -48,6 +50,27 @@ std::string read_listed(TableReader& table, const std::string& key, std::span<co
   std::vector<std::pair<std::string, std::string>> names;
   for (const Info& info : infos) names.emplace_back(info.name, info.name);
   return table.choice<std::string>(key, names, fallback);
+}
+
+/// `method` names the three usual pairs of direct and indirect light.
+void read_surface_light(TableReader& table, RenderSettings& s) {
+  using Method = std::pair<DirectLight, IndirectLight>;
+  if (table.has("method")) {
+    for (const char* key : {"direct", "indirect"})
+      if (table.has(key))
+        table.fail(key, "'method' of [surface] says where direct and indirect light come from",
+                   "leave out '" + std::string(key) + "', or 'method'");
+    std::tie(s.surface_direct, s.surface_indirect) =
+        table.choice<Method>("method",
+                             {{"visualise", {DirectLight::photons, IndirectLight::photons}},
+                              {"progressive", {DirectLight::shadow_rays, IndirectLight::photons}},
+                              {"final-gather", {DirectLight::shadow_rays, IndirectLight::final_gather}}},
+                             Method{s.surface_direct, s.surface_indirect});
+  }
+  s.surface_direct = read_direct(table, s.surface_direct);
+  s.surface_indirect = table.choice<IndirectLight>(
+      "indirect", {{"photons", IndirectLight::photons}, {"final-gather", IndirectLight::final_gather}},
+      s.surface_indirect);
 }
 
 void read_render(TableReader& table, RenderSettings& s) {
@@ -145,10 +168,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   });
   read_section(root, "surface", [&](TableReader& table) {
     read_gather(table, s.surface);
-    s.surface_direct = read_direct(table, s.surface_direct);
-    s.surface_indirect = table.choice<IndirectLight>(
-        "indirect", {{"photons", IndirectLight::photons}, {"final-gather", IndirectLight::final_gather}},
-        s.surface_indirect);
+    read_surface_light(table, s);
     s.gather_rays = small_integer(table, "gather_rays", 1'000'000, s.gather_rays);
   });
   read_section(root, "caustics", [&](TableReader& table) {

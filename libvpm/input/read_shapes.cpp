@@ -74,6 +74,8 @@ MaterialPlan read_material(TableReader table) {
           return RoughConductor{metal.eta, metal.k, read_roughness(t, "conductor")};
         }},
        {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kIndex)}; }},
+       {"thin-dielectric",
+        [](TableReader& t, MaterialPlan&) -> Material { return ThinDielectric{t.number("ior", kIndex)}; }},
        {"rough-dielectric", [](TableReader& t, MaterialPlan&) { return read_rough_dielectric(t); }},
        {"boundary", [](TableReader&, MaterialPlan&) -> Material { return Boundary{}; }}});
   MaterialPlan plan;

@@ -13,6 +13,7 @@ Scatter sample(const Mirror& m, const Vec3& normal, const Vec3& travel, float u_
 Scatter sample(const Conductor& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 Scatter sample(const RoughConductor& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 Scatter sample(const Dielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const ThinDielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 Scatter sample(const RoughDielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 Scatter sample(const Boundary& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 
@@ -23,6 +24,7 @@ ScatterValue value(const Mirror& m, const Vec3& normal, const Vec3& travel, cons
 ScatterValue value(const Conductor& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 ScatterValue value(const RoughConductor& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 ScatterValue value(const Dielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const ThinDielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 ScatterValue value(const RoughDielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 ScatterValue value(const Boundary& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 

@@ -40,6 +40,14 @@ Scatter sample(const Dielectric& m, const Vec3& normal, const Vec3& travel, floa
   return {on_side(refracted, -in.normal), Rgb(1.0f), true, 1.0f / (eta * eta)};
 }
 
+/// R + (1 - R)^2 R (1 + R^2 + R^4 + ...) = 2 R / (1 + R) comes back of what each face reflects R of.
+Scatter sample(const ThinDielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2&) {
+  const Incidence in(normal, travel);
+  const float reflected = fresnel_dielectric(in.cosine, m.ior);
+  if (u_choice < 2.0f * reflected / (1.0f + reflected)) return {mirrored(in, travel), Rgb(1.0f), false, 1.0f};
+  return passed(travel);
+}
+
 Scatter sample(const Boundary&, const Vec3&, const Vec3& travel, float, const Vec2&) { return passed(travel); }
 
 ScatterValue value(const Lambertian& m, const Vec3& normal, const Vec3& travel, const Vec3& direction) {
@@ -51,6 +59,7 @@ ScatterValue value(const Lambertian& m, const Vec3& normal, const Vec3& travel, 
 ScatterValue value(const Mirror&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
 ScatterValue value(const Conductor&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
 ScatterValue value(const Dielectric&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
+ScatterValue value(const ThinDielectric&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
 ScatterValue value(const Boundary&, const Vec3&, const Vec3&, const Vec3&) { return {}; }
 
 bool is_rough(const Material& material) {
@@ -58,7 +67,8 @@ bool is_rough(const Material& material) {
                               [](const Phong& m) { return !is_black(m.diffuse) || !is_black(m.glossy); },
                               [](const RoughConductor&) { return true; }, [](const RoughDielectric&) { return true; },
                               [](const Mirror&) { return false; }, [](const Conductor&) { return false; },
-                              [](const Dielectric&) { return false; }, [](const Boundary&) { return false; }},
+                              [](const Dielectric&) { return false; }, [](const ThinDielectric&) { return false; },
+                              [](const Boundary&) { return false; }},
                     material);
 }
 
@@ -66,7 +76,8 @@ bool scatters_through(const Material& material) {
   return std::visit(Overloads{[](const RoughDielectric&) { return true; }, [](const Lambertian&) { return false; },
                               [](const Phong&) { return false; }, [](const RoughConductor&) { return false; },
                               [](const Mirror&) { return false; }, [](const Conductor&) { return false; },
-                              [](const Dielectric&) { return false; }, [](const Boundary&) { return false; }},
+                              [](const Dielectric&) { return false; }, [](const ThinDielectric&) { return false; },
+                              [](const Boundary&) { return false; }},
                     material);
 }
 
@@ -75,7 +86,8 @@ Rgb* reflectance_of(Material& material) {
   return std::visit(Overloads{[](Lambertian& m) { return &m.reflectance; }, [](Mirror& m) { return &m.reflectance; },
                               [](Phong&) { return None(); }, [](Conductor&) { return None(); },
                               [](RoughConductor&) { return None(); }, [](Dielectric&) { return None(); },
-                              [](RoughDielectric&) { return None(); }, [](Boundary&) { return None(); }},
+                              [](ThinDielectric&) { return None(); }, [](RoughDielectric&) { return None(); },
+                              [](Boundary&) { return None(); }},
                     material);
 }
 
@@ -85,8 +97,8 @@ bool is_grey(const Material& material) {
                               [](const Mirror& m) { return is_grey(m.reflectance); },
                               [](const Conductor& m) { return is_grey(m.eta) && is_grey(m.k); },
                               [](const RoughConductor& m) { return is_grey(m.eta) && is_grey(m.k); },
-                              [](const Dielectric&) { return true; }, [](const RoughDielectric&) { return true; },
-                              [](const Boundary&) { return true; }},
+                              [](const Dielectric&) { return true; }, [](const ThinDielectric&) { return true; },
+                              [](const RoughDielectric&) { return true; }, [](const Boundary&) { return true; }},
                     material);
 }
 

@@ -37,6 +37,11 @@ struct RoughConductor {
 struct Dielectric {
   float ior = 1.5f;  // index behind the surface (against its normal: inside) over the index before it, > 0
 };
+/// A pane of smooth dielectric, too thin to shift what passes: reflects by Fresnel's equations what comes back from all
+/// passes between its two faces, and lets the rest straight through.
+struct ThinDielectric {
+  float ior = 1.5f;  // index of the pane over that around it, > 0
+};
 /// Dielectric of microfacets, as RoughConductor's, that reflect and refract once [Walter2007].
 struct RoughDielectric {
   float ior = 1.5f;        // as in Dielectric, at least kLeastIorStep away from 1
@@ -50,8 +55,8 @@ inline constexpr float kLeastRoughness = 1e-3f;
 inline constexpr float kLeastIorStep = 1e-2f;
 inline constexpr float kLargestExponent = 1e6f;
 
-using Material =
-    std::variant<Lambertian, Phong, Mirror, Conductor, RoughConductor, Dielectric, RoughDielectric, Boundary>;
+using Material = std::variant<Lambertian, Phong, Mirror, Conductor, RoughConductor, Dielectric, ThinDielectric,
+                              RoughDielectric, Boundary>;
 
 /// Is the material a border that does not scatter?
 inline bool is_boundary(const Material& m) { return std::holds_alternative<Boundary>(m); }
@@ -81,8 +86,8 @@ struct Scatter {
 Rgb* reflectance_of(Material& material);
 
 /// Samples the scattering of a path that travels along `travel` (unit) and meets a surface of normal `normal` (unit,
-/// outward) from either side. `u_choice` and `u` are uniform in [0, 1). Black weight: absorbed. A boundary, and a
-/// dielectric of ior 1, pass the direction unchanged to the last bit.
+/// outward) from either side. `u_choice` and `u` are uniform in [0, 1). Black weight: absorbed. A boundary, a
+/// thin dielectric, and a dielectric of ior 1 pass the direction unchanged to the last bit.
 Scatter sample_scatter(const Material& material, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
 
 /// How much light a material scatters from `travel` into `direction` (both of travel, unit), and how likely

@@ -140,6 +140,7 @@ glass = { type = "dielectric", ior = 1.5 }
 frosted = { type = "rough-dielectric", ior = 1.5, roughness = 0.3 }
 ring = { type = "conductor", metal = "gold" }
 pan = { type = "rough-conductor", eta = 1.5, k = [3, 4, 5], roughness = 1 }
+window = { type = "thin-dielectric", ior = 1.4 }
 
 [[shapes]]
 type = "sphere"
@@ -148,7 +149,8 @@ radius = 1
 material = "frosted"
 )");
   const std::vector<Material>& m = loaded.scene.materials;
-  ASSERT_EQ(m.size(), 6u);
+  ASSERT_EQ(m.size(), 7u);
+  EXPECT_EQ(std::get<ThinDielectric>(m[6]).ior, 1.4f);
   EXPECT_EQ(std::get<Phong>(m[1]).glossy, Rgb(0.3f, 0.2f, 0.1f));
   EXPECT_EQ(std::get<Phong>(m[1]).exponent, 30.0f);
   EXPECT_EQ(std::get<RoughDielectric>(m[3]).ior, 1.5f);
@@ -463,6 +465,18 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.surface.count, 60u);
   EXPECT_EQ(s.surface.kernel, KernelKind::constant);
   EXPECT_EQ(s.surface_direct, DirectLight::photons);
+}
+
+TEST(SceneFile, AMethodChoosesDirectAndIndirectLight) {
+  const auto with = [](const std::string& method) {
+    return load_with("[surface]\nmethod = '" + method + "'\n").settings;
+  };
+  EXPECT_EQ(with("visualise").surface_direct, DirectLight::photons);
+  EXPECT_EQ(with("visualise").surface_indirect, IndirectLight::photons);
+  EXPECT_EQ(with("progressive").surface_direct, DirectLight::shadow_rays);
+  EXPECT_EQ(with("progressive").surface_indirect, IndirectLight::photons);
+  EXPECT_EQ(with("final-gather").surface_direct, DirectLight::shadow_rays);
+  EXPECT_EQ(with("final-gather").surface_indirect, IndirectLight::final_gather);
 }
 
 TEST(SceneFile, DefaultsAreThoseOfTheSettings) {

@@ -89,6 +89,39 @@ TEST(Dielectric, ReflectsWithFresnelsProbability) {
   }
 }
 
+/// A photon followed through both faces of a pane of glass, a slab whose thickness does not matter, leaves on the side
+/// that the thin one tells.
+TEST(ThinDielectric, ReflectsWhatAllPassesBetweenItsFacesBringBack) {
+  Rng rng(1, static_cast<uint64_t>(RngUse::test), 0);
+  for (const float cosine : {1.0f, 0.6f, 0.15f}) {
+    const Vec3 travel(std::sqrt(1.0f - cosine * cosine), 0.0f, -cosine), up(0.0f, 0.0f, 1.0f);
+    Moments slab, thin;
+    for (int i = 0; i < 100'000; ++i) {
+      Vec3 d = travel;
+      int depth = 0;  // 0: above the pane, 1: in it, 2: below
+      do {
+        // The upper face's outward normal is up, the lower one's down.
+        const bool upper = depth == 0 || d.z > 0.0f;
+        const Scatter s = sample_scatter(Dielectric{1.5f}, upper ? up : -up, d, rng.uniform(), rng.uniform2());
+        if (s.transmitted)
+          depth = depth == 1 ? (upper ? 0 : 2) : 1;
+        else if (depth == 0)
+          break;
+        d = s.direction;
+      } while (depth == 1);
+      slab.add(depth == 0);
+      const Scatter s = sample_scatter(ThinDielectric{1.5f}, up, travel, rng.uniform(), rng.uniform2());
+      EXPECT_TRUE(!s.transmitted || s.direction == travel);
+      EXPECT_EQ(s.weight, Rgb(1.0f));
+      EXPECT_EQ(s.radiance_scale, 1.0f);
+      thin.add(!s.transmitted);
+    }
+    const double r = fresnel_dielectric(cosine, 1.5f), exact = 2.0 * r / (1.0 + r);
+    expect_mean(slab, exact, 1e-6, "slab");
+    expect_mean(thin, exact, 1e-6, "thin");
+  }
+}
+
 TEST(Dielectric, RadianceScalesOfEnteringAndLeavingCancel) {
   const Vec3 travel = -direction_about(kNormal, 0.3f, 2.0f);
   const Scatter in = sample_scatter(Dielectric{1.7f}, kNormal, travel, 0.99f, {});
@@ -187,6 +220,7 @@ TEST(Materials, KnowGreyRoughAndBoundary) {
   EXPECT_TRUE(is_rough(Lambertian{}));
   EXPECT_FALSE(is_rough(Lambertian{Rgb(0.0f)}) || is_rough(Mirror{}) || is_rough(Dielectric{}) || is_rough(Boundary{}));
   EXPECT_TRUE(is_rough(Phong{}) && is_rough(RoughConductor{}) && is_rough(RoughDielectric{}));
+  EXPECT_FALSE(is_rough(ThinDielectric{}) || scatters_through(ThinDielectric{}));
   EXPECT_FALSE(is_rough(Conductor{}) || is_rough(Phong{Rgb(0.0f), Rgb(0.0f), 1.0f}));
   EXPECT_TRUE(scatters_through(RoughDielectric{}) && !scatters_through(RoughConductor{}));
   EXPECT_FALSE(is_grey(Material(RoughConductor{Rgb(1.0f), Rgb(1.0f, 2.0f, 1.0f)})));
