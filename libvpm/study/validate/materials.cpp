@@ -64,6 +64,21 @@ std::vector<Check> check_glass(float ior, bool from_outside, double angle, const
           check_bound(name + ", off its weights", samples[1].mean(), 0.0, 1e-6)};
 }
 
+/// A pane of glass: of the light that meets it each face reflects R, and 2 R / (1 + R) comes back.
+Check check_pane(const Effort& effort) {
+  constexpr double kAngle = 1.2, kIor = 1.5;
+  const Vec3 travel = arriving(kAngle, true);
+  const double c = std::cos(kAngle), t = std::sqrt(1.0 - std::pow(std::sin(kAngle) / kIor, 2.0));
+  const double perpendicular = (c - kIor * t) / (c + kIor * t), parallel = (kIor * c - t) / (kIor * c + t);
+  const double reflected = 0.5 * (perpendicular * perpendicular + parallel * parallel);
+  const auto samples =
+      sample_moments(1, effort.count(20'000, 1'000'000), effort.seed_of("pane"), [&](Rng& rng, double* out) {
+        const float choice = rng.uniform();
+        out[0] = !sample_scatter(ThinDielectric{kIor}, kNormal, travel, choice, rng.uniform2()).transmitted;
+      });
+  return check_probability("pane of glass, 1.2 rad, reflected", samples[0], 2.0 * reflected / (1.0 + reflected));
+}
+
 Check check_mirror() {
   const Vec3 travel = arriving(0.8, true);
   const Scatter scatter = sample_scatter(Mirror{}, kNormal, travel, 0.5f, Vec2(0.5f));
@@ -122,7 +137,7 @@ std::vector<Check> check_rough_materials(const Effort& effort) {
 std::vector<Experiment> material_experiments() {
   return {{0, "directions after a surface",
            [](const Effort& effort) {
-             std::vector<Check> checks{check_mirror()};
+             std::vector<Check> checks{check_mirror(), check_pane(effort)};
              for (const bool from_outside : {true, false}) {
                append(checks, check_diffuse(from_outside, effort));
                for (const double angle : {0.2, 0.7, 1.2})
