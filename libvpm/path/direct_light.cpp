@@ -5,15 +5,17 @@
 
 namespace vpm {
 
-int pick_light(const Scene& scene, float u) {
-  int picked = -1;
+PickedLight pick_light(const Scene& scene, double u) {
+  assert(!scene.lights.empty());
+  PickedLight picked;
   for (size_t i = 0; i < scene.light_probability.size(); ++i) {
-    if (scene.light_probability[i] == 0.0f) continue;
-    picked = static_cast<int>(i);  // the last lit one also catches what rounding leaves of u
-    if (u < scene.light_probability[i]) break;
-    u -= scene.light_probability[i];
+    const double probability = scene.light_probability[i];
+    if (probability == 0.0) continue;
+    // The last lit one also catches what rounding leaves of u.
+    picked = {static_cast<int>(i), static_cast<float>(probability)};
+    if (u < probability) break;
+    u -= probability;
   }
-  assert(picked >= 0);
   return picked;
 }
 

@@ -40,7 +40,11 @@ Receiver far_side(const Scene& scene, const Hit& hit, const Vec3& travel, Medium
 /// stands between that is no boundary, be it another part of the light's own.
 Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, MediumId medium);
 
-/// The number of the light that a uniform number picks, by power (Scene::light_probability). The scene has a light.
-int pick_light(const Scene& scene, float u);
+/// The light that a uniform number picks, by power (Scene::light_probability). The scene has a light.
+struct PickedLight {
+  int number = 0;            // in Scene::lights
+  float probability = 1.0f;  // that it is picked
+};
+PickedLight pick_light(const Scene& scene, double u);
 
 }  // namespace vpm

@@ -57,10 +57,10 @@ void EmissionPoint::set(int dimension, double value) {
 EmissionPoint draw_emission_point(Rng& rng) { return {rng.uniform_double(), draw_emission_numbers(rng)}; }
 
 PathState emit_photon(const Scene& scene, const EmissionPoint& point) {
-  const int light = pick_light(scene, static_cast<float>(point.light));
-  const Emission emission = emit(scene.lights[light], scene.bounds, point.numbers);
-  return {emission.ray, medium_of_ray(scene, scene.light_medium[light], emission.ray),
-          emission.power / scene.light_probability[light]};
+  const PickedLight light = pick_light(scene, point.light);
+  const Emission emission = emit(scene.lights[light.number], scene.bounds, point.numbers);
+  return {emission.ray, medium_of_ray(scene, scene.light_medium[light.number], emission.ray),
+          emission.power / light.probability};
 }
 
 }  // namespace vpm

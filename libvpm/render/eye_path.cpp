@@ -104,12 +104,11 @@ class EyePath {
   /// Radiance scattered once at a point, over sigma_s: phase function times what the lights send there.
   Rgb single_scattering(const Medium& medium, const Vec3& point) {
     ++counters_.shadow_rays;
-    const int picked = pick_light(c_.scene, rng_.uniform());
+    const PickedLight picked = pick_light(c_.scene, rng_.uniform_double());
     const DirectSample light =
-        sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked, {point, medium_});
+        sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked.number, {point, medium_});
     if (is_black(light.irradiance)) return Rgb(0.0f);
-    return light.irradiance * phase_value(medium.phase, -light.direction, -ray_.direction) /
-           c_.scene.light_probability[picked];
+    return light.irradiance * phase_value(medium.phase, -light.direction, -ray_.direction) / picked.probability;
   }
 
   /// The estimate with the density at the photon: photons of any medium count wherever they lie within the radius of

@@ -86,11 +86,11 @@ class TracedPath {
 
   /// One light, picked by power: its irradiance over that probability, its pdf times it.
   DirectSample sample_light(const Receiver& receiver) {
-    const int picked = pick_light(c_.scene, rng_.uniform());
+    const PickedLight picked = pick_light(c_.scene, rng_.uniform_double());
     ++counters_.shadow_rays;
-    DirectSample sample = sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked, receiver);
-    sample.irradiance /= c_.scene.light_probability[picked];
-    sample.pdf *= c_.scene.light_probability[picked];
+    DirectSample sample = sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked.number, receiver);
+    sample.irradiance /= picked.probability;
+    sample.pdf *= picked.probability;
     return sample;
   }
 
@@ -102,7 +102,8 @@ class TracedPath {
   /// The part that the path has in the light it ran into: all where no shadow ray could have found it.
   float share_of_path(int light, const Vec3& from, const SeenLight& seen) const {
     if (std::isinf(scatter_pdf_)) return 1.0f;
-    const float light_pdf = c_.scene.light_probability[light] * incident_pdf(c_.scene.lights[light], from, seen);
+    const auto probability = static_cast<float>(c_.scene.light_probability[light]);
+    const float light_pdf = probability * incident_pdf(c_.scene.lights[light], from, seen);
     return scatter_pdf_ / (scatter_pdf_ + light_pdf);
   }
 

@@ -51,7 +51,7 @@ bool all_grey(const Scene& scene) {
          std::all_of(scene.textures.begin(), scene.textures.end(), [](const auto& t) { return !t || t->grey(); });
 }
 
-std::vector<float> probability_by_power(const std::vector<Light>& lights, const Box& bounds) {
+std::vector<double> probability_by_power(const std::vector<Light>& lights, const Box& bounds) {
   std::vector<double> power;
   double total = 0.0;
   for (const Light& light : lights) total += power.emplace_back(mean_channel(light_power(light, bounds)));
@@ -59,9 +59,9 @@ std::vector<float> probability_by_power(const std::vector<Light>& lights, const 
   if (!(total > 0.0) || std::isinf(total)) {
     throw InputError("lights: their power is " + std::to_string(total) + " W in all, it must be positive and finite");
   }
-  std::vector<float> probability;
+  std::vector<double> probability;
   probability.reserve(power.size());
-  for (const double p : power) probability.push_back(static_cast<float>(p / total));
+  for (const double p : power) probability.push_back(p / total);
   return probability;
 }
 

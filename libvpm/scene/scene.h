@@ -51,7 +51,7 @@ struct Scene {
   // Derived by finish().
   Box bounds;                            // a little wider than all shapes; without any, 1 m about the origin
   bool grey = false;                     // one channel carries everything
-  std::vector<float> light_probability;  // of emitting the next photon, by power; sums to 1
+  std::vector<double> light_probability;  // of emitting the next photon, by power; sums to 1
   // That a light's photons start in; kSeveralMedia where a boundary cuts the light, or runs through its point.
   std::vector<MediumId> light_medium;
 

@@ -93,6 +93,20 @@ TEST(Walk, ANestedMediumMayShareItsFloorWithTheOuterOne) {
     }
 }
 
+/// A faint light beside a bright one is picked as often as it should be, by numbers finer than floats: first or last.
+TEST(PickLight, FindsTheFaintest) {
+  Scene scene;
+  scene.lights = {PointLight{}, PointLight{}, PointLight{}};
+  scene.light_probability = {1e-9, 1.0 - 3e-9, 2e-9};
+  EXPECT_EQ(pick_light(scene, 0.0).number, 0);
+  EXPECT_EQ(pick_light(scene, 0.99e-9).number, 0);
+  EXPECT_EQ(pick_light(scene, 1.01e-9).number, 1);
+  EXPECT_EQ(pick_light(scene, 1.0 - 2.01e-9).number, 1);
+  EXPECT_EQ(pick_light(scene, 1.0 - 1.99e-9).number, 2);
+  EXPECT_EQ(pick_light(scene, 1.0 - 0x1p-53).number, 2);
+  EXPECT_EQ(pick_light(scene, 0.0).probability, 1e-9f);
+}
+
 /// Flights that stop on the way and go on from there are as long as those that do not: collisions along a ray through
 /// a box of fog, with stops at random places before, on and behind its faces.
 TEST(Walk, FlightsMayStopOnTheWay) {

@@ -127,7 +127,7 @@ TEST(Finish, ChoosesLightsByMeanPower) {
   scene.lights = {BeamLight{{}, {0, -1, 0}, 1.0f, Rgb(3, 0, 0)}, BeamLight{{}, {0, -1, 0}, 1.0f, Rgb(0)},
                   BeamLight{{}, {0, -1, 0}, 1.0f, Rgb(1, 2, 6)}};
   finish(scene);
-  EXPECT_EQ(scene.light_probability, (std::vector<float>{0.25f, 0.0f, 0.75f}));
+  EXPECT_EQ(scene.light_probability, (std::vector<double>{0.25, 0.0, 0.75}));
   EXPECT_FALSE(scene.grey);
   Scene dark;
   dark.geometry.commit();
