@@ -160,6 +160,8 @@ void finish(Scene& scene) {
   scene.bounds = wider_box(scene.geometry.bounds());
   scene.grey = all_grey(scene);
   scene.light_probability = probability_by_power(scene.lights, scene.bounds);
+  for (Material& material : scene.materials)
+    set_facet_loss(material, scene.facet_losses.emplace_back(facet_loss_of(material)).get());
   for (const Light& light : scene.lights) scene.light_medium.push_back(medium_of(scene, light));
 }
 

@@ -9,6 +9,7 @@
 #include "light/light.h"
 #include "medium/medium.h"
 #include "scene/camera.h"
+#include "surface/facet_loss.h"
 #include "surface/geometry.h"
 #include "surface/material.h"
 #include "surface/texture.h"
@@ -49,9 +50,10 @@ struct Scene {
   MediumId camera_medium = kVacuum;  // kSeveralMedia where the camera stands on a boundary
 
   // Derived by finish().
-  Box bounds;                            // a little wider than all shapes; without any, 1 m about the origin
-  bool grey = false;                     // one channel carries everything
+  Box bounds;                             // a little wider than all shapes; without any, 1 m about the origin
+  bool grey = false;                      // one channel carries everything
   std::vector<double> light_probability;  // of emitting the next photon, by power; sums to 1
+  std::vector<std::shared_ptr<const FacetLoss>> facet_losses;  // of materials of microfacets, which point to them
   // That a light's photons start in; kSeveralMedia where a boundary cuts the light, or runs through its point.
   std::vector<MediumId> light_medium;
 

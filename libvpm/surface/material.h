@@ -8,6 +8,8 @@
 
 namespace vpm {
 
+class FacetLoss;
+
 /// Ideal diffuse reflection on both sides, radiance factor reflectance/pi.
 struct Lambertian {
   Rgb reflectance{0.5f};  // in [0, 1]
@@ -27,11 +29,12 @@ struct Mirror {
 struct Conductor {
   Rgb eta{1.0f}, k{1.0f};  // > 0
 };
-/// Metal of conducting microfacets, distributed by Trowbridge and Reitz (GGX). Light is reflected once: what would meet
-/// a second facet is lost.
+/// Metal of conducting microfacets, distributed by Trowbridge and Reitz (GGX). The main lobe reflects light once; what
+/// would meet a second facet is lost, or comes back evenly where `loss` tells of it.
 struct RoughConductor {
   Rgb eta{1.0f}, k{1.0f};  // as in Conductor
   float roughness = 0.1f;  // alpha of the distribution, in [kLeastRoughness, 1]
+  const FacetLoss* loss = nullptr;
 };
 /// Smooth dielectric: reflects and refracts by Fresnel's equations.
 struct Dielectric {
@@ -42,10 +45,11 @@ struct Dielectric {
 struct ThinDielectric {
   float ior = 1.5f;  // index of the pane over that around it, > 0
 };
-/// Dielectric of microfacets, as RoughConductor's, that reflect and refract once [Walter2007].
+/// Dielectric of microfacets, as RoughConductor's, that reflect and refract [Walter2007].
 struct RoughDielectric {
   float ior = 1.5f;        // as in Dielectric, at least kLeastIorStep away from 1
   float roughness = 0.1f;  // as in RoughConductor
+  const FacetLoss* loss = nullptr;
 };
 /// A border between media that light passes unchanged. Crossing it is no scattering event.
 struct Boundary {};

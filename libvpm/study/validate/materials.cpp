@@ -9,7 +9,7 @@
 #include "study/validate/directions.h"
 #include "study/validate/groups.h"
 #include "study/validate/lobes.h"
-#include "surface/material.h"
+#include "surface/facet_loss.h"
 
 namespace vpm {
 
@@ -98,6 +98,41 @@ std::vector<Check> check_rough_albedos() {
           check_bound("Phong, seen along its normal", albedo(Phong{Rgb(0.3f), Rgb(0.6f), 5.0f}), 0.9, 1e-3)};
 }
 
+/// A furnace about a surface: of even light from one side all leaves, whatever the material does to it, but for what it
+/// absorbs, which here is nothing. Perfect metal reflects all; materials of microfacets give back what their main lobes
+/// lose.
+std::vector<Check> check_furnaces(const Effort& effort) {
+  std::vector<std::pair<std::string, Material>> materials{{"diffuse", Lambertian{Rgb(1.0f)}},
+                                                          {"mirror", Mirror{}},
+                                                          {"glass", Dielectric{1.5f}},
+                                                          {"pane of glass", ThinDielectric{1.5f}}};
+  for (const float roughness : {0.05f, 0.3f, 0.6f, 1.0f}) {
+    const auto of_roughness = [&](const char* what) { return fmt::format("{}, roughness {:.2g}", what, roughness); };
+    materials.emplace_back(of_roughness("perfect metal"), RoughConductor{Rgb(1.0f), Rgb(1e6f), roughness});
+    materials.emplace_back(of_roughness("rough glass"), RoughDielectric{1.5f, roughness});
+  }
+  std::vector<Check> checks;
+  for (auto& [what, material] : materials) {
+    const std::shared_ptr<const FacetLoss> loss = facet_loss_of(material);
+    set_facet_loss(material, loss.get());
+    for (const bool from_outside : {true, false}) {
+      const std::string name = fmt::format("furnace {} of {}", from_outside ? "outside" : "inside", what);
+      const auto samples =
+          sample_moments(1, effort.count(20'000, 2'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+            const Vec3 travel = -cosine_hemisphere(from_outside ? kNormal : -kNormal, rng.uniform2());
+            const float choice = rng.uniform();
+            out[0] = sample_scatter(material, kNormal, travel, choice, rng.uniform2()).weight.g;
+          });
+      // The losses are integrals by a rule, and lie on straight lines between cosines.
+      if (samples[0].variance() == 0.0)
+        checks.push_back(check_bound(name, samples[0].mean(), 1.0, 1e-6));
+      else
+        checks.push_back(check_mean(name, samples[0], 1.0, LobeCells::kError));
+    }
+  }
+  return checks;
+}
+
 /// A smooth metal's reflectance in complex numbers.
 Check check_metal() {
   const double cosine = std::cos(1.1);
@@ -121,7 +156,10 @@ std::vector<Check> check_rough_materials(const Effort& effort) {
   };
   std::vector<Check> checks = check_rough_albedos();
   checks.push_back(check_metal());
-  for (const auto& [what, material] : materials)
+  for (const auto& [what, main_lobes] : materials) {
+    Material material = main_lobes;
+    const std::shared_ptr<const FacetLoss> loss = facet_loss_of(material);
+    set_facet_loss(material, loss.get());
     for (const bool from_outside : {true, false})
       for (const double angle : {0.3, 1.2}) {
         const std::string name =
@@ -129,6 +167,7 @@ std::vector<Check> check_rough_materials(const Effort& effort) {
         const RoughIncidence in{material, kNormal, arriving(angle, from_outside)};
         append(checks, check_lobes(name, in, effort.count(50'000, 1'000'000), effort));
       }
+  }
   return checks;
 }
 
@@ -145,7 +184,8 @@ std::vector<Experiment> material_experiments() {
              }
              return checks;
            }},
-          {0, "lobes of rough surfaces", check_rough_materials}};
+          {0, "lobes of rough surfaces", check_rough_materials},
+          {0, "furnaces about surfaces", check_furnaces}};
 }
 
 }  // namespace vpm
