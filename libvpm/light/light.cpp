@@ -31,6 +31,13 @@ float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen)
                     light);
 }
 
+size_t light_memory_bytes(const Light& light) {
+  return std::visit(
+      Overloads{[](const MeshLight& l) { return l.mesh->memory_bytes(); },
+                [](const EnvironmentMap& l) { return l.image->memory_bytes(); }, [](const auto&) { return size_t{0}; }},
+      light);
+}
+
 std::string_view light_kind(const Light& light) {
   return std::visit(
       Overloads{[](const PointLight&) { return "point"; }, [](const SpotLight&) { return "spot"; },

@@ -67,6 +67,10 @@ class EmittingMesh {
   Sample sample(double choice, const Vec2& u) const;
   /// The box around all vertices of triangles.
   Box bounds() const;
+  size_t memory_bytes() const {
+    return mesh_.positions.size() * sizeof(Vec3) + mesh_.triangles.size() * sizeof(glm::uvec3) +
+           mesh_.normals.size() * sizeof(Vec3) + mesh_.uvs.size() * sizeof(Vec2) + cumulative_.size() * sizeof(double);
+  }
 
  private:
   TriangleMesh mesh_;
@@ -112,6 +116,7 @@ class ImageEnvironment {
   const std::array<Rgbd, 3>& flux_across() const { return flux_across_; }
   /// Are all texels grey?
   bool grey() const { return grey_; }
+  size_t memory_bytes() const { return texels_.size() * sizeof(Rgb) + cumulative_.size() * sizeof(double); }
 
  private:
   size_t texel_at(const Vec3& d) const;
@@ -146,6 +151,8 @@ concept DistantLight = OneOf<L, DirectionalLight, ConstantEnvironment, Environme
 /// Power emitted into the scene, W. Lights at infinity: what enters the box `scene`, which holds all that they have to
 /// reach and has a volume.
 Rgb light_power(const Light& light, const Box& scene);
+/// What its mesh or picture takes.
+size_t light_memory_bytes(const Light& light);
 /// What kind of light it is, in a word or two.
 std::string_view light_kind(const Light& light);
 /// Does the light's emission lack any colour?

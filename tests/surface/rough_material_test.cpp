@@ -7,6 +7,7 @@
 #include "base/warp.h"
 #include "study/validate/groups.h"
 #include "study/validate/lobes.h"
+#include "surface/facet_loss.h"
 #include "surface/fresnel.h"
 #include "surface/metals.h"
 #include "surface/microfacet.h"
@@ -99,6 +100,54 @@ TEST(RoughConductor, LosesWhatWouldMeetASecondFacet) {
   }
 }
 
+/// A material of microfacets that gives back what its main lobes lose.
+class Lossless {
+ public:
+  explicit Lossless(const Material& main_lobes) : material_(main_lobes), loss_(facet_loss_of(main_lobes)) {
+    set_facet_loss(material_, loss_.get());
+  }
+  const Material& material() const { return material_; }
+
+ private:
+  Material material_;
+  std::shared_ptr<const FacetLoss> loss_;
+};
+
+// Metal that absorbs nothing reflects all, whatever its roughness, from wherever the light comes.
+TEST(FacetLoss, ReturnsFromPerfectMetal) {
+  for (const float roughness : {0.05f, 0.3f, 0.6f, 1.0f}) {
+    const Lossless metal(RoughConductor{Rgb(1.0f), Rgb(1e6f), roughness});
+    for (const double angle : {0.0, 0.5, 1.0, 1.4})
+      EXPECT_NEAR(albedo(metal.material(), angle), 1.0, 1e-3) << roughness << " at " << angle;
+  }
+}
+
+// Glass sends on all, to one side or the other.
+TEST(FacetLoss, ReturnsFromGlass) {
+  for (const float ior : {1.5f, 0.7f, 2.5f})
+    for (const float roughness : {0.05f, 0.3f, 1.0f}) {
+      const Lossless glass(RoughDielectric{ior, roughness});
+      for (const bool from_outside : {true, false})
+        for (const double angle : {0.0, 0.7, 1.4}) {
+          const LobeCells::Integrals all =
+              LobeCells({glass.material(), kNormal, arriving(angle, from_outside)}).integrate();
+          EXPECT_NEAR(all.near + all.far, 1.0, 1e-3) << ior << ", " << roughness << " at " << angle;
+        }
+    }
+}
+
+// Metal reflects no more than a mirror of it, and the more often light meets it the redder gold gets.
+TEST(FacetLoss, IsTintedByFurtherReflections) {
+  const RoughConductor gold{Rgb(0.16f, 0.42f, 1.38f), Rgb(3.6f, 2.5f, 1.9f), 1.0f};
+  const Lossless lossless(gold);
+  const Vec3 travel = arriving(0.5), back = -arriving(0.9);
+  const Rgb once = scatter_value(gold, kNormal, travel, back).value;
+  const Rgb more = scatter_value(lossless.material(), kNormal, travel, back).value - once;
+  EXPECT_GT(more.b, 0.0f);
+  EXPECT_GT(more.r / more.b, 1.2f * once.r / once.b);
+  EXPECT_LT(albedo(lossless.material(), 0.5), reflectance(1.0, gold.eta.g, gold.k.g));
+}
+
 TEST(RoughConductor, IsSmoothInTheLimit) {
   const Rgb eta(0.16f, 0.42f, 1.38f), k(3.6f, 2.5f, 1.9f);
   for (const double angle : {0.0, 0.8, 1.3})
@@ -139,13 +188,17 @@ TEST(RoughMaterials, DrawWhatTheirValuesSay) {
                                 RoughDielectric{1.01f, 0.1f},
                                 RoughDielectric{0.6f, 0.5f}};
   std::vector<Check> checks;
-  for (const Material& material : materials)
+  const auto check = [&](const std::string& name, const Material& material) {
     for (const bool from_outside : {true, false})
       for (const double angle : {0.0, 0.8, 1.45})
-        append(checks,
-               check_lobes(std::to_string(material.index()) + " number " + std::to_string(&material - materials) +
-                               (from_outside ? " outside " : " inside ") + std::to_string(angle),
-                           {material, kNormal, arriving(angle, from_outside)}, 20000, {}));
+        append(checks, check_lobes(name + (from_outside ? " outside " : " inside ") + std::to_string(angle),
+                                   {material, kNormal, arriving(angle, from_outside)}, 20000, {}));
+  };
+  for (const Material& material : materials) {
+    const std::string name = "number " + std::to_string(&material - materials);
+    check(name, material);
+    if (facet_loss_of(material)) check(name + ", lossless", Lossless(material).material());
+  }
   judge(checks, 1e-6);
   for (const Check& check : checks)
     EXPECT_EQ(check.verdict, Verdict::pass) << check.name << ": " << check.value << " for " << check.exact << " +- "

@@ -195,6 +195,14 @@ TEST_F(VpmRender, TheReportCountsTheMemoryOfTextures) {
   EXPECT_EQ(report("a.json")["memory"]["textures"], texels * 3 * sizeof(float));
 }
 
+TEST_F(VpmRender, TheReportCountsTheMemoryOfSkies) {
+  vpm_succeeds({"render", "scene.toml", "-o", "sky.exr"});
+  write("under_sky.toml", std::string(kScene) + "[[lights]]\ntype = 'environment'\npath = 'sky.exr'\n");
+  vpm_succeeds({"render", "under_sky.toml", "-o", "a.exr"});
+  constexpr uint64_t kTexels = 40 * 24;
+  EXPECT_EQ(report("a.json")["memory"]["lights"], kTexels * (3 * sizeof(float) + sizeof(double)) + sizeof(double));
+}
+
 // --- Interruption
 
 /// Starts a render, sends it the signal when `sign` is in its error output, and waits for its end.

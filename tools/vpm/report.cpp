@@ -125,6 +125,8 @@ Json memory(const Scene& scene, const RenderStatistics& s) {
   for (const Medium& m : scene.media) grids += m.grid ? m.grid->memory_bytes() : 0;
   size_t textures = 0;
   for (const auto& texture : scene.textures) textures += texture ? texture->memory_bytes() : 0;
+  size_t lights = 0;
+  for (const Light& light : scene.lights) lights += light_memory_bytes(light);
   const double stored = static_cast<double>(stored_photons(s)) / std::max(1, s.passes);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -132,6 +134,7 @@ Json memory(const Scene& scene, const RenderStatistics& s) {
           {"grids", grids},
           {"geometry", scene.geometry.memory_bytes()},
           {"textures", textures},
+          {"lights", lights},
           {"largest_photon_maps", s.photon_map_bytes},
           {"importance", s.guide_bytes},
           {"per_stored_photon_of_mean_pass", stored > 0.0 ? static_cast<double>(s.photon_map_bytes) / stored : 0.0},

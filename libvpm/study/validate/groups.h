@@ -40,6 +40,9 @@ std::vector<Experiment> slab_experiments();
 std::vector<Experiment> slab_radiance_experiments();
 std::vector<Experiment> source_experiments();
 
+// Level 3.
+std::vector<Experiment> light_map_experiments();
+
 // Level 4.
 std::vector<Experiment> pass_experiments();
 

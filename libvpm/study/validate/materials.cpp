@@ -98,6 +98,24 @@ std::vector<Check> check_rough_albedos() {
           check_bound("Phong, seen along its normal", albedo(Phong{Rgb(0.3f), Rgb(0.6f), 5.0f}), 0.9, 1e-3)};
 }
 
+/// Phong's lobes lose what they would send under the horizon: even light against the mean of the albedo over cos^2.
+Check check_furnace_of_phong(const Effort& effort) {
+  const Phong phong{Rgb(0.3f), Rgb(0.7f), 10.0f};
+  constexpr int kAngles = 32;
+  double exact = 0.0;
+  for (int i = 0; i < kAngles; ++i) {
+    const double angle = std::acos(std::sqrt((i + 0.5) / kAngles));
+    exact += LobeCells({phong, kNormal, arriving(angle, true)}).integrate().near / kAngles;
+  }
+  const auto samples =
+      sample_moments(1, effort.count(20'000, 2'000'000), effort.seed_of("phong"), [&](Rng& rng, double* out) {
+        const Vec3 travel = -cosine_hemisphere(kNormal, rng.uniform2());
+        const float choice = rng.uniform();
+        out[0] = sample_scatter(phong, kNormal, travel, choice, rng.uniform2()).weight.g;
+      });
+  return check_mean("furnace outside of Phong", samples[0], exact, 2.0 * LobeCells::kError);
+}
+
 /// A furnace about a surface: of even light from one side all leaves, whatever the material does to it, but for what it
 /// absorbs, which here is nothing. Perfect metal reflects all; materials of microfacets give back what their main lobes
 /// lose.
@@ -130,6 +148,7 @@ std::vector<Check> check_furnaces(const Effort& effort) {
         checks.push_back(check_mean(name, samples[0], 1.0, LobeCells::kError));
     }
   }
+  checks.push_back(check_furnace_of_phong(effort));
   return checks;
 }
 

@@ -33,6 +33,14 @@ void add_floor(Scene& scene, const Rgb& reflectance) {
   add_shape(scene, quad_mesh(Vec3d(-2, 0, 2), Vec3d(4, 0, 0), Vec3d(0, 0, -4)), Lambertian{reflectance});
 }
 
+/// A flat quad whose normals lean away from its middle.
+TriangleMesh bulging_quad(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
+  TriangleMesh mesh = quad_mesh(corner, u, v);
+  const Vec3 normal(glm::normalize(glm::cross(u, v))), middle(corner + 0.5 * (u + v));
+  for (const Vec3& p : mesh.positions) mesh.normals.push_back(normal + 0.4f * (p - middle));
+  return mesh;
+}
+
 void add_medium_box(Scene& scene, const Medium& medium) {
   scene.media.push_back(medium);
   const Interface media{0, kVacuum};
@@ -104,6 +112,16 @@ Scene lit_corner(float ior) {
   add_shape(scene, quad_mesh(Vec3d(-1.0, 0, -1), Vec3d(0, 0, 2), Vec3d(0, 1.5, 0)), Lambertian{Rgb(0.8f, 0.3f, 0.3f)});
   if (ior > 0.0f) add_shape(scene, SphereShape{Vec3(0.1f, 0.7f, 0.0f), 0.4f}, Dielectric{ior});
   look(scene, Vec3(0.9f, 0.5f, 0.9f), Vec3(0.1f, 0.0f, 0.0f), 32.0f);
+  return finished(std::move(scene));
+}
+
+Scene bulging_wall() {
+  Scene scene;
+  const Vec3 lamp(1.0f, 1.6f, 0.3f), target(-1.0f, 1.2f, 0.0f);
+  scene.lights.push_back(SpotLight{lamp, glm::normalize(target - lamp), 0.97f, 0.94f, Rgb(9.0f)});
+  add_shape(scene, bulging_quad(Vec3d(-2, 0, 2), Vec3d(4, 0, 0), Vec3d(0, 0, -4)), Lambertian{Rgb(0.6f)});
+  add_shape(scene, bulging_quad(Vec3d(-1, 0, 1.2), Vec3d(0, 0, -2.4), Vec3d(0, 2.4, 0)), Lambertian{Rgb(0.9f)});
+  look(scene, Vec3(0.9f, 0.7f, 0.9f), Vec3(-0.3f, 0.0f, 0.4f), 32.0f);
   return finished(std::move(scene));
 }
 
