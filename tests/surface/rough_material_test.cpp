@@ -124,11 +124,11 @@ TEST(FacetLoss, ReturnsFromPerfectMetal) {
 
 // Glass sends on all, to one side or the other.
 TEST(FacetLoss, ReturnsFromGlass) {
-  for (const float ior : {1.5f, 0.7f, 2.5f})
-    for (const float roughness : {0.05f, 0.3f, 1.0f}) {
+  for (const float ior : {1.5f, 0.7f})
+    for (const float roughness : {0.05f, 1.0f}) {
       const Lossless glass(RoughDielectric{ior, roughness});
       for (const bool from_outside : {true, false})
-        for (const double angle : {0.0, 0.7, 1.4}) {
+        for (const double angle : {0.0, 1.4}) {
           const LobeCells::Integrals all =
               LobeCells({glass.material(), kNormal, arriving(angle, from_outside)}).integrate();
           EXPECT_NEAR(all.near + all.far, 1.0, 1e-3) << ior << ", " << roughness << " at " << angle;

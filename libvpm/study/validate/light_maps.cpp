@@ -54,9 +54,9 @@ Irradiance by_light_map(const Scene& scene, const RenderSettings& settings, uint
 
 std::vector<Check> compare_light_maps(const Effort& effort) {
   const Scene scene = lit_corner();
-  const Irradiance reference = by_paths(scene, effort.count(40'000, 1'500'000), effort.seed_of("floor by paths"));
+  const Irradiance reference = by_paths(scene, effort.count(40'000, 1'000'000), effort.seed_of("floor by paths"));
   RenderSettings settings;
-  settings.photons_emitted = effort.count(6'000, 30'000);
+  settings.photons_emitted = effort.count(6'000, 20'000);
   settings.samples_per_pixel = 200;
   settings.shrink_radii = false;
   settings.surface.radius = settings.caustics.radius = kRadius;
