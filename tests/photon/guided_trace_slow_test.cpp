@@ -63,10 +63,10 @@ std::vector<Moments> tally(const Scene& scene, GuideSettings guided, uint64_t em
 
 TEST(GuidedPhotons, HaveTheMeansOfUnguidedOnes) {
   const Scene scene = foggy_box();
-  const std::vector<Moments> plain = tally(scene, {}, 3000, 25);
+  const std::vector<Moments> plain = tally(scene, {}, 8000, 25);
   for (const bool aim : {false, true})
     for (const bool split : {false, true}) {
-      const std::vector<Moments> guided = tally(scene, {.importons = 1000, .aim = aim, .split = split}, 750, 25);
+      const std::vector<Moments> guided = tally(scene, {.importons = 1000, .aim = aim, .split = split}, 4000, 25);
       for (size_t i = 0; i < plain.size(); ++i) {
         const Check check = check_same("", plain[i], guided[i]);
         EXPECT_GE(check.p, kFalseAlarms) << "aim " << aim << ", split " << split << ", value " << i << ": "
