@@ -11,7 +11,7 @@ namespace vpm {
 namespace {
 
 constexpr uint64_t kRounds = 4;
-constexpr double kSignificant = 3.0;   // standard deviations from a half: the share of a half that is more than chance
+constexpr double kSignificant = 3.0;   // standard deviations: the oddness of a quarter's share that is more than chance
 constexpr double kLeastGain = 0.02;    // of the standard deviation, by which a halving must pay
 constexpr int kDeepest = 40;           // halvings
 constexpr double kUniformShare = 0.1;  // of the density
@@ -27,6 +27,11 @@ struct Cell {
   Cell() { size.fill(1.0); }
 
   double middle(int d) const { return lo[static_cast<size_t>(d)] + 0.5 * size[static_cast<size_t>(d)]; }
+  /// Which quarter along an axis a point of the box lies in.
+  size_t quarter(int d, double x) const {
+    const auto i = static_cast<size_t>(d);
+    return std::min<size_t>(3, static_cast<size_t>((x - lo[i]) / size[i] * 4.0));
+  }
   Cell half(int d, bool upper) const {
     Cell result = *this;
     const auto i = static_cast<size_t>(d);
@@ -102,28 +107,30 @@ class EmissionGuide::Grower {
     settle(n.child + 1, 0.5 * volume, total);
   }
 
-  /// The dimension whose halving gains most; -1 where none gains enough.
+  /// The dimension whose quarters gain most; -1 where none gain enough. Halves may be alike where quarters are not.
   static int best_halving(std::span<const Scored> inside, const Cell& cell) {
     double whole = 0.0, squares = 0.0;
-    std::array<double, EmissionPoint::kDimensions> lower{};
+    std::array<std::array<double, 4>, EmissionPoint::kDimensions> quarters{};
     for (const Scored& s : inside) {
       if (s.square == 0.0) continue;
       whole += s.square;
       squares += s.square * s.square;
       for (int d = 0; d < EmissionPoint::kDimensions; ++d)
-        if (s.point[d] < cell.middle(d)) lower[static_cast<size_t>(d)] += s.square;
+        quarters[static_cast<size_t>(d)][cell.quarter(d, s.point[d])] += s.square;
     }
     if (whole == 0.0) return -1;
-    const double chance =
-        0.5 * std::sqrt(squares) / whole;  // the standard deviation of a half's share, were both alike
+    // The standard deviation of a quarter's share, were all alike.
+    const double chance = std::sqrt(0.25 * 0.75 * squares) / whole;
     int best = -1;
     double most = kLeastGain;
     for (int d = 0; d < EmissionPoint::kDimensions; ++d) {
-      const double share = std::min(1.0, lower[static_cast<size_t>(d)] / whole);
-      if (std::abs(share - 0.5) < kSignificant * chance) continue;
-      const double gain = 1.0 - std::sqrt(0.5) * (std::sqrt(share) + std::sqrt(1.0 - share));
-      if (gain > most) {
-        most = gain;
+      double roots = 0.0, oddest = 0.0;
+      for (const double quarter : quarters[static_cast<size_t>(d)]) {
+        roots += std::sqrt(quarter / whole);
+        oddest = std::max(oddest, std::abs(quarter / whole - 0.25));
+      }
+      if (oddest >= kSignificant * chance && 1.0 - 0.5 * roots > most) {
+        most = 1.0 - 0.5 * roots;
         best = d;
       }
     }
