@@ -2,6 +2,7 @@
 // light; and a ball of index 1 must leave no shadow once caustics are there.
 #include <gtest/gtest.h>
 
+#include "image/metrics.h"
 #include "render/photon_pass.h"
 #include "scene/build.h"
 #include "study/validate/check.h"
@@ -37,15 +38,17 @@ RenderSettings settings_of(DirectLight direct, IndirectLight indirect) {
   return settings;
 }
 
-/// Every pixel's channels over passes.
+/// Every pixel's channels over passes, and after them those of the mean.
 std::vector<Moments> pixels(const Scene& scene, RenderSettings settings, uint64_t seed) {
   static const std::atomic<bool> kGoOn{false};
   settings.seed = seed;
-  std::vector<Moments> result(3 * kFilm * kFilm);
+  std::vector<Moments> result(3 * kFilm * kFilm + 3);
   for (int pass = 0; pass < 24; ++pass) {
     const Image image = render_photon_pass(scene, settings, pass, kGoOn).image;
     for (size_t i = 0; i < image.pixels.size(); ++i)
       for (int c = 0; c < 3; ++c) result[3 * i + static_cast<size_t>(c)].add(image.pixels[i][c]);
+    const Rgbd mean = channel_means(image);
+    for (int c = 0; c < 3; ++c) result[3 * image.pixels.size() + static_cast<size_t>(c)].add(mean[c]);
   }
   return result;
 }
@@ -58,8 +61,8 @@ void expect_same(const std::vector<Moments>& a, const std::vector<Moments>& b) {
   }
 }
 
-/// The lamp's light is so smooth on the floor that the blur of 6 cm changes it by less than 0.1 %, a tenth of the
-/// noise.
+/// The lamp's light is so smooth on the floor that the blur of 6 cm changes it by less than 0.1 %: a tenth of the noise
+/// of pixels.
 TEST(LectureChecks, PhotonsOfDirectLightLookLikeDirectLight) {
   const Scene scene = floor_under_lamp(0.0f);
   expect_same(pixels(scene, settings_of(DirectLight::photons, IndirectLight::photons), 1),
