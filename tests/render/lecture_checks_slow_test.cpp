@@ -10,7 +10,7 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-7;  // of each pixel and channel
+constexpr double kFalseAlarms = 1e-4;  // of each check: half of them by the mean, half by any pixel
 constexpr int kFilm = 8;               // pixels along an edge
 
 /// A floor under a square lamp, and, of an index of refraction > 0, a ball between them.
@@ -29,7 +29,7 @@ Scene floor_under_lamp(float ior) {
 
 RenderSettings settings_of(DirectLight direct, IndirectLight indirect) {
   RenderSettings settings;
-  settings.photons_emitted = 400'000;
+  settings.photons_emitted = 200'000;
   settings.shrink_radii = false;
   settings.surface.radius = settings.caustics.radius = 0.06f;
   settings.surface_direct = direct;
@@ -56,8 +56,10 @@ std::vector<Moments> pixels(const Scene& scene, RenderSettings settings, uint64_
 void expect_same(const std::vector<Moments>& a, const std::vector<Moments>& b) {
   for (size_t i = 0; i < a.size(); ++i) {
     const Check check = check_same("", a[i], b[i]);
-    EXPECT_GE(check.p, kFalseAlarms) << "pixel " << i / 3 << ", channel " << i % 3 << ": " << a[i].mean() << " against "
-                                     << b[i].mean() << " +- " << check.error;
+    const bool of_mean = i >= a.size() - 3;
+    EXPECT_GE(check.p, 0.5 * kFalseAlarms / (of_mean ? 3.0 : static_cast<double>(a.size() - 3)))
+        << "pixel " << i / 3 << ", channel " << i % 3 << ": " << a[i].mean() << " against " << b[i].mean() << " +- "
+        << check.error;
   }
 }
 
