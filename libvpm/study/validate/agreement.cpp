@@ -213,7 +213,7 @@ std::vector<Experiment> agreement_experiments() {
       {"a floor beside a wall", [] { return lit_corner(); }, BiasOrder::smooth, 0.08f},
       {"a floor under a ball of glass", [] { return lit_corner(1.5f); }, BiasOrder::smooth, 0.03f},
       {"a floor under a ball of IOR 1", [] { return lit_corner(1.0f); }, BiasOrder::smooth, 0.08f},
-      {"a floor beside a bulging wall", bulging_wall, BiasOrder::smooth, 0.1f},
+      {"a floor shaded as if leaning towards a wall", leaning_wall, BiasOrder::smooth, 0.1f},
       {"rough glass beside rough metal", rough_corner, BiasOrder::smooth, 0.2f},
       {"a floor in fog", foggy_floor, BiasOrder::edges, 0.06f},
       {"a hollow cube", hollow_cube, BiasOrder::edges, 0.1f}};

@@ -33,11 +33,10 @@ void add_floor(Scene& scene, const Rgb& reflectance) {
   add_shape(scene, quad_mesh(Vec3d(-2, 0, 2), Vec3d(4, 0, 0), Vec3d(0, 0, -4)), Lambertian{reflectance});
 }
 
-/// A flat quad whose normals lean away from its middle.
-TriangleMesh bulging_quad(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
+/// A quad that is shaded as if it leaned that way.
+TriangleMesh leaning_quad(const Vec3d& corner, const Vec3d& u, const Vec3d& v, const Vec3& lean) {
   TriangleMesh mesh = quad_mesh(corner, u, v);
-  const Vec3 normal(glm::normalize(glm::cross(u, v))), middle(corner + 0.5 * (u + v));
-  for (const Vec3& p : mesh.positions) mesh.normals.push_back(normal + 0.4f * (p - middle));
+  mesh.normals.assign(mesh.positions.size(), Vec3(glm::normalize(glm::cross(u, v))) + lean);
   return mesh;
 }
 
@@ -115,12 +114,14 @@ Scene lit_corner(float ior) {
   return finished(std::move(scene));
 }
 
-Scene bulging_wall() {
+Scene leaning_wall() {
   Scene scene;
   const Vec3 lamp(1.0f, 1.6f, 0.3f), target(-1.0f, 1.2f, 0.0f);
   scene.lights.push_back(SpotLight{lamp, glm::normalize(target - lamp), 0.97f, 0.94f, Rgb(9.0f)});
-  add_shape(scene, bulging_quad(Vec3d(-2, 0, 2), Vec3d(4, 0, 0), Vec3d(0, 0, -4)), Lambertian{Rgb(0.6f)});
-  add_shape(scene, bulging_quad(Vec3d(-1, 0, 1.2), Vec3d(0, 0, -2.4), Vec3d(0, 2.4, 0)), Lambertian{Rgb(0.9f)});
+  add_shape(scene, leaning_quad(Vec3d(-2, 0, 2), Vec3d(4, 0, 0), Vec3d(0, 0, -4), Vec3(-0.7f, 0.0f, 0.0f)),
+            Lambertian{Rgb(0.6f)});
+  add_shape(scene, leaning_quad(Vec3d(-1, 0, 1.2), Vec3d(0, 0, -2.4), Vec3d(0, 2.4, 0), Vec3(0.0f, -1.0f, 0.0f)),
+            Lambertian{Rgb(0.9f)});
   look(scene, Vec3(0.9f, 0.7f, 0.9f), Vec3(-0.3f, 0.0f, 0.4f), 32.0f);
   return finished(std::move(scene));
 }

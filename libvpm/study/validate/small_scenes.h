@@ -25,8 +25,8 @@ Scene filled_box(bool grid);
 Scene lit_corner(float ior = 0.0f);
 
 /// A floor that gets its light from a wall alone, at which a spot light points, in vacuum; seen is the floor. Both are
-/// flat but shaded as if they bulged.
-Scene bulging_wall();
+/// shaded as if they leaned towards each other.
+Scene leaning_wall();
 
 /// A sheet of rough glass beside a wall of rough metal and under a lamp, in vacuum; seen is the sheet, through which
 /// comes the light of a second lamp from below.
