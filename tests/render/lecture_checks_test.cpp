@@ -29,7 +29,7 @@ Scene floor_under_lamp(float ior) {
 RenderSettings settings_of(DirectLight direct, IndirectLight indirect) {
   RenderSettings settings;
   settings.photons_emitted = 100'000;
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   settings.surface.radius = settings.caustics.radius = 0.06f;
   settings.surface_direct = direct;
   settings.surface_indirect = indirect;
