@@ -18,4 +18,10 @@ struct GatherSettings {
   KernelKind kernel = KernelKind::epanechnikov;
 };
 
+/// A gather in radius mode of a radius of its own, from a map that was made for about that.
+struct CountedGather {
+  GatherSettings settings;
+  uint64_t* found;  // grows by the photons that count, with whatever weight
+};
+
 }  // namespace vpm

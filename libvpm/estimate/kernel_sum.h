@@ -11,8 +11,9 @@
 
 namespace vpm {
 
-/// How photons are gathered, of a map as of a plain list with the number emitted.
+/// How photons are gathered: of a map as it says or by a gather of its own, of a plain list with the number emitted.
 inline const GatherSettings& settings_of(const PhotonMap& map) { return map.settings; }
+inline const GatherSettings& settings_of(const PhotonMap&, const CountedGather& own) { return own.settings; }
 inline const GatherSettings& settings_of(const std::vector<Photon>&, const GatherSettings& settings, uint64_t) {
   return settings;
 }
@@ -42,15 +43,15 @@ auto with_kernel(KernelKind kind, F&& f) {
   return f([](float q) { return kernel_profile<KernelKind::triweight>(q); });
 }
 
-/// Sum over the photons within the map's radius that `accept`(travel, offset) takes.
+/// Sum over the photons within the radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
                Value&& value) {
-  const float r = map.radius();
+  const float r = settings.radius;
   const float inverse = 1.0f / (r * r);
   return with_kernel(settings.kernel, [&](auto profile) {
     Rgb sum(0.0f);
-    map.for_each_near(point, [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
+    map.for_each_near(point, r, [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
       const Vec3 travel = p.travel.unpack();
       if (accept(travel, offset)) sum += value(travel, p.power) * profile(d2 * inverse);
     });
@@ -93,6 +94,15 @@ template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const PhotonMap& map, const Vec3& point, Accept&& accept, Value&& value) {
   return std::visit([&](const auto& index) { return kernel_sum<Dimension>(index, map.settings, point, accept, value); },
                     map.index);
+}
+
+template <int Dimension, class Accept, class Value>
+Rgb kernel_sum(const PhotonMap& map, const CountedGather& own, const Vec3& point, Accept&& accept, Value&& value) {
+  const auto counted = [&](const Vec3& travel, const Rgb& power) {
+    ++*own.found;
+    return value(travel, power);
+  };
+  return kernel_sum<Dimension>(std::get<RadiusMap>(map.index), own.settings, point, accept, counted);
 }
 
 /// The radius, m, of the ball that kernel_sum() sums over.

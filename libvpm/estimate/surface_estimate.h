@@ -32,7 +32,8 @@ struct Arrives {
 };
 
 /// The sum of value(travel, power) K_r over the discs of photons that arrive at the side of a surface that `normal`
-/// (unit) points to. `Photons` are a PhotonMap, or a plain list for the brute-force twin.
+/// (unit) points to. `Photons` are a PhotonMap, alone or with a CountedGather, or a plain list for the brute-force
+/// twin.
 template <class Value, class... Photons>
 Rgb surface_sum(const Vec3& point, const Vec3& normal, Value&& value, const Photons&... photons) {
   return kernel_sum<2>(photons..., point, Arrives{normal, plane_thickness(settings_of(photons...))}, value);

@@ -52,13 +52,16 @@ struct Numbers {
   int width = 0, height = 0;
   Half halves[2];
   double seconds = 0.0;
+  uint64_t discs = 0;  // of pixels: as many as these, or none
   RenderStatistics statistics;
 
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
+  size_t bytes_of_pixel() const { return 6 * sizeof(Rgbd) + (discs > 0 ? sizeof(PixelDisc) : 0); }
 };
 void each_number(Numbers& numbers, auto&& use) {
   use(numbers.width, numbers.height, numbers.seconds);
   for (auto& [passes, mean_size, size_squares] : numbers.halves) use(passes, mean_size, size_squares);
+  use(numbers.discs);
   each_number(numbers.statistics, use);
 }
 
@@ -68,8 +71,9 @@ std::string checksum(std::string_view bytes) {
   return hash.digits();
 }
 
-void append(std::string& bytes, const std::vector<Rgbd>& values) {
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Rgbd));
+template <class T>
+void append(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
 /// Takes bytes off the front.
@@ -82,9 +86,10 @@ class Reader {
     std::copy_n(left_.data(), size, static_cast<char*>(data));
     left_.remove_prefix(size);
   }
-  std::vector<Rgbd> values(size_t count) {
-    std::vector<Rgbd> all(count);
-    read(all.data(), count * sizeof(Rgbd));
+  template <class T>
+  std::vector<T> values(size_t count) {
+    std::vector<T> all(count);
+    read(all.data(), count * sizeof(T));
     return all;
   }
 
@@ -104,8 +109,8 @@ Numbers read_numbers(const std::filesystem::path& path, Reader& reader) {
     ((whole = whole && sizeof number <= reader.left(), whole ? reader.read(&number, sizeof number) : void()), ...);
   });
   if (!whole || numbers.width < 1 || numbers.height < 1 || numbers.halves[0].passes < 0 ||
-      numbers.halves[1].passes < 0 || reader.left() / (6 * sizeof(Rgbd)) != numbers.pixels() ||
-      reader.left() % (6 * sizeof(Rgbd)) != 0)
+      numbers.halves[1].passes < 0 || (numbers.discs > 0 && numbers.discs != numbers.pixels()) ||
+      reader.left() / numbers.bytes_of_pixel() != numbers.pixels() || reader.left() % numbers.bytes_of_pixel() != 0)
     refuse(path, "its numbers are none that a render writes");
   return numbers;
 }
@@ -122,7 +127,8 @@ std::string text_of(const std::filesystem::path& path) {
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const RenderResult& result) {
   assert(identity.find('\n') == std::string::npos);
-  Numbers numbers{result.film.width(), result.film.height(), {}, result.seconds, result.statistics};
+  Numbers numbers{result.film.width(), result.film.height(), {},
+                  result.seconds,      result.discs.size(),  result.statistics};
   for (size_t h = 0; h < 2; ++h) {
     const PassMoments& half = result.film.halves()[h];
     numbers.halves[h] = {half.passes, half.mean_square, half.square_spread};
@@ -132,6 +138,7 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
               [&](auto&... number) { (bytes.append(reinterpret_cast<const char*>(&number), sizeof number), ...); });
   for (const PassMoments& half : result.film.halves())
     for (const std::vector<Rgbd>* plane : {&half.mean, &half.squares, &half.products}) append(bytes, *plane);
+  append(bytes, result.discs);
   write_text(path, bytes + checksum(bytes));
 }
 
@@ -153,9 +160,15 @@ RenderResult read_checkpoint(const std::filesystem::path& path, const std::strin
   Film::Halves halves;
   for (size_t h = 0; h < 2; ++h) {
     const auto& [passes, mean_size, size_squares] = numbers.halves[h];
-    halves[h] = {passes, mean_size, size_squares, reader.values(pixels), reader.values(pixels), reader.values(pixels)};
+    halves[h] = {passes,
+                 mean_size,
+                 size_squares,
+                 reader.values<Rgbd>(pixels),
+                 reader.values<Rgbd>(pixels),
+                 reader.values<Rgbd>(pixels)};
   }
-  return {Film(numbers.width, numbers.height, std::move(halves)), numbers.statistics, numbers.seconds};
+  return {Film(numbers.width, numbers.height, std::move(halves)), numbers.statistics, numbers.seconds,
+          reader.values<PixelDisc>(numbers.discs)};
 }
 
 }  // namespace vpm

@@ -82,7 +82,11 @@ void read_render(TableReader& table, RenderSettings& s) {
   s.seed = table.integer("seed", 0, kMaxInteger, s.seed);
   s.samples_per_pixel = small_integer(table, "samples_per_pixel", 1'000'000, s.samples_per_pixel);
   s.max_events = small_integer(table, "max_events", 1'000'000'000, s.max_events);
-  s.shrink_radii = table.flag("shrink_radii", s.shrink_radii);
+  s.radii = table.choice<RadiusSchedule>("radii",
+                                         {{"constant", RadiusSchedule::constant},
+                                          {"per-pass", RadiusSchedule::per_pass},
+                                          {"per-pixel", RadiusSchedule::per_pixel}},
+                                         s.radii);
   s.max_optical_step = table.number("max_optical_step", {1e-4, kNoLimit, false, true}, s.max_optical_step);
 }
 
@@ -92,6 +96,19 @@ void read_photons(TableReader& table, RenderSettings& s) {
   s.photons_in_cube = static_cast<uint32_t>(table.integer("in_cube", 0, 1'000'000, s.photons_in_cube));
   if (s.photons_emitted == 0 && s.photons_stored == 0)
     table.fail("emitted", "no photon would be emitted: 'emitted' and 'stored' are both 0", "make one of them positive");
+  if (s.photons_in_cube > 0 && s.radii == RadiusSchedule::per_pixel)
+    table.fail("in_cube", "where render.radii is \"per-pixel\" photons are counted, so that none may be merged",
+               "write 0, or other radii");
+}
+
+/// Radii of pixels' own are those of gathers by radius, straight from the map of single photons.
+void check_radii_of_pixels(TableReader& surface, const RenderSettings& s) {
+  const std::string pixels = "where render.radii is \"per-pixel\" ";
+  if (s.surface.mode != GatherMode::radius)
+    surface.fail("gather", pixels + "surfaces gather by radius", "write \"radius\", or other radii");
+  if (s.surface_indirect == IndirectLight::final_gather)
+    surface.fail(surface.has("method") ? "method" : "indirect", pixels + "there is no final gathering",
+                 "take indirect light from \"photons\", or write other radii");
 }
 
 void read_distance(TableReader& table, DistanceSettings& distance, bool has_grid) {
@@ -170,6 +187,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
     read_gather(table, s.surface);
     read_surface_light(table, s);
     s.gather_rays = small_integer(table, "gather_rays", 1'000'000, s.gather_rays);
+    if (s.radii == RadiusSchedule::per_pixel) check_radii_of_pixels(table, s);
   });
   read_section(root, "caustics", [&](TableReader& table) {
     read_gather(table, s.caustics);

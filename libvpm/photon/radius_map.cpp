@@ -21,7 +21,7 @@ double cell_size(const Vec3& extent, float radius, size_t photons) {
 
 }  // namespace
 
-RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float scale) : radius_(radius) {
+RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float scale) {
   assert(radius > 0.0f);
   for (const Photon& p : photons) bounds_.add(p.position);
   if (photons.empty()) return;

@@ -1,7 +1,8 @@
 // The photon map for fixed radii: photons sorted into a uniform grid, found by scanning short rows of cells.
 //
-// The grid's cells are half a radius wide unless that would make more than two cells a photon. Rows run along x, so
-// that the photons of neighbouring cells lie side by side and distances are computed in blocks.
+// The grid's cells are half a radius wide unless that would make more than two cells a photon. Queries of any other
+// radius are as right, and slower the less the cells fit it. Rows run along x, so that the photons of neighbouring
+// cells lie side by side and distances are computed in blocks.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +23,14 @@ class RadiusMap {
   };
 
   RadiusMap() = default;
-  /// Sorts the photons for queries of `radius` (m, > 0), with powers multiplied by `scale`: 1/emitted.
+  /// Sorts the photons for queries of about `radius` (m, > 0), with powers multiplied by `scale`: 1/emitted.
   RadiusMap(const std::vector<Photon>& photons, float radius, float scale);
 
-  /// Calls visit(const Payload&, offset from `point`, squared distance) for the photons nearer to `point` than the
-  /// radius, in a fixed order.
+  /// Calls visit(const Payload&, offset from `point`, squared distance) for the photons nearer to `point` than
+  /// `radius`, m, in a fixed order.
   template <class Visit>
-  void for_each_near(const Vec3& point, Visit&& visit) const;
+  void for_each_near(const Vec3& point, float radius, Visit&& visit) const;
 
-  float radius() const { return radius_; }
   size_t size() const { return payload_.size(); }
   /// The box around the photons.
   const Box& bounds() const { return bounds_; }
@@ -43,9 +43,8 @@ class RadiusMap {
     return std::clamp(static_cast<int>((x - bounds_.lo[axis]) * per_cell_), 0, count_[axis] - 1);
   }
   template <class Visit>
-  void scan(uint32_t begin, uint32_t end, const Vec3& point, Visit& visit) const;
+  void scan(uint32_t begin, uint32_t end, const Vec3& point, float radius, Visit& visit) const;
 
-  float radius_ = 0.0f;
   float per_cell_ = 0.0f;  // 1/m
   Box bounds_;
   Vec3i count_{0};
@@ -55,8 +54,8 @@ class RadiusMap {
 };
 
 template <class Visit>
-void RadiusMap::scan(uint32_t begin, uint32_t end, const Vec3& point, Visit& visit) const {
-  const float limit = radius_ * radius_;
+void RadiusMap::scan(uint32_t begin, uint32_t end, const Vec3& point, float radius, Visit& visit) const {
+  const float limit = radius * radius;
   for (uint32_t block = begin; block < end; block += kBlock) {
     float d2[kBlock];
     const uint32_t n = std::min<uint32_t>(kBlock, end - block);
@@ -72,12 +71,12 @@ void RadiusMap::scan(uint32_t begin, uint32_t end, const Vec3& point, Visit& vis
 }
 
 template <class Visit>
-void RadiusMap::for_each_near(const Vec3& point, Visit&& visit) const {
+void RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit) const {
   for (int a = 0; a < 3; ++a)
-    if (!(point[a] + radius_ >= bounds_.lo[a] && point[a] - radius_ <= bounds_.hi[a])) return;
+    if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return;
   const float cell = 1.0f / per_cell_;
-  const int z_end = cell_along(2, point.z + radius_);
-  for (int z = cell_along(2, point.z - radius_); z <= z_end; ++z) {
+  const int z_end = cell_along(2, point.z + radius);
+  for (int z = cell_along(2, point.z - radius); z <= z_end; ++z) {
     // The nearest distance of the slab of cells to the point, less a hair for rounding; border cells hold all that lies
     // beyond.
     const auto gap = [&](int axis, int index) {
@@ -85,7 +84,7 @@ void RadiusMap::for_each_near(const Vec3& point, Visit&& visit) const {
       return std::max(0.0f, std::max(lo - point[axis], point[axis] - (lo + cell)) - 1e-3f * cell);
     };
     const float gap_z = gap(2, z);
-    const float rest_z = radius_ * radius_ - gap_z * gap_z;
+    const float rest_z = radius * radius - gap_z * gap_z;
     if (rest_z < 0.0f) continue;
     const float reach_y = std::sqrt(rest_z);
     const int y_end = cell_along(1, point.y + reach_y);
@@ -96,7 +95,7 @@ void RadiusMap::for_each_near(const Vec3& point, Visit&& visit) const {
       const float reach_x = std::sqrt(rest);
       const size_t row = (static_cast<size_t>(z) * count_.y + y) * count_.x;
       scan(first_[row + cell_along(0, point.x - reach_x)], first_[row + cell_along(0, point.x + reach_x) + 1], point,
-           visit);
+           radius, visit);
     }
   }
 }

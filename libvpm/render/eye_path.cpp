@@ -19,12 +19,14 @@ float step_among(const PhotonMap& map, const Interval& interval) {
 
 class EyePath {
  public:
-  EyePath(const EyeContext& context, const Ray& ray, Marcher& marcher, Rng& rng, EyeCounters& counters)
+  EyePath(const EyeContext& context, const Ray& ray, Marcher& marcher, Rng& rng, EyeCounters& counters,
+          const CountedGather* own)
       : c_(context),
         ray_(ray),
         marcher_(marcher),
         rng_(rng),
         counters_(counters),
+        own_(own),
         medium_(medium_of_ray(context.scene, context.scene.camera_medium, ray)) {}
 
   Rgb follow() {
@@ -145,7 +147,7 @@ class EyePath {
   /// Adds what a rough surface scatters towards the eye; goes on from others. Returns whether the path goes on.
   bool meet_surface(const Hit& hit, const Material& material) {
     if (is_rough(material)) {
-      const SurfaceView view{hit, material, ray_.direction, medium_};
+      const SurfaceView view{hit, material, ray_.direction, medium_, own_};
       radiance_ += throughput_ * surface_light(c_, view, c_.settings.gather_rays, rng_, counters_);
       return false;
     }
@@ -163,6 +165,7 @@ class EyePath {
   Marcher& marcher_;
   Rng& rng_;
   EyeCounters& counters_;
+  const CountedGather* own_;
   MediumId medium_;
   Rgb throughput_{1.0f};
   Rgb radiance_{0.0f};
@@ -170,8 +173,9 @@ class EyePath {
 
 }  // namespace
 
-Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters) {
-  return EyePath(context, camera_ray, marcher, rng, counters).follow();
+Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters,
+                 const CountedGather* own) {
+  return EyePath(context, camera_ray, marcher, rng, counters, own).follow();
 }
 
 }  // namespace vpm

@@ -8,7 +8,8 @@ namespace vpm {
 
 /// Follows a camera ray: through boundaries and specular surfaces; media add the ray-marched volumetric radiance
 /// estimate [Jarosz2008, eq. 7.9]; the first rough surface adds what it sends (surface_light()) and ends the path.
-/// W/(m^2 sr).
-Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters);
+/// W/(m^2 sr). `own`, under Stages::pixel_discs, is how the ray's pixel gathers on that surface.
+Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters,
+                 const CountedGather* own = nullptr);
 
 }  // namespace vpm

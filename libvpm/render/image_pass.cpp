@@ -14,11 +14,11 @@ Rgb render_pixel(const Scene& scene, const RenderSettings& settings, int pass, c
                  const glm::ivec2& pixel, EyeCounters& counters) {
   const Camera& camera = scene.camera;
   const int samples = settings.samples_per_pixel;
+  const size_t number = static_cast<size_t>(pixel.y) * camera.width + pixel.x;
   return mean_of_samples(samples, counters, [&](int s) {
-    const uint64_t index = (static_cast<uint64_t>(pixel.y) * camera.width + pixel.x) * samples + s;
-    Rng rng(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)), index);
+    Rng rng(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)), number * samples + s);
     const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(camera.filter, rng.uniform2());
-    return radiance(camera.ray(film), rng, counters);
+    return radiance(camera.ray(film), number, rng, counters);
   });
 }
 
@@ -32,7 +32,7 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
                   const std::atomic<bool>& stop, const PassProgress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const Camera& camera = scene.camera;
-  Pass result{.image = Image(camera.width, camera.height), .statistics = {}};
+  Pass result{.image = Image(camera.width, camera.height), .found = {}, .statistics = {}};
   result.statistics.passes = 1;
   const int tiles_x = static_cast<int>(chunk_count(static_cast<size_t>(camera.width), kTile));
   const uint64_t tiles = tile_count(camera);

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <vector>
 
 #include "base/progress.h"
 #include "base/rng.h"
@@ -16,6 +17,7 @@ namespace vpm {
 struct Pass {
   Image image;                   // radiance, W/(m^2 sr)
   double relative_square = 0.0;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
+  std::vector<uint64_t> found;   // under Stages::pixel_discs: photons in each pixel's disc, over its samples
   RenderStatistics statistics;
 };
 
@@ -27,8 +29,9 @@ struct PassProgress {
 /// The units of work of a pass's image.
 uint64_t tile_count(const Camera& camera);
 
-/// Estimates the radiance along a camera ray, W/(m^2 sr). Called from many threads.
-using RayRadiance = std::function<Rgb(const Ray& ray, Rng& rng, EyeCounters& counters)>;
+/// Estimates the radiance along a camera ray of a pixel (numbered row by row), W/(m^2 sr). Called from many threads,
+/// for each pixel from one.
+using RayRadiance = std::function<Rgb(const Ray& ray, size_t pixel, Rng& rng, EyeCounters& counters)>;
 
 /// The mean of sample(0), sample(1), ... sample(samples - 1). Those that are not finite are counted and left out as
 /// black.

@@ -60,9 +60,9 @@ UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution) {
 
 Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int pass,
                     const std::atomic<bool>& stop, const PassProgress& progress) {
-  assert(settings.integrator == Integrator::photon);
   const Stages stages = light_map_stages(scene, settings);
-  Pass result{.image = Image(layout.resolution, layout.resolution), .statistics = {}};
+  assert(settings.integrator == Integrator::photon && !stages.pixel_discs);
+  Pass result{.image = Image(layout.resolution, layout.resolution), .found = {}, .statistics = {}};
   result.statistics.passes = 1;
   const EyeContext context = make_eye_context(scene, settings, stages, pass, stop, progress, result.statistics);
   const auto start = std::chrono::steady_clock::now();
@@ -86,11 +86,11 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
 
 RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
                             const std::atomic<bool>& stop, ProgressMode progress) {
-  const auto run = [&](int pass, const PassProgress& shown) {
-    return light_map_pass(scene, settings, layout, pass, stop, shown);
+  const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
+    return light_map_pass(scene, settings, layout, so_far.film.passes(), stop, shown);
   };
   return run_passes(settings, run, chunk_count(layout.texels(), kChunk),
-                    {Film(layout.resolution, layout.resolution), {}, 0.0}, stop, progress);
+                    {Film(layout.resolution, layout.resolution), {}, 0.0, {}}, stop, progress);
 }
 
 }  // namespace vpm

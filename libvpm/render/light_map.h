@@ -15,7 +15,8 @@ Stages light_map_stages(const Scene& scene, const RenderSettings& settings);
 /// material stores no photons.
 UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution);
 
-/// One pass with photon maps: a pure function of its arguments, on any number of threads. Its image holds the mean
+/// One pass with photon maps: a pure function of its arguments, on any number of threads. Texels have no radii of their
+/// own: `settings.radii` is another. Its image holds the mean
 /// irradiance, W/m^2, on the side of the outward normal, over what each texel shows of the surface, by
 /// samples_per_pixel points uniform over its area; black where that is nothing. Cosines are to the geometric normal:
 /// irradiance times area is the power that arrives.

@@ -1,6 +1,8 @@
 // Photon tracing, map building and the eye pass, in that order.
 #include "render/photon_pass.h"
 
+#include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <optional>
 
@@ -48,10 +50,11 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
 
 /// Do radii shrink from pass to pass? In radius mode; the largest radius of the nearest mode stays.
 bool shrinks(const GatherSettings& gather, const RenderSettings& settings) {
-  return settings.shrink_radii && gather.mode == GatherMode::radius;
+  return settings.radii != RadiusSchedule::constant && gather.mode == GatherMode::radius;
 }
 
-/// The settings of a map in this pass.
+/// The settings of a map in this pass. Those of pixels with radii of their own are near it: in even light these shrink
+/// nearly so.
 GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dimension, const RenderSettings& settings,
                               int pass) {
   gather.radius = shrinks(gather, settings) ? radius_of_pass(first_radius, dimension, pass) : first_radius;
@@ -61,15 +64,24 @@ GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dim
 /// A kind of map, as a pass uses it.
 struct UsedMap {
   const char* name;
-  GatherSettings gather;
   int dimension;
+  bool shrinks;  // by the number of the pass
 };
 std::vector<UsedMap> used_maps(const RenderSettings& settings, const Stages& stages) {
   std::vector<UsedMap> maps;
-  if (stages.volume_map) maps.push_back({"volume", settings.volume, 3});
-  if (stages.surface_map) maps.push_back({"surface", settings.surface, 2});
-  if (stages.final_gather) maps.push_back({"caustics", settings.caustics, 2});
+  if (stages.volume_map) maps.push_back({"volume", 3, shrinks(settings.volume, settings)});
+  if (stages.surface_map) maps.push_back({"surface", 2, shrinks(settings.surface, settings) && !stages.pixel_discs});
+  if (stages.final_gather) maps.push_back({"caustics", 2, shrinks(settings.caustics, settings)});
   return maps;
+}
+
+/// The radii of the pixels' discs in a pass, m.
+std::vector<float> pixel_radii(const Scene& scene, const RenderSettings& settings, const PixelDiscs& discs) {
+  const float first = first_surface_radius(scene, settings);
+  std::vector<float> radii(static_cast<size_t>(scene.camera.width) * static_cast<size_t>(scene.camera.height), first);
+  assert(discs.empty() || discs.size() == radii.size());
+  for (size_t i = 0; i < discs.size(); ++i) radii[i] = disc_radius(discs[i], first);
+  return radii;
 }
 
 float default_share(const GatherSettings& gather) {
@@ -153,7 +165,8 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
           .surface_map = rough,
           .volume_shadow_rays = scatters && settings.volume_direct == DirectLight::shadow_rays,
           .surface_shadow_rays = rough && settings.surface_direct == DirectLight::shadow_rays,
-          .final_gather = rough && settings.surface_indirect == IndirectLight::final_gather};
+          .final_gather = rough && settings.surface_indirect == IndirectLight::final_gather,
+          .pixel_discs = rough && settings.radii == RadiusSchedule::per_pixel};
 }
 
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium) {
@@ -180,30 +193,47 @@ EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, 
 
 double relative_square(const RenderSettings& settings, const Stages& stages, int pass) {
   for (const UsedMap& map : used_maps(settings, stages)) {
-    if (!shrinks(map.gather, settings)) continue;
+    if (!map.shrinks) continue;
     const float radius = radius_of_pass(1.0f, map.dimension, pass);
     return double{radius} * radius;
   }
   return stages.photons() ? 1.0 : 0.0;
 }
 
-std::vector<std::string> maps_of_one_radius(const RenderSettings& settings, const Stages& stages) {
+std::vector<std::string> maps_of_unseen_bias(const RenderSettings& settings, const Stages& stages) {
   std::vector<std::string> names;
   for (const UsedMap& map : used_maps(settings, stages))
-    if (!shrinks(map.gather, settings)) names.emplace_back(map.name);
+    if (!map.shrinks) names.emplace_back(map.name);
   return names;
 }
 
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress) {
+  return render_photon_pass_after({}, scene, settings, pass, stop, progress);
+}
+
+Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const RenderSettings& settings, int pass,
+                              const std::atomic<bool>& stop, const PassProgress& progress) {
   RenderStatistics statistics;
   const Stages stages = plan_stages(scene, settings);
   const EyeContext context = make_eye_context(scene, settings, stages, pass, stop, progress, statistics);
-  const RayRadiance radiance = [&](const Ray& ray, Rng& rng, EyeCounters& counters) {
+  std::vector<float> radii;     // m, under Stages::pixel_discs
+  std::vector<uint64_t> found;  // the same
+  if (stages.pixel_discs) {
+    assert(settings.surface.mode == GatherMode::radius && !stages.final_gather);
+    radii = pixel_radii(scene, settings, discs);
+    found.resize(radii.size());
+    statistics.last_surface_radius = *std::max_element(radii.begin(), radii.end());
+  }
+  const RayRadiance radiance = [&](const Ray& ray, size_t pixel, Rng& rng, EyeCounters& counters) {
     static thread_local Marcher marcher;
-    return eye_radiance(context, ray, marcher, rng, counters);
+    if (!stages.pixel_discs) return eye_radiance(context, ray, marcher, rng, counters);
+    CountedGather own{settings.surface, &found[pixel]};
+    own.settings.radius = radii[pixel];
+    return eye_radiance(context, ray, marcher, rng, counters, &own);
   };
   Pass result = render_image(scene, settings, pass, radiance, stop, progress);
+  result.found = std::move(found);
   result.relative_square = relative_square(settings, stages, pass);
   result.statistics.merge(statistics);
   return result;

@@ -1,10 +1,12 @@
-// One pass of photon mapping: a pure function of scene, settings and pass number.
+// One pass of photon mapping: a pure function of scene, settings and pass number, and where pixels have radii of their
+// own of these.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "render/image_pass.h"
+#include "render/pixel_disc.h"
 
 namespace vpm {
 
@@ -15,6 +17,7 @@ struct Stages {
   bool volume_shadow_rays = false;
   bool surface_shadow_rays = false;
   bool final_gather = false;  // with a caustic map beside the surface map
+  bool pixel_discs = false;   // the eye's gathers from the surface map have radii of the pixels' own
   bool photons() const { return volume_map || surface_map; }
 };
 /// The stages that such a render of the scene runs; none by the path tracer.
@@ -25,13 +28,13 @@ struct EyeContext;
 EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
                             const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics);
 
-/// The squared radius of the pass's kernels over that of the first pass, of the first map that shrinks: the volume
-/// map, the surface map, the caustic map. All that shrink do so at nearly the same rate. 1 where none does, 0 without
-/// photons.
+/// The squared radius of the pass's kernels over that of the first pass, of the first map that shrinks as the pass
+/// number tells: the volume map, the surface map, the caustic map. All of these do so at nearly the same rate. 1 where
+/// none does, 0 without photons.
 double relative_square(const RenderSettings& settings, const Stages& stages, int pass);
-/// The sections of the scene file whose maps are used but do not shrink from pass to pass: their kernels' bias cannot
-/// be seen.
-std::vector<std::string> maps_of_one_radius(const RenderSettings& settings, const Stages& stages);
+/// The sections of the scene file whose maps are used but do not shrink from pass to pass as its number tells: their
+/// kernels' bias cannot be seen.
+std::vector<std::string> maps_of_unseen_bias(const RenderSettings& settings, const Stages& stages);
 
 /// The radius of a map in the first pass: the settings', or where that is 0 one hundredth (the largest radius of the
 /// nearest mode: a tenth) of the diagonal of the medium's bounds (grids) or of the scene.
@@ -42,5 +45,8 @@ float first_caustic_radius(const Scene& scene, const RenderSettings& settings);
 /// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress = {});
+/// The same after passes that have left such discs, under Stages::pixel_discs. Without discs none was before.
+Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const RenderSettings& settings, int pass,
+                              const std::atomic<bool>& stop, const PassProgress& progress = {});
 
 }  // namespace vpm

@@ -12,10 +12,13 @@ inline double measure_of_pass(double a, int pass) {
   return std::exp(std::lgamma(pass + 1.0 + a) - std::lgamma(1.0 + a) - std::lgamma(pass + 2.0));
 }
 
-/// The radius of pass number `pass`, for a first radius and a kernel of dimension d: A = 4 / (d + 4), at which variance
-/// and squared bias of the mean of passes fall alike [Knaus2011, sec. 4].
+/// A for a kernel of that dimension d, 4 / (d + 4): variance and squared bias of the mean of passes fall alike
+/// [Knaus2011, sec. 4].
+constexpr double best_a(int dimension) { return 4.0 / (dimension + 4.0); }
+
+/// The radius of pass number `pass`, for a first radius and a kernel of that dimension.
 inline float radius_of_pass(float first, int dimension, int pass) {
-  return static_cast<float>(first * std::pow(measure_of_pass(4.0 / (dimension + 4.0), pass), 1.0 / dimension));
+  return static_cast<float>(first * std::pow(measure_of_pass(best_a(dimension), pass), 1.0 / dimension));
 }
 
 }  // namespace vpm

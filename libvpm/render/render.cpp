@@ -25,7 +25,7 @@ double share_done(const RenderSettings& settings, const RenderResult& result) {
 
 }  // namespace
 
-RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0}; }
+RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0, {}}; }
 
 double estimated_error(const Film& film) {
   if (film.passes() < kLeastPasses) return std::numeric_limits<double>::infinity();
@@ -36,8 +36,12 @@ double estimated_error(const Film& film) {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const std::atomic<bool>& stop, ProgressMode progress,
                     const std::function<void(const RenderResult&)>& finished) {
-  const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
-  const auto run = [&](int pass, const PassProgress& shown) { return render_pass(scene, settings, pass, stop, shown); };
+  const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
+    const int pass = so_far.film.passes();
+    return settings.integrator == Integrator::path
+               ? render_path_pass(scene, settings, pass, stop, shown)
+               : render_photon_pass_after(so_far.discs, scene, settings, pass, stop, shown);
+  };
   return run_passes(settings, run, tile_count(scene.camera), std::move(result), stop, progress, finished);
 }
 
@@ -53,9 +57,11 @@ RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint
   Progress bar("render", counted ? work * static_cast<uint64_t>(missing) : 1000, progress_enabled(progress) && !single);
   const PassProgress pass_progress{progress_enabled(progress) && single, counted ? &bar : nullptr};
   while (!stop && share_done(settings, result) < 1.0) {
-    const Pass done = run(result.film.passes(), pass_progress);
+    const Pass done = run(result, pass_progress);
     if (stop) break;
     result.film.add(done.image, done.relative_square);
+    result.discs.resize(done.found.size());
+    for (size_t i = 0; i < done.found.size(); ++i) shrink(result.discs[i], done.found[i]);
     result.statistics.merge(done.statistics);
     result.seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
     if (!counted) {

@@ -1,4 +1,4 @@
-// A render: a sum of independent passes, until a count, a time, an error, or a stop.
+// A render: a sum of passes, one after the other, until a count, a time, an error, or a stop.
 #pragma once
 
 #include <atomic>
@@ -7,16 +7,19 @@
 #include "base/progress.h"
 #include "render/film.h"
 #include "render/image_pass.h"
+#include "render/pixel_disc.h"
 #include "render/settings.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 
 namespace vpm {
 
+/// What is rendered so far, and all that the next pass needs to know of it.
 struct RenderResult {
   Film film;
   RenderStatistics statistics;
   double seconds = 0.0;  // wall clock, of all runs together where a render was resumed
+  PixelDiscs discs;      // under Stages::pixel_discs, once there is a pass
 };
 
 /// Renders passes until settings.passes are done; or, where asked for, until settings.seconds are over or the estimated
@@ -26,8 +29,9 @@ struct RenderResult {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const std::atomic<bool>& stop, ProgressMode progress,
                     const std::function<void(const RenderResult&)>& finished = {});
-/// The same loop over any passes of a film: `run` makes one, and advances the bar by `work` units in its course.
-using RunPass = std::function<Pass(int pass, const PassProgress& progress)>;
+/// The same loop over any passes of a film: `run` makes the next one, and advances the bar by `work` units in its
+/// course.
+using RunPass = std::function<Pass(const RenderResult& so_far, const PassProgress& progress)>;
 RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint64_t work, RenderResult result,
                         const std::atomic<bool>& stop, ProgressMode progress,
                         const std::function<void(const RenderResult&)>& finished = {});

@@ -19,6 +19,11 @@ enum class DirectLight { photons, shadow_rays };
 /// then, the caustic map.
 enum class IndirectLight { photons, final_gather };
 
+/// How gather radii change from pass to pass. They must shrink for the mean of passes to converge to the truth: those
+/// of all maps as the pass number tells [Knaus2011], or those of the surface map pixel by pixel, as the photons tell
+/// that the pixel has found [Hachisuka2009], and of other maps as before.
+enum class RadiusSchedule { constant, per_pass, per_pixel };
+
 /// What estimates radiance: photon maps, or the path tracer that referees them.
 enum class Integrator { photon, path };
 
@@ -47,7 +52,7 @@ struct RenderSettings {
   GatherSettings caustics;        // that of the caustic map, under final gathering
   uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
                                   // what the others bring
-  bool shrink_radii = true;       // progressive passes [Knaus2011]; false: every pass has the first one's radii
+  RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]
   DirectLight volume_direct = DirectLight::photons;  // single scattering

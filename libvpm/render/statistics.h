@@ -28,7 +28,7 @@ struct RenderStatistics {
   uint64_t volume_photons = 0, surface_photons = 0, caustic_photons = 0;  // stored
   uint64_t merged_photons = 0;  // of these: those whose power others took over, see control_density()
   uint64_t photon_map_bytes = 0, guide_bytes = 0;               // of the largest pass
-  float last_volume_radius = 0.0f, last_surface_radius = 0.0f;  // m; of the last pass, the largest over media
+  float last_volume_radius = 0.0f, last_surface_radius = 0.0f;  // m; of the last pass, the largest over media, pixels
   EyeCounters eye;
 
   void merge(const RenderStatistics& pass);

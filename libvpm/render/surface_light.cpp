@@ -15,6 +15,7 @@ class SurfaceLight {
 
   Rgb towards_eye(const SurfaceView& view, int gather_rays) {
     if (c_.stages.final_gather) return not_gathered(view) + gathered(view, gather_rays);
+    if (view.own) return direct_light(view) + of_disc(view, *view.own);
     return c_.stages.surface_map ? direct_light(view) + of_map(view, c_.surface) : direct_light(view);
   }
 
@@ -43,6 +44,12 @@ class SurfaceLight {
   Rgb of_map(const SurfaceView& view, const PhotonMap& map) {
     ++counters_.surface_queries;
     return scattered_radiance(view.material, view.hit, -view.travel, map);
+  }
+
+  /// The surface map's light by a pixel's own radius.
+  Rgb of_disc(const SurfaceView& view, const CountedGather& own) {
+    ++counters_.surface_queries;
+    return scattered_radiance(view.material, view.hit, -view.travel, c_.surface, own);
   }
 
   /// What rays do not gather, because few of them would find it: the light of lamps, straight or by way of mirrors,

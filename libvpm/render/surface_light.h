@@ -25,6 +25,7 @@ struct SurfaceView {
   const Material& material;
   Vec3 travel{0.0f};  // unit
   MediumId medium = kVacuum;
+  const CountedGather* own = nullptr;  // under Stages::pixel_discs: of the pixel that looks
 };
 
 /// Radiance that leaves against `travel`, W/(m^2 sr), but for what the surface emits. `gather_rays` >= 1.

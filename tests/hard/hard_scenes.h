@@ -18,7 +18,7 @@ inline RenderSettings settings_of(uint64_t photons, float radius) {
   settings.photons_emitted = photons;
   settings.volume.radius = radius;
   settings.surface.radius = radius;
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   return settings;
 }
 

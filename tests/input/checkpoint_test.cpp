@@ -20,7 +20,7 @@ class Checkpoint : public ::testing::Test {
   ~Checkpoint() override { fs::remove(path_); }
 
   static RenderResult some_result() {
-    RenderResult result{Film(3, 2), {}, 1.5};
+    RenderResult result{Film(3, 2), {}, 1.5, {}};
     for (int pass = 0; pass < 3; ++pass) {
       Image image(3, 2);
       for (size_t i = 0; i < image.pixels.size(); ++i)
@@ -75,6 +75,17 @@ TEST_F(Checkpoint, ComesBackToTheLastBit) {
   EXPECT_EQ(after.statistics.passes, 3);
   EXPECT_EQ(after.statistics.ledger.imbalance.mean(), 0.25);
   EXPECT_EQ(after.statistics.eye.rays, 18u);
+  EXPECT_TRUE(after.discs.empty());
+}
+
+TEST_F(Checkpoint, BringsBackTheRadiiOfPixels) {
+  RenderResult before = some_result();
+  for (int i = 0; i < 6; ++i) before.discs.push_back({1.0 / (i + 3), i / 7.0});
+  write_checkpoint(path_, "a render", before);
+  const RenderResult after = read_checkpoint(path_, "a render");
+  ASSERT_EQ(after.discs.size(), 6u);
+  EXPECT_EQ(std::memcmp(after.discs.data(), before.discs.data(), 6 * sizeof(PixelDisc)), 0);
+  EXPECT_TRUE(same_bits(after.film.halves()[1].products, before.film.halves()[1].products));
 }
 
 TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
@@ -127,6 +138,8 @@ TEST_F(Checkpoint, WithARightChecksumOfNumbersThatCannotBeIsRefused) {
   refuses_with(with(0, 4));      // a pixel column too many
   refuses_with(with(4, 0));      // height
   refuses_with(with(16, -1));    // passes of the first half, behind the seconds
+  refuses_with(with(56, 1));     // one pixel with a radius of its own, behind the halves
+  refuses_with(with(56, 6));     // radii of pixels that are not there
   refuses_with(content + "\n");  // a byte too many
   refuses_with(content.substr(0, numbers + 20));
 }

@@ -422,7 +422,7 @@ TEST(SceneFile, ReadsEverySetting) {
   const RenderSettings s =
       load_with(
           "[render]\nintegrator = 'photon'\npasses = 3\nseconds = 1.5\nseed = 9\nsamples_per_pixel = 2\nmax_events = "
-          "77\nshrink_radii = false\n"
+          "77\nradii = 'constant'\n"
           "max_optical_step = 0.25\n[photons]\nemitted = 1000\nstored = 500\nin_cube = 4\n[importance]\nimportons = "
           "70\n"
           "aim = false\nsplit = false\n[distance]\nstrategy = 'ray-march'\nstep "
@@ -439,7 +439,7 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.seed, 9u);
   EXPECT_EQ(s.samples_per_pixel, 2);
   EXPECT_EQ(s.max_events, 77);
-  EXPECT_FALSE(s.shrink_radii);
+  EXPECT_EQ(s.radii, RadiusSchedule::constant);
   EXPECT_EQ(s.max_optical_step, 0.25f);
   EXPECT_EQ(s.photons_emitted, 1000u);
   EXPECT_EQ(s.photons_stored, 500u);
@@ -477,6 +477,14 @@ TEST(SceneFile, AMethodChoosesDirectAndIndirectLight) {
   EXPECT_EQ(with("progressive").surface_indirect, IndirectLight::photons);
   EXPECT_EQ(with("final-gather").surface_direct, DirectLight::shadow_rays);
   EXPECT_EQ(with("final-gather").surface_indirect, IndirectLight::final_gather);
+}
+
+TEST(SceneFile, RadiiAreOfAllPassesOrShrinkByPassOrByPixel) {
+  const auto with = [](const std::string& radii) { return load_with("[render]\nradii = '" + radii + "'\n").settings; };
+  EXPECT_EQ(load_with("").settings.radii, RadiusSchedule::per_pass);
+  EXPECT_EQ(with("constant").radii, RadiusSchedule::constant);
+  EXPECT_EQ(with("per-pass").radii, RadiusSchedule::per_pass);
+  EXPECT_EQ(with("per-pixel").radii, RadiusSchedule::per_pixel);
 }
 
 TEST(SceneFile, DefaultsAreThoseOfTheSettings) {

@@ -51,7 +51,7 @@ RenderSettings gathering(float radius) {
   RenderSettings settings;
   settings.photons_emitted = 20'000;
   settings.surface.radius = settings.caustics.radius = radius;
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   settings.surface_indirect = IndirectLight::final_gather;
   settings.samples_per_pixel = 4;
   return settings;

@@ -36,7 +36,7 @@ RenderSettings fixed_radius(float radius, uint64_t photons) {
   settings.photons_emitted = photons;
   settings.surface.radius = settings.caustics.radius = radius;
   settings.surface.kernel = KernelKind::constant;
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   return settings;
 }
 

@@ -38,7 +38,7 @@ RenderSettings settings_of(uint64_t photons, float radius) {
   settings.photons_emitted = photons;
   settings.volume.radius = radius;
   settings.surface.radius = radius;
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   return settings;
 }
 
@@ -245,7 +245,7 @@ TEST(PhotonPass, RadiiShrinkFromPassToPass) {
   RenderSettings settings = settings_of(100, 0.1f);
   settings.surface.radius = 0.2f;
   EXPECT_EQ(radii(settings, 7), Vec2(0.1f, 0.2f));
-  settings.shrink_radii = true;
+  settings.radii = RadiusSchedule::per_pass;
   EXPECT_EQ(radii(settings, 7), Vec2(radius_of_pass(0.1f, 3, 7), radius_of_pass(0.2f, 2, 7)));
 }
 
@@ -257,17 +257,24 @@ TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
   EXPECT_NEAR(square(settings, all), volume * volume, 1e-6);
   EXPECT_NEAR(square(settings, {.surface_map = true}), surface * surface, 1e-6);
   EXPECT_EQ(square(settings, {}), 0.0);
-  EXPECT_TRUE(maps_of_one_radius(settings, all).empty());
+  EXPECT_TRUE(maps_of_unseen_bias(settings, all).empty());
   settings.volume.mode = GatherMode::nearest;
   EXPECT_NEAR(square(settings, all), surface * surface, 1e-6);
   EXPECT_EQ(square(settings, {.volume_map = true}), 1.0);
-  EXPECT_EQ(maps_of_one_radius(settings, all), std::vector<std::string>{"volume"});
+  EXPECT_EQ(maps_of_unseen_bias(settings, all), std::vector<std::string>{"volume"});
   settings.surface.mode = GatherMode::nearest;
   EXPECT_NEAR(square(settings, all), surface * surface, 1e-6);  // the caustic map's
-  EXPECT_EQ(maps_of_one_radius(settings, {.surface_map = true}), std::vector<std::string>{"surface"});
-  settings.shrink_radii = false;
+  EXPECT_EQ(maps_of_unseen_bias(settings, {.surface_map = true}), std::vector<std::string>{"surface"});
+  settings.radii = RadiusSchedule::constant;
   EXPECT_EQ(square(settings, all), 1.0);
-  EXPECT_EQ(maps_of_one_radius(settings, all).size(), 3u);
+  EXPECT_EQ(maps_of_unseen_bias(settings, all).size(), 3u);
+  // Pixels' own radii are none that the number of the pass tells.
+  settings = {};
+  settings.radii = RadiusSchedule::per_pixel;
+  const Stages pixels{.volume_map = true, .surface_map = true, .pixel_discs = true};
+  EXPECT_NEAR(square(settings, pixels), volume * volume, 1e-6);
+  EXPECT_EQ(square(settings, {.surface_map = true, .pixel_discs = true}), 1.0);
+  EXPECT_EQ(maps_of_unseen_bias(settings, pixels), std::vector<std::string>{"surface"});
 }
 
 TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {

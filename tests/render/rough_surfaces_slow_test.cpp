@@ -33,7 +33,7 @@ RenderSettings settings_of(DirectLight direct) {
   RenderSettings settings;
   settings.photons_emitted = 20000;
   settings.surface.radius = 0.4f;
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   settings.surface_direct = direct;
   settings.samples_per_pixel = direct == DirectLight::photons ? 1 : 60;
   return settings;

@@ -125,7 +125,7 @@ target = [-2.9, 4.9, 2.4]
 outer_angle = 22
 power = 20000
 [render]
-shrink_radii = false
+radii = "constant"
 samples_per_pixel = 8
 seed = {}
 [photons]

@@ -196,6 +196,8 @@ TEST_F(VpmBake, RefusesManyOverlapsBeforeTheyFillTheMemory) {
 TEST_F(VpmBake, RefusesSettingsOfOtherIntegrators) {
   refuses("floor", {"render.integrator is \"path\"", "--set render.integrator=photon"},
           {"--set", "render.integrator=path"});
+  refuses("floor", {"render.radii is \"per-pixel\"", "--set render.radii=per-pass"},
+          {"--set", "render.radii=per-pixel"});
   refuses("floor", {"render.error", "--passes N"}, {"--set", "render.error=0.1"});
   vpm_refuses({"bake", "scene.toml", "--mesh", "floor", "-o", "a.png"}, {"must end in .exr"});
   refuses("floor", {"--resolution"}, {"--resolution", "0"});

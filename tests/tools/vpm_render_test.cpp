@@ -279,6 +279,30 @@ TEST_F(VpmRender, ACheckpointTakesMorePassesButNoOtherScene) {
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render"});
 }
 
+TEST_F(VpmRender, RadiiOfPixelsResumeToTheSameBits) {
+  const auto render = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "scene.toml", "-o", name, "--set", "render.radii=per-pixel"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    vpm_succeeds(arguments);
+  };
+  render("whole.exr", {"--passes", "9", "--threads", "1"});
+  render("a.exr", {"--passes", "2", "--checkpoint"});
+  render("a.exr", {"--passes", "5", "--resume"});
+  render("a.exr", {"--passes", "9", "--resume"});
+  EXPECT_TRUE(read("a.exr") == read("whole.exr"));
+  EXPECT_EQ(without_circumstances(report("a.json")), without_circumstances(report("whole.json")));
+  const Json a = report("a.json"), radii = a["radii_of_pixels"];
+  EXPECT_LT(radii["smallest"], 0.08);
+  EXPECT_LT(radii["smallest"], radii["mean"]);
+  EXPECT_LT(radii["mean"], radii["largest"]);
+  EXPECT_LE(radii["largest"], 0.1f);
+  EXPECT_EQ(a["memory"]["radii_of_pixels"], 40 * 24 * 16);
+  EXPECT_EQ(a["error"]["bias_not_seen_of"], Json::array({"surface"}));
+  vpm_succeeds({"render", "scene.toml", "-o", "b.exr"});
+  EXPECT_TRUE(report("b.json")["radii_of_pixels"].is_null());
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render", "radii=per-pass"});
+}
+
 TEST_F(VpmRender, StopsAtAnError) {
   for (const char* error : {"0", "-1", "nan"}) vpm_refuses({"render", "scene.toml", "--error", error}, {"--error"});
   vpm_refuses({"render", "scene.toml", "--error", "0.1", "--passes", "3"}, {"--error"});

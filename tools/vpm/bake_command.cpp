@@ -26,6 +26,10 @@ void check_settings(const RenderSettings& settings) {
   if (settings.integrator != Integrator::photon)
     throw InputError(
         "light maps are made of photon maps, but render.integrator is \"path\"; add: --set render.integrator=photon");
+  if (settings.radii == RadiusSchedule::per_pixel)
+    throw InputError(
+        "texels of a light map have no radii of their own, but render.radii is \"per-pixel\"; add: --set "
+        "render.radii=per-pass");
   if (settings.error > 0.0)
     throw InputError("a light map is not baked until an error is reached, as render.error asks; add: --passes N");
 }

@@ -57,12 +57,13 @@ std::string error_text(const LoadedScene& loaded, const Film& film) {
   if (film.passes() < kLeastPasses) return "";
   const FilmErrors errors = film.errors();
   const std::vector<std::string> unseen =
-      maps_of_one_radius(loaded.settings, plan_stages(loaded.scene, loaded.settings));
+      maps_of_unseen_bias(loaded.settings, plan_stages(loaded.scene, loaded.settings));
   return fmt::format(
       "; estimated relative MSE {:.2g} (variance {:.2g}, {}{})", estimated_error(film), errors.variance_part,
       film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen",
-      unseen.empty() ? ""
-                     : fmt::format("; not seen: that of [{}], where radii do not shrink", fmt::join(unseen, "], [")));
+      unseen.empty()
+          ? ""
+          : fmt::format("; not seen: that of [{}], whose radii are not those of passes", fmt::join(unseen, "], [")));
 }
 
 }  // namespace

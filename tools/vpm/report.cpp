@@ -117,10 +117,26 @@ Json errors(const LoadedScene& loaded, const Film& film) {
           {"estimated", estimated_error(film)},
           {"variance", e.variance_part},
           {"squared_bias", film.shows_bias() ? Json(e.bias_part) : Json()},
-          {"bias_not_seen_of", maps_of_one_radius(loaded.settings, plan_stages(loaded.scene, loaded.settings))}};
+          {"bias_not_seen_of", maps_of_unseen_bias(loaded.settings, plan_stages(loaded.scene, loaded.settings))}};
 }
 
-Json memory(const Scene& scene, const RenderStatistics& s) {
+/// Of the discs of pixels, for the next pass; null where pixels have none.
+Json disc_radii(const LoadedScene& loaded, const PixelDiscs& discs) {
+  if (discs.empty()) return nullptr;
+  const float first = first_surface_radius(loaded.scene, loaded.settings);
+  Moments radii;
+  float smallest = first, largest = 0.0f;
+  for (const PixelDisc& disc : discs) {
+    const float radius = disc_radius(disc, first);
+    radii.add(radius);
+    smallest = std::min(smallest, radius);
+    largest = std::max(largest, radius);
+  }
+  return {{"unit", "m"}, {"smallest", smallest}, {"mean", radii.mean()}, {"largest", largest}};
+}
+
+Json memory(const Scene& scene, const RenderResult& result) {
+  const RenderStatistics& s = result.statistics;
   size_t grids = 0;
   for (const Medium& m : scene.media) grids += m.grid ? m.grid->memory_bytes() : 0;
   size_t textures = 0;
@@ -137,6 +153,7 @@ Json memory(const Scene& scene, const RenderStatistics& s) {
           {"lights", lights},
           {"largest_photon_maps", s.photon_map_bytes},
           {"importance", s.guide_bytes},
+          {"radii_of_pixels", result.discs.size() * sizeof(PixelDisc)},
           {"per_stored_photon_of_mean_pass", stored > 0.0 ? static_cast<double>(s.photon_map_bytes) / stored : 0.0},
           {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
 }
@@ -166,7 +183,7 @@ Json report_of(const std::string& scene_path, const std::string& image, const st
           {"boundaries",
            {{"crossings", s.ledger.walk.crossings + s.eye.walk.crossings},
             {"met_in_another_medium", s.ledger.walk.medium_mismatches + s.eye.walk.medium_mismatches}}},
-          {"memory", memory(loaded.scene, s)}};
+          {"memory", memory(loaded.scene, result)}};
 }
 
 }  // namespace
@@ -177,6 +194,7 @@ std::string render_report(const std::string& scene_path, const std::string& imag
   Json report = report_of(scene_path, image, "radiance, W/(m^2 sr)", loaded, stages, result);
   report["error"] = errors(loaded, result.film);
   report["eye"] = eye(result.statistics);
+  report["radii_of_pixels"] = disc_radii(loaded, result.discs);
   return report.dump(2) + "\n";
 }
 
@@ -200,6 +218,9 @@ std::string settings_line(const RenderSettings& s) {
     return g.mode == GatherMode::radius ? fmt::format("radius:{}:{}", g.radius, kernel)
                                         : fmt::format("nearest:{}:{}:{}", g.count, g.radius, kernel);
   };
+  const auto radii = [](RadiusSchedule r) {
+    return r == RadiusSchedule::constant ? "constant" : r == RadiusSchedule::per_pass ? "per-pass" : "per-pixel";
+  };
   const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
   return fmt::format(
       "integrator={} samples_per_pixel={} emitted={} stored={} in_cube={} importons={}:aim={}:split={} "
@@ -207,7 +228,7 @@ std::string settings_line(const RenderSettings& s) {
       "volume={} form={} "
       "density_floor={} "
       "volume_direct={} "
-      "surface={} surface_direct={} surface_indirect={} shrink_radii={} max_optical_step={} max_events={}",
+      "surface={} surface_direct={} surface_indirect={} radii={} max_optical_step={} max_events={}",
       s.integrator == Integrator::path ? "path" : "photon", s.samples_per_pixel, s.photons_emitted, s.photons_stored,
       s.photons_in_cube, s.guide.importons, s.guide.aim, s.guide.split, s.distance.strategy, s.distance.step,
       s.distance.extinction_floor, s.transmittance.estimator, s.transmittance.step, gather(s.volume),
@@ -216,7 +237,7 @@ std::string settings_line(const RenderSettings& s) {
       s.surface_indirect == IndirectLight::photons
           ? "photons"
           : fmt::format("final-gather:{}:{}:aimed={}", s.gather_rays, gather(s.caustics), s.caustics_emitted),
-      s.shrink_radii, s.max_optical_step, s.max_events);
+      radii(s.radii), s.max_optical_step, s.max_events);
 }
 
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Stages& stages) {
@@ -239,6 +260,8 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   return {line(stages.photons(), "photon tracing", distances, "nothing stores photons"),
           line(stages.volume_map, "volume photon map", "", no_medium),
           line(stages.surface_map, "surface photon map", "", "no rough surface"),
+          line(stages.pixel_discs, "radii of pixels' own", ", on surfaces",
+               stages.surface_map ? "radii do not depend on what pixels find" : "no rough surface"),
           line(stages.volume_shadow_rays, "shadow rays in media", transmittance,
                stages.volume_map ? "single scattering comes from the photon map" : no_medium),
           line(stages.surface_shadow_rays, "shadow rays at surfaces", transmittance,

@@ -47,7 +47,7 @@ enum class BiasOrder { edges = 1, smooth = 2 };
 Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order, int passes) {
   static const std::atomic<bool> kGoOn{false};
   const double half = order == BiasOrder::smooth ? 4.0 / 3.0 : 2.0;  // the weight of half the radius
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   RenderSettings halved = settings;
   halved.volume.radius *= 0.5f;
   halved.surface.radius *= 0.5f;

@@ -58,7 +58,7 @@ std::vector<Check> compare_light_maps(const Effort& effort) {
   RenderSettings settings;
   settings.photons_emitted = effort.count(6'000, 20'000);
   settings.samples_per_pixel = 200;
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   settings.surface.radius = settings.caustics.radius = kRadius;
   std::vector<Check> checks;
   const auto compare = [&](const std::string& name) {

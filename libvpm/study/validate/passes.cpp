@@ -1,4 +1,5 @@
-// Passes of a render: their radii by the recurrence, and the variance that the film states against the one it has.
+// Passes of a render: their radii by the recurrence, those of pixels by what these find, and the variance that the film
+// states against the one it has.
 #include <fmt/format.h>
 #include <cmath>
 
@@ -38,11 +39,58 @@ std::vector<Check> check_radii(const Effort& effort) {
     check("volume radius", found.last_volume_radius, settings.volume.radius, 3.0);
     check("surface radius", found.last_surface_radius, settings.surface.radius, 2.0);
   }
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   const RenderStatistics found = render_photon_pass(scene, settings, 30, kGoOn).statistics;
   checks.push_back(check_bound("volume radius that stays", found.last_volume_radius, settings.volume.radius, 0.0));
   checks.push_back(check_bound("surface radius that stays", found.last_surface_radius, settings.surface.radius, 0.0));
   return checks;
+}
+
+/// What a pixel keeps by the textbook [Hachisuka2009].
+struct TextbookPixel {
+  double radius = 0.0;   // R, m
+  double photons = 0.0;  // N
+  double flux = 0.0;     // tau, W
+
+  void add(double found, double power) {
+    if (found == 0.0) return;
+    const double shrinks = (photons + 2.0 / 3.0 * found) / (photons + found);
+    photons += 2.0 / 3.0 * found;
+    flux = (flux + found * power) * shrinks;
+    radius *= std::sqrt(shrinks);
+  }
+};
+
+/// Radii of pixels' own, and the mean of passes, by what each pass has found.
+std::vector<Check> check_pixels(const Effort& effort) {
+  static const std::atomic<bool> kGoOn{false};
+  const Scene scene = bare_floor();
+  RenderSettings settings = pass_settings(effort.seed_of("pixels"));
+  settings.passes = static_cast<int>(effort.count(12, 100));
+  settings.photons_emitted = 2000;
+  settings.radii = RadiusSchedule::per_pixel;
+  settings.surface.kernel = KernelKind::constant;
+  settings.surface_direct = DirectLight::photons;
+  RenderResult result = nothing_rendered(scene.camera);
+  std::vector<TextbookPixel> textbook(result.film.mean().pixels.size(), {settings.surface.radius});
+  const double power = light_power(scene.lights[0], scene.bounds).g;  // of every photon
+  const auto run = [&](const RenderResult& so_far, const PassProgress& progress) {
+    Pass pass = render_photon_pass_after(so_far.discs, scene, settings, so_far.film.passes(), kGoOn, progress);
+    for (size_t i = 0; i < textbook.size(); ++i) textbook[i].add(static_cast<double>(pass.found[i]), power);
+    return pass;
+  };
+  result = run_passes(settings, run, tile_count(scene.camera), std::move(result), kGoOn, ProgressMode::never);
+  const double per_flux = 0.5 / kPiD / (kPiD * settings.passes * static_cast<double>(settings.photons_emitted));
+  const Image mean = result.film.mean();
+  double radius_off = 0.0, radiance_off = 0.0;
+  for (size_t i = 0; i < textbook.size(); ++i) {
+    const auto [radius, photons, flux] = textbook[i];
+    const double radiance = per_flux * flux / (radius * radius);
+    radius_off = std::max(radius_off, std::abs(disc_radius(result.discs[i], settings.surface.radius) / radius - 1.0));
+    radiance_off = std::max(radiance_off, std::abs(mean.pixels[i].g - radiance) / (radiance + 1e-3));
+  }
+  return {check_bound("R, relative, at the most", radius_off, 0.0, 1e-5),
+          check_bound("tau / (pi R^2), relative, at the most", radiance_off, 0.0, 1e-4)};
 }
 
 /// Two films of other seeds differ by as much as the variances they state; over their pixels, for many pairs.
@@ -55,7 +103,7 @@ std::vector<Check> check_variance(const Effort& effort) {
     const auto film = [&](const char* which) {
       RenderSettings settings = pass_settings(effort.seed_of(fmt::format("film {} {}", which, i)));
       settings.passes = 4;
-      settings.shrink_radii = false;  // passes of one distribution
+      settings.radii = RadiusSchedule::constant;  // passes of one distribution
       return render(scene, settings, nothing_rendered(scene.camera), kGoOn, ProgressMode::never).film;
     };
     const Film a = film("a"), b = film("b");
@@ -81,7 +129,9 @@ std::vector<Check> check_variance(const Effort& effort) {
 }  // namespace
 
 std::vector<Experiment> pass_experiments() {
-  return {{4, "radii of a render's passes", check_radii}, {4, "the variance a film states", check_variance}};
+  return {{4, "radii of a render's passes", check_radii},
+          {4, "radii of pixels by the photons they find", check_pixels},
+          {4, "the variance a film states", check_variance}};
 }
 
 }  // namespace vpm

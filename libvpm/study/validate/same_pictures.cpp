@@ -32,7 +32,7 @@ Moments radiance(const Scene& scene, RenderSettings settings, size_t passes, con
                  const std::string& name) {
   static const std::atomic<bool> kGoOn{false};
   settings.seed = effort.seed_of(name);
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
   std::vector<double> means(passes);
   parallel_for_chunks(passes, 1, [&](size_t i, size_t, size_t) {

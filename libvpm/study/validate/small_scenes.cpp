@@ -157,4 +157,12 @@ Scene foggy_floor() {
   return finished(std::move(scene));
 }
 
+Scene bare_floor() {
+  Scene scene;
+  scene.lights.push_back(PointLight{Vec3(-0.3f, 0.3f, 0.0f), Rgb(1.0f)});
+  add_floor(scene, Rgb(0.5f));
+  look(scene, Vec3(0.0f, 3.0f, 0.0f), Vec3(0.0f, 0.0f, 0.1f), 32.0f);
+  return finished(std::move(scene));
+}
+
 }  // namespace vpm

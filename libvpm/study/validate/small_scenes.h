@@ -35,6 +35,9 @@ Scene rough_corner();
 /// A floor in a fog, under a lamp; seen is the floor.
 Scene foggy_floor();
 
+/// A grey floor alone with a point light near it: on some pixels bright, on others dark. Photons meet it once.
+Scene bare_floor();
+
 /// A wall of a closed cube about a lamp: most of what is seen was reflected before.
 Scene hollow_cube();
 

@@ -1,0 +1,235 @@
+// Radii of pixels' own against the textbook of stochastic progressive photon mapping: its three numbers a pixel, R, N
+// and the flux tau, kept by the rules as they are printed [Hachisuka2009].
+#include "render/pixel_disc.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "base/parallel.h"
+#include "estimate/surface_estimate.h"
+#include "render/photon_pass.h"
+#include "render/render.h"
+#include "support/scenes.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kFalseAlarms = 1e-6;  // of each comparison
+const std::atomic<bool> kGoOn{false};
+
+/// One pixel of the textbook.
+struct Textbook {
+  double radius, photons = 0.0, flux = 0.0;  // R, m; N; tau, W
+
+  /// A pass that has found `found` photons of that power in all.
+  void add(double found, double power) {
+    constexpr double kAlpha = 2.0 / 3.0;
+    if (found == 0.0) return;
+    const double next = radius * std::sqrt((photons + kAlpha * found) / (photons + found));
+    flux = (flux + power) * next * next / (radius * radius);
+    photons += kAlpha * found;
+    radius = next;
+  }
+  /// W/m^2
+  double irradiance(int passes, double emitted) const { return flux / (passes * emitted * kPiD * radius * radius); }
+};
+
+TEST(PixelDisc, FollowsTheRuleOnNumbersByHand) {
+  PixelDisc disc;
+  shrink(disc, 0);  // nothing found: nothing learnt
+  EXPECT_EQ(disc.area, 1.0);
+  EXPECT_EQ(disc.photons, 0.0);
+  shrink(disc, 3);  // 2 of 3 are kept
+  EXPECT_DOUBLE_EQ(disc.photons, 2.0);
+  EXPECT_DOUBLE_EQ(disc.area, 2.0 / 3.0);
+  shrink(disc, 6);  // 2 + 4 of 2 + 6
+  EXPECT_DOUBLE_EQ(disc.photons, 6.0);
+  EXPECT_DOUBLE_EQ(disc.area, 0.5);
+  shrink(disc, 0);
+  EXPECT_DOUBLE_EQ(disc.area, 0.5);
+  EXPECT_FLOAT_EQ(disc_radius(disc, 3.0f), 3.0f * std::sqrt(0.5f));
+}
+
+TEST(PixelDisc, InEvenLightTheScheduleIsThatOfPassesAfterAFirstFactor) {
+  PixelDisc disc;
+  for (int pass = 0; pass < 100; ++pass) {
+    shrink(disc, static_cast<uint64_t>(std::llround(1e12 * disc.area)));
+    EXPECT_NEAR(disc.area / (best_a(2) * measure_of_pass(best_a(2), pass)), 1.0, 1e-9);
+  }
+}
+
+TEST(PixelDisc, KnowsPhotonsByTheirRatiosAlone) {
+  PixelDisc sums, means;
+  for (const uint64_t found : {4, 0, 12, 8, 20}) {
+    shrink(sums, found);
+    shrink(means, found / 4);
+    EXPECT_NEAR(sums.area, means.area, 1e-15);
+  }
+}
+
+/// A pixel that sees another point of a plane in each pass, few photons around it: none in some passes.
+TEST(PixelDisc, TheMeanOfPassesIsTheTextbooksRadiance) {
+  constexpr int kPasses = 20;
+  constexpr float kFirst = 0.3f;
+  const Vec3 up(0, 1, 0);
+  for (uint64_t pixel = 0; pixel < 50; ++pixel) {
+    Textbook textbook{kFirst};
+    PixelDisc disc;
+    double sum = 0.0;
+    for (uint64_t pass = 0; pass < kPasses; ++pass) {
+      Rng rng(1, rng_stream(RngUse::test, pass), pixel);
+      std::vector<Photon> photons(12);
+      for (Photon& p : photons)
+        p = {Vec3(rng.uniform(), 0.0f, rng.uniform()), PackedDirection(-up), Rgb(0.5f + rng.uniform())};
+      const Vec3 at(0.4f + 0.2f * rng.uniform(), 0.0f, 0.4f + 0.2f * rng.uniform());
+
+      const GatherSettings made{GatherMode::radius, 0.2f, 0, KernelKind::constant};
+      const PhotonMap map = make_photon_map(photons, made, photons.size());
+      uint64_t found = 0;
+      CountedGather own{made, &found};
+      own.settings.radius = disc_radius(disc, kFirst);
+      sum += surface_irradiance(at, up, map, own).g;
+      shrink(disc, found);
+
+      double near = 0.0, power = 0.0;
+      for (const Photon& p : photons)
+        if (glm::distance(Vec3d(p.position), Vec3d(at)) < textbook.radius) {
+          ++near;
+          power += p.power.g;
+        }
+      ASSERT_EQ(found, near);
+      textbook.add(near, power);
+      ASSERT_NEAR(disc_radius(disc, kFirst), textbook.radius, 1e-6);
+    }
+    ASSERT_GT(textbook.photons, 0.0);
+    EXPECT_NEAR(sum / kPasses / textbook.irradiance(kPasses, 12.0), 1.0, 1e-5);
+  }
+}
+
+/// A grey floor alone, seen from above: photons, straight from the light, are all there is, each of that light's power.
+Scene lit_floor(const Light& light) {
+  Scene scene;
+  scene.lights.push_back(light);
+  add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), Lambertian{Rgb(0.5f)});
+  scene.camera = make_camera(Vec3(0, 4, 0), Vec3(0.0f), Vec3(0, 0, -1), 30.0f, 18, 18, {});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+RenderSettings per_pixel(uint64_t photons) {
+  RenderSettings settings;
+  settings.radii = RadiusSchedule::per_pixel;
+  settings.surface_direct = DirectLight::photons;
+  settings.photons_emitted = photons;
+  settings.passes = 12;
+  settings.surface.radius = 0.15f;
+  settings.surface.kernel = KernelKind::constant;
+  return settings;
+}
+
+RenderResult render_all(const Scene& scene, const RenderSettings& settings) {
+  return render(scene, settings, nothing_rendered(scene.camera), kGoOn, ProgressMode::never);
+}
+
+/// The light of a lamp near the floor, on some pixels bright, on others next to none.
+TEST(RadiiOfPixels, ARenderIsTheTextbooksPixelByPixel) {
+  const Scene scene = lit_floor(PointLight{Vec3(-0.5f, 0.3f, 0.2f), Rgb(1.0f)});
+  for (const int samples : {1, 3}) {
+    RenderSettings settings = per_pixel(3000);
+    settings.samples_per_pixel = samples;
+    const size_t pixels = nothing_rendered(scene.camera).film.mean().pixels.size();
+    std::vector<Textbook> textbook(pixels, Textbook{settings.surface.radius});
+    const double power = light_power(scene.lights[0], scene.bounds).g;
+    const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
+      Pass pass = render_photon_pass_after(so_far.discs, scene, settings, so_far.film.passes(), kGoOn, shown);
+      EXPECT_EQ(pass.found.size(), pixels);
+      for (size_t i = 0; i < pixels; ++i) {
+        const auto found = static_cast<double>(pass.found[i]);
+        textbook[i].add(found, found * power / samples);  // the mean of the samples' fluxes
+      }
+      return pass;
+    };
+    const RenderResult result =
+        run_passes(settings, run, tile_count(scene.camera), nothing_rendered(scene.camera), kGoOn, ProgressMode::never);
+    const Image mean = result.film.mean();
+    ASSERT_EQ(result.discs.size(), pixels);
+    int lit = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+      EXPECT_NEAR(disc_radius(result.discs[i], settings.surface.radius), textbook[i].radius, 1e-6);
+      const double exact = 0.5 / kPiD * textbook[i].irradiance(settings.passes, 3000.0);
+      EXPECT_NEAR(mean.pixels[i].g, exact, 1e-5 * exact);
+      lit += exact > 0.0;
+    }
+    EXPECT_GT(lit, 100);
+    EXPECT_TRUE(std::memcmp(mean.pixels.data(), render_all(scene, settings).film.mean().pixels.data(),
+                            pixels * sizeof(Rgb)) == 0);
+  }
+}
+
+TEST(RadiiOfPixels, ShrinkTheLaterTheFewerPhotonsArrive) {
+  const Scene scene = lit_floor(PointLight{Vec3(-0.5f, 0.3f, 0.2f), Rgb(1.0f)});
+  const RenderResult result = render_all(scene, per_pixel(300));
+  const Image mean = result.film.mean();
+  std::vector<std::pair<float, double>> area_by_light;
+  for (size_t i = 0; i < result.discs.size(); ++i) {
+    const PixelDisc& disc = result.discs[i];
+    EXPECT_EQ(disc.area == 1.0, disc.photons == 0.0);
+    EXPECT_EQ(disc.photons == 0.0, mean.pixels[i].g == 0.0f);  // who found nothing has seen nothing
+    area_by_light.emplace_back(mean.pixels[i].g, disc.area);
+  }
+  std::sort(area_by_light.begin(), area_by_light.end());
+  const auto mean_area = [&](size_t begin, size_t end) {
+    double sum = 0.0;
+    for (size_t i = begin; i < end; ++i) sum += area_by_light[i].second / static_cast<double>(end - begin);
+    return sum;
+  };
+  const size_t tenth = area_by_light.size() / 10;
+  const double bright = mean_area(area_by_light.size() - tenth, area_by_light.size()), dark = mean_area(0, tenth);
+  EXPECT_NEAR(bright, best_a(2) * measure_of_pass(best_a(2), 11), 0.03);  // as in even light
+  EXPECT_GT(dark, 1.5 * bright);
+}
+
+// The mean over pixels of renders of 12 passes, each of its own seed.
+TEST(RadiiOfPixels, AreRightInTheMeanWhileTheyShrink) {
+  const Scene scene = lit_floor(DirectionalLight{Vec3(0, -1, 0), Rgb(2.0f)});
+  RenderSettings settings = per_pixel(2000);
+  Moments radiance, area;
+  for (settings.seed = 1; settings.seed <= 60; ++settings.seed) {
+    const RenderResult result = render_all(scene, settings);
+    double sum = 0.0, areas = 0.0;
+    for (const Rgb& p : result.film.mean().pixels) sum += p.g;
+    for (const PixelDisc& disc : result.discs) areas += disc.area;
+    radiance.add(sum / static_cast<double>(result.discs.size()));
+    area.add(areas / static_cast<double>(result.discs.size()));
+  }
+  expect_mean(radiance, 0.5 / kPiD * 2.0, kFalseAlarms, "radiance of a floor in even light");
+  EXPECT_LT(area.mean(), 0.45);
+}
+
+TEST(RadiiOfPixels, AreTheSameForAnyNumberOfThreads) {
+  const Scene scene = lit_floor(PointLight{Vec3(-0.5f, 0.3f, 0.2f), Rgb(1.0f)});
+  std::vector<RenderResult> results;
+  for (const int threads : {1, 2, 5}) {
+    set_threads(threads);
+    results.push_back(render_all(scene, per_pixel(3000)));
+  }
+  set_threads(0);
+  for (const RenderResult& other : results) {
+    const Image a = results[0].film.mean(), b = other.film.mean();
+    EXPECT_TRUE(std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0);
+    ASSERT_EQ(other.discs.size(), results[0].discs.size());
+    EXPECT_TRUE(std::memcmp(other.discs.data(), results[0].discs.data(), other.discs.size() * sizeof(PixelDisc)) == 0);
+  }
+}
+
+TEST(RadiiOfPixels, AreNoneWithoutARoughSurface) {
+  Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 0.8f), PointLight{Vec3(0, 3, 0), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 20.0f, 4, 4, {});
+  EXPECT_TRUE(render_all(scene, per_pixel(100)).discs.empty());
+}
+
+}  // namespace
+}  // namespace vpm
