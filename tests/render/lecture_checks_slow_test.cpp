@@ -30,7 +30,6 @@ Scene floor_under_lamp(float ior) {
 RenderSettings settings_of(DirectLight direct, IndirectLight indirect) {
   RenderSettings settings;
   settings.photons_emitted = 200'000;
-  settings.photons_emitted = 100'000;
   settings.radii = RadiusSchedule::constant;
   settings.surface.radius = settings.caustics.radius = 0.06f;
   settings.surface_direct = direct;
