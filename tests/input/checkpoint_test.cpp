@@ -142,6 +142,12 @@ TEST_F(Checkpoint, WithARightChecksumOfNumbersThatCannotBeIsRefused) {
   refuses_with(with(56, 6));     // radii of pixels that are not there
   refuses_with(content + "\n");  // a byte too many
   refuses_with(content.substr(0, numbers + 20));
+  RenderResult of_pixels = some_result();
+  of_pixels.discs.resize(6);
+  write_checkpoint(path_, "a render", of_pixels);
+  content = bytes();
+  content.resize(content.size() - 16);
+  refuses_with(with(56, 5));  // a pixel without a radius among others that have one
 }
 
 }  // namespace
