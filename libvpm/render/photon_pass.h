@@ -14,7 +14,9 @@ struct Stages {
   bool surface_map = false;
   bool volume_shadow_rays = false;
   bool surface_shadow_rays = false;
-  bool final_gather = false;  // with a caustic map beside the surface map
+  bool final_gather = false;       // with a caustic map beside the surface map
+  bool guided_gather = false;      // its rays guided by one more map
+  bool irradiance_points = false;  // its rays end at points whose irradiance is known
   bool photons() const { return volume_map || surface_map; }
 };
 /// The stages that such a render of the scene runs; none by the path tracer.
