@@ -11,7 +11,8 @@
 namespace vpm {
 namespace {
 
-constexpr float kMostByPhotons = 0.5f;  // of the rays, where as many photons are near as are asked for
+constexpr float kMostByPhotons = 0.5f;  // of the rays, where ever so many photons are near
+constexpr float kFewPhotons = 16.0f;    // so many are worth half of that share
 
 }  // namespace
 
@@ -29,8 +30,8 @@ GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough) :
     up_to_[cell_of(-travel)] += sum_channels(scattered);
   }
   std::partial_sum(up_to_.begin(), up_to_.end(), up_to_.begin());
-  if (up_to_.back() > 0.0f)
-    share_ = kMostByPhotons * static_cast<float>(near.size()) / static_cast<float>(from_rough.settings.count);
+  const auto count = static_cast<float>(near.size());
+  if (up_to_.back() > 0.0f) share_ = kMostByPhotons * count / (count + kFewPhotons);
 }
 
 Scatter GatherGuide::sample(Rng& rng) const {

@@ -18,14 +18,14 @@
 namespace vpm {
 
 /// How that map is gathered from, but for the radius: few photons, so that they are near.
-inline constexpr GatherSettings kGuidingPhotons{.mode = GatherMode::nearest, .count = 50};
+inline constexpr GatherSettings kGuidingPhotons{.mode = GatherMode::nearest, .count = 100};
 
 class GatherGuide {
  public:
   /// Draws as the material scatters. The view outlives the guide.
   explicit GatherGuide(const SurfaceView& view) : view_(view) {}
-  /// Learns from a map by count of photons that rough surfaces scattered last. Where fewer are near than are asked for,
-  /// a share less by as much is drawn by what they tell.
+  /// Learns from a map by count of photons that rough surfaces scattered last. The fewer are near, the smaller is the
+  /// share of rays drawn by what they tell.
   GatherGuide(const SurfaceView& view, const PhotonMap& from_rough);
 
   /// How a gathering ray leaves; black: no ray.

@@ -19,7 +19,7 @@ enum class DirectLight { photons, shadow_rays };
 /// then, the caustic map.
 enum class IndirectLight { photons, final_gather };
 
-/// How final gathering draws its rays: as the material scatters, or half of them to where photons came from.
+/// How final gathering draws its rays: as the material scatters, or up to half of them to where photons came from.
 enum class GatherBy { material, photons };
 
 /// What rays of final gathering find at diffuse surfaces: an estimate from all photons around their ends, or one

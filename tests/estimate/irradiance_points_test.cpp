@@ -102,8 +102,8 @@ TEST(IrradiancePoints, AreNoneWhereTheTwoNormalsAreSeenFromDifferentSides) {
 }
 
 // In a diffuse sphere with a lamp in its centre all photons are uniform, and a ball cuts a cap of pi r^2 out of it, in
-// which areas of equal distance are a disc's: no kernel and no cell has a bias there, however few photons lie near. Two
-// for each point here, so that a third of the queries finds no point and asks the map.
+// which areas of equal distance are a disc's: no kernel and no cell has a bias there, however few photons lie near.
+// Here 4.8 and 1.6 places do on average; a fifth of the queries finds no place and asks the map.
 TEST(IrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
   constexpr float kReflectance = 0.5f;
   Scene scene;
@@ -115,7 +115,7 @@ TEST(IrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
   settings.emitted = 2'000;
   settings.keep_sites = true;
   Moments means;
-  uint64_t found = 0, asked = 0;
+  uint64_t found = 0, missed = 0;
   for (uint64_t pass = 0; pass < 300; ++pass) {
     settings.pass = pass;
     Progress silent("photons", 0, false);
@@ -130,13 +130,12 @@ TEST(IrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
       const Vec3 at = uniform_sphere(rng.uniform2());
       const Hit hit = hit_at(at, at, at);
       const std::optional<Rgb> near = points.irradiance(hit, -at);
-      found += near.has_value();
-      ++asked;
+      ++(near ? found : missed);
       pass_mean.add((near ? *near : shaded_irradiance(hit, -at, map)).g);
     }
     means.add(pass_mean.mean());
   }
-  std::printf("found %g of %g\n", double(found), double(asked));
+  EXPECT_NEAR(static_cast<double>(missed) / static_cast<double>(found + missed), 0.2, 0.01);
   // 4 pi W over the sphere's 4 pi m^2, again and again.
   expect_mean(means, 1.0 / (1.0 - kReflectance), kFalseAlarms);
   EXPECT_LT(std::sqrt(means.variance_of_mean()), 0.005 * means.mean());
