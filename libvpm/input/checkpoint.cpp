@@ -30,15 +30,16 @@ void each_number(Ledger& ledger, auto&& use) {
   each_number(walk, use);
 }
 void each_number(EyeCounters& eye, auto&& use) {
-  auto& [rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, cut_paths, non_finite, walk] = eye;
-  use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, cut_paths, non_finite);
+  auto& [rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
+         walk] = eye;
+  use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite);
   each_number(walk, use);
 }
 void each_number(RenderStatistics& statistics, auto&& use) {
-  auto& [passes, guide, trace, build, eye_pass, ledger, volume, surface, caustic, merged, bytes, guide_bytes,
-         volume_radius, surface_radius, eye] = statistics;
-  use(passes, guide, trace, build, eye_pass, volume, surface, caustic, merged, bytes, guide_bytes, volume_radius,
-      surface_radius);
+  auto& [passes, guide, trace, build, eye_pass, ledger, volume, surface, caustic, guiding, points, merged, bytes,
+         guide_bytes, volume_radius, surface_radius, eye] = statistics;
+  use(passes, guide, trace, build, eye_pass, volume, surface, caustic, guiding, points, merged, bytes, guide_bytes,
+      volume_radius, surface_radius);
   each_number(ledger, use);
   each_number(eye, use);
 }

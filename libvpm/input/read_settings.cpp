@@ -73,6 +73,23 @@ void read_surface_light(TableReader& table, RenderSettings& s) {
       s.surface_indirect);
 }
 
+/// What only final gathering asks for.
+void read_gathering(TableReader& table, RenderSettings& s) {
+  s.gather_rays = small_integer(table, "gather_rays", 1'000'000, s.gather_rays);
+  s.gather_by = table.choice<GatherBy>("gather_by", {{"material", GatherBy::material}, {"photons", GatherBy::photons}},
+                                       s.gather_by);
+  s.end_irradiance = table.choice<EndIrradiance>(
+      "irradiance", {{"estimate", EndIrradiance::estimate}, {"precomputed", EndIrradiance::precomputed}},
+      s.end_irradiance);
+  if (s.surface_indirect == IndirectLight::final_gather) return;
+  const auto refuse = [&](const std::string& key) {
+    table.fail(key, "there are no rays to gather light: 'indirect' of [surface] is \"photons\"",
+               "make 'method' \"final-gather\", or leave out '" + key + "'");
+  };
+  if (s.gather_by == GatherBy::photons) refuse("gather_by");
+  if (s.end_irradiance == EndIrradiance::precomputed) refuse("irradiance");
+}
+
 void read_render(TableReader& table, RenderSettings& s) {
   s.integrator = table.choice<Integrator>("integrator", {{"photon", Integrator::photon}, {"path", Integrator::path}},
                                           s.integrator);
@@ -186,7 +203,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   read_section(root, "surface", [&](TableReader& table) {
     read_gather(table, s.surface);
     read_surface_light(table, s);
-    s.gather_rays = small_integer(table, "gather_rays", 1'000'000, s.gather_rays);
+    read_gathering(table, s);
     if (s.radii == RadiusSchedule::per_pixel) check_radii_of_pixels(table, s);
   });
   read_section(root, "caustics", [&](TableReader& table) {

@@ -27,6 +27,7 @@ class PhotonPath {
   /// Emits and follows photon number `index`.
   void trace(uint64_t index) {
     Rng rng(settings_.seed, rng_stream(RngUse::photon, settings_.pass), index);
+    for_sites_ = settings_.keep_sites && index % kSiteStep == kSiteStep - 1;
     emit(rng);
     if (alive_) fly(rng);
     for (; !waiting_.empty(); fly(rng)) {
@@ -60,6 +61,7 @@ class PhotonPath {
     balance_ = -static_cast<double>(emitted_power_);
     alive_ = emitted_power_ > 0.0f;
     ++out_.ledger.emitted_count;
+    if (!for_sites_) ++out_.surface_emitted;
     out_.ledger.emitted += Rgbd(at_.state.power);
   }
 
@@ -151,8 +153,19 @@ class PhotonPath {
 
   void store(const Hit& hit) {
     const Photon photon{hit.position, PackedDirection(at_.state.ray.direction), at_.state.power};
-    if (settings_.keep_surface && (settings_.keep_direct_surface || !at_.direct)) out_.surface.push_back(photon);
+    if (for_sites_)
+      store_site(hit);
+    else if (settings_.keep_surface && (settings_.keep_direct_surface || !at_.direct))
+      out_.surface.push_back(photon);
+    if (settings_.keep_from_rough && at_.from_rough) out_.from_rough.push_back(photon);
     if (settings_.keep_caustics && !at_.from_rough && is_kept_caustic()) out_.caustics.push_back(photon);
+  }
+
+  void store_site(const Hit& hit) {
+    if (!std::holds_alternative<Lambertian>(scene_.material_of(hit))) return;
+    const float side = glm::dot(hit.normal, at_.state.ray.direction) < 0.0f ? 1.0f : -1.0f;
+    out_.sites.push_back(
+        {hit.position, PackedDirection(side * hit.normal), PackedDirection(side * hit.shading_normal)});
   }
 
   bool is_kept_caustic() const {
@@ -200,6 +213,7 @@ class PhotonPath {
   float emitted_power_ = 0.0f;
   double balance_ = 0.0;  // gone minus emitted, W
   bool alive_ = true;
+  bool for_sites_ = false;
 };
 
 void append(TracedPhotons& all, const TracedPhotons& part) {
@@ -207,6 +221,9 @@ void append(TracedPhotons& all, const TracedPhotons& part) {
     all.volume[m].insert(all.volume[m].end(), part.volume[m].begin(), part.volume[m].end());
   all.surface.insert(all.surface.end(), part.surface.begin(), part.surface.end());
   all.caustics.insert(all.caustics.end(), part.caustics.begin(), part.caustics.end());
+  all.from_rough.insert(all.from_rough.end(), part.from_rough.begin(), part.from_rough.end());
+  all.sites.insert(all.sites.end(), part.sites.begin(), part.sites.end());
+  all.surface_emitted += part.surface_emitted;
   all.ledger.merge(part.ledger);
 }
 

@@ -25,6 +25,8 @@ struct TraceSettings {
   bool keep_direct_volume = true, keep_direct_surface = true;  // store photons that have not scattered yet
   bool keep_caustics = false, keep_direct_caustics = false;    // the same of the caustic map
   bool keep_specular_caustics = true;  // those of the caustic map that trace_caustics() makes, too
+  bool keep_from_rough = false;        // store those that a rough surface scattered last by themselves, too
+  bool keep_sites = false;             // of some photons keep the places in the place of the power, see TracedPhotons
   VolumeForm volume_form = VolumeForm::density_at_query;
   const PhotonGuide* guide = nullptr;  // where photons are emitted and followed; null: as power is
   bool split = false;                  // with a guide: by importance also on their way
@@ -36,9 +38,16 @@ struct TraceSettings {
 struct TracedPhotons {
   std::vector<std::vector<Photon>> volume;  // by medium
   std::vector<Photon> surface;
-  std::vector<Photon> caustics;  // those of the surface photons that no rough surface has scattered last
+  std::vector<Photon> caustics;    // those of the surface photons that no rough surface has scattered last
+  std::vector<Photon> from_rough;  // those that one has
+  std::vector<SurfaceSite>
+      sites;  // where one of kSiteStep photons met Lambertian surfaces; none of these is in `surface`
+  uint64_t surface_emitted = 0;  // photons emitted for `surface`: all, or without those
   Ledger ledger;
 };
+
+/// Of as many photons, one is traced for sites where these are kept [Christensen1999].
+inline constexpr uint64_t kSiteStep = 4;
 
 /// Traces photons in parallel. Photon i depends on (seed, pass, i) alone, and the records stand in the photons' order.
 ///

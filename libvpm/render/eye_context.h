@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "estimate/irradiance_points.h"
 #include "estimate/photon_map.h"
 #include "render/photon_pass.h"
 
@@ -17,6 +18,8 @@ struct EyeContext {
   std::vector<PhotonMap> volume;  // by medium, under Stages::volume_map; otherwise none
   PhotonMap surface;              // under Stages::surface_map; otherwise empty, as below
   PhotonMap caustics;             // under Stages::final_gather
+  PhotonMap from_rough;           // by count, under Stages::guided_gather: photons that rough surfaces scattered last
+  IrradiancePoints irradiance;    // of the surface map, under Stages::irradiance_points
   std::unique_ptr<TransmittanceEstimator> transmittance;
 };
 

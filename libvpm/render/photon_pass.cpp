@@ -11,6 +11,7 @@
 #include "photon/density_control.h"
 #include "photon/trace.h"
 #include "render/eye_path.h"
+#include "render/gather_guide.h"
 #include "render/radius_schedule.h"
 
 namespace vpm {
@@ -42,6 +43,8 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
   trace.keep_caustics = stages.final_gather;
   trace.keep_direct_caustics = !stages.surface_shadow_rays;
   trace.keep_specular_caustics = settings.caustics_emitted == 0;
+  trace.keep_from_rough = stages.guided_gather;
+  trace.keep_sites = stages.irradiance_points;
   trace.volume_form = settings.volume_form;
   trace.density_floor = settings.density_floor;
   trace.stop = &stop;
@@ -102,6 +105,37 @@ void add_caustics(const EyeContext& context, const DistanceStrategy& strategy, c
   }
 }
 
+/// A map of photons of which that many were emitted.
+PhotonMap make_map(std::vector<Photon>& photons, const GatherSettings& gather, uint64_t emitted,
+                   const RenderSettings& settings, RenderStatistics& statistics) {
+  if (settings.photons_in_cube > 0 && gather.mode == GatherMode::radius)
+    statistics.merged_photons += control_density(photons, 0.5f * gather.radius, settings.photons_in_cube);
+  PhotonMap map = make_photon_map(std::move(photons), gather, emitted);
+  statistics.photon_map_bytes += map.memory_bytes();
+  return map;
+}
+
+/// Makes what final gathering needs besides the surface map.
+void make_gathering(EyeContext& context, TracedPhotons& photons, int pass, RenderStatistics& statistics) {
+  const RenderSettings& settings = context.settings;
+  const uint64_t emitted = photons.ledger.emitted_count;
+  const float caustic_radius = first_caustic_radius(context.scene, settings);
+  statistics.caustic_photons = photons.caustics.size();
+  context.caustics = make_map(photons.caustics, gather_in_pass(settings.caustics, caustic_radius, 2, settings, pass),
+                              emitted, settings, statistics);
+  if (context.stages.guided_gather) {
+    GatherSettings gather = kGuidingPhotons;
+    gather.radius = first_surface_radius(context.scene, settings);
+    statistics.guiding_photons = photons.from_rough.size();
+    context.from_rough = make_map(photons.from_rough, gather, emitted, settings, statistics);
+  }
+  if (context.stages.irradiance_points) {
+    context.irradiance = IrradiancePoints(photons.sites, context.surface);
+    statistics.irradiance_points = context.irradiance.size();
+    statistics.photon_map_bytes += context.irradiance.memory_bytes();
+  }
+}
+
 /// Traces the photons and sorts them into the context's maps.
 void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& progress, RenderStatistics& statistics) {
   const int pass = static_cast<int>(trace.pass);
@@ -126,31 +160,21 @@ void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& pro
   statistics.ledger = photons.ledger;
 
   const Stopwatch building;
-  const auto make_map = [&](std::vector<Photon>& of_map, const GatherSettings& gather) {
-    if (settings.photons_in_cube > 0 && gather.mode == GatherMode::radius)
-      statistics.merged_photons += control_density(of_map, 0.5f * gather.radius, settings.photons_in_cube);
-    return make_photon_map(std::move(of_map), gather, photons.ledger.emitted_count);
-  };
   for (size_t m = 0; context.stages.volume_map && m < scene.media.size(); ++m) {
     const float first = first_volume_radius(scene, settings, scene.media[m]);
     statistics.volume_photons += photons.volume[m].size();
-    context.volume.push_back(make_map(photons.volume[m], gather_in_pass(settings.volume, first, 3, settings, pass)));
+    context.volume.push_back(make_map(photons.volume[m], gather_in_pass(settings.volume, first, 3, settings, pass),
+                                      photons.ledger.emitted_count, settings, statistics));
     statistics.last_volume_radius = std::max(statistics.last_volume_radius, context.volume.back().settings.radius);
-    statistics.photon_map_bytes += context.volume.back().memory_bytes();
   }
   if (context.stages.surface_map) {
     const float first = first_surface_radius(scene, settings);
     statistics.surface_photons = photons.surface.size();
-    context.surface = make_map(photons.surface, gather_in_pass(settings.surface, first, 2, settings, pass));
+    context.surface = make_map(photons.surface, gather_in_pass(settings.surface, first, 2, settings, pass),
+                               photons.surface_emitted, settings, statistics);
     statistics.last_surface_radius = context.surface.settings.radius;
-    statistics.photon_map_bytes += context.surface.memory_bytes();
   }
-  if (context.stages.final_gather) {
-    statistics.caustic_photons = photons.caustics.size();
-    context.caustics = make_map(
-        photons.caustics, gather_in_pass(settings.caustics, first_caustic_radius(scene, settings), 2, settings, pass));
-    statistics.photon_map_bytes += context.caustics.memory_bytes();
-  }
+  if (context.stages.final_gather) make_gathering(context, photons, pass, statistics);
   statistics.build_seconds = building.seconds();
 }
 
@@ -161,11 +185,14 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
   bool scatters = false, rough = false;
   for (const Medium& medium : scene.media) scatters |= medium.scatters();
   for (const Shape& shape : scene.shapes) rough |= is_rough(scene.materials[shape.material]);
+  const bool gather = rough && settings.surface_indirect == IndirectLight::final_gather;
   return {.volume_map = scatters,
           .surface_map = rough,
           .volume_shadow_rays = scatters && settings.volume_direct == DirectLight::shadow_rays,
           .surface_shadow_rays = rough && settings.surface_direct == DirectLight::shadow_rays,
-          .final_gather = rough && settings.surface_indirect == IndirectLight::final_gather,
+          .final_gather = gather,
+          .guided_gather = gather && settings.gather_by == GatherBy::photons,
+          .irradiance_points = gather && settings.end_irradiance == EndIrradiance::precomputed,
           .pixel_discs = rough && settings.radii == RadiusSchedule::per_pixel};
 }
 
@@ -186,7 +213,7 @@ float first_caustic_radius(const Scene& scene, const RenderSettings& settings) {
 
 EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
                             const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics) {
-  EyeContext context{scene, settings, stages, {}, {}, {}, make_transmittance_estimator(settings.transmittance)};
+  EyeContext context{scene, settings, stages, {}, {}, {}, {}, {}, make_transmittance_estimator(settings.transmittance)};
   if (stages.photons()) make_maps(context, trace_settings(settings, stages, pass, stop), progress, statistics);
   return context;
 }

@@ -16,8 +16,10 @@ struct Stages {
   bool surface_map = false;
   bool volume_shadow_rays = false;
   bool surface_shadow_rays = false;
-  bool final_gather = false;  // with a caustic map beside the surface map
-  bool pixel_discs = false;   // the eye's gathers from the surface map have radii of the pixels' own
+  bool final_gather = false;       // with a caustic map beside the surface map
+  bool guided_gather = false;      // its rays guided by one more map
+  bool irradiance_points = false;  // its rays end at points whose irradiance is known
+  bool pixel_discs = false;        // the eye's gathers from the surface map have radii of the pixels' own
   bool photons() const { return volume_map || surface_map; }
 };
 /// The stages that such a render of the scene runs; none by the path tracer.

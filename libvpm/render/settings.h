@@ -24,6 +24,13 @@ enum class IndirectLight { photons, final_gather };
 /// that the pixel has found [Hachisuka2009], and of other maps as before.
 enum class RadiusSchedule { constant, per_pass, per_pixel };
 
+/// How final gathering draws its rays: as the material scatters, or up to half of them to where photons came from.
+enum class GatherBy { material, photons };
+
+/// What rays of final gathering find at diffuse surfaces: an estimate from all photons around their ends, or one
+/// computed beforehand at a place nearby.
+enum class EndIrradiance { estimate, precomputed };
+
 /// What estimates radiance: photon maps, or the path tracer that referees them.
 enum class Integrator { photon, path };
 
@@ -58,7 +65,9 @@ struct RenderSettings {
   DirectLight volume_direct = DirectLight::photons;  // single scattering
   DirectLight surface_direct = DirectLight::shadow_rays;
   IndirectLight surface_indirect = IndirectLight::photons;
-  int gather_rays = 8;            // of final gathering, at each point of a surface that the eye sees, >= 1
+  int gather_rays = 8;  // of final gathering, at each point of a surface that the eye sees, >= 1
+  GatherBy gather_by = GatherBy::material;
+  EndIrradiance end_irradiance = EndIrradiance::estimate;
   float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0
 };
 

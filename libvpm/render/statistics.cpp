@@ -12,6 +12,8 @@ void EyeCounters::merge(const EyeCounters& other) {
   surface_queries += other.surface_queries;
   shadow_rays += other.shadow_rays;
   gather_rays += other.gather_rays;
+  irradiance_lookups += other.irradiance_lookups;
+  irradiance_misses += other.irradiance_misses;
   cut_paths += other.cut_paths;
   non_finite += other.non_finite;
   walk.merge(other.walk);
@@ -27,6 +29,8 @@ void RenderStatistics::merge(const RenderStatistics& pass) {
   volume_photons += pass.volume_photons;
   surface_photons += pass.surface_photons;
   caustic_photons += pass.caustic_photons;
+  guiding_photons += pass.guiding_photons;
+  irradiance_points += pass.irradiance_points;
   merged_photons += pass.merged_photons;
   photon_map_bytes = std::max(photon_map_bytes, pass.photon_map_bytes);
   guide_bytes = std::max(guide_bytes, pass.guide_bytes);

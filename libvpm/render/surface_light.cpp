@@ -3,6 +3,7 @@
 
 #include "estimate/surface_estimate.h"
 #include "path/direct_light.h"
+#include "render/gather_guide.h"
 #include "surface/shading.h"
 
 namespace vpm {
@@ -56,12 +57,12 @@ class SurfaceLight {
   /// glass and media.
   Rgb not_gathered(const SurfaceView& view) { return direct_light(view) + of_map(view, c_.caustics); }
 
-  /// The light that rough surfaces scattered last, by rays drawn as the material scatters.
+  /// The light that rough surfaces scattered last, by rays.
   Rgb gathered(const SurfaceView& view, int rays) {
+    const GatherGuide guide = make_guide(view);
     Rgb sum(0.0f);
     for (int i = 0; i < rays; ++i) {
-      const float choice = rng_.uniform();
-      const Scatter scatter = sample_scatter(view.material, view.hit, view.travel, choice, rng_.uniform2());
+      const Scatter scatter = guide.sample(rng_);
       if (is_black(scatter.weight)) continue;
       const Shape& shape = c_.scene.shapes[view.hit.shape];
       const MediumId medium =
@@ -70,6 +71,12 @@ class SurfaceLight {
       sum += scatter.weight * scatter.radiance_scale * met_along({ray, medium, Rgb(1.0f)});
     }
     return sum / static_cast<float>(rays);
+  }
+
+  GatherGuide make_guide(const SurfaceView& view) {
+    if (!c_.stages.guided_gather) return GatherGuide(view);
+    ++counters_.surface_queries;
+    return {view, c_.from_rough};
   }
 
   /// Radiance of the rough surface that a gathering ray meets. Lamps on its way are left out: their light is direct, or
@@ -98,7 +105,7 @@ class SurfaceLight {
       }
       if (is_rough(material)) {
         const SurfaceView view{hit, material, path.ray.direction, path.medium};
-        if (!is_too_short(length, view)) return result + path.power * of_map(view, c_.surface);
+        if (!is_too_short(length, view)) return result + path.power * of_end(view);
         result += path.power * not_gathered(view);
         length = 0.0f;  // of the next ray
       }
@@ -109,6 +116,20 @@ class SurfaceLight {
     }
     ++counters_.cut_paths;
     return result;
+  }
+
+  /// What a gathering ray sees of all light where it ends: from the points where it was computed beforehand, or, where
+  /// none is near, and of surfaces that are not Lambertian, from the map.
+  Rgb of_end(const SurfaceView& view) {
+    const auto* diffuse = std::get_if<Lambertian>(&view.material);
+    if (!c_.stages.irradiance_points || !diffuse) return of_map(view, c_.surface);
+    const std::optional<Rgb> irradiance = c_.irradiance.irradiance(view.hit, -view.travel);
+    if (irradiance) {
+      ++counters_.irradiance_lookups;
+      return diffuse->reflectance / kPi * *irradiance;
+    }
+    ++counters_.irradiance_misses;
+    return of_map(view, c_.surface);
   }
 
   /// Is a ray shorter than the radius of what the map tells at its end?

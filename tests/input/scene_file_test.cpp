@@ -431,6 +431,7 @@ TEST(SceneFile, ReadsEverySetting) {
           "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
           "'density-at-photon'\ndirect = 'shadow-rays'\n"
           "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n"
+          "indirect = 'final-gather'\ngather_rays = 5\ngather_by = 'photons'\nirradiance = 'precomputed'\n"
           "[caustics]\nradius = 0.01\nemitted = 800\n")
           .settings;
   EXPECT_EQ(s.integrator, Integrator::photon);
@@ -465,6 +466,10 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.surface.count, 60u);
   EXPECT_EQ(s.surface.kernel, KernelKind::constant);
   EXPECT_EQ(s.surface_direct, DirectLight::photons);
+  EXPECT_EQ(s.surface_indirect, IndirectLight::final_gather);
+  EXPECT_EQ(s.gather_rays, 5);
+  EXPECT_EQ(s.gather_by, GatherBy::photons);
+  EXPECT_EQ(s.end_irradiance, EndIrradiance::precomputed);
 }
 
 TEST(SceneFile, AMethodChoosesDirectAndIndirectLight) {
@@ -501,6 +506,8 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(s.volume.count, d.volume.count);
   EXPECT_EQ(s.volume.kernel, d.volume.kernel);
   EXPECT_EQ(s.surface_direct, d.surface_direct);
+  EXPECT_EQ(s.gather_by, d.gather_by);
+  EXPECT_EQ(s.end_irradiance, d.end_irradiance);
   EXPECT_EQ(load_with("[photons]\nstored = 10\n").settings.photons_emitted, 0u);  // until the maps are full
 }
 

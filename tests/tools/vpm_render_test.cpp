@@ -177,11 +177,15 @@ TEST_F(VpmRender, TheReportDividesTheMapsByAllPhotonsInThem) {
   write("glass.toml", std::string(kScene) +
                           "[[shapes]]\ntype = 'sphere'\ncenter = [0.5, 1.25, 0.5]\nradius = 0.2\n"
                           "material = { type = 'dielectric', ior = 1.5 }\n");
-  vpm_succeeds({"render", "glass.toml", "-o", "a.exr", "--set", "surface.indirect=final-gather"});
+  vpm_succeeds({"render", "glass.toml", "-o", "a.exr", "--set", "surface.indirect=final-gather", "--set",
+                "surface.gather_by=photons", "--set", "surface.irradiance=precomputed"});
   const Json photons = report("a.json")["photons"], memory = report("a.json")["memory"];
-  const auto stored = [&](const char* map) { return photons[std::string("stored_") + map].get<double>(); };
-  EXPECT_GT(stored("caustic"), 100.0);
-  const double of_a_pass = (stored("volume") + stored("surface") + stored("caustic")) / 2.0;
+  double of_a_pass = 0.0;
+  for (const char* map :
+       {"stored_volume", "stored_surface", "stored_caustic", "stored_to_guide_gathering", "irradiance_points"}) {
+    EXPECT_GT(photons[map], 100) << map;
+    of_a_pass += photons[map].get<double>() / 2.0;
+  }
   EXPECT_NEAR(memory["per_stored_photon_of_mean_pass"].get<double>() * of_a_pass,
               memory["largest_photon_maps"].get<double>(), 1.0);
 }

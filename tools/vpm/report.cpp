@@ -33,13 +33,18 @@ Json times(const RenderResult& result) {
           {"importance", s.guide_seconds}, {"map_building", s.build_seconds}, {"eye_pass", s.eye_seconds}};
 }
 
-uint64_t stored_photons(const RenderStatistics& s) { return s.volume_photons + s.surface_photons + s.caustic_photons; }
+/// All records that maps hold.
+uint64_t stored_photons(const RenderStatistics& s) {
+  return s.volume_photons + s.surface_photons + s.caustic_photons + s.guiding_photons + s.irradiance_points;
+}
 
 Json photons(const RenderStatistics& s) {
   return {{"emitted", s.ledger.emitted_count},
           {"stored_volume", s.volume_photons},
           {"stored_surface", s.surface_photons},
           {"stored_caustic", s.caustic_photons},
+          {"stored_to_guide_gathering", s.guiding_photons},
+          {"irradiance_points", s.irradiance_points},
           {"merged", s.merged_photons},
           {"collisions", s.ledger.collisions},
           {"surface_hits", s.ledger.surface_hits},
@@ -90,6 +95,8 @@ Json eye(const RenderStatistics& s) {
           {"surface_queries", s.eye.surface_queries},
           {"shadow_rays", s.eye.shadow_rays},
           {"gather_rays", s.eye.gather_rays},
+          {"irradiance_lookups", s.eye.irradiance_lookups},
+          {"irradiance_misses", s.eye.irradiance_misses},
           {"density_lookups", s.eye.walk.lookups},
           {"paths_cut_at_max_events", s.eye.cut_paths},
           {"dropped_non_finite", s.eye.non_finite},
@@ -103,6 +110,8 @@ Json points_of_texels(const RenderStatistics& s) {
           {"surface_queries", s.eye.surface_queries},
           {"shadow_rays", s.eye.shadow_rays},
           {"gather_rays", s.eye.gather_rays},
+          {"irradiance_lookups", s.eye.irradiance_lookups},
+          {"irradiance_misses", s.eye.irradiance_misses},
           {"density_lookups", s.eye.walk.lookups},
           {"paths_cut_at_max_events", s.eye.cut_paths},
           {"dropped_non_finite", s.eye.non_finite},
@@ -236,7 +245,10 @@ std::string settings_line(const RenderSettings& s) {
       direct(s.volume_direct), gather(s.surface), direct(s.surface_direct),
       s.surface_indirect == IndirectLight::photons
           ? "photons"
-          : fmt::format("final-gather:{}:{}:aimed={}", s.gather_rays, gather(s.caustics), s.caustics_emitted),
+          : fmt::format("final-gather:{}:by={}:irradiance={}:{}:aimed={}", s.gather_rays,
+                        s.gather_by == GatherBy::material ? "material" : "photons",
+                        s.end_irradiance == EndIrradiance::estimate ? "estimate" : "precomputed", gather(s.caustics),
+                        s.caustics_emitted),
       radii(s.radii), s.max_optical_step, s.max_events);
 }
 
@@ -253,6 +265,7 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
       ", transmittance by " + described(settings.transmittance.estimator, transmittance_estimators());
   bool grids = false;
   for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
+  const std::string no_gathering = stages.surface_map ? "indirect light comes from the photon map" : "no rough surface";
   const std::string channels = scene.grey ? "all coefficients are grey" : "coefficients differ between channels";
   if (settings.integrator == Integrator::path)
     return {line(true, "path tracing", distances + transmittance, ""),
@@ -267,8 +280,11 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
           line(stages.surface_shadow_rays, "shadow rays at surfaces", transmittance,
                stages.surface_map ? "direct light comes from the photon map" : "no rough surface"),
           line(stages.final_gather, "final gathering and a caustic map",
-               fmt::format(", {} rays at a point", settings.gather_rays),
-               stages.surface_map ? "indirect light comes from the photon map" : "no rough surface"),
+               fmt::format(", {} rays at a point", settings.gather_rays), no_gathering),
+          line(stages.guided_gather, "a photon map to guide its rays", "",
+               stages.final_gather ? "materials draw them" : no_gathering),
+          line(stages.irradiance_points, "irradiance computed beforehand for their ends", "",
+               stages.final_gather ? "they ask the photon map" : no_gathering),
           line(grids, "grid look-ups", "", "all media are homogeneous"),
           channels};
 }

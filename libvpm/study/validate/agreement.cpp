@@ -101,7 +101,7 @@ RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
 }
 
 /// The forms of gathering: in media by both forms and both ways to single scattering, in both modes; from photons that
-/// are guided; on surfaces from the map and by final gathering.
+/// are guided; on surfaces from the map and by final gathering, whose rays are guided or not.
 std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSettings& base, bool media, bool surfaces) {
   std::vector<std::pair<std::string, RenderSettings>> all;
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
@@ -127,6 +127,9 @@ std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSetti
     RenderSettings gathering = base;
     gathering.surface_indirect = IndirectLight::final_gather;
     all.emplace_back("final gathering", gathering);
+    RenderSettings guided_rays = gathering;
+    guided_rays.gather_by = GatherBy::photons;
+    all.emplace_back("final gathering, guided", guided_rays);
     gathering.surface_direct = DirectLight::photons;
     gathering.caustics_emitted = base.photons_emitted;
     all.emplace_back("final gathering, direct light by photons, caustics aimed", gathering);

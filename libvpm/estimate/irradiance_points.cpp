@@ -1,0 +1,46 @@
+// Computing the points, and finding the nearest.
+#include "estimate/irradiance_points.h"
+
+#include "base/parallel.h"
+#include "estimate/surface_estimate.h"
+
+namespace vpm {
+namespace {
+
+constexpr size_t kChunk = 256;  // points computed one after another
+
+Photon point_at(const SurfaceSite& site, const PhotonMap& map) {
+  Hit hit;
+  hit.position = site.position;
+  hit.normal = site.normal.unpack();
+  hit.shading_normal = site.shading_normal.unpack();
+  return {site.position, PackedDirection(-hit.shading_normal), shaded_irradiance(hit, hit.normal, map)};
+}
+
+}  // namespace
+
+IrradiancePoints::IrradiancePoints(const std::vector<SurfaceSite>& sites, const PhotonMap& map)
+    : gather_{.mode = GatherMode::nearest, .radius = map.settings.radius, .count = 1},
+      thickness_(plane_thickness(map.settings)) {
+  std::vector<Photon> points(sites.size());
+  parallel_for_chunks(sites.size(), kChunk, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) points[i] = point_at(sites[i], map);
+  });
+  points_ = NearestMap(std::move(points), 1.0f);
+}
+
+std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towards_eye) const {
+  const float geometric = glm::dot(hit.normal, towards_eye), shading = glm::dot(hit.shading_normal, towards_eye);
+  if (!(geometric * shading > 0.0f)) return std::nullopt;
+  const float side = geometric > 0.0f ? 1.0f : -1.0f;
+  const Vec3 normal = side * hit.shading_normal;
+  const Arrives in_plane{side * hit.normal, thickness_, true};
+  const auto agrees = [&](const Vec3& travel, const Vec3& offset) {
+    return -glm::dot(travel, normal) > kSameNormal && in_plane(travel, offset);
+  };
+  const Neighbours& near = nearest(points_, gather_, hit.position, agrees);
+  if (near.entries().empty()) return std::nullopt;
+  return points_.photon(near.entries().front().photon).power;
+}
+
+}  // namespace vpm
