@@ -188,7 +188,7 @@ TEST(RoughMaterials, DrawWhatTheirValuesSay) {
                                 RoughDielectric{1.01f, 0.1f},
                                 RoughDielectric{0.6f, 0.5f}};
   std::vector<Check> checks;
-  const auto check = [&](const std::string& name, const Material& material, std::initializer_list<double> angles) {
+  const auto draw = [&](const std::string& name, const Material& material, std::initializer_list<double> angles) {
     for (const bool from_outside : {true, false})
       for (const double angle : angles)
         append(checks, check_lobes(name + (from_outside ? " outside " : " inside ") + std::to_string(angle),
@@ -196,8 +196,8 @@ TEST(RoughMaterials, DrawWhatTheirValuesSay) {
   };
   for (const Material& material : materials) {
     const std::string name = "number " + std::to_string(&material - materials);
-    check(name, material, {0.0, 0.8, 1.45});
-    if (facet_loss_of(material)) check(name + ", lossless", Lossless(material).material(), {0.8});
+    draw(name, material, {0.0, 0.8, 1.45});
+    if (facet_loss_of(material)) draw(name + ", lossless", Lossless(material).material(), {0.8});
   }
   judge(checks, 1e-6);
   for (const Check& check : checks)
