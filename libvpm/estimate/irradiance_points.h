@@ -1,8 +1,8 @@
 // Irradiance computed beforehand at places that photons found, for the many rays that end among them [Christensen1999].
 //
 // A ray that ends on a Lambertian surface takes the irradiance of the nearest point whose normal agrees, in place of a
-// sum over all photons there: constant over the cell around each point. That is a bias beside the kernel's, as if light
-// were blurred by the distance of the points, at most by the map's radius; it goes with that.
+// sum over all photons there: constant over the cell around each point. That is a bias beside the kernel's: it blurs
+// light by the distance to the points, which is at most the map's radius, and vanishes with that radius.
 //
 // The photons that found the places are none of the map's, which differs from [Christensen1999]. An estimate at the
 // place of one of its photons counts that one at the kernel's peak; and the nearest place being known, none of the

@@ -26,7 +26,7 @@ struct TraceSettings {
   bool keep_caustics = false, keep_direct_caustics = false;    // the same of the caustic map
   bool keep_specular_caustics = true;  // those of the caustic map that trace_caustics() makes, too
   bool keep_from_rough = false;        // store those that a rough surface scattered last by themselves, too
-  bool keep_sites = false;             // of some photons keep the places in the place of the power, see TracedPhotons
+  bool keep_sites = false;             // one of kSiteStep photons finds sites and is not in the surface map
   VolumeForm volume_form = VolumeForm::density_at_query;
   const PhotonGuide* guide = nullptr;  // where photons are emitted and followed; null: as power is
   bool split = false;                  // with a guide: by importance also on their way
@@ -40,13 +40,12 @@ struct TracedPhotons {
   std::vector<Photon> surface;
   std::vector<Photon> caustics;    // those of the surface photons that no rough surface has scattered last
   std::vector<Photon> from_rough;  // those that one has
-  std::vector<SurfaceSite>
-      sites;  // where one of kSiteStep photons met Lambertian surfaces; none of these is in `surface`
-  uint64_t surface_emitted = 0;  // photons emitted for `surface`: all, or without those
+  std::vector<SurfaceSite> sites;  // on Lambertian surfaces, found by photons that are not in `surface`
+  uint64_t surface_emitted = 0;    // photons emitted for `surface`: all, or without those
   Ledger ledger;
 };
 
-/// Of as many photons, one is traced for sites where these are kept [Christensen1999].
+/// Where sites are kept, one of so many photons finds them [Christensen1999].
 inline constexpr uint64_t kSiteStep = 4;
 
 /// Traces photons in parallel. Photon i depends on (seed, pass, i) alone, and the records stand in the photons' order.

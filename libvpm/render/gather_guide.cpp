@@ -26,12 +26,12 @@ GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough) :
   for (const Neighbours::Entry& entry : near) {
     const Photon& photon = map.photon(entry.photon);
     const Vec3 travel = photon.travel.unpack();
-    const Rgb scattered = scatter_value(view.material, hit, travel, -view.travel).value * photon.power;
-    up_to_[cell_of(-travel)] += sum_channels(scattered);
+    const Rgb scattered = scatter_value(view.material, hit, travel, -view.travel).value;
+    up_to_[cell_of(-travel)] += glm::dot(Rgbd(scattered), Rgbd(photon.power));
   }
   std::partial_sum(up_to_.begin(), up_to_.end(), up_to_.begin());
   const auto count = static_cast<float>(near.size());
-  if (up_to_.back() > 0.0f) share_ = kMostByPhotons * count / (count + kFewPhotons);
+  if (up_to_.back() > 0.0) share_ = kMostByPhotons * count / (count + kFewPhotons);
 }
 
 Scatter GatherGuide::sample(Rng& rng) const {
@@ -73,9 +73,9 @@ int GatherGuide::cell_of(const Vec3& direction) const {
 
 float GatherGuide::density(const Vec3& direction, float of_material) const {
   const int cell = cell_of(direction);
-  const float added = up_to_[cell] - (cell > 0 ? up_to_[cell - 1] : 0.0f);
+  const double added = up_to_[cell] - (cell > 0 ? up_to_[cell - 1] : 0.0);
   const float cosine = std::abs(glm::dot(direction, normals_[0]));
-  const float of_photons = added / up_to_.back() * kOfSide * cosine / kPi;
+  const float of_photons = static_cast<float>(added / up_to_.back()) * kOfSide * cosine / kPi;
   return (1.0f - share_) * of_material + share_ * of_photons;
 }
 

@@ -44,9 +44,9 @@ class GatherGuide {
   float density(const Vec3& direction, float of_material) const;
 
   const SurfaceView& view_;
-  float share_ = 0.0f;                      // of rays drawn by photons
-  std::array<Vec3, 2> normals_;             // the axes of the hemispheres, unit
-  std::array<float, 2 * kOfSide> up_to_{};  // sum of what photons added to the cells up to this one
+  float share_ = 0.0f;                       // of rays drawn by photons
+  std::array<Vec3, 2> normals_;              // the axes of the hemispheres, unit
+  std::array<double, 2 * kOfSide> up_to_{};  // sum of what photons added to the cells up to this one
 };
 
 }  // namespace vpm
