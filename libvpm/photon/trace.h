@@ -26,7 +26,7 @@ struct TraceSettings {
   bool keep_caustics = false, keep_direct_caustics = false;    // the same of the caustic map
   bool keep_specular_caustics = true;  // those of the caustic map that trace_caustics() makes, too
   VolumeForm volume_form = VolumeForm::density_at_query;
-  const PhotonGuide* guide = nullptr;  // where photons are emitted and followed; null: as power is
+  const PhotonGuide* guide = nullptr;  // where photons are emitted and scattered; null: as power is
   bool split = false;                  // with a guide: by importance also on their way
   float density_floor = 0.0f;  // density at the query: the least to divide by, over the medium's largest, in [0, 1]
   const std::atomic<bool>* stop = nullptr;  // once true, tracing ends as soon as it can, with photons of no use
