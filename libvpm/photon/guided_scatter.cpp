@@ -6,7 +6,9 @@
 namespace vpm {
 namespace {
 
-constexpr float kGuided = 0.5f;  // the share of directions that are drawn from the guide
+/// The share of directions that are drawn from the guide. A photon that goes elsewhere grows by 1 / (1 - share) each
+/// time it scatters: of half of them these powers' spread would cost more than the guide gains.
+constexpr float kGuided = 0.1f;
 
 /// What a photon's power is multiplied by whose direction has these two densities, 1/sr: the first is what it would be
 /// drawn with if it was not guided.

@@ -1,4 +1,5 @@
-// How photons scatter that are guided: half of them as media and surfaces would, half where importance comes from.
+// How photons scatter that are guided: most of them as media and surfaces would, a tenth of them to where importance
+// comes from.
 #pragma once
 
 #include "path/walk.h"
@@ -6,8 +7,8 @@
 
 namespace vpm {
 
-/// scatter_in_medium() with guided directions. They are drawn from both densities, half and half, and the power is
-/// multiplied by the medium's own over the mixture, which is at most 2 [Veach1997, sec. 9.2.4]. That has the mean 1, as
+/// scatter_in_medium() with guided directions. They are drawn from a mixture of both densities, and the power is
+/// multiplied by the medium's own over the mixture's, at most 10 / 9 [Veach1997, sec. 9.2.4]. That has the mean 1, as
 /// roulette has. A photon is absorbed as if it were not guided.
 bool scatter_in_medium(const DirectionGuide& guide, const Medium& medium, PathState& state, Rng& rng);
 

@@ -14,17 +14,13 @@ constexpr int kDirectionResolution = 16;  // those of directions: each takes the
 constexpr size_t kChunk = 4096;           // importons traced one after another
 constexpr uint64_t kWave = 32 * kChunk;   // those whose tracks wait to be added
 
-void add_track(Importance& importance, const Ray& ray, float length, float weight) {
-  importance.map.add_track(ray, length, weight);
-  if (importance.directions) importance.directions->add_track(ray, length, weight);
-}
-
 void merge(Importance& all, const Importance& part) {
   all.map.merge(part.map);
   if (all.directions) all.directions->merge(*part.directions);
 }
 
-/// Follows one importon and adds its tracks.
+/// Follows one importon and adds its tracks. Those from the camera to what it sees, by mirrors and glass or straight,
+/// tell of no direction for photons: what a photon leaves where the camera sees it is seen from there.
 void trace_importon(const Scene& scene, const DistanceStrategy& strategy, Rng& rng, int max_events,
                     Importance& importance) {
   const Camera& camera = scene.camera;
@@ -32,6 +28,7 @@ void trace_importon(const Scene& scene, const DistanceStrategy& strategy, Rng& r
   const Ray seen = camera.ray(film);
   PathState state{seen, medium_of_ray(scene, scene.camera_medium, seen), Rgb(1.0f)};
   WalkCounters counters;
+  bool scattered = false;
   for (int events = 0; events < max_events; ++events) {
     const Ray from = state.ray;
     const float weight = mean_channel(state.power);
@@ -39,9 +36,13 @@ void trace_importon(const Scene& scene, const DistanceStrategy& strategy, Rng& r
     if (!is_finite(state.power)) return;
     const bool escaped = event.kind == EventKind::escape;
     const float length = escaped ? kInfinity : glm::distance(from.origin, state.ray.origin);
-    if (length > 0.0f) add_track(importance, from, length, weight);
+    if (length > 0.0f) {
+      importance.map.add_track(from, length, weight);
+      if (importance.directions && scattered) importance.directions->add_track(from, length, weight);
+    }
     const double now = mean_channel(state.power);
     if (escaped || !(now > 0.0) || !survive_roulette(now, state, rng)) return;
+    scattered |= event.kind == EventKind::collision || is_rough(scene.material_of(event.hit));
     if (event.kind == EventKind::collision) {
       if (!scatter_in_medium(scene.media[state.medium], state, rng)) return;
     } else {
