@@ -1,6 +1,7 @@
 // Warps of uniform numbers in [0, 1)^2 to discs, cones, spheres and hemispheres. Each states its density.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vec.h"
@@ -13,6 +14,12 @@ inline Vec3 uniform_sphere(const Vec2& u) {
   const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
   const float phi = 2.0f * kPi * u.y;
   return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+/// The `u` of which uniform_sphere() makes that direction (unit), in [0, 1]^2.
+inline Vec2 uniform_sphere_numbers(const Vec3& direction) {
+  const float turns = std::atan2(direction.y, direction.x) / (2.0f * kPi);
+  return {std::clamp(0.5f * (1.0f - direction.z), 0.0f, 1.0f), turns < 0.0f ? turns + 1.0f : turns};
 }
 
 /// A point uniform over the unit disc; density 1/pi.

@@ -185,6 +185,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
     s.guide.importons = table.integer("importons", 0, 1'000'000'000, s.guide.importons);
     s.guide.aim = table.flag("aim", s.guide.aim);
     s.guide.split = table.flag("split", s.guide.split);
+    s.guide.scatter = table.flag("scatter", s.guide.scatter);
   });
   read_section(root, "distance", [&](TableReader& table) { read_distance(table, s.distance, has_grid); });
   read_section(root, "transmittance", [&](TableReader& table) {

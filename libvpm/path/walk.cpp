@@ -68,9 +68,7 @@ bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng) {
   return true;
 }
 
-bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter) {
-  const float choice = rng.uniform();
-  scatter = sample_scatter(material_at(scene, hit), hit, state.ray.direction, choice, rng.uniform2());
+bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng) {
   const Rgb after = state.power * scatter.weight;
   const float survival = std::min(1.0f, max_channel(after) / max_channel(state.power));
   if (!(rng.uniform() < survival)) return false;
@@ -79,6 +77,12 @@ bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rn
     state.medium = medium_beyond(scene.shapes[hit.shape], hit.normal, scatter.direction, state.medium);
   state.ray = {leave_surface(hit, scatter.direction), scatter.direction};
   return true;
+}
+
+bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter) {
+  const float choice = rng.uniform();
+  scatter = sample_scatter(material_at(scene, hit), hit, state.ray.direction, choice, rng.uniform2());
+  return go_on_from(scene, hit, scatter, state, rng);
 }
 
 }  // namespace vpm

@@ -60,10 +60,13 @@ bool survive_roulette(double weight, PathState& state, Rng& rng);
 /// [Jarosz2008, eq. 7.8].
 bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
 
-/// The outcome at a surface: samples the material and plays Russian roulette, surviving with the ratio of largest
-/// channels after and before, at most 1. The path goes on from just off the surface, in the medium there. False where
-/// absorbed. The power is not multiplied by Scatter::radiance_scale, which is for eye paths, nor by flux_scale, which
-/// is for photons.
+/// Follows a path as the sampled material says, from a surface: plays Russian roulette, surviving with the ratio of
+/// largest channels after and before, at most 1. The path goes on from just off the surface, in the medium there. False
+/// where absorbed. The power is not multiplied by Scatter::radiance_scale, which is for eye paths, nor by flux_scale,
+/// which is for photons.
+bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng);
+
+/// The outcome at a surface: samples the material and goes on from there.
 bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter);
 
 }  // namespace vpm

@@ -1,13 +1,16 @@
 // Importons, then scouts that ask where photons get to.
 #include "photon/photon_guide.h"
 
+#include <utility>
+
 #include "photon/emission.h"
 
 namespace vpm {
 
 PhotonGuide learn_guide(const Scene& scene, const DistanceStrategy& strategy, const GuideSettings& settings,
                         uint64_t seed, uint64_t pass, int max_events) {
-  PhotonGuide guide{trace_importons(scene, strategy, seed, pass, settings.importons, max_events), {}, 0.0};
+  Importance importance = trace_importons(scene, strategy, settings, seed, pass, max_events);
+  PhotonGuide guide{std::move(importance.map), std::move(importance.directions), {}, 0.0};
   const auto score = [&](const EmissionPoint& point, Rng& rng) {
     PathState state = emit_photon(scene, point);
     WalkCounters counters;

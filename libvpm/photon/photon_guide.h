@@ -1,22 +1,15 @@
-// What guides photons: where to emit them, and where on their way to follow more or fewer of them.
+// What guides photons: where to emit them, which way to scatter them, and where to follow more or fewer of them.
 #pragma once
 
 #include "photon/emission_guide.h"
-#include "photon/importance_map.h"
+#include "photon/importons.h"
 
 namespace vpm {
-
-/// How photons are guided. Whatever is chosen, results stay unbiased: importance decides how many photons go somewhere,
-/// and their powers make up for it.
-struct GuideSettings {
-  uint64_t importons = 0;  // per pass; 0: photons are not guided
-  bool aim = true;         // emit more where photons are worth more
-  bool split = true;       // follow photons by several where they are worth more, by fewer where less
-};
 
 /// Learned anew for each pass, from the scene alone.
 struct PhotonGuide {
   ImportanceMap importance;
+  std::optional<DirectionGuide> directions;
   EmissionGuide emission;
   /// Power times importance that a photon should carry, W: the mean over photons at their first events.
   double value = 0.0;
@@ -27,7 +20,9 @@ struct PhotonGuide {
   float rise(double power, const Ray& ray, double worth) const {
     return value > 0.0 ? importance.first_above(ray, static_cast<float>(worth * value / power)) : kInfinity;
   }
-  size_t memory_bytes() const { return importance.memory_bytes() + emission.memory_bytes(); }
+  size_t memory_bytes() const {
+    return importance.memory_bytes() + (directions ? directions->memory_bytes() : 0) + emission.memory_bytes();
+  }
 };
 
 /// Traces importons, and as many first flights of photons as scouts. `settings.importons` >= 1.

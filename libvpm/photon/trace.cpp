@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "photon/emission.h"
+#include "photon/guided_scatter.h"
 
 namespace vpm {
 namespace {
@@ -22,7 +23,9 @@ constexpr uint64_t kHopeless = 1 << 22;  // photons emitted without storing one
 class PhotonPath {
  public:
   PhotonPath(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, TracedPhotons& out)
-      : scene_(scene), strategy_(strategy), settings_(settings), out_(out) {}
+      : scene_(scene), strategy_(strategy), settings_(settings), out_(out) {
+    if (settings.guide && settings.guide->directions) directions_ = &*settings.guide->directions;
+  }
 
   /// Emits and follows photon number `index`.
   void trace(uint64_t index) {
@@ -92,9 +95,8 @@ class PhotonPath {
   /// What happens at the event.
   void go_on(Rng& rng) {
     alive_ = true;
-    if (at_.event.kind == EventKind::collision)
-      alive_ = scatter_in_medium(scene_.media[at_.state.medium], at_.state, rng);
-    if (at_.event.kind == EventKind::surface) scatter(rng);
+    if (at_.event.kind == EventKind::collision) scatter_in(scene_.media[at_.state.medium], rng);
+    if (at_.event.kind == EventKind::surface) scatter_at(at_.event.hit, rng);
   }
 
   void deposit(Rgbd& account, const Rgbd& power) {
@@ -173,10 +175,16 @@ class PhotonPath {
     return !at_.specular || settings_.keep_specular_caustics;
   }
 
-  void scatter(Rng& rng) {
+  void scatter_in(const Medium& medium, Rng& rng) {
+    alive_ = directions_ ? scatter_in_medium(*directions_, medium, at_.state, rng)
+                         : scatter_in_medium(medium, at_.state, rng);
+  }
+
+  void scatter_at(const Hit& hit, Rng& rng) {
     const Rgb before = at_.state.power;
     Scatter scatter;
-    alive_ = scatter_at_surface(scene_, at_.event.hit, at_.state, rng, scatter);
+    alive_ = directions_ ? scatter_at_surface(*directions_, scene_, hit, at_.state, rng, scatter)
+                         : scatter_at_surface(scene_, hit, at_.state, rng, scatter);
     at_.state.power *= scatter.flux_scale;
     deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale)));
   }
@@ -208,6 +216,7 @@ class PhotonPath {
   const DistanceStrategy& strategy_;
   const TraceSettings& settings_;
   TracedPhotons& out_;
+  const DirectionGuide* directions_ = nullptr;  // null: scattering is not guided
   Branch at_;
   std::vector<Branch> waiting_;
   float emitted_power_ = 0.0f;

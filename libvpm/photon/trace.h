@@ -28,7 +28,7 @@ struct TraceSettings {
   bool keep_from_rough = false;        // store those that a rough surface scattered last by themselves, too
   bool keep_sites = false;             // one of kSiteStep photons finds sites and is not in the surface map
   VolumeForm volume_form = VolumeForm::density_at_query;
-  const PhotonGuide* guide = nullptr;  // where photons are emitted and followed; null: as power is
+  const PhotonGuide* guide = nullptr;  // where photons are emitted and scattered; null: as power is
   bool split = false;                  // with a guide: by importance also on their way
   float density_floor = 0.0f;  // density at the query: the least to divide by, over the medium's largest, in [0, 1]
   const std::atomic<bool>* stop = nullptr;  // once true, tracing ends as soon as it can, with photons of no use

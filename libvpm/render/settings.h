@@ -7,7 +7,7 @@
 #include "estimate/gather.h"
 #include "medium/distance/strategy.h"
 #include "medium/transmittance/estimator.h"
-#include "photon/photon_guide.h"
+#include "photon/guide_settings.h"
 
 namespace vpm {
 

@@ -1,6 +1,8 @@
 // The two normals of a hit: which directions pass, and what weighs flux.
 #include "surface/shading.h"
 
+#include "surface/kinds.h"
+
 namespace vpm {
 
 namespace {
@@ -22,10 +24,8 @@ bool passes(const Cosines& in, const Cosines& out, bool transmitted) {
   return in.agree() && out.agree() && (in.geometric * out.geometric > 0.0f) == transmitted;
 }
 
-}  // namespace
-
-Scatter sample_scatter(const Material& material, const Hit& hit, const Vec3& travel, float u_choice, const Vec2& u) {
-  Scatter scatter = sample_scatter(material, hit.shading_normal, travel, u_choice, u);
+/// What the hit makes of the material's scattering by the shading normal.
+Scatter at_hit(const Hit& hit, const Vec3& travel, Scatter scatter) {
   if (single_normal(hit) || scatter.direction == travel) return scatter;
   const Cosines in = cosines(hit, travel), out = cosines(hit, scatter.direction);
   if (passes(in, out, scatter.transmitted))
@@ -33,6 +33,19 @@ Scatter sample_scatter(const Material& material, const Hit& hit, const Vec3& tra
   else
     scatter.weight = Rgb(0.0f);
   return scatter;
+}
+
+}  // namespace
+
+Scatter sample_scatter(const Material& material, const Hit& hit, const Vec3& travel, float u_choice, const Vec2& u) {
+  return at_hit(hit, travel, sample_scatter(material, hit.shading_normal, travel, u_choice, u));
+}
+
+Scatter scatter_into(const Material& material, const Hit& hit, const Vec3& travel, const Vec3& direction) {
+  const Vec3& normal = hit.shading_normal;
+  const bool transmitted = glm::dot(normal, travel) * glm::dot(normal, direction) > 0.0f;
+  const ScatterValue value = scatter_value(material, normal, travel, direction);
+  return at_hit(hit, travel, scattered(direction, value, transmitted));
 }
 
 ScatterValue scatter_value(const Material& material, const Hit& hit, const Vec3& travel, const Vec3& direction) {

@@ -16,6 +16,10 @@ namespace vpm {
 /// bit.
 Scatter sample_scatter(const Material& material, const Hit& hit, const Vec3& travel, float u_choice, const Vec2& u);
 
+/// What sample_scatter() makes of that direction where it draws it, for those who draw it otherwise; without any lobe
+/// of a single direction. Black, with pdf 0, where it never does.
+Scatter scatter_into(const Material& material, const Hit& hit, const Vec3& travel, const Vec3& direction);
+
 /// scatter_value() at a hit. Its value is BSDF times the cosine to the shading normal of `direction`: what the radiance
 /// that arrives against `direction` is multiplied by on its way to the eye.
 ScatterValue scatter_value(const Material& material, const Hit& hit, const Vec3& travel, const Vec3& direction);

@@ -24,6 +24,17 @@ RC_GTEST_PROP(WarpProperty, StaysInItsRange, ()) {
   RC_ASSERT(2.0 * std::asin(std::min(1.0, 0.5 * apart)) <= angle + 1e-6 || away > 1.99f);
 }
 
+/// Azimuths are as exact as directions: less so near the poles.
+RC_GTEST_PROP(WarpProperty, NumbersOfASphereAreFoundAgain, ()) {
+  const Vec2 u = *uniform_pair();
+  const Vec3 direction = uniform_sphere(u);
+  const Vec2 found = uniform_sphere_numbers(direction);
+  const float turns = std::abs(found.y - u.y), sine = std::hypot(direction.x, direction.y);
+  RC_ASSERT(std::abs(found.x - u.x) < 1e-6f);
+  RC_ASSERT(std::min(turns, 1.0f - turns) * sine < 1e-6f);
+  RC_ASSERT(found.y >= 0.0f && found.y <= 1.0f);
+}
+
 RC_GTEST_PROP(WarpProperty, DirectionsAboutAnAxisHaveTheirAngle, ()) {
   const Vec3 axis = *unit_vector();
   const double away = *magnitude(1e-12, 2.0), phi = *number(0.0, 2.0 * kPiD);

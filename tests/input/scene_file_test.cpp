@@ -425,7 +425,7 @@ TEST(SceneFile, ReadsEverySetting) {
           "77\nradii = 'constant'\n"
           "max_optical_step = 0.25\n[photons]\nemitted = 1000\nstored = 500\nin_cube = 4\n[importance]\nimportons = "
           "70\n"
-          "aim = false\nsplit = false\n[distance]\nstrategy = 'ray-march'\nstep "
+          "aim = false\nsplit = false\nscatter = true\n[distance]\nstrategy = 'ray-march'\nstep "
           "= 0.5\nextinction_floor = 0.2\n"
           "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\n"
           "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
@@ -448,6 +448,7 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.guide.importons, 70u);
   EXPECT_FALSE(s.guide.aim);
   EXPECT_FALSE(s.guide.split);
+  EXPECT_TRUE(s.guide.scatter);
   EXPECT_EQ(s.caustics.radius, 0.01f);
   EXPECT_EQ(s.caustics_emitted, 800u);
   EXPECT_EQ(s.distance.strategy, "ray-march");

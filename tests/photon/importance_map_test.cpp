@@ -1,5 +1,5 @@
 // Importance on a grid: lengths of tracks, where it rises, and what importons make of a room.
-#include "photon/importance_map.h"
+#include "photon/importons.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(ImportanceMap, ImportonsFadeAsLightDoes) {
   scene.camera = make_camera(Vec3(0.0f, 0.0f, 0.95f), Vec3(0.0f), Vec3(0, 1, 0), 2.0f, 8, 8, {});
   scene.camera_medium = medium_at(scene, scene.camera.position);
   const auto strategy = make_distance_strategy({});
-  const ImportanceMap map = trace_importons(scene, *strategy, 1, 0, 20'000, 100);
+  const ImportanceMap map = trace_importons(scene, *strategy, {.importons = 20'000}, 1, 0, 100).map;
   // The beam stays within the cubes about the axis.
   const double fade = map.at(Vec3(0.01f, 0.01f, -0.5f)) / map.at(Vec3(0.01f, 0.01f, 0.5f));
   EXPECT_NEAR(fade, std::exp(-1.0), 0.03);  // 7400 importons of 20,000 are left: their share is off by 0.0034 / 0.37

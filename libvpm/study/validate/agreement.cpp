@@ -122,6 +122,7 @@ std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSetti
   all.emplace_back("k nearest within the radius", nearest);
   RenderSettings guided = base;
   guided.guide.importons = 1'000;
+  guided.guide.scatter = true;
   all.emplace_back("photons guided by importance", guided);
   if (surfaces) {
     RenderSettings gathering = base;

@@ -1,0 +1,17 @@
+// What is asked of the guiding of photons by importance.
+#pragma once
+
+#include <cstdint>
+
+namespace vpm {
+
+/// How photons are guided. Whatever is chosen, results stay unbiased: importance decides how many photons go somewhere,
+/// and their powers make up for it.
+struct GuideSettings {
+  uint64_t importons = 0;  // per pass; 0: photons are not guided
+  bool aim = true;         // emit more where photons are worth more
+  bool split = true;       // follow photons by several where they are worth more, by fewer where less
+  bool scatter = false;    // scatter photons more into directions in which they are worth more
+};
+
+}  // namespace vpm
