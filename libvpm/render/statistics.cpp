@@ -14,6 +14,8 @@ void EyeCounters::merge(const EyeCounters& other) {
   gather_rays += other.gather_rays;
   cut_paths += other.cut_paths;
   non_finite += other.non_finite;
+  regions.corrected += other.regions.corrected;
+  regions.least += other.regions.least;
   walk.merge(other.walk);
 }
 

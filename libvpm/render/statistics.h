@@ -1,6 +1,7 @@
 // What a render counts and measures, for its report.
 #pragma once
 
+#include "estimate/bounded_map.h"
 #include "photon/ledger.h"
 
 namespace vpm {
@@ -15,6 +16,7 @@ struct EyeCounters {
   uint64_t gather_rays = 0;  // of final gathering
   uint64_t cut_paths = 0;    // that reached the limit of events
   uint64_t non_finite = 0;   // samples that were dropped because they were not finite
+  RegionCounters regions;
   WalkCounters walk;
 
   void merge(const EyeCounters& other);

@@ -90,6 +90,8 @@ Json eye(const RenderStatistics& s) {
           {"surface_queries", s.eye.surface_queries},
           {"shadow_rays", s.eye.shadow_rays},
           {"gather_rays", s.eye.gather_rays},
+          {"boundary_corrections", s.eye.regions.corrected},
+          {"boundary_least_shares", s.eye.regions.least},
           {"density_lookups", s.eye.walk.lookups},
           {"paths_cut_at_max_events", s.eye.cut_paths},
           {"dropped_non_finite", s.eye.non_finite},
@@ -103,6 +105,8 @@ Json points_of_texels(const RenderStatistics& s) {
           {"surface_queries", s.eye.surface_queries},
           {"shadow_rays", s.eye.shadow_rays},
           {"gather_rays", s.eye.gather_rays},
+          {"boundary_corrections", s.eye.regions.corrected},
+          {"boundary_least_shares", s.eye.regions.least},
           {"density_lookups", s.eye.walk.lookups},
           {"paths_cut_at_max_events", s.eye.cut_paths},
           {"dropped_non_finite", s.eye.non_finite},
@@ -194,8 +198,9 @@ std::string light_map_report(const std::string& scene_path, const std::string& i
 std::string settings_line(const RenderSettings& s) {
   const auto gather = [](const GatherSettings& g) {
     const char* kernel = kernel_info(g.kernel).name;
-    return g.mode == GatherMode::radius ? fmt::format("radius:{}:{}", g.radius, kernel)
-                                        : fmt::format("nearest:{}:{}:{}", g.count, g.radius, kernel);
+    const char* boundary = g.boundary == BoundaryRule::corrected ? ":corrected" : "";
+    return g.mode == GatherMode::radius ? fmt::format("radius:{}:{}{}", g.radius, kernel, boundary)
+                                        : fmt::format("nearest:{}:{}:{}{}", g.count, g.radius, kernel, boundary);
   };
   const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
   return fmt::format(
