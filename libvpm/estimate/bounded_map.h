@@ -1,32 +1,17 @@
 // Gathering at borders: photons count within a region of which the point knows how much of the kernel lies in it.
 //
-// Near edges and walls photons come to a part of the disc or ball alone. A region says which part, by a rule that holds
-// for photons as for places; the sum over its photons is divided by the kernel's integral over its places. Of even
-// light that is the truth wherever the borders run: that the numerator and the denominator are of the same region is
-// all that matters.
+// Near edges and walls photons come to a part of the disc or ball alone [Silverman1986, sec. 2.10]. A region says which
+// part, by a rule that holds for photons as for places; the sum over its photons is divided by the kernel's integral
+// over its places. Of even light that is the truth wherever the borders run: that the numerator and the denominator are
+// of the same region is all that matters.
 #pragma once
 
 #include <algorithm>
 
 #include "estimate/kernel_sum.h"
+#include "estimate/region_share.h"
 
 namespace vpm {
-
-/// What a region covers of a kernel.
-struct RegionShare {
-  double inside = 1.0;  // the kernel's integral over the region; 1 exactly where nothing of the kernel lies outside
-  bool others = false;  // may photons lie outside, within the kernel's reach?
-};
-
-/// Estimates that were corrected.
-struct RegionCounters {
-  uint64_t corrected = 0;  // divided by less than 1
-  uint64_t least = 0;      // of these, divided by kLeastShare in the place of less
-};
-
-/// The least share that a sum is divided by: an eighth of what the corner of a cube has. Where less is inside, the
-/// estimate stays too dark, and is counted.
-inline constexpr double kLeastShare = 1.0 / 64.0;
 
 /// A photon map, for the estimates of this folder, that is gathered from within a region. Region: share(radius) gives
 /// its RegionShare of a kernel of that radius (m), holds(offset from the point) whether it has that place in it.

@@ -13,10 +13,11 @@ namespace vpm {
 /// what lies beyond an edge is no part of the disc. As in Arrives itself, surfaces that bend with a radius above twice
 /// the disc's are all there.
 ///
-/// Its share of a kernel is found along 32 fixed lines from the point, at three places and where there is a change
-/// between two of them; along 8 where these find nothing but the region. Off by 0.3 % of the whole near edges and
-/// corners of right angles (root mean square over places and orientations), at most by 2 %. What is narrower than a
-/// third of the radius, or than the angle between lines, may be missed.
+/// What the disc covers is asked of the scene, as by [Hey2002], not guessed from where photons are, as by their convex
+/// hull [Jensen2001, ch. 7]. Its share of a kernel is found along 32 fixed lines from the point, at three places and
+/// where there is a change between two of them; along 8 where these find nothing but the region. Off by 0.3 % of the
+/// whole near edges and corners of right angles (root mean square over places and orientations), at most by 2 %. What
+/// is narrower than a third of the radius, or than the angle between lines, may be missed.
 class SurfaceRegion {
  public:
   /// Of the side of the hit that is seen from the direction `towards` (unit).

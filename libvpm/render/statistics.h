@@ -1,7 +1,7 @@
 // What a render counts and measures, for its report.
 #pragma once
 
-#include "estimate/bounded_map.h"
+#include "estimate/region_share.h"
 #include "photon/ledger.h"
 
 namespace vpm {

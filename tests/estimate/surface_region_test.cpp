@@ -230,12 +230,12 @@ TEST(SurfaceRegion, TheMapEqualsTheBruteForceTwin) {
       }
       std::sort(distances.begin(), distances.end());
       const float radius = mode == GatherMode::radius ? 0.3f : std::min(0.3f, distances[11]);
-      const float twin = surface_irradiance(hit.position, kUp, seen, gather, uint64_t{kPhotons}).r /
-                         static_cast<float>(share_before_walls<2>(kernel.kind, {0.05f / radius, 2.0f, 0.0f}));
       const SurfaceRegion region(scene, hit, kUp, gather);
+      const float twin = surface_irradiance(hit.position, kUp, seen, gather, uint64_t{kPhotons}).r /
+                         static_cast<float>(region.share(radius).inside);
       RegionCounters counters;
       const PhotonMap map = make_photon_map(photons, gather, kPhotons);
-      EXPECT_NEAR(surface_irradiance(hit.position, kUp, BoundedMap{map, region, counters}).r / twin, 1.0, 0.02)
+      EXPECT_NEAR(surface_irradiance(hit.position, kUp, BoundedMap{map, region, counters}).r / twin, 1.0, 1e-4)
           << kernel.name;
     }
 }
