@@ -1,7 +1,7 @@
 // Density estimates at borders, corrected: even photons have the exact density for their mean up to the edges and
 // corners of what they lie on or in, and none behind a wall.
 //
-// In a cube and on a square of side 2 m, at their corners and beside their edges, and beside a sheet in the middle. The
+// In a cube and on a square of side 2 m, at their corners and beside their edges, and beside sheets in the middle. The
 // shares of their kernels are found by fixed rays; kShareError bounds what these leave.
 #include <fmt/format.h>
 #include <functional>
@@ -26,7 +26,7 @@ const Vec3 kUp(0.0f, 0.0f, 1.0f);
 struct Place {
   const char* name;
   Vec3 point;
-  bool sheet = false;     // stands at x = 0
+  int sheets = 0;         // stand at x = 0, 0.4 m
   bool half_lit = false;  // photons have x > 0 alone
 };
 constexpr float kClose = 1e-5f;  // m, off a border
@@ -35,9 +35,9 @@ const Place kPlaces[] = {{"in the middle", Vec3(0.1f, -0.05f, 0.0f)},
                          {"near a face", Vec3(0.9f, 0.1f, 0.0f)},
                          {"at an edge", Vec3(1.0f - kClose, kClose - 1.0f, 0.0f)},
                          {"at a corner", Vec3(1.0f - kClose)},
-                         {"before a sheet, light behind it", Vec3(0.2f, 0.1f, 0.0f), true, false},
-                         {"before a sheet", Vec3(0.02f, 0.1f, 0.0f), true, true},
-                         {"behind a sheet", Vec3(-0.02f, 0.1f, 0.0f), true, true}};
+                         {"between sheets, light beyond them", Vec3(0.2f, 0.1f, 0.0f), 2, false},
+                         {"before a sheet", Vec3(0.02f, 0.1f, 0.0f), 1, true},
+                         {"behind a sheet", Vec3(-0.02f, 0.1f, 0.0f), 1, true}};
 
 Scene make_scene(bool flat, const Place& place) {
   Scene scene;
@@ -47,7 +47,8 @@ Scene make_scene(bool flat, const Place& place) {
     add_shape(scene, quad_mesh(Vec3d(-1, -1, 0), Vec3d(2, 0, 0), Vec3d(0, 2, 0)), Lambertian{});
   else
     add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
-  if (place.sheet) add_shape(scene, quad_mesh(Vec3d(0, -2, -2), Vec3d(0, 4, 0), Vec3d(0, 0, 4)), Lambertian{});
+  for (int i = 0; i < place.sheets; ++i)
+    add_shape(scene, quad_mesh(Vec3d(0.4 * i, -2, -2), Vec3d(0, 4, 0), Vec3d(0, 0, 4)), Lambertian{});
   scene.lights.push_back(PointLight{Vec3(0.0f, 0.0f, 3.0f), Rgb(1.0f)});
   scene.geometry.commit();
   finish(scene);
