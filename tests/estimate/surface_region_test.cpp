@@ -197,6 +197,26 @@ TEST(SurfaceRegion, PhotonsOfOtherSurfacesDoNotCount) {
   }
 }
 
+// A floor that ends at a ramp of 60 degrees, low enough to be near its plane and in sight, and brightly lit.
+TEST(SurfaceRegion, PhotonsOfSteepSlopesDoNotCount) {
+  const Vec3 slanting = glm::normalize(Vec3(1.0f, 0.0f, -1.0f)), foot(0.3f, -1.0f, 0.0f), rise(0.05f, 0.0f, 0.0866f);
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1, -1, 0), Vec3d(1.3, 0, 0), Vec3d(0, 2, 0)), Lambertian{});
+  add_shape(scene, quad_mesh(Vec3d(foot), Vec3d(rise), Vec3d(0, 2, 0)), Lambertian{});
+  scene.lights.push_back(PointLight{Vec3(0.0f, 0.0f, 5.0f), Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  const auto land = [&](Rng& rng) -> Landing {
+    const bool on_ramp = rng.uniform() < 0.5f;
+    const float a = rng.uniform(), y = 2.0f * rng.uniform();
+    return {on_ramp ? foot + a * rise + Vec3(0.0f, y, 0.0f) : Vec3(1.3f * a - 1.0f, y - 1.0f, 0.0f), slanting};
+  };
+  const GatherSettings gather{GatherMode::radius, 0.5f, 0, KernelKind::epanechnikov};
+  const Estimates found = estimate(scene, on_floor(scene, 0.0f, 0.0f), gather, 1500, 50, land);
+  expect_mean(found.corrected, 0.5 / 2.6, 1e-6, "floor");
+  EXPECT_GT(found.plain.mean(), 1.2 * 0.5 / 2.6);
+}
+
 TEST(SurfaceRegion, LightDoesNotLeakUnderThinWalls) {
   const Scene scene = floor_scene(
       [](Scene& s) { add_shape(s, quad_mesh(Vec3d(0, -2, 0), Vec3d(0, 4, 0), Vec3d(0, 0, 1)), Lambertian{}); });
