@@ -25,9 +25,11 @@ struct Arrives {
   float thickness = 0.0f;  // m, plane_thickness()
   bool from_both_sides = false;
 
+  bool near_plane(const Vec3& offset) const {
+    return std::abs(glm::dot(offset, normal)) <= thickness + kSlope * glm::length(offset);
+  }
   bool operator()(const Vec3& travel, const Vec3& offset) const {
-    return (from_both_sides || glm::dot(travel, normal) < 0.0f) &&
-           std::abs(glm::dot(offset, normal)) <= thickness + kSlope * glm::length(offset);
+    return (from_both_sides || glm::dot(travel, normal) < 0.0f) && near_plane(offset);
   }
 };
 

@@ -31,8 +31,10 @@ void each_number(Ledger& ledger, auto&& use) {
 }
 void each_number(EyeCounters& eye, auto&& use) {
   auto& [rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
-         walk] = eye;
-  use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite);
+         regions, walk] = eye;
+  auto& [corrected, least] = regions;
+  use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
+      corrected, least);
   each_number(walk, use);
 }
 void each_number(RenderStatistics& statistics, auto&& use) {

@@ -38,6 +38,11 @@ void read_gather(TableReader& table, GatherSettings& gather) {
   gather.kernel = table.choice<KernelKind>("kernel", kernels, gather.kernel);
 }
 
+void read_boundary(TableReader& table, GatherSettings& gather) {
+  gather.boundary = table.choice<BoundaryRule>(
+      "boundary", {{"none", BoundaryRule::none}, {"corrected", BoundaryRule::corrected}}, gather.boundary);
+}
+
 DirectLight read_direct(TableReader& table, DirectLight fallback) {
   return table.choice<DirectLight>(
       "direct", {{"photons", DirectLight::photons}, {"shadow-rays", DirectLight::shadow_rays}}, fallback);
@@ -198,11 +203,18 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
         "form",
         {{"density-at-query", VolumeForm::density_at_query}, {"density-at-photon", VolumeForm::density_at_photon}},
         s.volume_form);
+    read_boundary(table, s.volume);
+    if (s.volume.boundary == BoundaryRule::corrected && s.volume_form == VolumeForm::density_at_photon)
+      table.fail("boundary",
+                 "there is no correction at borders for 'density-at-photon', which counts photons from outside",
+                 "use form = \"density-at-query\", or leave out 'boundary'");
     s.density_floor = table.number("density_floor", kFraction, s.density_floor);
     s.volume_direct = read_direct(table, s.volume_direct);
   });
   read_section(root, "surface", [&](TableReader& table) {
     read_gather(table, s.surface);
+    read_boundary(table, s.surface);
+    s.caustics.boundary = s.surface.boundary;
     read_surface_light(table, s);
     read_gathering(table, s);
     if (s.radii == RadiusSchedule::per_pixel) check_radii_of_pixels(table, s);

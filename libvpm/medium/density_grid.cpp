@@ -137,6 +137,28 @@ Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {
   return t1 > t0 ? Interval{static_cast<float>(t0), static_cast<float>(t1)} : Interval{interval.t0, interval.t0};
 }
 
+bool DensityGrid::is_positive(const Box& world) const {
+  Vec3d lo(kInfinity), hi(-kInfinity);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p(corner & 1 ? world.hi.x : world.lo.x, corner & 2 ? world.hi.y : world.lo.y,
+                 corner & 4 ? world.hi.z : world.lo.z);
+    const Vec3d index = Vec3d(world_to_index_ * glm::dvec4(Vec3d(p), 1.0)) + lattice_shift();
+    lo = glm::min(lo, index);
+    hi = glm::max(hi, index);
+  }
+  const Vec3d from = glm::floor(lo / double{kCells}) - Vec3d(brick_lo_);
+  const Vec3d to = glm::floor(hi / double{kCells}) - Vec3d(brick_lo_);
+  const Vec3d last = Vec3d(brick_count_ - 1);
+  const bool sticks_out = glm::any(glm::lessThan(from, Vec3d(0.0))) || glm::any(glm::greaterThan(to, last));
+  if (sticks_out && !(frame_.background > 0.0f)) return false;
+  const Vec3i first(glm::max(from, Vec3d(0.0))), end(glm::min(to, last));
+  for (int z = first.z; z <= end.z; ++z)
+    for (int y = first.y; y <= end.y; ++y)
+      for (int x = first.x; x <= end.x; ++x)
+        if (!(brick({x, y, z}).min > 0.0f)) return false;
+  return true;
+}
+
 void DensityGrid::cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
                              DensityPiece& piece) const {
   const float* v = values + (cell.z * kValues + cell.y) * kValues + cell.x;

@@ -42,6 +42,9 @@ class DensityGrid {
 
   /// Density at a point of the world.
   float density(const Vec3& world) const;
+  /// Is the density positive all over a box of the world? May say no of a box in whose neighbourhood it is not, as far
+  /// as the bricks reach that the box touches.
+  bool is_positive(const Box& world) const;
   /// Calls visit(const DensityPiece&) for the pieces of the ray, in order, until it returns false.
   /// Bricks of zero density are left out. Returns the number of cells and uniform bricks read ("look-ups").
   template <class Visit>

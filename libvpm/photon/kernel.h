@@ -40,4 +40,38 @@ float kernel_profile(float q) {
 inline float kernel_norm_2d(KernelKind kind, float r) { return kernel_info(kind).disc / (kPi * r * r); }
 inline float kernel_norm_3d(KernelKind kind, float r) { return kernel_info(kind).ball / (kPi * r * r * r); }
 
+/// The integral of the normalised kernel over the disc, or ball, of `t` <= 1 times its radius; 1 at 1, exactly.
+inline double kernel_within_2d(KernelKind kind, double t) {
+  const double q = t * t, rest = 1.0 - q;
+  switch (kind) {
+    case KernelKind::constant:
+      return q;
+    case KernelKind::cone:
+      return q * (3.0 - 2.0 * t);
+    case KernelKind::epanechnikov:
+      return 1.0 - rest * rest;
+    case KernelKind::biweight:
+      return 1.0 - rest * rest * rest;
+    case KernelKind::triweight:
+      break;
+  }
+  return 1.0 - rest * rest * rest * rest;
+}
+inline double kernel_within_3d(KernelKind kind, double t) {
+  const double q = t * t, cube = q * t;
+  switch (kind) {
+    case KernelKind::constant:
+      return cube;
+    case KernelKind::cone:
+      return cube * (4.0 - 3.0 * t);
+    case KernelKind::epanechnikov:
+      return cube * (5.0 - 3.0 * q) / 2.0;
+    case KernelKind::biweight:
+      return cube * (35.0 + q * (15.0 * q - 42.0)) / 8.0;
+    case KernelKind::triweight:
+      break;
+  }
+  return cube * (105.0 + q * (q * (135.0 - 35.0 * q) - 189.0)) / 16.0;
+}
+
 }  // namespace vpm

@@ -2,6 +2,7 @@
 #include "render/eye_path.h"
 
 #include "estimate/volume_estimate.h"
+#include "estimate/volume_region.h"
 #include "path/direct_light.h"
 #include "render/surface_light.h"
 
@@ -92,8 +93,7 @@ class EyePath {
         marcher_.march(medium, ray_, interval, limits, matters, rng_, [&](const Vec3& point, const Rgb& weight) {
           if (map) {
             ++counters_.volume_queries;
-            radiance_ += throughput_ * (weight / densest) * medium.albedo() *
-                         volume_sum(medium.phase, point, -ray_.direction, *map);
+            radiance_ += throughput_ * (weight / densest) * medium.albedo() * sum_at_query(medium, point, *map);
           }
           if (c_.stages.volume_shadow_rays)
             radiance_ += throughput_ * (weight * medium.sigma_s) * single_scattering(medium, point);
@@ -129,6 +129,13 @@ class EyePath {
             radiance_ += throughput_ * weight * medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, map);
           });
     }
+  }
+
+  /// volume_sum() towards the eye, at a point of the medium that the ray is in.
+  Rgb sum_at_query(const Medium& medium, const Vec3& point, const PhotonMap& map) {
+    if (map.settings.boundary == BoundaryRule::none) return volume_sum(medium.phase, point, -ray_.direction, map);
+    const VolumeRegion region(c_.scene, medium_, point, map.settings.kernel);
+    return volume_sum(medium.phase, point, -ray_.direction, BoundedMap{map, region, counters_.regions});
   }
 
   /// The part of the segment in the box grown by `margin`.

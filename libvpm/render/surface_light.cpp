@@ -1,7 +1,7 @@
 // Direct light, photon maps, and rays that gather.
 #include "render/surface_light.h"
 
-#include "estimate/surface_estimate.h"
+#include "estimate/surface_region.h"
 #include "path/direct_light.h"
 #include "render/gather_guide.h"
 #include "surface/shading.h"
@@ -44,7 +44,10 @@ class SurfaceLight {
 
   Rgb of_map(const SurfaceView& view, const PhotonMap& map) {
     ++counters_.surface_queries;
-    return scattered_radiance(view.material, view.hit, -view.travel, map);
+    if (map.settings.boundary == BoundaryRule::none)
+      return scattered_radiance(view.material, view.hit, -view.travel, map);
+    const SurfaceRegion region(c_.scene, view.hit, -view.travel, map.settings);
+    return scattered_radiance(view.material, view.hit, -view.travel, BoundedMap{map, region, counters_.regions});
   }
 
   /// The surface map's light by a pixel's own radius.

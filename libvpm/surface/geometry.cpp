@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "surface/disc.h"
+#include "surface/distance.h"
 #include "surface/sphere.h"
 
 namespace vpm {
@@ -195,6 +196,31 @@ void locate(const DiscShape& disc, const Ray& ray, Hit& hit) {
   hit.shading_normal = hit.normal;
 }
 
+/// A search for a shape near a point, as Embree hands it to is_within_reach().
+struct Search {
+  const std::deque<ShapeData>& shapes;
+  Vec3 point;
+  float radius;  // m
+  bool found = false;
+};
+
+/// Looks at one primitive whose box Embree found near the point; ends the search where it is near itself.
+bool is_within_reach(RTCPointQueryFunctionArguments* args) {
+  auto& search = *static_cast<Search*>(args->userPtr);
+  if (search.found) return false;
+  const ShapeData& shape = search.shapes[args->geomID];
+  double distance = kInfinity;
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
+    const glm::uvec3& v = mesh->triangles[args->primID];
+    distance = distance_to_triangle(search.point, mesh->positions[v.x], mesh->positions[v.y], mesh->positions[v.z]);
+  }
+  if (const auto* sphere = std::get_if<SphereShape>(&shape)) distance = distance_to(*sphere, search.point);
+  if (const auto* disc = std::get_if<DiscShape>(&shape)) distance = distance_to(*disc, search.point);
+  search.found = distance <= search.radius;
+  if (search.found) args->query->radius = 0.0f;
+  return search.found;
+}
+
 void check_round(const char* title, const Vec3& centre, float radius) {
   if (!in_range(centre)) throw InputError(std::string(title) + ": the centre is not finite or beyond 1e9 m");
   if (!(radius > 0.0f && radius <= kMaxCoordinate)) {
@@ -323,6 +349,20 @@ void Geometry::commit() {
 
 std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
   return intersect(ray, t_max, kAllLayers, {});
+}
+
+std::optional<Hit> Geometry::intersect_surface(const Ray& ray, float t_max) const {
+  return intersect(ray, t_max, kAllLayers & ~static_cast<uint32_t>(Layer::boundary), {});
+}
+
+bool Geometry::is_near(const Vec3& point, float radius) const {
+  assert(impl_->committed && is_finite(point));
+  RTCPointQuery query{point.x, point.y, point.z, 0.0f, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  Search search{impl_->shapes, point, radius};
+  rtcPointQuery(impl_->scene, &query, &context, is_within_reach, &search);
+  return search.found;
 }
 
 Encounter Geometry::encounter(const Ray& ray, float t_max) const {

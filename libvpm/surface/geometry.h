@@ -80,6 +80,11 @@ class Geometry {
   /// The nearest hit with 0 < t < t_max, seen from either side. Allocates nothing.
   std::optional<Hit> intersect(const Ray& ray, float t_max = kInfinity) const;
 
+  /// The nearest hit of a surface that is no boundary.
+  std::optional<Hit> intersect_surface(const Ray& ray, float t_max) const;
+  /// Does any shape come as near to a point as `radius` (m)?
+  bool is_near(const Vec3& point, float radius) const;
+
   /// The nearest hit, and where it is of a boundary all others within the distance by which the ray is moved off it:
   /// what the ray meets at one place. A surface among them stops the ray, so that smoke can stand on a floor.
   Encounter encounter(const Ray& ray, float t_max = kInfinity) const;

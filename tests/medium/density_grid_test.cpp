@@ -147,6 +147,37 @@ TEST(DensityGrid, KnowsItsExtremesAndMean) {
   EXPECT_EQ(make_grid(frame, [](int, int, int) { return 0.7; })->max_density(), 0.7f);
 }
 
+// A yes is true of every point of the box; a no may be wrong near bricks that hold a zero, but not far from them.
+TEST(DensityGrid, KnowsWhereItIsPositive) {
+  for (const float background : {0.0f, 0.5f})
+    for (const Interpolation interpolation : {Interpolation::trilinear, Interpolation::nearest}) {
+      const GridFrame frame = frame_of(interpolation, background);
+      const auto is_hole = [](int x, int y, int z) { return x == 2 && y == 9 && z == 4; };
+      const auto grid = make_grid(frame, [&](int x, int y, int z) { return is_hole(x, y, z) ? 0.0 : 1.0; });
+      const auto box_at = [&](const Vec3d& index, float half) {
+        const Vec3 centre(frame.index_to_world * glm::dvec4(index, 1.0));
+        return Box{centre - half, centre + half};
+      };
+      int yes = 0;
+      for (uint64_t i = 0; i < 3000; ++i) {
+        Rng rng(1, rng_stream(RngUse::test, 50), i);
+        const Vec3d index =
+            Vec3d(-16, -2, -10) + Vec3d(rng.uniform(), rng.uniform(), rng.uniform()) * Vec3d(32, 30, 33);
+        const Box box = box_at(index, 0.2f * rng.uniform());
+        if (!grid->is_positive(box)) continue;
+        ++yes;
+        for (int k = 0; k < 30; ++k) {
+          const Vec3 u(rng.uniform(), rng.uniform(), rng.uniform());
+          ASSERT_GT(grid->density(glm::mix(box.lo, box.hi, u)), 0.0f);
+        }
+      }
+      EXPECT_GT(yes, 20);
+      EXPECT_FALSE(grid->is_positive(box_at({2, 9, 4}, 1e-4f)));
+      EXPECT_TRUE(grid->is_positive(box_at({-4, 12, 12}, 1e-4f)));
+      EXPECT_EQ(grid->is_positive(box_at({-40, 18, 12}, 1e-4f)), background > 0.0f);
+    }
+}
+
 TEST(DensityGrid, EmptySpaceCostsNoLookUps) {
   GridFrame frame;
   frame.lo = Vec3i(0);

@@ -210,5 +210,25 @@ TEST(Kernel, IsNormalised) {
   }
 }
 
+TEST(Kernel, KnowsItsIntegralUpToAnyRadius) {
+  constexpr int kSteps = 10000;
+  for (const auto& [kind, kernel_name, disc_norm, ball_norm] : kKernels)
+    with_kernel(kind, [kind = kind, name = kernel_name](auto profile) {
+      double disc = 0.0, ball = 0.0;
+      for (int i = 0; i < kSteps; ++i) {
+        const double t = (i + 0.5) / kSteps;
+        const double value = profile(static_cast<float>(t * t)) / kSteps;
+        disc += value * 2.0 * kPiD * t * kernel_norm_2d(kind, 1.0f);
+        ball += value * 4.0 * kPiD * t * t * kernel_norm_3d(kind, 1.0f);
+        const double end = (i + 1.0) / kSteps;
+        EXPECT_NEAR(kernel_within_2d(kind, end), disc, 1e-5) << name;
+        EXPECT_NEAR(kernel_within_3d(kind, end), ball, 1e-5) << name;
+      }
+      EXPECT_EQ(kernel_within_2d(kind, 1.0), 1.0);
+      EXPECT_EQ(kernel_within_3d(kind, 1.0), 1.0);
+      return 0;
+    });
+}
+
 }  // namespace
 }  // namespace vpm

@@ -97,6 +97,8 @@ Json eye(const RenderStatistics& s) {
           {"gather_rays", s.eye.gather_rays},
           {"irradiance_lookups", s.eye.irradiance_lookups},
           {"irradiance_misses", s.eye.irradiance_misses},
+          {"boundary_corrections", s.eye.regions.corrected},
+          {"boundary_least_shares", s.eye.regions.least},
           {"density_lookups", s.eye.walk.lookups},
           {"paths_cut_at_max_events", s.eye.cut_paths},
           {"dropped_non_finite", s.eye.non_finite},
@@ -112,6 +114,8 @@ Json points_of_texels(const RenderStatistics& s) {
           {"gather_rays", s.eye.gather_rays},
           {"irradiance_lookups", s.eye.irradiance_lookups},
           {"irradiance_misses", s.eye.irradiance_misses},
+          {"boundary_corrections", s.eye.regions.corrected},
+          {"boundary_least_shares", s.eye.regions.least},
           {"density_lookups", s.eye.walk.lookups},
           {"paths_cut_at_max_events", s.eye.cut_paths},
           {"dropped_non_finite", s.eye.non_finite},
@@ -224,8 +228,9 @@ std::string light_map_report(const std::string& scene_path, const std::string& i
 std::string settings_line(const RenderSettings& s) {
   const auto gather = [](const GatherSettings& g) {
     const char* kernel = kernel_info(g.kernel).name;
-    return g.mode == GatherMode::radius ? fmt::format("radius:{}:{}", g.radius, kernel)
-                                        : fmt::format("nearest:{}:{}:{}", g.count, g.radius, kernel);
+    const char* boundary = g.boundary == BoundaryRule::corrected ? ":corrected" : "";
+    return g.mode == GatherMode::radius ? fmt::format("radius:{}:{}{}", g.radius, kernel, boundary)
+                                        : fmt::format("nearest:{}:{}:{}{}", g.count, g.radius, kernel, boundary);
   };
   const auto radii = [](RadiusSchedule r) {
     return r == RadiusSchedule::constant ? "constant" : r == RadiusSchedule::per_pass ? "per-pass" : "per-pixel";

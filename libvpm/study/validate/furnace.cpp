@@ -5,7 +5,9 @@
 #include <array>
 
 #include "base/warp.h"
+#include "estimate/surface_region.h"
 #include "estimate/volume_estimate.h"
+#include "estimate/volume_region.h"
 #include "render/path_tracer.h"
 #include "render/photon_pass.h"
 #include "scene/build.h"
@@ -188,11 +190,75 @@ std::vector<Check> check_maps(const Effort& effort) {
   return checks;
 }
 
+/// How far shares of kernels may be off, over the shares.
+constexpr double kShareError = 0.02;
+
+/// The volume map where the medium ends, corrected.
+std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point, const Effort& effort) {
+  const Medium& medium = body.scene.media[0];
+  const auto strategy = make_distance_strategy({});
+  const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
+  const VolumeRegion region(body.scene, 0, point, gather.kernel);
+  const auto samples = sample_moments(
+      2, effort.count(4'000, 100'000), effort.seed_of("border, " + body.name), [&](Rng& rng, double* out) {
+        TracedPhotons photons = small_pass(body.scene, *strategy, rng);
+        const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
+        RegionCounters counters;
+        const BoundedMap bounded{map, region, counters};
+        out[0] = fluence(medium.majorant(), point, bounded).g;
+        out[1] = volume_sum(medium.phase, point, uniform_sphere(rng.uniform2()), bounded).g / medium.majorant().g;
+      });
+  const double fluence = 4.0 * kPiD * body.radiance;
+  return {check_mean(body.name + ", fluence", samples[0], fluence, kShareError * fluence),
+          check_mean(body.name + ", radiance scattered", samples[1], body.radiance, kShareError * body.radiance)};
+}
+
+/// What a white sheet sends out by its map, in its middle, at its edge and at its corner, corrected.
+std::vector<Check> check_sheet(const Effort& effort) {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1, 0.2, 1), Vec3d(2, 0, 0), Vec3d(0, 0, -2)), Lambertian{Rgb(1.0f)});
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  const auto strategy = make_distance_strategy({});
+  const GatherSettings gather{GatherMode::radius, 0.5f, 0, KernelKind::epanechnikov};
+  const Vec3 up(0.0f, 1.0f, 0.0f);
+  std::vector<Check> checks;
+  for (const auto& [name, x, z] : {std::tuple("a white sheet, its middle", 0.1f, 0.0f),
+                                   {"a white sheet, its edge", 0.9999f, 0.0f},
+                                   {"a white sheet, its corner", -0.9999f, 0.9999f}}) {
+    const Hit hit = scene.geometry.intersect({Vec3(x, 1.0f, z), -up}).value();
+    const SurfaceRegion region(scene, hit, up, gather);
+    const auto samples =
+        sample_moments(1, effort.count(4'000, 100'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+          const TracedPhotons photons = small_pass(scene, *strategy, rng);
+          const PhotonMap map = make_photon_map(photons.surface, gather, photons.ledger.emitted_count);
+          RegionCounters counters;
+          out[0] = scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, counters}).g;
+        });
+    checks.push_back(check_mean(name, samples[0], 1.0, kShareError));
+  }
+  return checks;
+}
+
+std::vector<Check> check_borders(const Effort& effort) {
+  const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
+  const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
+  std::vector<Check> checks =
+      check_border_of_medium(lit_sphere("the border of a sphere", white), centre + Vec3(0.0f, 0.9999f, 0.0f), effort);
+  append(checks, check_border_of_medium(lit_box("a face of a box", white), field_point({6.999, 0.1, 0.3}), effort));
+  append(checks,
+         check_border_of_medium(lit_box("near a corner of a box", white), field_point({6.4, 6.2, -6.5}), effort));
+  append(checks, check_sheet(effort));
+  return checks;
+}
+
 }  // namespace
 
 std::vector<Experiment> furnace_experiments() {
   return {{1, "white furnace: radiance by paths from the eye", check_radiances},
-          {1, "white furnace: photon maps", check_maps}};
+          {1, "white furnace: photon maps", check_maps},
+          {1, "white furnace: photon maps at borders, corrected", check_borders}};
 }
 
 }  // namespace vpm
