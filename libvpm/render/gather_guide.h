@@ -17,7 +17,8 @@
 
 namespace vpm {
 
-/// How that map is gathered from, but for the radius: few photons, so that they are near.
+/// How that map is gathered from, but for the largest radius, which is the scene's matter and not that of other maps:
+/// what the photons tell need not be sharp.
 inline constexpr GatherSettings kGuidingPhotons{.mode = GatherMode::nearest, .count = 100};
 
 class GatherGuide {

@@ -125,7 +125,7 @@ void make_gathering(EyeContext& context, TracedPhotons& photons, int pass, Rende
                               emitted, settings, statistics);
   if (context.stages.guided_gather) {
     GatherSettings gather = kGuidingPhotons;
-    gather.radius = first_surface_radius(context.scene, settings);
+    gather.radius = kDefaultSearch * context.scene.bounds.diagonal();
     statistics.guiding_photons = photons.from_rough.size();
     context.from_rough = make_map(photons.from_rough, gather, emitted, settings, statistics);
   }
