@@ -86,6 +86,9 @@ void read_gathering(TableReader& table, RenderSettings& s) {
   s.end_irradiance = table.choice<EndIrradiance>(
       "irradiance", {{"estimate", EndIrradiance::estimate}, {"precomputed", EndIrradiance::precomputed}},
       s.end_irradiance);
+  if (s.end_irradiance == EndIrradiance::precomputed && s.surface.boundary == BoundaryRule::corrected)
+    table.fail("irradiance", "irradiance is computed beforehand without a correction at borders",
+               "write \"estimate\", or make 'boundary' \"none\"");
   if (s.surface_indirect == IndirectLight::final_gather) return;
   const auto refuse = [&](const std::string& key) {
     table.fail(key, "there are no rays to gather light: 'indirect' of [surface] is \"photons\"",
@@ -131,6 +134,9 @@ void check_radii_of_pixels(TableReader& surface, const RenderSettings& s) {
   if (s.surface_indirect == IndirectLight::final_gather)
     surface.fail(surface.has("method") ? "method" : "indirect", pixels + "there is no final gathering",
                  "take indirect light from \"photons\", or write other radii");
+  if (s.surface.boundary == BoundaryRule::corrected)
+    surface.fail("boundary", pixels + "the photons found tell the radius, so that none may be left out at borders",
+                 "write \"none\", or other radii");
 }
 
 void read_distance(TableReader& table, DistanceSettings& distance, bool has_grid) {
