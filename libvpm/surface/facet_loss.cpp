@@ -10,9 +10,10 @@
 namespace vpm {
 namespace {
 
-constexpr int kRings = 192, kTurns = 64;  // points of the rule, along each of the two numbers
-constexpr float kLeastCosine = 1e-4f;     // stands for grazing light
-constexpr double kLeastLoss = 1e-7;       // means below it are rounding
+constexpr int kRings = 192, kTurns = 64;     // points of the rule, along each of the two numbers
+constexpr float kBelowOne = 0x1.fffffep-1f;  // the largest number that draws normals
+constexpr float kLeastCosine = 1e-4f;        // stands for grazing light
+constexpr double kLeastLoss = 1e-7;          // means below it are rounding
 
 Vec3 at_cosine(float cosine) { return {std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine}; }
 
@@ -24,7 +25,7 @@ float mean_over_facets(const Microfacets& facets, const Vec3& v, Keep&& keep) {
   double sum = 0.0, all = 0.0;
   for (int i = 0; i < kRings; ++i) {
     const double s = (i + 0.5) / kRings, weight = s * s;
-    const auto first = static_cast<float>(1.0 - s * s * s);
+    const float first = std::min(kBelowOne, static_cast<float>(1.0 - s * s * s));
     for (int j = 0; j < kTurns; ++j) {
       sum += weight * keep(facets.sample_visible(v, {first, (static_cast<float>(j) + 0.5f) / (2 * kTurns)}));
       all += weight;
