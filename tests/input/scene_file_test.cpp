@@ -430,8 +430,7 @@ TEST(SceneFile, ReadsEverySetting) {
           "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\n"
           "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
           "'density-at-photon'\ndirect = 'shadow-rays'\n"
-          "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\nboundary = 'corrected'\n"
-          "direct = 'photons'\n"
+          "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n"
           "indirect = 'final-gather'\ngather_rays = 5\ngather_by = 'photons'\nirradiance = 'precomputed'\n"
           "[caustics]\nradius = 0.01\nemitted = 800\n")
           .settings;
@@ -472,9 +471,6 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.gather_rays, 5);
   EXPECT_EQ(s.gather_by, GatherBy::photons);
   EXPECT_EQ(s.end_irradiance, EndIrradiance::precomputed);
-  EXPECT_EQ(s.volume.boundary, BoundaryRule::none);
-  EXPECT_EQ(s.surface.boundary, BoundaryRule::corrected);
-  EXPECT_EQ(s.caustics.boundary, BoundaryRule::corrected);  // goes with the surface's
 }
 
 TEST(SceneFile, CorrectsAtBordersWhereAsked) {
@@ -482,6 +478,10 @@ TEST(SceneFile, CorrectsAtBordersWhereAsked) {
   EXPECT_EQ(volume.volume.boundary, BoundaryRule::corrected);
   EXPECT_EQ(volume.surface.boundary, BoundaryRule::none);
   EXPECT_EQ(volume.caustics.boundary, BoundaryRule::none);
+  const RenderSettings surface = load_with("[surface]\nboundary = 'corrected'\n").settings;
+  EXPECT_EQ(surface.volume.boundary, BoundaryRule::none);
+  EXPECT_EQ(surface.surface.boundary, BoundaryRule::corrected);
+  EXPECT_EQ(surface.caustics.boundary, BoundaryRule::corrected);  // goes with the surface's
   const RenderSettings plain = load_with("[volume]\nboundary = 'none'\n[surface]\nboundary = 'none'\n").settings;
   EXPECT_EQ(plain.volume.boundary, BoundaryRule::none);
   EXPECT_EQ(plain.surface.boundary, BoundaryRule::none);

@@ -87,8 +87,8 @@ TEST(GuidedPhotons, CarryLessWhereMoreAreEmitted) {
   const auto is_aimed = [&](const EmissionPoint& point, Rng&) {
     return emit_photon(scene, point).ray.direction.y > kCosine ? 1.0f : 0.0f;
   };
-  const PhotonGuide guide{ImportanceMap(scene.bounds, 1), std::nullopt,
-                          EmissionGuide::learn(5'000, 1, 0, is_aimed), 0.0};
+  const PhotonGuide guide{ImportanceMap(scene.bounds, 1), std::nullopt, EmissionGuide::learn(5'000, 1, 0, is_aimed),
+                          0.0};
   TraceSettings settings;
   settings.emitted = 20'000;
   settings.guide = &guide;

@@ -32,7 +32,7 @@ Picture render(const Scene& scene, const RenderSettings& settings, int passes) {
 RenderSettings settings_of(float radius, BoundaryRule rule) {
   RenderSettings settings;
   settings.photons_emitted = 10000;
-  settings.shrink_radii = false;
+  settings.radii = RadiusSchedule::constant;
   settings.volume.radius = settings.surface.radius = radius;
   settings.volume.boundary = settings.surface.boundary = rule;
   settings.surface_direct = DirectLight::photons;
