@@ -5,15 +5,11 @@
 #include "base/error.h"
 #include "base/warp.h"
 #include "light/kinds.h"
+#include "surface/mesh.h"
 
 namespace vpm {
 
 namespace {
-
-/// (b - a) x (c - a): outward, twice the triangle's area long, m^2.
-Vec3d area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return glm::cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
-}
 
 float area_of(const MeshLight& light) { return static_cast<float>(light.mesh->area()); }
 

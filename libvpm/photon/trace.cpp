@@ -278,8 +278,10 @@ TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy
       for (size_t i = begin; i < end; ++i) path.trace(first + i);
       progress.advance(end - begin);
     });
-    for (const TracedPhotons& part : parts)
+    for (TracedPhotons& part : parts) {
       if (!is_full(all, settings)) append(all, part);
+      part = {};  // two copies of a part at a time, not of a wave
+    }
     first += wave;
     if (settings.emitted == 0 && first >= kHopeless && stored_count(all) == 0)
       throw InputError(fmt::format(

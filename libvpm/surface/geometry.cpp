@@ -11,9 +11,11 @@
 #include <string>
 #include <variant>
 
-#include "base/error.h"
+#include "surface/check_shapes.h"
 #include "surface/disc.h"
 #include "surface/distance.h"
+#include "surface/locate.h"
+#include "surface/mesh.h"
 #include "surface/sphere.h"
 
 namespace vpm {
@@ -23,72 +25,8 @@ static_assert(sizeof(Vec3) == 3 * sizeof(float) && sizeof(glm::uvec3) == 3 * siz
 
 namespace {
 
-/// Embree leaves out what is beyond 1.8e18 m; squares of coordinates must stay finite in float too.
-constexpr float kMaxCoordinate = 1e9f;
-/// Beyond it floats tell too few places in a repeated picture apart.
-constexpr float kMaxUv = 1e6f;
 constexpr uint32_t kAllLayers = ~0u;
-/// Hits lie beyond this t, m: the smallest normal float, so that t > 0 in every rounding mode.
-constexpr float kMinT = std::numeric_limits<float>::min();
-
-/// A mesh in Embree's own buffers, and what Embree need not know of it.
-struct MeshShape {
-  const Vec3* positions = nullptr;
-  const glm::uvec3* triangles = nullptr;
-  size_t count = 0;  // of triangles
-  std::vector<Vec3> normals;
-  std::vector<Vec2> uvs;
-};
 using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
-
-bool in_range(const Vec3& p) {
-  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate && std::abs(p.z) <= kMaxCoordinate;
-}
-
-/// (b - a) x (c - a): normal to the triangle, twice its area long.
-Vec3d area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return glm::cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
-}
-
-/// The triangles that have an area; checks the mesh on the way.
-std::vector<glm::uvec3> proper_triangles(const TriangleMesh& mesh) {
-  const auto& p = mesh.positions;
-  for (size_t i = 0; i < p.size(); ++i) {
-    if (!in_range(p[i])) throw InputError("mesh: vertex " + std::to_string(i) + " is not finite or beyond 1e9 m");
-  }
-  std::vector<glm::uvec3> proper;
-  proper.reserve(mesh.triangles.size());
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const glm::uvec3& v = mesh.triangles[i];
-    const uint32_t last = std::max(v.x, std::max(v.y, v.z));
-    if (last >= p.size()) {
-      throw InputError("mesh: triangle " + std::to_string(i) + " names vertex " + std::to_string(last) +
-                       ", but there are " + std::to_string(p.size()) + " (counted from 0)");
-    }
-    if (area_vector(p[v.x], p[v.y], p[v.z]) != Vec3d(0.0)) proper.push_back(v);
-  }
-  if (proper.empty()) throw InputError("mesh: it has no triangle with an area, at least one is needed");
-  return proper;
-}
-
-/// Checks one of the lists that hold a value for each vertex, or none at all.
-template <class T, class Good>
-void check_attribute(const std::vector<T>& values, size_t vertices, const std::string& name, const std::string& rule,
-                     Good&& good) {
-  if (values.empty()) return;
-  if (values.size() != vertices)
-    throw InputError("mesh: there are " + std::to_string(values.size()) + " " + name + "s for " +
-                     std::to_string(vertices) + " vertices; it needs one each, or none");
-  for (size_t i = 0; i < values.size(); ++i)
-    if (!good(values[i])) throw InputError("mesh: the " + name + " of vertex " + std::to_string(i) + " is " + rule);
-}
-
-void check_attributes(const TriangleMesh& mesh) {
-  check_attribute(mesh.normals, mesh.positions.size(), "normal", "zero or not finite",
-                  [](const Vec3& n) { return is_finite(n) && n != Vec3(0.0f); });
-  check_attribute(mesh.uvs, mesh.positions.size(), "uv", "not finite or beyond 1e6",
-                  [](const Vec2& uv) { return std::abs(uv.x) <= kMaxUv && std::abs(uv.y) <= kMaxUv; });
-}
 
 double first_meeting(const SphereShape& s, const Ray& ray, float t_min) { return intersect_sphere(s, ray, t_min); }
 double first_meeting(const DiscShape& d, const Ray& ray, float t_min) { return intersect_disc(d, ray, t_min); }
@@ -145,57 +83,6 @@ void own_intersect(const RTCIntersectFunctionNArguments* args) {
   ray_hit.hit.instID[0] = args->context->instID[0];
 }
 
-/// The value at the point of a triangle with Embree's barycentric coordinates.
-template <class T>
-T interpolated(const std::vector<T>& values, const glm::uvec3& v, const Vec2& barycentric) {
-  return (1.0f - barycentric.x - barycentric.y) * values[v.x] + barycentric.x * values[v.y] +
-         barycentric.y * values[v.z];
-}
-
-/// The normal for shading, on the side of the geometric one.
-Vec3 shading_normal(const MeshShape& mesh, const glm::uvec3& v, const Hit& hit) {
-  if (mesh.normals.empty()) return hit.normal;
-  const Vec3d sum(interpolated(mesh.normals, v, hit.barycentric));
-  const double length = glm::length(sum);
-  if (length == 0.0) return hit.normal;
-  const Vec3 normal(sum / length);
-  return glm::dot(normal, hit.normal) < 0.0f ? -normal : normal;
-}
-
-/// The point of the triangle with Embree's barycentric coordinates: in its plane, wherever the ray came from.
-void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit) {
-  const glm::uvec3& v = mesh.triangles[triangle];
-  const Vec3 &a = mesh.positions[v.x], &b = mesh.positions[v.y], &c = mesh.positions[v.z];
-  const double u = barycentric.x, w = barycentric.y;
-  hit.position = Vec3((1.0 - u - w) * Vec3d(a) + u * Vec3d(b) + w * Vec3d(c));
-  const Vec3d across = area_vector(a, b, c);
-  const double twice_area = glm::length(across);
-  hit.normal = Vec3(across / twice_area);
-  const Vec3& p = hit.position;
-  const Vec3 reach = glm::max(glm::max(glm::abs(a - p), glm::abs(b - p)), glm::abs(c - p));
-  hit.slack = flat_slack(hit.normal, reach, twice_area);
-  hit.triangle = triangle;
-  hit.barycentric = barycentric;
-  hit.shading_normal = shading_normal(mesh, v, hit);
-}
-
-/// The point of the sphere, found again in double and projected onto it.
-void locate(const SphereShape& sphere, const Ray& ray, Hit& hit) {
-  const Vec3d normal = sphere_normal(sphere, ray, intersect_sphere(sphere, ray, kMinT));
-  hit.position = point_on(sphere, normal);
-  hit.normal = Vec3(normal);
-  hit.slack = sphere_slack(sphere);
-  hit.shading_normal = hit.normal;
-}
-
-/// The point of the disc, found again in double.
-void locate(const DiscShape& disc, const Ray& ray, Hit& hit) {
-  hit.position = Vec3(disc_point(disc, ray, intersect_disc(disc, ray, kMinT)));
-  hit.normal = disc.normal;
-  hit.slack = disc_slack(disc);
-  hit.shading_normal = hit.normal;
-}
-
 /// A search for a shape near a point, as Embree hands it to is_within_reach().
 struct Search {
   const std::deque<ShapeData>& shapes;
@@ -219,14 +106,6 @@ bool is_within_reach(RTCPointQueryFunctionArguments* args) {
   search.found = distance <= search.radius;
   if (search.found) args->query->radius = 0.0f;
   return search.found;
-}
-
-void check_round(const char* title, const Vec3& centre, float radius) {
-  if (!in_range(centre)) throw InputError(std::string(title) + ": the centre is not finite or beyond 1e9 m");
-  if (!(radius > 0.0f && radius <= kMaxCoordinate)) {
-    throw InputError(std::string(title) + ": the radius is " + std::to_string(radius) +
-                     " m, it must be positive and at most 1e9 m");
-  }
 }
 
 }  // namespace
@@ -295,8 +174,7 @@ Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 
 uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
   assert(!impl_->committed);
-  const std::vector<glm::uvec3> proper = proper_triangles(mesh);
-  check_attributes(mesh);
+  const std::vector<glm::uvec3> proper = checked_triangles(mesh);
   RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                sizeof(Vec3), mesh.positions.size()));

@@ -22,8 +22,7 @@ TriangleMesh quad_mesh(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
 
 uint64_t drop_flat_triangles(TriangleMesh& mesh) {
   return std::erase_if(mesh.triangles, [&p = mesh.positions](const glm::uvec3& t) {
-    const Vec3d a(p[t.x]), b(p[t.y]), c(p[t.z]);
-    return glm::cross(b - a, c - a) == Vec3d(0.0);
+    return area_vector(p[t.x], p[t.y], p[t.z]) == Vec3d(0.0);
   });
 }
 
