@@ -29,53 +29,50 @@ const GatherSettings& settings_of(const BoundedMap<Region>& bounded) {
   return bounded.map.settings;
 }
 
-/// The sum over the region's photons, over its share. Of the k nearest the region's own are meant: without the k-th
-/// they are k - 1 photons uniform in what the region has of the ball that reaches it, so that the estimate is unbiased
-/// there, too.
-template <int Dimension, class Region, class Accept, class Value>
-Rgb kernel_sum(const BoundedMap<Region>& bounded, const Vec3& point, Accept&& accept, Value&& value) {
-  const auto& [map, region, counters] = bounded;
-  if (map.size() == 0) return Rgb(0.0f);
-  RegionShare share = region.share(kernel_radius(map, point, accept));
-  if (share.inside == 1.0) return kernel_sum<Dimension>(map, point, accept, value);
-  Rgb sum;
-  if (share.others) {
-    const auto within = [&region = region, &accept](const Vec3& travel, const Vec3& offset) {
-      return accept(travel, offset) && region.holds(offset);
-    };
-    if (map.settings.mode == GatherMode::nearest) share = region.share(kernel_radius(map, point, within));
-    sum = kernel_sum<Dimension>(map, point, within, value);
-  } else {
-    sum = kernel_sum<Dimension>(map, point, accept, value);
-  }
+/// A sum over what a region has of a kernel, over its share.
+inline Rgb over_share(const Rgb& sum, const RegionShare& share, RegionCounters& counters) {
   ++counters.corrected;
   if (share.inside < kLeastShare) ++counters.least;
   return sum / static_cast<float>(std::max(share.inside, kLeastShare));
 }
 
-/// Looks along a line from the point: how much of the kernel's weight there lies where not inside(t), t in m. `within`
-/// is the kernel's integral up to t over its radius. The point itself counts as inside. What changes and changes back
-/// between two looks is missed; what changes is found to a hundredth of `reach`.
-template <class Within, class Inside>
-double lost_along(float reach, Within&& within, Inside&& inside) {
-  constexpr int kLooks = 3, kBisections = 5;
-  double lost = 0.0;
-  float begin = 0.0f;
-  bool is_inside = true;
-  for (int look = 1; look <= kLooks; ++look) {
-    const float end = reach * (static_cast<float>(look) / kLooks);
-    float last = begin, next = end;  // before and after the change, if there is one
-    const bool changes = inside(end) != is_inside;
-    for (int i = 0; changes && i < kBisections; ++i) {
-      const float middle = 0.5f * (last + next);
-      (inside(middle) == is_inside ? last : next) = middle;
-    }
-    const float change = changes ? 0.5f * (last + next) : end;
-    lost += is_inside ? within(end) - within(change) : within(change) - within(begin);
-    is_inside = is_inside != changes;
-    begin = end;
-  }
-  return lost;
+/// Of a fixed radius. `within` takes those of the photons that `accept` takes which the region holds.
+template <int Dimension, class Region, class Accept, class Within, class Value>
+Rgb bounded_sum(const BoundedMap<Region>& bounded, const RadiusMap& map, const Vec3& point, Accept&& accept,
+                Within&& within, Value&& value) {
+  const GatherSettings& settings = bounded.map.settings;
+  const RegionShare share = bounded.region.share(settings.radius);
+  if (share.inside == 1.0) return kernel_sum<Dimension>(map, settings, point, accept, value);
+  const Rgb sum = share.others ? kernel_sum<Dimension>(map, settings, point, within, value)
+                               : kernel_sum<Dimension>(map, settings, point, accept, value);
+  return over_share(sum, share, bounded.counters);
+}
+
+/// Of the k nearest: the region's own are meant. Without the k-th they are k - 1 photons uniform in what the region has
+/// of the ball that reaches it, so that the estimate is unbiased there, too.
+template <int Dimension, class Region, class Accept, class Within, class Value>
+Rgb bounded_sum(const BoundedMap<Region>& bounded, const NearestMap& map, const Vec3& point, Accept&& accept,
+                Within&& within, Value&& value) {
+  const GatherSettings& settings = bounded.map.settings;
+  const Neighbours& all = nearest(map, settings, point, accept);
+  const RegionShare share = bounded.region.share(std::sqrt(all.limit()));
+  if (share.inside == 1.0) return neighbour_sum<Dimension>(map, settings.kernel, all, value);
+  if (!share.others)
+    return over_share(neighbour_sum<Dimension>(map, settings.kernel, all, value), share, bounded.counters);
+  const Neighbours& own = nearest(map, settings, point, within);
+  const RegionShare of_own = bounded.region.share(std::sqrt(own.limit()));
+  return over_share(neighbour_sum<Dimension>(map, settings.kernel, own, value), of_own, bounded.counters);
+}
+
+/// The sum over the region's photons, over its share.
+template <int Dimension, class Region, class Accept, class Value>
+Rgb kernel_sum(const BoundedMap<Region>& bounded, const Vec3& point, Accept&& accept, Value&& value) {
+  if (bounded.map.size() == 0) return Rgb(0.0f);
+  const auto within = [&](const Vec3& travel, const Vec3& offset) {
+    return accept(travel, offset) && bounded.region.holds(offset);
+  };
+  return std::visit([&](const auto& map) { return bounded_sum<Dimension>(bounded, map, point, accept, within, value); },
+                    bounded.map.index);
 }
 
 }  // namespace vpm

@@ -70,15 +70,13 @@ const Neighbours& nearest(const NearestMap& map, const GatherSettings& settings,
   return neighbours;
 }
 
-/// Sum over the k nearest photons that `accept` takes. The k-th sets the radius and is not counted: k - 1 photons over
-/// the ball that reaches it, which is unbiased; kernels that vanish there leave it out by themselves. Where fewer than
-/// k lie within the largest radius, all count over that one.
-template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
-               Value&& value) {
-  const Neighbours& neighbours = nearest(map, settings, point, accept);
+/// Sum over neighbours that nearest() found. The k-th sets the radius and is not counted: k - 1 photons over the ball
+/// that reaches it, which is unbiased; kernels that vanish there leave it out by themselves. Where fewer than k lie
+/// within the largest radius, all count over that one.
+template <int Dimension, class Value>
+Rgb neighbour_sum(const NearestMap& map, KernelKind kernel, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
-  return with_kernel(settings.kernel, [&](auto profile) {
+  return with_kernel(kernel, [&](auto profile) {
     Rgb sum(0.0f);
     for (size_t i = neighbours.full() ? 1 : 0; i < neighbours.entries().size();
          ++i) {  // the heap's first is the farthest
@@ -86,8 +84,15 @@ Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3
       const Photon& p = map.photon(index);
       sum += value(p.travel.unpack(), p.power) * profile(d2 / r2);
     }
-    return sum * kernel_norm<Dimension>(settings.kernel, std::sqrt(r2));
+    return sum * kernel_norm<Dimension>(kernel, std::sqrt(r2));
   });
+}
+
+/// Sum over the k nearest photons that `accept` takes.
+template <int Dimension, class Accept, class Value>
+Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
+               Value&& value) {
+  return neighbour_sum<Dimension>(map, settings.kernel, nearest(map, settings, point, accept), value);
 }
 
 template <int Dimension, class Accept, class Value>

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "estimate/lost_along.h"
+
 namespace vpm {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr float kFacing = 0.7071f;
 /// How far off a surface, of its distance from the point, photons are still taken for the surface's own: far less than
 /// the lift, and more than rounding.
 constexpr float kOwn = 1e-3f;
-/// The most surfaces looked at, one below the other.
+/// The most surfaces looked at, one below the other: more within reach of the plane hide those below them.
 constexpr int kLayers = 4;
 
 constexpr int kLines = 32, kFirstLines = 8;
@@ -37,7 +39,12 @@ SurfaceRegion::SurfaceRegion(const Scene& scene, const Hit& hit, const Vec3& tow
     : scene_(scene), point_(hit.position), kernel_(gather.kernel) {
   near_ = {glm::dot(hit.normal, towards) > 0.0f ? hit.normal : -hit.normal, plane_thickness(gather)};
   start_ = leave_surface(hit, near_.normal);
+  if (const std::optional<Hit> above = scene.geometry.intersect_surface({start_, near_.normal}, kInfinity))
+    free_ = above->t;
 }
+
+/// How high above the surface it is looked along to places so far off, m.
+float SurfaceRegion::lift(float distance) const { return std::min(kLift * distance, 0.5f * free_); }
 
 RegionShare SurfaceRegion::share(float radius) const {
   Vec3 s, t;
@@ -52,18 +59,19 @@ RegionShare SurfaceRegion::share(float radius) const {
   return {1.0 - lost / kLines, true};
 }
 
-/// Does a photon at this offset lie on the region? Looks down to it, and along the surface to it.
+/// Does a place of a surface at this offset, or a photon there, belong to the region? Looks down to it, and along the
+/// surface to it.
 bool SurfaceRegion::holds(const Vec3& offset) const {
-  const float distance = glm::length(offset), lift = kLift * distance;
+  const float distance = glm::length(offset), up = lift(distance);
   if (distance == 0.0f) return true;
-  const Ray down{point_ + offset + lift * near_.normal, -near_.normal};
-  const std::optional<Hit> hit = scene_.geometry.intersect_surface(down, 2.0f * lift);
+  const Ray down{point_ + offset + up * near_.normal, -near_.normal};
+  const std::optional<Hit> hit = scene_.geometry.intersect_surface(down, 2.0f * up);
   if (!hit || !counts(*hit)) return false;
   const float rounding = glm::distance(leave_surface(*hit, near_.normal), hit->position);
-  return std::abs(hit->t - lift) <= kOwn * distance + rounding && sees(offset);
+  return std::abs(hit->t - up) <= kOwn * distance + rounding && sees(offset);
 }
 
-/// Has the region a place over or under that point of the plane?
+/// Has the region a place over or under that point of the plane? Surfaces there are asked as photons on them are.
 bool SurfaceRegion::covers(const Vec3& across) const {
   // No place near the plane lies farther off it.
   const float reach = (near_.thickness + kSlope * glm::length(across)) / (1.0f - kSlope);
@@ -73,7 +81,7 @@ bool SurfaceRegion::covers(const Vec3& across) const {
     const std::optional<Hit> hit = scene_.geometry.intersect_surface(down, left);
     if (!hit) return false;
     const Vec3 offset = hit->position - point_;
-    if (counts(*hit) && near_.near_plane(offset) && sees(offset)) return true;
+    if (near_.near_plane(offset) && holds(offset)) return true;
     left -= hit->t;
     down.origin = leave_surface(*hit, down.direction);
   }
@@ -82,7 +90,7 @@ bool SurfaceRegion::covers(const Vec3& across) const {
 
 /// Does nothing stand between the point and the place, as seen along the surface?
 bool SurfaceRegion::sees(const Vec3& offset) const {
-  const Vec3 up = kLift * glm::length(offset) * near_.normal;
+  const Vec3 up = lift(glm::length(offset)) * near_.normal;
   const Vec3 way = point_ + offset + up - (start_ + up);
   const float distance = glm::length(way);
   return !(distance > 0.0f) || !scene_.geometry.intersect_surface({start_ + up, way / distance}, distance);

@@ -8,9 +8,10 @@
 namespace vpm {
 
 /// The places within reach of a point of a surface that lie near its plane (as in Arrives) on surfaces that photons are
-/// stored on, inclined to it by less than 45 degrees, and that nothing stands before as seen along the surface, from a
-/// tenth of the way above it. Photons of walls and of sides of steps do not count, nor those behind a wall; holes and
-/// what lies beyond an edge is no part of the disc. As in Arrives itself, surfaces that bend with a radius above twice
+/// stored on, inclined to it by less than 45 degrees, and that nothing stands before as seen along the surface: from a
+/// tenth of the way above it, or from half as high as the first thing above the point where that is lower. Photons of
+/// walls and of sides of steps do not count, nor those behind a wall; holes and what lies beyond an edge is no part of
+/// the disc. As in Arrives itself, surfaces that bend with a radius above twice
 /// the disc's are all there.
 ///
 /// What the disc covers is asked of the scene, as by [Hey2002], not guessed from where photons are, as by their convex
@@ -27,6 +28,7 @@ class SurfaceRegion {
   bool holds(const Vec3& offset) const;
 
  private:
+  float lift(float distance) const;
   bool covers(const Vec3& across) const;
   bool sees(const Vec3& offset) const;
   bool counts(const Hit& hit) const;
@@ -35,6 +37,7 @@ class SurfaceRegion {
   Vec3 point_;
   Vec3 start_;  // the point, just off the surface
   Arrives near_;
+  float free_ = kInfinity;  // m, from the point up to the first surface above it
   KernelKind kernel_;
 };
 

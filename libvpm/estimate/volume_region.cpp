@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "estimate/lost_along.h"
+
 namespace vpm {
 namespace {
 

@@ -38,9 +38,12 @@ void read_gather(TableReader& table, GatherSettings& gather) {
   gather.kernel = table.choice<KernelKind>("kernel", kernels, gather.kernel);
 }
 
-void read_boundary(TableReader& table, GatherSettings& gather) {
+void read_boundary(TableReader& table, const RenderSettings& s, GatherSettings& gather) {
   gather.boundary = table.choice<BoundaryRule>(
       "boundary", {{"none", BoundaryRule::none}, {"corrected", BoundaryRule::corrected}}, gather.boundary);
+  if (gather.boundary == BoundaryRule::corrected && s.photons_in_cube > 0)
+    table.fail("boundary", "there is no correction at borders where 'in_cube' of [photons] merges photons across them",
+               "leave out 'boundary', or 'in_cube'");
 }
 
 DirectLight read_direct(TableReader& table, DirectLight fallback) {
@@ -197,6 +200,9 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
     s.guide.aim = table.flag("aim", s.guide.aim);
     s.guide.split = table.flag("split", s.guide.split);
     s.guide.scatter = table.flag("scatter", s.guide.scatter);
+    if (s.guide.scatter && s.guide.importons == 0)
+      table.fail("scatter", "nothing tells photons where to scatter: 'importons' of [importance] is 0",
+                 "make 'importons' positive, or leave out 'scatter'");
   });
   read_section(root, "distance", [&](TableReader& table) { read_distance(table, s.distance, has_grid); });
   read_section(root, "transmittance", [&](TableReader& table) {
@@ -209,7 +215,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
         "form",
         {{"density-at-query", VolumeForm::density_at_query}, {"density-at-photon", VolumeForm::density_at_photon}},
         s.volume_form);
-    read_boundary(table, s.volume);
+    read_boundary(table, s, s.volume);
     if (s.volume.boundary == BoundaryRule::corrected && s.volume_form == VolumeForm::density_at_photon)
       table.fail("boundary",
                  "there is no correction at borders for 'density-at-photon', which counts photons from outside",
@@ -219,7 +225,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   });
   read_section(root, "surface", [&](TableReader& table) {
     read_gather(table, s.surface);
-    read_boundary(table, s.surface);
+    read_boundary(table, s, s.surface);
     s.caustics.boundary = s.surface.boundary;
     read_surface_light(table, s);
     read_gathering(table, s);

@@ -135,10 +135,12 @@ class SurfaceLight {
     return of_map(view, c_.surface);
   }
 
-  /// Is a ray shorter than the radius of what the map tells at its end?
+  /// Is a ray shorter than the radius of what the map tells at its end? At borders the k nearest of a region may reach
+  /// farther than those of all photons: the largest radius stands for theirs.
   bool is_too_short(float length, const SurfaceView& view) const {
-    return length < c_.surface.settings.radius &&
-           length < scattered_radius(view.material, view.hit, -view.travel, c_.surface);
+    const GatherSettings& gather = c_.surface.settings;
+    return length < gather.radius && (gather.boundary == BoundaryRule::corrected ||
+                                      length < scattered_radius(view.material, view.hit, -view.travel, c_.surface));
   }
 
   const EyeContext& c_;

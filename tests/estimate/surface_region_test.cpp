@@ -116,6 +116,14 @@ TEST(SurfaceRegion, CurvedSurfacesAreAllThere) {
     const Hit outside = hit_from(scene, centre + 2.0f * outward, -outward), inside = hit_from(scene, centre, outward);
     EXPECT_EQ(share(scene, outside, outward, KernelKind::constant, 0.5f), 1.0);
     EXPECT_EQ(share(scene, inside, -outward, KernelKind::constant, 0.5f), 1.0);
+    const GatherSettings gather{GatherMode::radius, 0.5f, 0, KernelKind::constant};
+    const SurfaceRegion before(scene, outside, outward, gather), within(scene, inside, -outward, gather);
+    for (int photon = 0; photon < 50; ++photon) {
+      const Vec3 place =
+          hit_from(scene, centre, glm::normalize(outward + 0.25f * uniform_sphere(rng.uniform2()))).position;
+      EXPECT_TRUE(before.holds(place - outside.position)) << i << " " << photon;
+      EXPECT_TRUE(within.holds(place - inside.position)) << i << " " << photon;
+    }
   }
 }
 
@@ -171,6 +179,46 @@ TEST(SurfaceRegion, EvenLightOnAFloorIsEvenUpToItsCorners) {
     at(0.9999f, 0.1f, 0.5, "edge");
     at(-0.9999f, 0.9999f, 0.25, "corner");
   }
+}
+
+// What photons pass on their way to the floor, as a pane does, hides no part of it; what lies on it does.
+TEST(SurfaceRegion, EvenLightIsEvenUnderPanesAndBesideRugs) {
+  const Scene pane = floor_scene([](Scene& s) {
+    add_shape(s, quad_mesh(Vec3d(-2, -2, 0.005), Vec3d(4, 0, 0), Vec3d(0, 4, 0)), ThinDielectric{});
+  });
+  const Scene rug = floor_scene([](Scene& s) {
+    add_shape(s, quad_mesh(Vec3d(0.1, -1, 0.002), Vec3d(0.9, 0, 0), Vec3d(0, 2, 0)), Lambertian{Rgb(0.0f)});
+  });
+  const auto beside_rug = [](Rng& rng) -> Landing {
+    return {Vec3(1.1f * rng.uniform() - 1.0f, 2.0f * rng.uniform() - 1.0f, 0.0f), -kUp};
+  };
+  uint64_t use = 60;
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest}) {
+    const GatherSettings gather{mode, mode == GatherMode::radius ? 0.4f : 1.0f, 12, KernelKind::epanechnikov};
+    const auto on = [&](const Scene& scene, float x) { return hit_from(scene, {x, 0.0f, 0.001f}, -kUp); };
+    for (const float x : {0.0f, 0.8f, 0.9999f}) {
+      const Estimates found = estimate(pane, on(pane, x), gather, 800, use++, on_whole_floor);
+      expect_mean(found.corrected, 0.25, 1e-6, "under a pane");
+    }
+    const Estimates found = estimate(rug, on(rug, 0.0f), gather, 800, use++, beside_rug);
+    expect_mean(found.corrected, 1.0 / 2.2, 1e-6, "beside a rug");
+  }
+}
+
+// A wall of 45 degrees over the floor, which goes on behind it: seen from near its foot, under it.
+TEST(SurfaceRegion, LightDoesNotLeakUnderLeaningWalls) {
+  const Scene scene = floor_scene(
+      [](Scene& s) { add_shape(s, quad_mesh(Vec3d(0.1, -2, 0), Vec3d(0, 4, 0), Vec3d(-1, 0, 1)), Lambertian{}); });
+  const GatherSettings gather{GatherMode::radius, 0.4f, 0, KernelKind::epanechnikov};
+  const Hit hit = hit_from(scene, {0.08f, 0.0f, 0.01f}, -kUp);
+  const auto behind = [](Rng& rng) -> Landing {
+    return {Vec3(0.1f + 0.9f * rng.uniform(), 2.0f * rng.uniform() - 1.0f, 0.0f), -kUp};
+  };
+  const auto under = [](Rng& rng) -> Landing {
+    return {Vec3(1.1f * rng.uniform() - 1.0f, 2.0f * rng.uniform() - 1.0f, 0.0f), -kUp};
+  };
+  EXPECT_EQ(estimate(scene, hit, gather, 20, 80, behind).corrected.mean(), 0.0);
+  expect_mean(estimate(scene, hit, gather, 1000, 81, under).corrected, 1.0 / 2.2, 1e-6, "under the wall");
 }
 
 // A floor of even light beside a wall on which ten times as much falls, from above, and on the top of which too.

@@ -144,8 +144,8 @@ TEST(GatherGuide, GathersTheSameLight) {
   for (const auto& [what, at] : views) {
     const Ray ray{Vec3(0.0f), glm::normalize(at)};
     EyeCounters counters;
-    const Moments guided = gathered(context, true, ray, 15'000, counters);
-    expect_same(guided, gathered(context, false, ray, 15'000, counters), 0.015, what);
+    const Moments guided = gathered(context, true, ray, 30'000, counters);
+    expect_same(guided, gathered(context, false, ray, 30'000, counters), 0.01, what);
     EXPECT_EQ(counters.walk.medium_mismatches, 0u) << what;
   }
 }
@@ -160,10 +160,10 @@ TEST(GatherGuide, FindsTheLightThatComesFromOneSpot) {
       make_eye_context(scene, settings, plan_stages(scene, settings), 0, kGoOn, PassProgress{}, statistics);
   const Ray ray{Vec3(0.0f), glm::normalize(Vec3(-0.2f, -1.0f, 0.3f))};
   EyeCounters counters;
-  const Moments guided = gathered(context, true, ray, 40'000, counters);
-  const Moments plain = gathered(context, false, ray, 40'000, counters);
+  const Moments guided = gathered(context, true, ray, 80'000, counters);
+  const Moments plain = gathered(context, false, ray, 80'000, counters);
   EXPECT_LT(4.0 * guided.variance(), plain.variance());
-  expect_same(guided, plain, 0.1, "");
+  expect_same(guided, plain, 0.05, "");
 }
 
 // What its map holds and what the caustic map holds with direct light are all photons of the surface map.

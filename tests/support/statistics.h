@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "study/validate/check.h"
@@ -17,6 +18,21 @@ inline void expect_mean(const Moments& samples, double expected, double false_al
   const double z = (samples.mean() - expected) / error;
   EXPECT_LT(std::abs(z), normal_quantile(false_alarm_rate))
       << what << ": mean " << samples.mean() << " +- " << error << ", expected " << expected;
+}
+
+/// Welch's test of each pair: the means of the samples are the same. Where neither varies they are equal.
+inline void expect_same_means(const std::vector<Moments>& a, const std::vector<Moments>& b, double false_alarm_rate,
+                              const std::string& what) {
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (a[i].variance() == 0.0 && b[i].variance() == 0.0) {
+      EXPECT_EQ(a[i].mean(), b[i].mean()) << what << ", value " << i;
+      continue;
+    }
+    const Check check = check_same("", a[i], b[i]);
+    EXPECT_GE(check.p, false_alarm_rate) << what << ", value " << i << ": " << a[i].mean() << " against " << b[i].mean()
+                                         << " +- " << check.error;
+  }
 }
 
 /// Chi-square test: `counts` are of independent draws with the given probabilities, which sum to 1. Cells that expect

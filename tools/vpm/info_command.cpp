@@ -7,7 +7,7 @@
 #include "input/grid_file.h"
 #include "input/scene_file.h"
 #include "render/photon_pass.h"
-#include "report.h"
+#include "stage_lines.h"
 
 namespace vpm::tools {
 namespace {

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/version.h"
 #include "render/photon_pass.h"
+#include "stage_lines.h"
 
 namespace vpm::tools {
 namespace {
@@ -16,14 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json rgb(const Rgbd& c) { return Json::array({c.r, c.g, c.b}); }
-
-/// A strategy or an estimator with what its list says of it: "regular (exact in any medium: ...)".
-template <class Info>
-std::string described(const std::string& name, std::span<const Info> infos) {
-  for (const Info& info : infos)
-    if (info.name == name) return fmt::format("{} ({})", name, info.summary);
-  return name;
-}
 
 double per_second(uint64_t count, double seconds) { return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0; }
 
@@ -255,43 +248,6 @@ std::string settings_line(const RenderSettings& s) {
                         s.end_irradiance == EndIrradiance::estimate ? "estimate" : "precomputed", gather(s.caustics),
                         s.caustics_emitted),
       radii(s.radii), s.max_optical_step, s.max_events);
-}
-
-std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Stages& stages) {
-  const bool scatters = plan_stages(scene, settings).volume_map;
-  const std::string no_medium = scene.media.empty() ? "no medium"
-                                : scatters          ? "a light map shows no medium"
-                                                    : "no medium scatters";
-  const auto line = [](bool runs, const std::string& what, const std::string& how, const std::string& why_not) {
-    return runs ? "runs " + what + how : "skips " + what + ": " + why_not;
-  };
-  const std::string distances = ", distances by " + described(settings.distance.strategy, distance_strategies());
-  const std::string transmittance =
-      ", transmittance by " + described(settings.transmittance.estimator, transmittance_estimators());
-  bool grids = false;
-  for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
-  const std::string no_gathering = stages.surface_map ? "indirect light comes from the photon map" : "no rough surface";
-  const std::string channels = scene.grey ? "all coefficients are grey" : "coefficients differ between channels";
-  if (settings.integrator == Integrator::path)
-    return {line(true, "path tracing", distances + transmittance, ""),
-            line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
-  return {line(stages.photons(), "photon tracing", distances, "nothing stores photons"),
-          line(stages.volume_map, "volume photon map", "", no_medium),
-          line(stages.surface_map, "surface photon map", "", "no rough surface"),
-          line(stages.pixel_discs, "radii of pixels' own", ", on surfaces",
-               stages.surface_map ? "radii do not depend on what pixels find" : "no rough surface"),
-          line(stages.volume_shadow_rays, "shadow rays in media", transmittance,
-               stages.volume_map ? "single scattering comes from the photon map" : no_medium),
-          line(stages.surface_shadow_rays, "shadow rays at surfaces", transmittance,
-               stages.surface_map ? "direct light comes from the photon map" : "no rough surface"),
-          line(stages.final_gather, "final gathering and a caustic map",
-               fmt::format(", {} rays at a point", settings.gather_rays), no_gathering),
-          line(stages.guided_gather, "a photon map to guide its rays", "",
-               stages.final_gather ? "materials draw them" : no_gathering),
-          line(stages.irradiance_points, "irradiance computed beforehand for their ends", "",
-               stages.final_gather ? "they ask the photon map" : no_gathering),
-          line(grids, "grid look-ups", "", "all media are homogeneous"),
-          channels};
 }
 
 }  // namespace vpm::tools

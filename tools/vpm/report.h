@@ -19,8 +19,4 @@ std::string light_map_report(const std::string& scene_path, const std::string& i
 /// The settings that decide what is estimated, in one line of key=value.
 std::string settings_line(const RenderSettings& settings);
 
-/// Which of the stages run, of a render or a light map, which are skipped, and why: one line each, "runs ..." or
-/// "skips ...".
-std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Stages& stages);
-
 }  // namespace vpm::tools

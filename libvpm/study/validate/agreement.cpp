@@ -122,8 +122,12 @@ std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSetti
   all.emplace_back("k nearest within the radius", nearest);
   RenderSettings guided = base;
   guided.guide.importons = 1'000;
-  guided.guide.scatter = true;
   all.emplace_back("photons guided by importance", guided);
+  guided.guide.scatter = true;
+  all.emplace_back("photons guided by importance, where they scatter, too", guided);
+  RenderSettings corrected = base;
+  corrected.volume.boundary = corrected.surface.boundary = corrected.caustics.boundary = BoundaryRule::corrected;
+  all.emplace_back("estimates corrected at borders", corrected);
   if (surfaces) {
     RenderSettings gathering = base;
     gathering.surface_indirect = IndirectLight::final_gather;
