@@ -39,6 +39,16 @@ struct BakeOptions : PassOptions {
 /// beside it. 130 when interrupted: the finished passes are written.
 int bake_command(const BakeOptions& options);
 
+struct CompareOptions {
+  std::string experiment;  // an experiment file
+  std::string output;      // folder; made where it is missing
+  int threads = 0;         // 0: all
+  ProgressMode progress = ProgressMode::automatic;
+};
+/// Runs every method of an experiment on every scene, as often as it asks for, and writes tables of error against cost.
+/// Goes on where it was interrupted: 130 then.
+int compare_command(const CompareOptions& options);
+
 struct InfoOptions {
   std::string file;                    // a scene or a .vdb
   std::vector<std::string> overrides;  // key.path=value, for scenes

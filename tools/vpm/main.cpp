@@ -93,6 +93,16 @@ void add_bake(CLI::App& app, BakeOptions& options) {
       ->capture_default_str();
 }
 
+void add_compare(CLI::App& app, CompareOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare methods, error against cost, on scenes of an experiment file");
+  command->add_option("experiment", options.experiment, "Experiment file (.toml)")->required();
+  command->add_option("-o,--output", options.output, "Folder for results; an interrupted comparison goes on in it")
+      ->required();
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
+  add_progress(command, options.progress);
+}
+
 void add_info(CLI::App& app, InfoOptions& options) {
   CLI::App* command = app.add_subcommand("info", "Tell what a scene or a .vdb file holds, and what a scene would run");
   command->add_option("file", options.file, "Scene (.toml) or grid file (.vdb)")->required();
@@ -151,6 +161,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   RenderOptions render;
   BakeOptions bake;
+  CompareOptions compare;
   InfoOptions info;
   MediaOptions media;
   MeshOptions mesh;
@@ -158,6 +169,7 @@ int run(int argc, char** argv) {
   ExactOptions exact;
   add_render(app, render);
   add_bake(app, bake);
+  add_compare(app, compare);
   add_info(app, info);
   add_media(app, media);
   add_mesh(app, mesh);
@@ -170,6 +182,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("render")) return render_command(render);
   if (app.got_subcommand("bake")) return bake_command(bake);
+  if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("info")) return info_command(info);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("validate")) return validate_command(validate);

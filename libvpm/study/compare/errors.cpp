@@ -1,0 +1,85 @@
+// Moments over repetitions, pixel by pixel.
+#include "study/compare/errors.h"
+
+#include <cassert>
+
+#include "base/statistics.h"
+#include "image/metrics.h"
+#include "study/compare/resampling.h"
+
+namespace vpm {
+namespace {
+
+/// What squared errors of a picture are divided by, channel by channel, to be those of relative_mse().
+class Scales {
+ public:
+  explicit Scales(const Image& truth) : truth_(truth), means_(channel_means(truth)) {}
+
+  double at(size_t pixel, int channel) const {
+    const double value = truth_.pixels[pixel][channel], mean = means_[channel];
+    return value * value + 0.01 * mean * mean;
+  }
+
+ private:
+  const Image& truth_;
+  Rgbd means_;
+};
+
+/// The mean over pixels and channels of value(pixel, channel).
+template <class Value>
+double mean_over(const Image& image, Value&& value) {
+  Sum sum;
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) sum.add(value(i, c));
+  return sum.value() / (3.0 * static_cast<double>(image.pixels.size()));
+}
+
+/// Of a squared error over its scale: none where nothing is, as in a channel that is black everywhere.
+double over(double square, double scale) { return square == 0.0 ? 0.0 : square / scale; }
+
+double brightness(const Image& image) { return sum_channels(channel_means(image)); }
+
+}  // namespace
+
+double reference_noise(const Reference& reference) {
+  const Scales scales(reference.mean);
+  const Image& variance = reference.variance;
+  return mean_over(variance, [&](size_t i, int c) { return over(variance.pixels[i][c], scales.at(i, c)); });
+}
+
+PictureErrors picture_errors(const Image& image, const Reference& reference) {
+  const Image& variance = reference.variance;
+  const double noise = mean_over(variance, [&](size_t i, int c) { return double{variance.pixels[i][c]}; });
+  return {mse(image, reference.mean) - noise, relative_mse(image, reference.mean) - reference_noise(reference),
+          brightness(image) / brightness(reference.mean)};
+}
+
+RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference& reference) {
+  assert(images.size() >= 2);
+  std::vector<double> mses, relatives, biases;
+  for (const Image& image : images) {
+    const PictureErrors errors = picture_errors(image, reference);
+    mses.push_back(errors.mse);
+    relatives.push_back(errors.relative_mse);
+    biases.push_back(errors.mean_ratio - 1.0);
+  }
+  const Scales scales(reference.mean);
+  const auto squared_bias = [&](const std::vector<double>& weights) {
+    return mean_over(reference.mean, [&](size_t i, int c) {
+      Moments seen;
+      for (size_t k = 0; k < images.size(); ++k)
+        if (weights[k] > 0.0) seen.add(images[k].pixels[i][c]);
+      const double off = seen.mean() - reference.mean.pixels[i][c];
+      return over(off * off - seen.variance_of_mean() - reference.variance.pixels[i][c], scales.at(i, c));
+    });
+  };
+  RepeatedErrors result;
+  result.mse = mean_with_interval(mses);
+  result.relative_mse = mean_with_interval(relatives);
+  result.bias = mean_with_interval(biases);
+  result.squared_bias = jackknife(images.size(), squared_bias);
+  result.variance = result.relative_mse.value - result.squared_bias.value;
+  return result;
+}
+
+}  // namespace vpm

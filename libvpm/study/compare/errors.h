@@ -1,0 +1,43 @@
+// How far repeated pictures of one method are from the truth, and how much of that is bias.
+#pragma once
+
+#include <vector>
+
+#include "image/image.h"
+
+namespace vpm {
+
+/// A picture taken for the truth, with the variance that it has itself.
+struct Reference {
+  Image mean;
+  Image variance;  // of each pixel of `mean`; black: it is exact
+};
+
+/// An estimate between the ends of a 95 % confidence interval.
+struct Bounded {
+  double value = 0.0, lo = 0.0, hi = 0.0;
+};
+
+/// Errors of one picture, the expected part that the reference's own noise has in them subtracted: they are unbiased,
+/// and may come out below 0 where the reference is too noisy to tell.
+struct PictureErrors {
+  double mse = 0.0;           // (W/(m^2 sr))^2
+  double relative_mse = 0.0;  // as relative_mse()
+  double mean_ratio = 0.0;    // the mean over pixels and channels over the reference's
+};
+/// The relative MSE that the reference's own noise stands for.
+double reference_noise(const Reference& reference);
+PictureErrors picture_errors(const Image& image, const Reference& reference);
+
+/// The errors of a method at one budget, from repetitions (at least 2) that are independent of each other.
+struct RepeatedErrors {
+  Bounded mse, relative_mse;
+  Bounded bias;  // of the mean over pixels and channels, relative to the reference's
+  /// The relative MSE that is left when repetitions without end are averaged, and what goes away. Estimated without
+  /// bias: the first may come out below 0.
+  Bounded squared_bias;
+  double variance = 0.0;
+};
+RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference& reference);
+
+}  // namespace vpm

@@ -1,0 +1,71 @@
+// What a comparison of methods is told: which scenes, which methods, how much each may cost, how often.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vpm {
+
+/// What a method's cost is measured in.
+enum class CostUnit {
+  seconds,  // of CPU time, all threads together
+  passes,
+  photons,  // emitted
+  lookups   // of density by photons and eye paths
+};
+
+/// A way to render: keys of the scene file, changed.
+struct Method {
+  std::string name;
+  std::vector<std::string> settings;  // key.path=value
+};
+
+struct ComparedScene {
+  std::string name;
+  std::string file;                   // a scene file
+  std::vector<std::string> settings;  // key.path=value, of all methods and the reference
+  std::string reference;              // .exr; empty: the path tracer is run
+};
+
+struct ComparisonPlan {
+  std::string title;
+  std::string text;  // of its file
+  std::vector<ComparedScene> scenes;
+  std::vector<Method> methods;
+  CostUnit unit = CostUnit::seconds;
+  std::vector<double>
+      budgets;           // in that unit, > 0, rising: a run goes on to the last and is looked at as it passes each
+  int repetitions = 10;  // >= 2, with seeds of their own
+  uint64_t seed = 1;     // of the first repetition
+  double reference_error = 1e-4;  // relative MSE that the path tracer goes down to, > 0
+};
+
+/// What a run had cost when it passed a budget, and what it had counted.
+struct RunCost {
+  double cpu_seconds = 0.0, wall_seconds = 0.0;
+  uint64_t passes = 0;
+  uint64_t photons = 0;  // emitted
+  uint64_t stored = 0;   // in all maps
+  uint64_t lookups = 0;
+  uint64_t bytes = 0;                  // of photon maps and guides, of the largest pass
+  double largest_weight = 0.0;         // of a photon, see Ledger
+  double effective_sample_size = 0.0;  // of collisions, see Ledger
+};
+
+/// That cost in a unit.
+inline double cost_in(CostUnit unit, const RunCost& cost) {
+  switch (unit) {
+    case CostUnit::seconds:
+      return cost.cpu_seconds;
+    case CostUnit::passes:
+      return static_cast<double>(cost.passes);
+    case CostUnit::photons:
+      return static_cast<double>(cost.photons);
+    case CostUnit::lookups:
+      break;
+  }
+  return static_cast<double>(cost.lookups);
+}
+
+}  // namespace vpm

@@ -1,0 +1,189 @@
+// vpm compare: an experiment in, tables and a page out.
+#include <fmt/format.h>
+#include <cstdio>
+#include <memory>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "base/version.h"
+#include "commands.h"
+#include "compare/results.h"
+#include "compare/run.h"
+#include "compare/store.h"
+#include "image/metrics.h"
+#include "input/experiment_file.h"
+#include "input/source.h"
+#include "pass_run.h"
+#include "report.h"
+
+namespace vpm::tools {
+namespace {
+
+/// A method on a scene, ready to run.
+struct Entrant {
+  LoadedScene loaded;
+  std::string identity;  // of its runs, but for the seed
+};
+
+/// A scene with all its methods.
+struct Contest {
+  const ComparedScene* compared = nullptr;
+  std::vector<std::unique_ptr<Entrant>> methods;
+  std::unique_ptr<Entrant> referee;  // null where the reference is read from a file
+  Reference reference;
+};
+
+std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::vector<std::string>& settings,
+                                      const std::string& purpose) {
+  try {
+    auto entrant = std::make_unique<Entrant>(Entrant{load_scene(scene.file, joined(scene.settings, settings)), ""});
+    entrant->identity = fmt::format("vpm {}; scene {}; {}; {}", version(), entrant->loaded.hash,
+                                    settings_line(entrant->loaded.settings), purpose);
+    return entrant;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("scene '{}': {}", scene.name, error.what()));
+  }
+}
+
+std::string run_purpose(const ComparisonPlan& plan) {
+  std::string text = fmt::format("{} threads; budgets in {}:", thread_count(), unit_name(plan.unit));
+  for (const double budget : plan.budgets) text += fmt::format(" {}", budget);
+  return text;
+}
+
+void check_size(const Image& reference, const Camera& camera, const ComparedScene& scene) {
+  if (reference.width == camera.width && reference.height == camera.height) return;
+  throw InputError(fmt::format("scene '{}': its reference has {} x {} pixels, but a method renders {} x {}", scene.name,
+                               reference.width, reference.height, camera.width, camera.height));
+}
+
+/// Loads everything that will be needed, so that what is wrong is told before anything is rendered.
+std::vector<Contest> load_contests(const ComparisonPlan& plan) {
+  std::vector<Contest> contests;
+  for (const ComparedScene& scene : plan.scenes) {
+    Contest contest;
+    contest.compared = &scene;
+    for (const Method& method : plan.methods)
+      contest.methods.push_back(make_entrant(scene, method.settings, run_purpose(plan)));
+    if (scene.reference.empty()) {
+      contest.referee = make_entrant(scene, {}, fmt::format("reference of relative MSE {}", plan.reference_error));
+      const Camera& camera = contest.referee->loaded.scene.camera;
+      contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);
+    } else {
+      contest.reference = read_reference(scene.reference);
+    }
+    for (const auto& method : contest.methods) check_size(contest.reference.mean, method->loaded.scene.camera, scene);
+    contests.push_back(std::move(contest));
+  }
+  return contests;
+}
+
+/// Finds the reference of a scene, or makes it. False where `stop` was set first.
+bool make_reference(Contest& contest, const ComparisonPlan& plan, const Store& store, const CompareOptions& options,
+                    const std::atomic<bool>& stop) {
+  if (!contest.referee) return true;
+  if (std::optional<Reference> known = store.find_reference(contest.referee->identity)) {
+    contest.reference = std::move(*known);
+    return true;
+  }
+  const RenderResult result = run_referee(contest.referee->loaded, plan.reference_error, stop, options.progress);
+  if (stop) return false;
+  contest.reference = {result.film.mean(), result.film.variance_of_mean()};
+  store.add_reference(contest.referee->identity, contest.reference);
+  return true;
+}
+
+std::string run_identity(const Entrant& entrant, const ComparisonPlan& plan, int repetition) {
+  return fmt::format("{}; seed {}", entrant.identity, plan.seed + static_cast<uint64_t>(repetition));
+}
+
+/// Makes the runs that are missing. Repetitions are interleaved, and each begins with another method, so that what
+/// changes about the machine in the meantime meets all methods alike.
+void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan, const Store& store,
+               const CompareOptions& options, const std::atomic<bool>& stop) {
+  const size_t methods = plan.methods.size();
+  const auto repetitions = static_cast<size_t>(plan.repetitions);
+  Progress bar("compare", repetitions * contests.size() * methods, progress_enabled(options.progress));
+  for (size_t r = 0; r < repetitions; ++r)
+    for (const Contest& contest : contests)
+      for (size_t turn = 0; turn < methods; ++turn) {
+        const Entrant& entrant = *contest.methods[(turn + r) % methods];
+        const std::string identity = run_identity(entrant, plan, static_cast<int>(r));
+        if (!store.find_run(identity)) {
+          const std::vector<Snapshot> snapshots = run_method(entrant.loaded, plan, static_cast<int>(r), stop);
+          if (stop) return;
+          store.add_run(identity, snapshots);
+        }
+        bar.advance(1);
+      }
+  bar.finish();
+}
+
+BudgetSummary summarise(const Entrant& entrant, const Reference& reference, const ComparisonPlan& plan,
+                        const Store& store, size_t budget) {
+  std::vector<RunCost> costs;
+  std::vector<Image> images;
+  for (int r = 0; r < plan.repetitions; ++r) {
+    const std::string identity = run_identity(entrant, plan, r);
+    costs.push_back(store.find_run(identity)->at(budget));
+    images.push_back(store.picture(identity, budget));
+  }
+  return summarise_budget(costs, images, reference);
+}
+
+std::string reference_text(const Contest& contest, double error) {
+  if (!contest.referee) return contest.compared->reference;
+  return fmt::format("the path tracer, relative MSE {:.2g}", error);
+}
+
+SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {
+  SceneResults results;
+  results.scene_text = read_whole_file(contest.compared->file);
+  results.width = contest.reference.mean.width;
+  results.height = contest.reference.mean.height;
+  results.reference_error = reference_noise(contest.reference);
+  results.reference = reference_text(contest, results.reference_error);
+  for (const auto& entrant : contest.methods) {
+    results.hashes.push_back(entrant->loaded.hash);
+    results.settings.push_back(settings_line(entrant->loaded.settings));
+    std::vector<BudgetSummary> budgets;
+    for (size_t b = 0; b < plan.budgets.size(); ++b)
+      budgets.push_back(summarise(*entrant, contest.reference, plan, store, b));
+    results.budgets.push_back(std::move(budgets));
+  }
+  results.summary = summarise_scene(results.budgets, plan.unit);
+  return results;
+}
+
+}  // namespace
+
+int compare_command(const CompareOptions& options) {
+  set_threads(options.threads);
+  const ComparisonPlan plan = load_comparison_plan(options.experiment);
+  std::vector<Contest> contests = load_contests(plan);
+  const Store store(options.output);
+  const std::atomic<bool>& stop = stop_on_signals();
+  for (Contest& contest : contests)
+    if (!make_reference(contest, plan, store, options, stop)) break;
+  if (!stop) make_runs(contests, plan, store, options, stop);
+  if (stop) {
+    fmt::print(stderr, "interrupted: finished runs are kept in {}; the same command goes on\n", options.output);
+    return kInterrupted;
+  }
+  std::vector<SceneResults> scenes;
+  for (const Contest& contest : contests) scenes.push_back(results_of(contest, plan, store));
+  const std::filesystem::path folder = options.output;
+  write_text(folder / "results.json", results_json(plan, scenes).dump(1) + "\n");
+  write_text(folder / "results.csv", results_csv(plan, scenes));
+  fmt::print("{}{}: results.json, results.csv\n", results_text(plan, scenes), folder.string());
+  return 0;
+}
+
+}  // namespace vpm::tools

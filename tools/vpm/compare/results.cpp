@@ -1,0 +1,216 @@
+// Numbers and what they are called.
+#include "compare/results.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+#include "base/parallel.h"
+#include "base/version.h"
+#include "compare/store.h"
+
+namespace vpm::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Null where it is not known.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json bounded(const Bounded& b) { return {{"value", number(b.value)}, {"lo", number(b.lo)}, {"hi", number(b.hi)}}; }
+
+Json comparison_json(const Comparison& comparison) {
+  Json json = bounded(comparison.ratio);
+  json["p"] = comparison.known ? number(comparison.p) : Json(nullptr);
+  json["p_holm"] = comparison.known ? number(comparison.p_holm) : Json(nullptr);
+  return json;
+}
+
+/// The processor's name, as Linux tells it.
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.size(), line.find(':') + 2));
+  return "unknown";
+}
+
+Json machine_json() {
+  utsname system{};
+  uname(&system);
+  return {{"processor", processor()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"threads", thread_count()},
+          {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)}};
+}
+
+Json budget_json(const BudgetSummary& budget, const Comparison& by_mse, const Comparison& by_relative_mse) {
+  Json runs = Json::array();
+  for (size_t i = 0; i < budget.each.size(); ++i) {
+    Json run = to_json(budget.costs[i]);
+    run["mse"] = number(budget.each[i].mse);
+    run["relative_mse"] = number(budget.each[i].relative_mse);
+    run["mean_ratio"] = number(budget.each[i].mean_ratio);
+    runs.push_back(std::move(run));
+  }
+  const RepeatedErrors& errors = budget.errors;
+  return {{"mse", bounded(errors.mse)},
+          {"relative_mse", bounded(errors.relative_mse)},
+          {"bias", bounded(errors.bias)},
+          {"squared_bias", bounded(errors.squared_bias)},
+          {"variance", number(errors.variance)},
+          {"efficiency_by_mse", comparison_json(by_mse)},
+          {"efficiency", comparison_json(by_relative_mse)},
+          {"runs", std::move(runs)}};
+}
+
+Json method_json(const ComparisonPlan& plan, const SceneResults& scene, size_t m) {
+  const MethodSummary& summary = scene.summary.methods[m];
+  Json budgets = Json::array(), equal_error = Json::array();
+  for (size_t b = 0; b < plan.budgets.size(); ++b)
+    budgets.push_back(budget_json(scene.budgets[m][b], summary.by_mse[b], summary.by_relative_mse[b]));
+  for (const std::optional<double>& cost : summary.equal_error)
+    equal_error.push_back(cost ? Json(*cost) : Json(nullptr));
+  return {{"name", plan.methods[m].name},    {"overrides", plan.methods[m].settings},
+          {"settings", scene.settings[m]},   {"scene_hash", scene.hashes[m]},
+          {"slope", bounded(summary.slope)}, {"equal_error", std::move(equal_error)},
+          {"budgets", std::move(budgets)}};
+}
+
+Json scene_json(const ComparisonPlan& plan, const ComparedScene& compared, const SceneResults& scene) {
+  Json methods = Json::array(), pairs = Json::array();
+  for (size_t m = 0; m < plan.methods.size(); ++m) methods.push_back(method_json(plan, scene, m));
+  for (const PairSummary& pair : scene.summary.pairs) {
+    Json json{{"first", pair.first}, {"second", pair.second}};
+    json.update(comparison_json(pair.comparison));
+    pairs.push_back(std::move(json));
+  }
+  return {{"name", compared.name},
+          {"file", compared.file},
+          {"overrides", compared.settings},
+          {"text", scene.scene_text},
+          {"width", scene.width},
+          {"height", scene.height},
+          {"reference", {{"source", scene.reference}, {"relative_mse", scene.reference_error}}},
+          {"best", scene.summary.best_by_relative_mse},
+          {"best_by_mse", scene.summary.best_by_mse},
+          {"targets", scene.summary.targets},
+          {"methods", std::move(methods)},
+          {"pairs", std::move(pairs)}};
+}
+
+/// Text in quotes, those in it doubled.
+std::string csv_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string with_interval(const Bounded& b) { return fmt::format("{:.3g} [{:.3g}, {:.3g}]", b.value, b.lo, b.hi); }
+
+/// The methods at one budget.
+std::string equal_cost_table(const ComparisonPlan& plan, const SceneResults& scene, size_t b) {
+  std::string text = fmt::format("  at {:g} {}:\n    {:32} {:>28} {:>26} {:>24}\n", plan.budgets[b],
+                                 unit_name(plan.unit), "", "relative MSE", "bias, %", "efficiency over best");
+  for (size_t m = 0; m < plan.methods.size(); ++m) {
+    const RepeatedErrors& errors = scene.budgets[m][b].errors;
+    const Bounded percent{100.0 * errors.bias.value, 100.0 * errors.bias.lo, 100.0 * errors.bias.hi};
+    text += fmt::format("    {:32} {:>28} {:>26} {:>24}\n", plan.methods[m].name, with_interval(errors.relative_mse),
+                        with_interval(percent),
+                        m == scene.summary.best_by_relative_mse[b]
+                            ? "best"
+                            : with_interval(scene.summary.methods[m].by_relative_mse[b].ratio));
+  }
+  return text;
+}
+
+std::string pairs_text(const ComparisonPlan& plan, const SceneResults& scene) {
+  constexpr double kRate = 0.05;
+  std::string text;
+  size_t unknown = 0;
+  for (const PairSummary& pair : scene.summary.pairs) {
+    const Comparison& c = pair.comparison;
+    unknown += !c.known;
+    if (!c.known || c.p_holm >= kRate) continue;
+    const bool first = c.ratio.value > 1.0;
+    const Bounded ratio = first ? c.ratio : Bounded{1.0 / c.ratio.value, 1.0 / c.ratio.hi, 1.0 / c.ratio.lo};
+    text += fmt::format("    {} is {} times as efficient as {} (p {:.1g})\n",
+                        plan.methods[first ? pair.first : pair.second].name, with_interval(ratio),
+                        plan.methods[first ? pair.second : pair.first].name, c.p_holm);
+  }
+  if (text.empty()) text = "    none\n";
+  if (unknown > 0) text += fmt::format("    not determined: {} pairs, for the reference is too noisy\n", unknown);
+  return fmt::format("  significant differences among {} pairs, at the last budget (family-wise {:g} %):\n{}",
+                     scene.summary.pairs.size(), 100.0 * kRate, text);
+}
+
+}  // namespace
+
+std::string unit_name(CostUnit unit) {
+  switch (unit) {
+    case CostUnit::seconds:
+      return "s of CPU time";
+    case CostUnit::passes:
+      return "passes";
+    case CostUnit::photons:
+      return "photons emitted";
+    case CostUnit::lookups:
+      break;
+  }
+  return "look-ups of density";
+}
+
+Json results_json(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
+  Json all = Json::array();
+  for (size_t i = 0; i < scenes.size(); ++i) all.push_back(scene_json(plan, plan.scenes[i], scenes[i]));
+  return {
+      {"vpm", version()},
+      {"title", plan.title},
+      {"experiment", plan.text},
+      {"machine", machine_json()},
+      {"seed", plan.seed},
+      {"repetitions", plan.repetitions},
+      {"unit", unit_name(plan.unit)},
+      {"budgets", plan.budgets},
+      {"formulas",
+       {{"mse", "mean over pixels and channels of (I - R)^2, less the reference's own variance"},
+        {"relative_mse", "mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) by channel, less the reference's own"},
+        {"bias", "mean over pixels and channels of I over that of R, less 1"},
+        {"squared_bias", "relative MSE of the mean of repetitions, less its variance"},
+        {"efficiency", "1 / (relative MSE x cost), over that of the best method"},
+        {"intervals", "95 %: Student's t over repetitions; ratios: studentised bootstrap of repetitions in pairs"},
+        {"p", "Student's t of the jackknife over pairs of repetitions; p_holm: corrected for all pairs of a scene"}}},
+      {"scenes", std::move(all)}};
+}
+
+std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
+  std::string csv =
+      "scene,method,repetition,seed,budget,cpu_seconds,wall_seconds,passes,photons,stored,lookups,bytes,largest_weight,"
+      "effective_sample_size,mse,relative_mse,mean_ratio\n";
+  for (size_t s = 0; s < scenes.size(); ++s)
+    for (size_t m = 0; m < plan.methods.size(); ++m)
+      for (size_t b = 0; b < plan.budgets.size(); ++b)
+        for (size_t r = 0; r < scenes[s].budgets[m][b].each.size(); ++r) {
+          const RunCost& cost = scenes[s].budgets[m][b].costs[r];
+          const PictureErrors& errors = scenes[s].budgets[m][b].each[r];
+          csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(plan.scenes[s].name),
+                             csv_text(plan.methods[m].name), r, plan.seed + r, plan.budgets[b], cost.cpu_seconds,
+                             cost.wall_seconds, cost.passes, cost.photons, cost.stored, cost.lookups, cost.bytes,
+                             cost.largest_weight, cost.effective_sample_size, errors.mse, errors.relative_mse,
+                             errors.mean_ratio);
+        }
+  return csv;
+}
+
+std::string results_text(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
+  std::string text;
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    text += fmt::format("{} (reference: {})\n", plan.scenes[i].name, scenes[i].reference);
+    for (size_t b = 0; b < plan.budgets.size(); ++b) text += equal_cost_table(plan, scenes[i], b);
+    text += pairs_text(plan, scenes[i]);
+  }
+  return text;
+}
+
+}  // namespace vpm::tools

@@ -1,0 +1,67 @@
+// Passes, with a look at their cost after each.
+#include "compare/run.h"
+
+#include <chrono>
+#include <ctime>
+
+#include "render/render.h"
+
+namespace vpm::tools {
+namespace {
+
+/// CPU time of this process, all threads together, s.
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+RunCost counted(const RenderStatistics& s) {
+  RunCost cost;
+  cost.passes = static_cast<uint64_t>(s.passes);
+  cost.photons = s.ledger.emitted_count;
+  cost.stored = s.volume_photons + s.surface_photons + s.caustic_photons + s.guiding_photons;
+  cost.lookups = s.ledger.walk.lookups + s.eye.walk.lookups;
+  cost.bytes = s.photon_map_bytes + s.guide_bytes;
+  cost.largest_weight = s.ledger.largest_weight;
+  cost.effective_sample_size = s.ledger.effective_sample_size();
+  return cost;
+}
+
+}  // namespace
+
+std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan& plan, int repetition,
+                                 const std::atomic<bool>& stop) {
+  RenderSettings settings = loaded.settings;
+  settings.seed = plan.seed + static_cast<uint64_t>(repetition);
+  settings.passes = std::numeric_limits<int>::max();
+  settings.seconds = settings.error = 0.0;
+  std::vector<Snapshot> snapshots;
+  std::atomic<bool> done{false};
+  double cpu = 0.0, wall = 0.0;  // s, of rendering
+  double cpu_begin = cpu_seconds(), wall_begin = wall_seconds();
+  const auto look = [&](const RenderResult& so_far) {
+    cpu += cpu_seconds() - cpu_begin;
+    wall += wall_seconds() - wall_begin;
+    RunCost cost = counted(so_far.statistics);
+    cost.cpu_seconds = cpu;
+    cost.wall_seconds = wall;
+    while (snapshots.size() < plan.budgets.size() && cost_in(plan.unit, cost) >= plan.budgets[snapshots.size()])
+      snapshots.push_back({cost, so_far.film.mean()});
+    done = stop || snapshots.size() == plan.budgets.size();
+    cpu_begin = cpu_seconds();
+    wall_begin = wall_seconds();
+  };
+  render(loaded.scene, settings, nothing_rendered(loaded.scene.camera), done, ProgressMode::never, look);
+  return snapshots;
+}
+
+RenderResult run_referee(const LoadedScene& loaded, double error, const std::atomic<bool>& stop,
+                         ProgressMode progress) {
+  RenderSettings settings = loaded.settings;
+  settings.integrator = Integrator::path;
+  settings.seconds = 0.0;
+  settings.error = error;
+  return render(loaded.scene, settings, nothing_rendered(loaded.scene.camera), stop, progress);
+}
+
+}  // namespace vpm::tools

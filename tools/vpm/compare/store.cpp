@@ -1,0 +1,119 @@
+// A run is a JSON file and a picture for each budget; a reference is a picture.
+#include "compare/store.h"
+
+#include <fmt/format.h>
+#include <fstream>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/fnv.h"
+#include "image/exr.h"
+
+namespace vpm::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+RunCost cost_of(const json& j) {
+  return {j.at("cpu_seconds"), j.at("wall_seconds"),   j.at("passes"),
+          j.at("photons"),     j.at("stored"),         j.at("lookups"),
+          j.at("bytes"),       j.at("largest_weight"), j.at("effective_sample_size")};
+}
+
+/// Makes a folder and those it is in.
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+}
+
+/// One of the layers of three channels, R, G and B after `prefix`; nothing where the file has it not.
+std::optional<Image> layer(const ExrChannels& file, const std::string& prefix) {
+  Image image(file.width, file.height);
+  constexpr const char* kChannels[] = {"R", "G", "B"};
+  for (int c = 0; c < 3; ++c) {
+    const auto plane = file.planes.find(prefix + kChannels[c]);
+    if (plane == file.planes.end()) return std::nullopt;
+    for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i][c] = plane->second[i];
+  }
+  return image;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const RunCost& cost) {
+  return {{"cpu_seconds", cost.cpu_seconds},
+          {"wall_seconds", cost.wall_seconds},
+          {"passes", cost.passes},
+          {"photons", cost.photons},
+          {"stored", cost.stored},
+          {"lookups", cost.lookups},
+          {"bytes", cost.bytes},
+          {"largest_weight", cost.largest_weight},
+          {"effective_sample_size", cost.effective_sample_size}};
+}
+
+Store::Store(fs::path folder) : folder_(std::move(folder)) {
+  make_folder(folder_ / "runs");
+  make_folder(folder_ / "references");
+}
+
+fs::path Store::file(const char* kind, const std::string& identity, const std::string& extension) const {
+  Fnv1a hash;
+  hash.add(identity);
+  return folder_ / kind / (hash.digits() + extension);
+}
+
+std::optional<std::vector<RunCost>> Store::find_run(const std::string& identity) const {
+  const fs::path path = file("runs", identity, ".json");
+  std::ifstream stream(path);
+  if (!stream) return std::nullopt;
+  try {
+    const json run = json::parse(stream);
+    if (run.at("identity") != identity) return std::nullopt;
+    std::vector<RunCost> costs;
+    for (const json& cost : run.at("budgets")) costs.push_back(cost_of(cost));
+    return costs;
+  } catch (const json::exception& error) {
+    throw InputError(
+        fmt::format("{}: the run is damaged: {}; remove the file, and it is repeated", path.string(), error.what()));
+  }
+}
+
+Image Store::picture(const std::string& identity, size_t budget) const {
+  return read_exr(file("runs", identity, fmt::format(".{}.exr", budget)));
+}
+
+void Store::add_run(const std::string& identity, const std::vector<Snapshot>& snapshots) const {
+  json costs = json::array();
+  for (size_t i = 0; i < snapshots.size(); ++i) {
+    write_exr(file("runs", identity, fmt::format(".{}.exr", i)), snapshots[i].mean, {}, {{"vpm.run", identity}});
+    costs.push_back(to_json(snapshots[i].cost));
+  }
+  // Last: with it the run is finished.
+  write_text(file("runs", identity, ".json"), json{{"identity", identity}, {"budgets", costs}}.dump(1) + "\n");
+}
+
+std::optional<Reference> Store::find_reference(const std::string& identity) const {
+  const fs::path path = file("references", identity, ".exr");
+  if (!fs::exists(path)) return std::nullopt;
+  const auto& metadata = read_exr_channels(path).metadata;
+  const auto found = metadata.find("vpm.run");
+  if (found == metadata.end() || found->second != identity) return std::nullopt;
+  return read_reference(path);
+}
+
+void Store::add_reference(const std::string& identity, const Reference& reference) const {
+  write_exr(file("references", identity, ".exr"), reference.mean, {{"variance", reference.variance}},
+            {{"vpm.run", identity}});
+}
+
+Reference read_reference(const fs::path& path) {
+  Image mean = read_exr(path);
+  std::optional<Image> variance = layer(read_exr_channels(path), "variance.");
+  Image exact(mean.width, mean.height);
+  return {std::move(mean), variance ? std::move(*variance) : std::move(exact)};
+}
+
+}  // namespace vpm::tools

@@ -1,0 +1,47 @@
+// The folder of a comparison: finished runs and references, so that a comparison goes on where it was interrupted.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/run.h"
+#include "study/compare/errors.h"
+
+namespace vpm::tools {
+
+/// Runs and references are known by an identity: a text of all that decides what they are. Each stands in files named
+/// by its fingerprint, and is taken for finished only where the identity in them is the very same.
+class Store {
+ public:
+  /// Makes the folder where it is missing. Throws InputError where that fails.
+  explicit Store(std::filesystem::path folder);
+
+  /// A finished run; nothing where there is none. Without its pictures, which picture() reads. Throws InputError for
+  /// files that are there but damaged.
+  std::optional<std::vector<RunCost>> find_run(const std::string& identity) const;
+  /// The picture of a finished run at a budget, counted from 0.
+  Image picture(const std::string& identity, size_t budget) const;
+  void add_run(const std::string& identity, const std::vector<Snapshot>& snapshots) const;
+
+  std::optional<Reference> find_reference(const std::string& identity) const;
+  void add_reference(const std::string& identity, const Reference& reference) const;
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path file(const char* kind, const std::string& identity, const std::string& extension) const;
+
+  std::filesystem::path folder_;
+};
+
+/// What a run cost, as JSON.
+nlohmann::ordered_json to_json(const RunCost& cost);
+
+/// A reference read from a file: R, G, B, and the variance of these where the file has it (variance.R, ...), as those
+/// have that vpm writes; else it is taken to be exact.
+Reference read_reference(const std::filesystem::path& path);
+
+}  // namespace vpm::tools
