@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
 #include "base/error.h"

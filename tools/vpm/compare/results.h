@@ -1,7 +1,7 @@
 // The results of a comparison: as JSON for programs and the page, as CSV for tables, as text for the terminal.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
