@@ -28,9 +28,9 @@ center = [0, 0, 0]
 radius = 1
 inside = "fog"
 [[lights]]
-type = "point"
-position = [0, 2, 0]
-power = 10
+type = "directional"
+direction = [0, -1, 0.2]
+irradiance = 3
 [photons]
 emitted = 2000
 )";
