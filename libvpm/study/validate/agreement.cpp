@@ -101,7 +101,8 @@ RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
 }
 
 /// The forms of gathering: in media by both forms and both ways to single scattering, in both modes; from photons that
-/// are guided; on surfaces from the map and by final gathering, whose rays are guided or not.
+/// are guided; on surfaces from the map, corrected at borders or not, and by final gathering, whose rays are guided or
+/// not.
 std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSettings& base, bool media, bool surfaces) {
   std::vector<std::pair<std::string, RenderSettings>> all;
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
@@ -125,10 +126,10 @@ std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSetti
   all.emplace_back("photons guided by importance", guided);
   guided.guide.scatter = true;
   all.emplace_back("photons guided by importance, where they scatter, too", guided);
-  RenderSettings corrected = base;
-  corrected.volume.boundary = corrected.surface.boundary = corrected.caustics.boundary = BoundaryRule::corrected;
-  all.emplace_back("estimates corrected at borders", corrected);
   if (surfaces) {
+    RenderSettings corrected = base;
+    corrected.volume.boundary = corrected.surface.boundary = corrected.caustics.boundary = BoundaryRule::corrected;
+    all.emplace_back("estimates corrected at borders", corrected);
     RenderSettings gathering = base;
     gathering.surface_indirect = IndirectLight::final_gather;
     all.emplace_back("final gathering", gathering);
@@ -151,7 +152,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   std::vector<Check> checks;
   for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(6'000, 20'000)), media, surfaces)) {
     settings.seed = effort.seed_of(subject.name + name);
-    const int passes = static_cast<int>(effort.count(24, 64));
+    const int passes = static_cast<int>(effort.count(22, 64));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
   }
   return checks;
@@ -177,7 +178,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
             scene.grey);
     settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
-    const int passes = static_cast<int>(effort.count(24, 64));
+    const int passes = static_cast<int>(effort.count(22, 64));
     compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
             reference, scene.grey);
   }
@@ -198,7 +199,7 @@ std::vector<Check> constant_grid(const Effort& effort) {
   RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(6'000, 20'000));
   const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
     settings.seed = effort.seed_of(name);
-    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(24, 64)))
+    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(22, 64)))
                    : by_referee(scene, settings, effort.count(40'000, 1'000'000));
   };
   const Measured reference = measure(plain, "plain", false);
