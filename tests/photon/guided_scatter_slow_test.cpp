@@ -108,17 +108,17 @@ TEST(PhotonsScatteredByAGuide, HaveTheMeansOfThoseThatAreNot) {
     expect_same_means(tally(scene, &guide, split, 3000, 30), plain, kFalseAlarms, split ? "split" : "not split");
 }
 
-/// Of as many photons, which are neither aimed nor split: the variance of ten groups of passes each, for it has heavy
+/// Of as many photons, which are neither aimed nor split: the variance of twenty groups of passes, for it has heavy
 /// tails. Seen is a gain of 1.7. Without any the test would pass one time in 200.
 TEST(PhotonsScatteredByAGuide, TellMoreOfWhatIsBehindAHole) {
   const Scene scene = dark_chambers();
   const PhotonGuide guide = learned(scene, {.importons = 50'000, .aim = false, .scatter = true});
   Moments gains;  // logarithms
-  for (uint64_t group = 0; group < 10; ++group) {
+  for (uint64_t group = 0; group < 20; ++group) {
     const double plain = tally(scene, nullptr, false, 5000, 40, 40 * group)[kBehind].variance();
     gains.add(std::log(plain / tally(scene, &guide, false, 5000, 40, 40 * group)[kBehind].variance()));
   }
-  EXPECT_GT(gains.mean(), 3.3 * std::sqrt(gains.variance_of_mean()));
+  EXPECT_GT(gains.mean(), 2.9 * std::sqrt(gains.variance_of_mean()));
 }
 
 TEST(PhotonsScatteredByAGuide, KeepTheLedgerBalanced) {
