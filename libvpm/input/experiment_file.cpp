@@ -131,8 +131,9 @@ void read_budgets(TableReader& root, ComparisonPlan& plan) {
 
 }  // namespace
 
-ComparisonPlan load_comparison_plan(const std::string& path) {
-  const Document document = read_toml(path);
+ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<std::string>& overrides) {
+  Document document = read_toml(path);
+  for (const std::string& option : overrides) apply_override(document, option);
   std::vector<std::string> files;
   TableReader root(document.root, "the experiment", files);
   ComparisonPlan plan;

@@ -7,8 +7,9 @@
 
 namespace vpm {
 
-/// Reads an plan. Paths in the file are relative to its folder. The scenes it names are not read. Throws
-/// InputError for anything that is not right, telling file:line:column.
-ComparisonPlan load_comparison_plan(const std::string& path);
+/// Reads an experiment. `overrides` are `key.path=value` options that change keys of the file first, as those of
+/// load_scene(). Paths in the file are relative to its folder. The scenes it names are not read. Throws InputError for
+/// anything that is not right, telling file:line:column, or the option.
+ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace vpm

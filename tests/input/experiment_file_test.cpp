@@ -65,6 +65,17 @@ TEST(ExperimentFile, MakesEveryCombinationOfAProduct) {
   EXPECT_EQ(plan.repetitions, 10);
 }
 
+TEST(ExperimentFile, OptionsChangeKeys) {
+  const std::string path = write_experiment(kHead + kScene + "[scenes.set]\nfilm.width = 8\n" + kMethods);
+  const ComparisonPlan plan =
+      load_comparison_plan(path, {"repetitions=4", "scenes.fog.set.film.width=16", "budgets=[3]"});
+  EXPECT_EQ(plan.repetitions, 4);
+  EXPECT_EQ(plan.budgets, std::vector<double>{3.0});
+  EXPECT_EQ(plan.scenes[0].settings, std::vector<std::string>{"film.width=16"});
+  EXPECT_NE(message_of([&] { load_comparison_plan(path, {"repetitions=none"}); }).find("--set repetitions=none"),
+            std::string::npos);
+}
+
 TEST(ExperimentFile, RefusesWhatIsWrong) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"", "lacks the key 'title'"},

@@ -40,9 +40,10 @@ struct BakeOptions : PassOptions {
 int bake_command(const BakeOptions& options);
 
 struct CompareOptions {
-  std::string experiment;  // an experiment file
-  std::string output;      // folder; made where it is missing
-  int threads = 0;         // 0: all
+  std::string experiment;              // an experiment file
+  std::string output;                  // folder; made where it is missing
+  std::vector<std::string> overrides;  // key.path=value, of the experiment
+  int threads = 0;                     // 0: all
   ProgressMode progress = ProgressMode::automatic;
 };
 /// Runs every method of an experiment on every scene, as often as it asks for, and writes tables of error against cost.

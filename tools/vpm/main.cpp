@@ -99,6 +99,8 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   command->add_option("experiment", options.experiment, "Experiment file (.toml)")->required();
   command->add_option("-o,--output", options.output, "Folder for results; an interrupted comparison goes on in it")
       ->required();
+  command->add_option("--set", options.overrides, "Change a key of the experiment: key.path=value; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
   add_progress(command, options.progress);
 }

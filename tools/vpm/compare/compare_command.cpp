@@ -167,7 +167,7 @@ SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, cons
 
 int compare_command(const CompareOptions& options) {
   set_threads(options.threads);
-  const ComparisonPlan plan = load_comparison_plan(options.experiment);
+  const ComparisonPlan plan = load_comparison_plan(options.experiment, options.overrides);
   std::vector<Contest> contests = load_contests(plan);
   const Store store(options.output);
   const std::atomic<bool>& stop = stop_on_signals();
