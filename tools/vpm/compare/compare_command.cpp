@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -181,7 +180,7 @@ int compare_command(const CompareOptions& options) {
   std::vector<SceneResults> scenes;
   for (const Contest& contest : contests) scenes.push_back(results_of(contest, plan, store));
   const std::filesystem::path folder = options.output;
-  write_text(folder / "results.json", results_json(plan, scenes).dump(1) + "\n");
+  write_text(folder / "results.json", results_json(plan, scenes));
   write_text(folder / "results.csv", results_csv(plan, scenes));
   fmt::print("{}{}: results.json, results.csv\n", results_text(plan, scenes), folder.string());
   return 0;

@@ -49,7 +49,7 @@ Json machine_json() {
 Json budget_json(const BudgetSummary& budget, const Comparison& by_mse, const Comparison& by_relative_mse) {
   Json runs = Json::array();
   for (size_t i = 0; i < budget.each.size(); ++i) {
-    Json run = to_json(budget.costs[i]);
+    Json run = Json::parse(cost_json(budget.costs[i]));
     run["mse"] = number(budget.each[i].mse);
     run["relative_mse"] = number(budget.each[i].relative_mse);
     run["mean_ratio"] = number(budget.each[i].mean_ratio);
@@ -162,10 +162,10 @@ std::string unit_name(CostUnit unit) {
   return "look-ups of density";
 }
 
-Json results_json(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
+std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
   Json all = Json::array();
   for (size_t i = 0; i < scenes.size(); ++i) all.push_back(scene_json(plan, plan.scenes[i], scenes[i]));
-  return {
+  const Json json{
       {"vpm", version()},
       {"title", plan.title},
       {"experiment", plan.text},
@@ -183,6 +183,7 @@ Json results_json(const ComparisonPlan& plan, const std::vector<SceneResults>& s
         {"intervals", "95 %: Student's t over repetitions; ratios: studentised bootstrap of repetitions in pairs"},
         {"p", "Student's t of the jackknife over pairs of repetitions; p_holm: corrected for all pairs of a scene"}}},
       {"scenes", std::move(all)}};
+  return json.dump(1) + "\n";
 }
 
 std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {

@@ -1,7 +1,6 @@
 // The results of a comparison: as JSON for programs and the page, as CSV for tables, as text for the terminal.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,9 @@ struct SceneResults {
   SceneSummary summary;
 };
 
-/// Everything: provenance, formulas, runs, summaries. The format is described in scenes/experiments/README.md.
-nlohmann::ordered_json results_json(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes);
+/// Everything as JSON text: provenance, formulas, runs, summaries. The format is described in
+/// scenes/experiments/README.md.
+std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes);
 
 /// A line for each run at each budget, and one of column names before them.
 std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes);

@@ -43,16 +43,17 @@ std::optional<Image> layer(const ExrChannels& file, const std::string& prefix) {
 
 }  // namespace
 
-nlohmann::ordered_json to_json(const RunCost& cost) {
-  return {{"cpu_seconds", cost.cpu_seconds},
-          {"wall_seconds", cost.wall_seconds},
-          {"passes", cost.passes},
-          {"photons", cost.photons},
-          {"stored", cost.stored},
-          {"lookups", cost.lookups},
-          {"bytes", cost.bytes},
-          {"largest_weight", cost.largest_weight},
-          {"effective_sample_size", cost.effective_sample_size}};
+std::string cost_json(const RunCost& cost) {
+  const json all{{"cpu_seconds", cost.cpu_seconds},
+                 {"wall_seconds", cost.wall_seconds},
+                 {"passes", cost.passes},
+                 {"photons", cost.photons},
+                 {"stored", cost.stored},
+                 {"lookups", cost.lookups},
+                 {"bytes", cost.bytes},
+                 {"largest_weight", cost.largest_weight},
+                 {"effective_sample_size", cost.effective_sample_size}};
+  return all.dump();
 }
 
 Store::Store(fs::path folder) : folder_(std::move(folder)) {
@@ -90,7 +91,7 @@ void Store::add_run(const std::string& identity, const std::vector<Snapshot>& sn
   json costs = json::array();
   for (size_t i = 0; i < snapshots.size(); ++i) {
     write_exr(file("runs", identity, fmt::format(".{}.exr", i)), snapshots[i].mean, {}, {{"vpm.run", identity}});
-    costs.push_back(to_json(snapshots[i].cost));
+    costs.push_back(json::parse(cost_json(snapshots[i].cost)));
   }
   // Last: with it the run is finished.
   write_text(file("runs", identity, ".json"), json{{"identity", identity}, {"budgets", costs}}.dump(1) + "\n");

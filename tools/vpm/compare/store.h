@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,8 +36,8 @@ class Store {
   std::filesystem::path folder_;
 };
 
-/// What a run cost, as JSON.
-nlohmann::ordered_json to_json(const RunCost& cost);
+/// What a run cost, as the text of a JSON object.
+std::string cost_json(const RunCost& cost);
 
 /// A reference read from a file: R, G, B, and the variance of these where the file has it (variance.R, ...), as those
 /// have that vpm writes; else it is taken to be exact.
