@@ -129,6 +129,14 @@ void read_budgets(TableReader& root, ComparisonPlan& plan) {
     if (!(plan.budgets[i] > plan.budgets[i - 1])) root.fail("budgets", "budgets must rise");
 }
 
+void read_reference(TableReader& root, ComparisonPlan& plan) {
+  std::optional<TableReader> table = root.table("reference", "[reference]");
+  if (!table) return;
+  plan.reference_error = table->number("error", kPositive, static_cast<float>(plan.reference_error));
+  if (table->has("set")) plan.reference_settings = read_settings(*table, "set");
+  table->finish();
+}
+
 }  // namespace
 
 ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<std::string>& overrides) {
@@ -142,7 +150,7 @@ ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<s
   read_budgets(root, plan);
   plan.repetitions = static_cast<int>(root.integer("repetitions", 3, 10'000, 10));
   plan.seed = root.integer("seed", 0, uint64_t{1} << 62, 1);
-  plan.reference_error = root.number("reference_error", kPositive, 1e-4f);
+  read_reference(root, plan);
   plan.scenes = read_scenes(root);
   plan.methods = read_methods(root);
   root.finish();

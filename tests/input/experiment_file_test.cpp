@@ -29,8 +29,8 @@ const std::string kMethods = "[[methods]]\nname = \"a\"\n[[methods]]\nname = \"b
 
 TEST(ExperimentFile, ReadsEveryKey) {
   const std::string text =
-      "title = \"Fog\"\nunit = \"photons\"\nbudgets = [10, 1e3]\nrepetitions = 5\nseed = 9\nreference_error = 1e-3\n"
-      "[set]\nvolume.radius = 0.25\n" +
+      "title = \"Fog\"\nunit = \"photons\"\nbudgets = [10, 1e3]\nrepetitions = 5\nseed = 9\n"
+      "[reference]\nerror = 1e-3\n[set]\nvolume.radius = 0.25\n" +
       kScene + "reference = \"truth.exr\"\n[scenes.set]\nfilm.width = 8\ncamera.position = [0, 1.5, 2]\n" + kMethods;
   const ComparisonPlan plan = load(text);
   EXPECT_EQ(plan.title, "Fog");
@@ -40,6 +40,7 @@ TEST(ExperimentFile, ReadsEveryKey) {
   EXPECT_EQ(plan.repetitions, 5);
   EXPECT_EQ(plan.seed, 9u);
   EXPECT_EQ(plan.reference_error, static_cast<double>(1e-3f));
+  EXPECT_EQ(plan.reference_settings, std::vector<std::string>{"render.integrator=\"path\""});
   ASSERT_EQ(plan.scenes.size(), 1u);
   EXPECT_EQ(plan.scenes[0].name, "fog");
   EXPECT_TRUE(plan.scenes[0].file.ends_with("/fog.toml"));
@@ -63,6 +64,11 @@ TEST(ExperimentFile, MakesEveryCombinationOfAProduct) {
             (std::vector<std::string>{"distance.strategy=\"ray-march\"", "volume.radius=0.2"}));
   EXPECT_EQ(plan.unit, CostUnit::seconds);
   EXPECT_EQ(plan.repetitions, 10);
+}
+
+TEST(ExperimentFile, ReferencesMayBeMadeOfPhotons) {
+  const ComparisonPlan plan = load(kHead + "[reference.set]\nphotons.emitted = 7\n" + kScene + kMethods);
+  EXPECT_EQ(plan.reference_settings, std::vector<std::string>{"photons.emitted=7"});
 }
 
 TEST(ExperimentFile, OptionsChangeKeys) {
@@ -93,7 +99,7 @@ TEST(ExperimentFile, RefusesWhatIsWrong) {
       {kHead + "[set]\nvolume.radius = 1979-05-27\n" + kScene + kMethods, ":4:17: a setting cannot be a date"},
       {kHead + "set = 3\n" + kScene + kMethods, "must be a table of settings, not an integer"},
       {kHead + "[[scenes]]\nname = \"x\"\nfile = \"none.toml\"\n" + kMethods, "there is no file"},
-      {kHead + kScene + kMethods + "[reference]\n", "unknown key 'reference'"}};
+      {kHead + kScene + kMethods + "[referees]\n", "unknown key 'referees'"}};
   for (const auto& [text, words] : cases) {
     const std::string found = message(text);
     EXPECT_NE(found.find(words), std::string::npos) << text << "\n" << found;

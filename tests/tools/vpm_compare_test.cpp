@@ -41,7 +41,8 @@ title = "One ray against four"
 unit = "passes"
 budgets = [16, 64]
 repetitions = 8
-reference_error = 1e-4
+[reference]
+error = 1e-4
 [set]
 render.integrator = "path"
 [product]
@@ -97,7 +98,8 @@ title = "Two radii"
 unit = "photons"
 budgets = [4000, 8000]
 repetitions = 3
-reference_error = 1e-2
+[reference]
+error = 1e-2
 [product]
 volume.radius = [0.2, 0.4]
 [[scenes]]

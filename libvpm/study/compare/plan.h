@@ -25,7 +25,7 @@ struct ComparedScene {
   std::string name;
   std::string file;                   // a scene file
   std::vector<std::string> settings;  // key.path=value, of all methods and the reference
-  std::string reference;              // .exr; empty: the path tracer is run
+  std::string reference;              // .exr; empty: it is rendered
 };
 
 struct ComparisonPlan {
@@ -38,7 +38,9 @@ struct ComparisonPlan {
       budgets;           // in that unit, > 0, rising: a run goes on to the last and is looked at as it passes each
   int repetitions = 10;  // >= 2, with seeds of their own
   uint64_t seed = 1;     // of the first repetition
-  double reference_error = 1e-4;  // relative MSE that the path tracer goes down to, > 0
+  /// How references are rendered where scenes name none, and to what estimated relative MSE, > 0.
+  std::vector<std::string> reference_settings{"render.integrator=\"path\""};
+  double reference_error = 1e-4;
 };
 
 /// What a run had cost when it passed a budget, and what it had counted.

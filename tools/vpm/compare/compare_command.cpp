@@ -73,7 +73,8 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
     for (const Method& method : plan.methods)
       contest.methods.push_back(make_entrant(scene, method.settings, run_purpose(plan)));
     if (scene.reference.empty()) {
-      contest.referee = make_entrant(scene, {}, fmt::format("reference of relative MSE {}", plan.reference_error));
+      contest.referee = make_entrant(scene, plan.reference_settings,
+                                     fmt::format("reference of relative MSE {}", plan.reference_error));
       const Camera& camera = contest.referee->loaded.scene.camera;
       contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);
     } else {
@@ -93,7 +94,7 @@ bool make_reference(Contest& contest, const ComparisonPlan& plan, const Store& s
     contest.reference = std::move(*known);
     return true;
   }
-  const RenderResult result = run_referee(contest.referee->loaded, plan.reference_error, stop, options.progress);
+  const RenderResult result = run_reference(contest.referee->loaded, plan.reference_error, stop, options.progress);
   if (stop) return false;
   contest.reference = {result.film.mean(), result.film.variance_of_mean()};
   store.add_reference(contest.referee->identity, contest.reference);
@@ -140,7 +141,8 @@ BudgetSummary summarise(const Entrant& entrant, const Reference& reference, cons
 
 std::string reference_text(const Contest& contest, double error) {
   if (!contest.referee) return contest.compared->reference;
-  return fmt::format("the path tracer, relative MSE {:.2g}", error);
+  const bool paths = contest.referee->loaded.settings.integrator == Integrator::path;
+  return fmt::format("{}, relative MSE {:.2g}", paths ? "the path tracer" : "photon mapping", error);
 }
 
 SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {

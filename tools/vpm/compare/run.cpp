@@ -55,10 +55,9 @@ std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan
   return snapshots;
 }
 
-RenderResult run_referee(const LoadedScene& loaded, double error, const std::atomic<bool>& stop,
-                         ProgressMode progress) {
+RenderResult run_reference(const LoadedScene& loaded, double error, const std::atomic<bool>& stop,
+                           ProgressMode progress) {
   RenderSettings settings = loaded.settings;
-  settings.integrator = Integrator::path;
   settings.seconds = 0.0;
   settings.error = error;
   return render(loaded.scene, settings, nothing_rendered(loaded.scene.camera), stop, progress);

@@ -23,8 +23,8 @@ struct Snapshot {
 std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan& plan, int repetition,
                                  const std::atomic<bool>& stop);
 
-/// Renders a scene by the path tracer until its estimated relative MSE is down to `error`. Its variance is that of its
-/// mean. Without passes where `stop` was set before there were some.
-RenderResult run_referee(const LoadedScene& loaded, double error, const std::atomic<bool>& stop, ProgressMode progress);
+/// Renders a scene until its estimated relative MSE is down to `error`.
+RenderResult run_reference(const LoadedScene& loaded, double error, const std::atomic<bool>& stop,
+                           ProgressMode progress);
 
 }  // namespace vpm::tools
