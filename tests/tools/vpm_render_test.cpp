@@ -319,6 +319,32 @@ TEST_F(VpmRender, StopsAtAnError) {
   EXPECT_NE(coarse.out.find("estimated relative MSE"), std::string::npos) << coarse.out;
 }
 
+TEST_F(VpmRender, LogsErrorsAgainstAReference) {
+  vpm_succeeds({"render", "scene.toml", "-o", "truth.exr", "--passes", "12"});
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "12", "--reference", "truth.exr"});
+  std::istringstream csv(read("a.errors.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "passes,seconds,mse,relative_mse,mean_ratio");
+  std::vector<std::vector<double>> rows;
+  while (std::getline(csv, line)) {
+    std::vector<double>& row = rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+  }
+  ASSERT_EQ(rows.size(), 11u);  // passes 1 to 10, then a tenth more
+  EXPECT_EQ(rows[0][0], 1.0);
+  EXPECT_GT(rows[0][3], 0.0);
+  // The same picture: nothing is left but the reference's own noise, subtracted.
+  EXPECT_EQ(rows[10][0], 12.0);
+  EXPECT_LT(rows[10][3], 0.0);
+  EXPECT_EQ(rows[10][4], 1.0);
+  vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--set", "film.width=41", "--reference", "truth.exr"},
+              {"truth.exr: the reference has 40 x 24 pixels, but the render 41 x 24"});
+  vpm_refuses({"render", "scene.toml", "-o", "truth.exr", "--reference", "truth.exr"}, {"it is the reference"});
+  vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--reference", "none.exr"}, {"none.exr"});
+}
+
 // --- Refusals
 
 TEST_F(VpmRender, OutputsThatCannotBeWrittenAreRefusedBeforeRendering) {

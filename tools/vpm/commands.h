@@ -23,6 +23,7 @@ struct PassOptions {
 struct RenderOptions : PassOptions {
   std::optional<double> seconds;
   std::optional<double> error;  // relative MSE to stop at
+  std::string reference;        // .exr: the truth, against which errors are logged; empty: none
   bool checkpoint = false;      // keep one beside the image after each pass
   bool resume = false;          // go on from that
 };

@@ -78,6 +78,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
                    "Render passes until the estimated relative MSE is no more than this; with --time: or until then")
       ->check(check_error)
       ->excludes(passes);
+  command->add_option("--reference", options.reference,
+                      "EXR image of the truth: log error against time to a CSV file beside the image");
   command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint beside the image after each pass");
   command->add_flag("--resume", options.resume, "Go on from that checkpoint, and keep it up to date");
 }

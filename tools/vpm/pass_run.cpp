@@ -62,7 +62,7 @@ Outputs output_paths(const PassOptions& options, const std::string& name) {
   if (exr.extension() != ".exr")
     throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
   const auto beside = [&](const char* extension) { return fs::path(exr).replace_extension(extension); };
-  return {exr, beside(".png"), beside(".json"), beside(".checkpoint")};
+  return {exr, beside(".png"), beside(".json"), beside(".checkpoint"), beside(".errors.csv")};
 }
 
 void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const PassOptions& options,

@@ -20,7 +20,7 @@ const std::atomic<bool>& stop_on_signals();
 
 /// An image, and what is written beside it.
 struct Outputs {
-  std::filesystem::path exr, png, json, checkpoint;
+  std::filesystem::path exr, png, json, checkpoint, errors;
 };
 
 /// The paths beside options.output, which must end in .exr; where it is empty: `name`.exr in the current folder.

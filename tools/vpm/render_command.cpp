@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/version.h"
 #include "commands.h"
+#include "error_log.h"
 #include "image/exr.h"
 #include "image/png.h"
 #include "input/checkpoint.h"
@@ -66,6 +67,14 @@ std::string error_text(const LoadedScene& loaded, const Film& film) {
           : fmt::format("; not seen: that of [{}], whose radii are not those of passes", fmt::join(unseen, "], [")));
 }
 
+std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outputs& outputs, const Film& film) {
+  if (options.reference.empty()) return std::nullopt;
+  if (std::error_code none; std::filesystem::equivalent(options.reference, outputs.exr, none))
+    throw InputError(
+        fmt::format("cannot write '{}': it is the reference; name another output with -o", outputs.exr.string()));
+  return ErrorLog(options.reference, outputs.errors, film);
+}
+
 }  // namespace
 
 int render_command(const RenderOptions& options) {
@@ -79,11 +88,13 @@ int render_command(const RenderOptions& options) {
   check_outputs(outputs, static_cast<uint64_t>(camera.width) * camera.height, checkpoint, options, loaded);
   const std::string identity = identity_of(loaded);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
+  std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film);
   print_notes(loaded);
   const std::atomic<bool>& stop = stop_on_signals();
   const RenderResult result =
       render(loaded.scene, loaded.settings, std::move(begun), stop, options.progress, [&](const RenderResult& so_far) {
         if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
+        if (log) log->add(so_far);
       });
   print_warnings(plan_stages(loaded.scene, loaded.settings), result.statistics);
   if (result.film.passes() == 0) {

@@ -1,0 +1,30 @@
+// Lines are added to the whole file, which is replaced: it is never half written.
+#include "error_log.h"
+
+#include <fmt/format.h>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "compare/store.h"
+
+namespace vpm::tools {
+
+ErrorLog::ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film)
+    : reference_(read_reference(reference)), csv_(std::move(csv)) {
+  check_writable(csv_, 1 << 16);
+  const Image& truth = reference_.mean;
+  if (truth.width == film.width() && truth.height == film.height()) return;
+  throw InputError(fmt::format("{}: the reference has {} x {} pixels, but the render {} x {}", reference.string(),
+                               truth.width, truth.height, film.width(), film.height()));
+}
+
+void ErrorLog::add(const RenderResult& so_far) {
+  if (so_far.film.passes() < due_) return;
+  due_ = 1.1 * so_far.film.passes();
+  const PictureErrors errors = picture_errors(so_far.film.mean(), reference_);
+  text_ += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.8g}\n", so_far.film.passes(), so_far.seconds, errors.mse,
+                       errors.relative_mse, errors.mean_ratio);
+  write_text(csv_, text_);
+}
+
+}  // namespace vpm::tools

@@ -1,0 +1,29 @@
+// Error against time of a render that knows the truth.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "render/render.h"
+#include "study/compare/errors.h"
+
+namespace vpm::tools {
+
+/// Writes a CSV file that a render keeps up to date: passes, seconds, MSE, relative MSE (both less the reference's own
+/// noise), and the mean over the reference's. A line for each tenth more passes.
+class ErrorLog {
+ public:
+  /// Throws InputError where the reference cannot be read or has another size than the film, and where the CSV file
+  /// could not be written.
+  ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film);
+
+  void add(const RenderResult& so_far);
+
+ private:
+  Reference reference_;
+  std::filesystem::path csv_;
+  std::string text_ = "passes,seconds,mse,relative_mse,mean_ratio\n";
+  double due_ = 1.0;  // passes
+};
+
+}  // namespace vpm::tools
