@@ -19,8 +19,15 @@ ErrorLog::ErrorLog(const std::filesystem::path& reference, std::filesystem::path
 }
 
 void ErrorLog::add(const RenderResult& so_far) {
-  if (so_far.film.passes() < due_) return;
-  due_ = 1.1 * so_far.film.passes();
+  if (so_far.film.passes() >= 1.1 * last_) write(so_far);
+}
+
+void ErrorLog::finish(const RenderResult& result) {
+  if (result.film.passes() > last_) write(result);
+}
+
+void ErrorLog::write(const RenderResult& so_far) {
+  last_ = so_far.film.passes();
   const PictureErrors errors = picture_errors(so_far.film.mean(), reference_);
   text_ += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.8g}\n", so_far.film.passes(), so_far.seconds, errors.mse,
                        errors.relative_mse, errors.mean_ratio);

@@ -10,20 +10,24 @@
 namespace vpm::tools {
 
 /// Writes a CSV file that a render keeps up to date: passes, seconds, MSE, relative MSE (both less the reference's own
-/// noise), and the mean over the reference's. A line for each tenth more passes.
+/// noise), and the mean over the reference's. A line for each tenth more passes, and one for the last.
 class ErrorLog {
  public:
   /// Throws InputError where the reference cannot be read or has another size than the film, and where the CSV file
   /// could not be written.
   ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film);
 
+  /// After each pass; and once more after the last.
   void add(const RenderResult& so_far);
+  void finish(const RenderResult& result);
 
  private:
+  void write(const RenderResult& so_far);
+
   Reference reference_;
   std::filesystem::path csv_;
   std::string text_ = "passes,seconds,mse,relative_mse,mean_ratio\n";
-  double due_ = 1.0;  // passes
+  int last_ = 0;  // passes at the last line
 };
 
 }  // namespace vpm::tools

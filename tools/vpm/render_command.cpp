@@ -101,6 +101,7 @@ int render_command(const RenderOptions& options) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;
   }
+  if (log) log->finish(result);
   write_outputs(outputs, options, loaded, result);
   fmt::print("{}: {} passes in {:.1f} s{}; preview {}, report {}\n", outputs.exr.string(), result.film.passes(),
              result.seconds, error_text(loaded, result.film), outputs.png.string(), outputs.json.string());
