@@ -1,5 +1,5 @@
-// Tracking through null collisions, what its majorants cost, and the march by local majorants: what the exact law of
-// flights, which distance_test.cpp sees to, does not tell.
+// Tracking through null collisions, what its majorants cost, and the march by local majorants: what the law of flights,
+// which distance_test.cpp sees to, does not tell.
 #include <gtest/gtest.h>
 
 #include "medium/distance/strategy.h"
