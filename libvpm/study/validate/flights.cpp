@@ -156,6 +156,32 @@ std::vector<Check> flights_by(const StrategyInfo& info, const Effort& effort) {
   return checks;
 }
 
+/// Majorants that do not bound cut the density: flights follow the law of the field cut likewise, until majorants have
+/// grown. In a grid of nearest voxels that field is a grid, too.
+std::vector<Check> check_majorants_that_cut(const Effort& effort) {
+  const std::shared_ptr<const DensityGrid> checker = test_fields()[2].grid;
+  std::vector<Check> checks;
+  for (const Rgb& sigma_t : {Rgb(1.2f), Rgb(0.6f, 1.2f, 2.4f)})
+    for (uint64_t pass = 0; pass < 3; ++pass) {
+      const double most = 0.375 * static_cast<double>(1 << pass);
+      const auto cut =
+          make_grid(checker->frame(), [&](int x, int y, int z) { return std::min((x + y + z) & 1 ? 1.5 : 0.3, most); });
+      const Law law = flight_law(make_medium(cut, sigma_t));
+      const auto strategy = make_distance_strategy({.strategy = "progressive-null", .majorant = 0.25f}, {.pass = pass});
+      const std::string name = fmt::format("checker grid, pass {}{}", pass, is_grey(sigma_t) ? "" : ", colour");
+      const auto cells = fly(make_medium(checker, sigma_t), *strategy, law, effort.count(40'000, 2'000'000),
+                             effort.seed_of(name + ", cut"));
+      for (int c = 0; c < (is_grey(sigma_t) ? 1 : 3); ++c) {
+        std::vector<double> probabilities;
+        for (size_t cell = 0; cell <= kCells; ++cell) probabilities.push_back(law.probability(sigma_t[c], cell));
+        const auto first = cells.begin() + c * static_cast<ptrdiff_t>(kCells + 1);
+        checks.push_back(check_weights(name + (is_grey(sigma_t) ? "" : kOfChannel[static_cast<size_t>(c)]),
+                                       {first, first + kCells + 1}, probabilities));
+      }
+    }
+  return checks;
+}
+
 /// The references' own reference: look-ups and their quadrature against formulas.
 std::vector<Check> check_columns(const Effort&) {
   const auto fields = test_fields();
@@ -190,6 +216,7 @@ std::vector<Experiment> flight_experiments() {
   for (const StrategyInfo& info : distance_strategies())
     all.push_back({0, fmt::format("free flights, {}", info.name),
                    [&info](const Effort& effort) { return flights_by(info, effort); }});
+  all.push_back({0, "free flights under majorants that cut", check_majorants_that_cut});
   return all;
 }
 
