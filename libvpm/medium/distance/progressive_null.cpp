@@ -4,6 +4,7 @@
 //
 // Known failure: the first passes see a medium too thin, and their error leaves the mean only as one over the passes.
 #include <algorithm>
+#include <cmath>
 
 #include "medium/distance/null_collisions.h"
 #include "medium/distance/strategies.h"
@@ -11,7 +12,7 @@
 namespace vpm {
 
 ProgressiveNull::ProgressiveNull(float majorant, uint64_t pass)
-    : share_(std::min(1.0, std::ldexp(double{majorant}, static_cast<int>(std::min<uint64_t>(pass, 1000))))) {}
+    : share_(std::min(1.0, double{majorant} * std::exp2(static_cast<double>(pass)))) {}
 
 Flight ProgressiveNull::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                                Rng& rng) const {
