@@ -35,7 +35,7 @@ class NullCollisionFlight {
     return true;
   }
 
-  /// Is the tentative collision real where the density's share of the majorant is no less than this?
+  /// Is the tentative collision real where the density has at least that share of the majorant?
   bool is_real(double share) const { return decision_ < chance_ * share; }
 
   /// Ends the flight by a real collision at t.
