@@ -19,8 +19,8 @@ constexpr size_t kChecksum = 16;  // characters at the end
 // Each number of a structure by itself: between them may stand bytes of no meaning. A structure that gains a number
 // does not compile here until that is named.
 void each_number(WalkCounters& counters, auto&& use) {
-  auto& [lookups, crossings, mismatches] = counters;
-  use(lookups, crossings, mismatches);
+  auto& [lookups, nulls, violations, crossings, mismatches] = counters;
+  use(lookups, nulls, violations, crossings, mismatches);
 }
 void each_number(Ledger& ledger, auto&& use) {
   auto& [emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, weight_sum, weight_squares,

@@ -27,6 +27,8 @@ Filter read_filter(TableReader& film) {
 constexpr Range kRadius{1e-10, 1e9, false, false};
 /// A step of a march, voxels: shorter ones would never come to an end.
 constexpr Range kVoxels{1e-3, kNoLimit, false, true};
+/// The same, optical thickness.
+constexpr Range kOpticalStep{1e-4, kNoLimit, false, true};
 
 void read_gather(TableReader& table, GatherSettings& gather) {
   gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}},
@@ -115,7 +117,7 @@ void read_render(TableReader& table, RenderSettings& s) {
                                           {"per-pass", RadiusSchedule::per_pass},
                                           {"per-pixel", RadiusSchedule::per_pixel}},
                                          s.radii);
-  s.max_optical_step = table.number("max_optical_step", {1e-4, kNoLimit, false, true}, s.max_optical_step);
+  s.max_optical_step = table.number("max_optical_step", kOpticalStep, s.max_optical_step);
 }
 
 void read_photons(TableReader& table, RenderSettings& s) {
@@ -145,6 +147,8 @@ void check_radii_of_pixels(TableReader& surface, const RenderSettings& s) {
 void read_distance(TableReader& table, DistanceSettings& distance, bool has_grid) {
   distance.strategy = read_listed(table, "strategy", distance_strategies(), distance.strategy);
   distance.step = table.number("step", kVoxels, distance.step);
+  distance.optical_step = table.number("optical_step", kOpticalStep, distance.optical_step);
+  distance.majorant = table.number("majorant", {1e-6, 1.0, false, false}, distance.majorant);
   distance.extinction_floor = table.number("extinction_floor", kPositive, distance.extinction_floor);
   Names others;
   bool refused = false;

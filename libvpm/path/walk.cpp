@@ -30,6 +30,8 @@ Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState
       const Interval free{0.0f, met ? met.hits[0].t : limit};
       const Flight flight = strategy.sample(medium, state.ray, free, state.power, rng);
       counters.lookups += flight.lookups;
+      counters.null_collisions += flight.null_collisions;
+      counters.majorant_violations += flight.majorant_violations;
       state.power *= flight.weight;
       if (flight.collided) {
         state.ray.origin = state.ray.at(flight.t);

@@ -26,12 +26,16 @@ struct Event {
 
 /// What a walk counts.
 struct WalkCounters {
-  uint64_t lookups = 0;            // of density
-  uint64_t crossings = 0;          // of boundaries between media
-  uint64_t medium_mismatches = 0;  // corrections of a path's medium by meet()
+  uint64_t lookups = 0;              // of density
+  uint64_t null_collisions = 0;      // of flights
+  uint64_t majorant_violations = 0;  // Flight::majorant_violations
+  uint64_t crossings = 0;            // of boundaries between media
+  uint64_t medium_mismatches = 0;    // corrections of a path's medium by meet()
 
   void merge(const WalkCounters& other) {
     lookups += other.lookups;
+    null_collisions += other.null_collisions;
+    majorant_violations += other.majorant_violations;
     crossings += other.crossings;
     medium_mismatches += other.medium_mismatches;
   }

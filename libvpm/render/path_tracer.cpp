@@ -117,8 +117,9 @@ class TracedPath {
 
 }  // namespace
 
-PathContext make_path_context(const Scene& scene, const RenderSettings& settings) {
-  return {scene, settings.max_events, make_distance_strategy(settings.distance),
+PathContext make_path_context(const Scene& scene, const RenderSettings& settings, int pass) {
+  const FlightUse use{.pass = static_cast<uint64_t>(pass), .density = false};
+  return {scene, settings.max_events, make_distance_strategy(settings.distance, use),
           make_transmittance_estimator(settings.transmittance)};
 }
 
@@ -128,7 +129,7 @@ Rgb path_radiance(const PathContext& context, const Ray& ray, MediumId medium, R
 
 Pass render_path_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                       const PassProgress& progress) {
-  const PathContext context = make_path_context(scene, settings);
+  const PathContext context = make_path_context(scene, settings, pass);
   const RayRadiance radiance = [&](const Ray& ray, size_t, Rng& rng, EyeCounters& counters) {
     return path_radiance(context, ray, medium_of_ray(scene, scene.camera_medium, ray), rng, counters);
   };

@@ -18,8 +18,8 @@ struct PathContext {
   std::unique_ptr<DistanceStrategy> distance;
   std::unique_ptr<TransmittanceEstimator> transmittance;
 };
-/// With the distance strategy and the transmittance estimator that the settings name.
-PathContext make_path_context(const Scene& scene, const RenderSettings& settings);
+/// With the distance strategy, as it is in that pass, and the transmittance estimator that the settings name.
+PathContext make_path_context(const Scene& scene, const RenderSettings& settings, int pass = 0);
 
 /// One sample of the radiance along a ray that starts in `medium`, W/(m^2 sr). Each collision and each rough surface
 /// adds the light of one source by a shadow ray; lights that the path itself runs into count, too, and the two ways

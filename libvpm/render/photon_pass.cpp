@@ -141,7 +141,9 @@ void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& pro
   const int pass = static_cast<int>(trace.pass);
   const Scene& scene = context.scene;
   const RenderSettings& settings = context.settings;
-  const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
+  const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(
+      settings.distance,
+      {.pass = trace.pass, .density = trace.keep_volume && trace.volume_form == VolumeForm::density_at_query});
   std::optional<PhotonGuide> guide;
   if (settings.guide.importons > 0) {
     const Stopwatch learning;

@@ -4,6 +4,7 @@
 #include "medium/transmittance/estimator.h"
 #include "render/march.h"
 #include "render/path_tracer.h"
+#include "study/careful_settings.h"
 
 namespace vpm {
 namespace {
@@ -65,7 +66,7 @@ TEST(MediaExtremes, EstimatorsAndFlightsAgreeFromNothingToOpaque) {
         if (grid && (!info.heterogeneous || info.name == "mean-extinction")) continue;  // its rate is another
         uint64_t passed = 0;
         double farthest = 0.0;
-        const auto strategy = make_distance_strategy({.strategy = std::string(info.name)});
+        const auto strategy = make_distance_strategy(careful_settings(info.name));
         for (uint64_t i = 0; i < kFlights; ++i) {
           Rng rng(1, rng_stream(RngUse::test, 1), i);
           const Flight flight = strategy->sample(medium, ray, {0.5f, 1.5f}, Rgb(1.0f), rng);

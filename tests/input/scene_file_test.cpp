@@ -426,7 +426,7 @@ TEST(SceneFile, ReadsEverySetting) {
           "max_optical_step = 0.25\n[photons]\nemitted = 1000\nstored = 500\nin_cube = 4\n[importance]\nimportons = "
           "70\n"
           "aim = false\nsplit = false\nscatter = true\n[distance]\nstrategy = 'ray-march'\nstep "
-          "= 0.5\nextinction_floor = 0.2\n"
+          "= 0.5\noptical_step = 0.02\nextinction_floor = 0.2\nmajorant = 0.125\n"
           "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\n"
           "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
           "'density-at-photon'\ndirect = 'shadow-rays'\n"
@@ -453,7 +453,9 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.caustics_emitted, 800u);
   EXPECT_EQ(s.distance.strategy, "ray-march");
   EXPECT_EQ(s.distance.step, 0.5f);
+  EXPECT_EQ(s.distance.optical_step, 0.02f);
   EXPECT_EQ(s.distance.extinction_floor, 0.2f);
+  EXPECT_EQ(s.distance.majorant, 0.125f);
   EXPECT_EQ(s.transmittance.estimator, "ray-march");
   EXPECT_EQ(s.transmittance.step, 0.75f);
   EXPECT_EQ(s.volume.mode, GatherMode::nearest);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "medium/distance/strategy.h"
-#include "support/grids.h"
+#include "support/flight_fields.h"
 #include "support/statistics.h"
 
 namespace vpm {
@@ -10,29 +10,6 @@ namespace {
 
 constexpr double kFalseAlarms = 1e-6;  // of each single comparison
 
-struct Field {
-  const char* name;
-  std::shared_ptr<const DensityGrid> grid;
-};
-
-/// Grids over x in (-1, 1) along the ray, voxels of 1/8 m.
-std::vector<Field> fields() {
-  GridFrame frame;
-  frame.lo = Vec3i(-7);
-  frame.hi = Vec3i(7);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.125));
-  GridFrame boxes = frame;
-  boxes.interpolation = Interpolation::nearest;
-  return {{"constant", make_grid(frame, [](int, int, int) { return 0.8; })},
-          {"ramp", make_grid(frame, [](int x, int, int) { return 0.1 * (x + 8); })},
-          {"checker", make_grid(boxes, [](int x, int y, int z) { return (x + y + z) & 1 ? 1.5 : 0.3; })},
-          {"sparse", make_grid(frame, [](int x, int, int) { return x == -4 || x == 5 ? 2.0 : 0.0; })},
-          {"gaussian", make_grid(frame, [](int x, int y, int z) { return std::exp(-0.05 * (x * x + y * y + z * z)); })},
-          {"random", make_grid(frame, [](int x, int y, int z) { return lattice_noise(x, y, z); })}};
-}
-
-const Ray kRay{Vec3(-1.3f, 0.03f, -0.06f), glm::normalize(Vec3(1.0f, 0.02f, 0.05f))};
-const Interval kReach{0.0f, 2.7f};
 constexpr int kBins = 24;
 
 /// What a flight deposits: per bin of distance, then leaving.
@@ -83,23 +60,30 @@ void expect_exact(const Medium& medium, const DistanceSettings& settings, const 
 }
 
 TEST(DistanceStrategy, EveryUnbiasedOneFollowsTheExactTransmittance) {
-  for (const Field& field : fields())
+  for (const FlightField& field : flight_fields())
     for (const StrategyInfo& info : distance_strategies()) {
-      if (!info.heterogeneous || !info.unbiased) continue;
-      DistanceSettings settings;
-      settings.strategy = info.name;
+      if (!info.heterogeneous || info.marches) continue;
+      const DistanceSettings settings{.strategy = std::string(info.name), .majorant = 1.0f};
       expect_exact(make_medium(field.grid, Rgb(1.5f)), settings, Rgb(1.0f), field.name);
       expect_exact(make_medium(field.grid, Rgb(0.5f, 1.5f, 3.0f)), settings, Rgb(1.0f, 0.5f, 2.0f), field.name);
     }
 }
 
+TEST(DistanceStrategy, AChannelWithoutExtinctionLeadsThroughAndWeighsTheOthers) {
+  const Medium medium = make_medium(flight_fields()[4].grid, Rgb(0.0f, 1.5f, 3.0f));
+  for (const StrategyInfo& info : distance_strategies())
+    if (info.heterogeneous)
+      expect_exact(medium, {.strategy = std::string(info.name), .step = 0.1f, .optical_step = 0.02f, .majorant = 1.0f},
+                   Rgb(1.0f, 0.5f, 2.0f), "gaussian");
+}
+
 TEST(DistanceStrategy, RayMarchErrsWithTheSquareOfTheStep) {
   // Equal random numbers make the same target column for both strategies, so the error of each flight is seen without
   // noise.
-  const Medium medium = make_medium(fields()[4].grid, Rgb(3.0f));
+  const Medium medium = make_medium(flight_fields()[4].grid, Rgb(3.0f));
   const auto exact = make_distance_strategy({});
-  const auto error = [&](float step) {
-    const auto strategy = make_distance_strategy({.strategy = "ray-march", .step = step});
+  const auto error = [&](const DistanceSettings& settings) {
+    const auto strategy = make_distance_strategy(settings);
     double squares = 0.0;
     int flights = 0;
     for (uint64_t i = 0; i < 5000; ++i) {
@@ -113,10 +97,20 @@ TEST(DistanceStrategy, RayMarchErrsWithTheSquareOfTheStep) {
     }
     return std::sqrt(squares / flights);
   };
-  const double coarse = error(2.0f), middle = error(1.0f), fine = error(0.5f);
-  EXPECT_GT(coarse / middle, 2.8);  // an error of first order would halve
-  EXPECT_GT(middle / fine, 2.8);
-  EXPECT_LT(fine, 1e-3);
+  const auto marched = [](float step) { return DistanceSettings{.strategy = "ray-march", .step = step}; };
+  // Of the same length at the largest density, which all bricks of this field share.
+  const auto adaptive = [&](float step) {
+    return DistanceSettings{
+        .strategy = "ray-march-adaptive", .step = 4.0f, .optical_step = 3.0f * step * medium.voxel_size()};
+  };
+  const auto expect_square = [&](auto&& settings) {
+    const double coarse = error(settings(2.0f)), middle = error(settings(1.0f)), fine = error(settings(0.5f));
+    EXPECT_GT(coarse / middle, 2.8);  // an error of first order would halve
+    EXPECT_GT(middle / fine, 2.8);
+    EXPECT_LT(fine, 1e-3);
+  };
+  expect_square(marched);
+  expect_square(adaptive);
 }
 
 TEST(DistanceStrategy, HomogeneousEqualsAConstantGridFlightByFlight) {
@@ -128,20 +122,18 @@ TEST(DistanceStrategy, HomogeneousEqualsAConstantGridFlightByFlight) {
   for (const Rgb& sigma_t : {Rgb(0.1f), Rgb(0.02f, 0.1f, 0.4f)}) {
     const Medium constant = make_medium(grid, sigma_t);
     const Medium homogeneous = make_medium(nullptr, sigma_t);
-    for (const StrategyInfo& info : distance_strategies()) {
-      // The mean over the grid's support counts the voxel over which the density fades, so that strategy's rate is not
-      // the medium's.
-      if (!info.heterogeneous || info.name == "mean-extinction") continue;
-      DistanceSettings settings;
-      settings.strategy = info.name;
+    // Those that draw a flight's length by one number. The mean over the grid's support counts the voxel over which the
+    // density fades, so that the rate of `mean-extinction` is not the medium's.
+    for (const char* name : {"regular", "local-extinction", "ray-march", "ray-march-adaptive"}) {
+      const DistanceSettings settings{.strategy = name};
       for (uint64_t i = 0; i < 2000; ++i) {
         Rng a(3, rng_stream(RngUse::test, 3), i), b(3, rng_stream(RngUse::test, 3), i);
         const Flight x =
             make_distance_strategy({.strategy = "homogeneous"})->sample(homogeneous, {}, inside, Rgb(1, 2, 3), a);
         const Flight y = make_distance_strategy(settings)->sample(constant, {}, inside, Rgb(1, 2, 3), b);
-        ASSERT_EQ(x.collided, y.collided) << info.name;
-        ASSERT_NEAR(x.t, y.t, 1e-4) << info.name;
-        for (int c = 0; c < 3; ++c) ASSERT_NEAR(x.weight[c], y.weight[c], 1e-5 * (1.0 + x.weight[c])) << info.name;
+        ASSERT_EQ(x.collided, y.collided) << name;
+        ASSERT_NEAR(x.t, y.t, 1e-4) << name;
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(x.weight[c], y.weight[c], 1e-5 * (1.0 + x.weight[c])) << name;
       }
     }
   }
@@ -150,7 +142,7 @@ TEST(DistanceStrategy, HomogeneousEqualsAConstantGridFlightByFlight) {
 TEST(DistanceStrategy, GreyWeightsOfAnalogStrategiesAreExactlyOne) {
   for (const StrategyInfo& info : distance_strategies()) {
     if (!info.bounded_weight) continue;
-    const Medium medium = make_medium(info.heterogeneous ? fields()[5].grid : nullptr, Rgb(2.0f));
+    const Medium medium = make_medium(info.heterogeneous ? flight_fields()[5].grid : nullptr, Rgb(2.0f));
     for (uint64_t i = 0; i < 1000; ++i) {
       Rng rng(3, rng_stream(RngUse::test, 4), i);
       const auto strategy = make_distance_strategy({.strategy = std::string(info.name)});
@@ -161,7 +153,7 @@ TEST(DistanceStrategy, GreyWeightsOfAnalogStrategiesAreExactlyOne) {
 
 TEST(DistanceStrategy, ExponentialFlightsHaveTheirStatedRates) {
   // Weights forgive any rate: only the share of flights that collide tells it.
-  const Medium medium = make_medium(fields()[1].grid, Rgb(1.5f));
+  const Medium medium = make_medium(flight_fields()[1].grid, Rgb(1.5f));
   const double mean = medium.mean_density();
   struct Case {
     const char* strategy;
@@ -186,7 +178,7 @@ TEST(DistanceStrategy, ExponentialFlightsHaveTheirStatedRates) {
 TEST(DistanceStrategy, EndlessAndEmptyMediaGiveFiniteWeights) {
   const Interval endless;
   for (const StrategyInfo& info : distance_strategies())
-    for (const Rgb& sigma_t : {Rgb(0.0f), Rgb(0.0f, 1.0f, 2.0f), Rgb(1e-9f), Rgb(1e9f)}) {
+    for (const Rgb& sigma_t : {Rgb(0.0f), Rgb(0.0f, 1.0f, 2.0f), Rgb(1e-12f, 1.0f, 2.0f), Rgb(1e-9f), Rgb(1e9f)}) {
       const Medium medium = make_medium(nullptr, sigma_t);
       for (uint64_t i = 0; i < 200; ++i) {
         Rng rng(3, rng_stream(RngUse::test, 5), i);

@@ -89,7 +89,8 @@ TEST(PhotonTracing, AConstantGridEqualsTheHomogeneousMedium) {
     plain.grid = nullptr;
     const Tally expected = tally(boxed_medium(plain, kSpot), "homogeneous", 1);
     uint64_t seed = 2;
-    for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march", "regular"})
+    for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march", "regular", "ray-march-adaptive",
+                                 "delta", "delta-local", "decomposition"})
       expect_equal(tally(boxed_medium(in_grid, kSpot), strategy, seed++), expected,
                    strategy + std::string(grey ? ", grey" : ", RGB"));
   }
@@ -103,7 +104,8 @@ TEST(PhotonTracing, TheStrategiesAgreeOnASmoothGrid) {
     const Scene scene = boxed_medium(grey ? make_medium(smooth, Rgb(1.5f), 0.8f) : colourful(smooth), kSpot);
     const Tally exact = tally(scene, "regular", 11);
     uint64_t seed = 12;
-    for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march"})
+    for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march", "ray-march-adaptive", "delta",
+                                 "delta-local", "decomposition"})
       expect_equal(tally(scene, strategy, seed++), exact, strategy + std::string(grey ? ", grey" : ", RGB"));
   }
 }
@@ -128,9 +130,10 @@ Scene full_scene(bool fog_in_glass = false) {
 // Photon by photon in the sum of channels; in each channel, which photons' mixtures must conserve on average.
 TEST(PhotonTracing, TheLedgerCloses) {
   const Scene in_fog = full_scene(), fog_in_glass = full_scene(true);
-  for (const auto& [scene, strategy] : {std::pair(&in_fog, "homogeneous"), std::pair(&in_fog, "local-extinction"),
-                                        std::pair(&in_fog, "mean-extinction"), std::pair(&in_fog, "ray-march"),
-                                        std::pair(&in_fog, "regular"), std::pair(&fog_in_glass, "homogeneous")}) {
+  for (const auto& [scene, strategy] :
+       {std::pair(&in_fog, "homogeneous"), std::pair(&in_fog, "local-extinction"),
+        std::pair(&in_fog, "mean-extinction"), std::pair(&in_fog, "ray-march"), std::pair(&in_fog, "regular"),
+        std::pair(&in_fog, "delta"), std::pair(&in_fog, "progressive-null"), std::pair(&fog_in_glass, "homogeneous")}) {
     Ledger all;
     Moments emitted;                    // green, W
     std::array<Moments, 3> difference;  // of what went and what came, W
@@ -293,9 +296,11 @@ TEST(PhotonTracing, PowerStaysEvenInColour) {
       boxed_medium(colourful(grid_over_box([](int x, int y, int z) { return lattice_noise(x, y, z); })), kSpot);
   TraceSettings settings;
   settings.emitted = 20000;
-  const Ledger ledger = trace(scene, "regular", settings).ledger;
-  EXPECT_NEAR(ledger.largest_weight, 1.0, 1e-4);
-  EXPECT_NEAR(ledger.effective_sample_size() / static_cast<double>(ledger.collisions), 1.0, 1e-4);
+  for (const char* strategy : {"regular", "ray-march", "ray-march-adaptive", "delta", "delta-local", "decomposition"}) {
+    const Ledger ledger = trace(scene, strategy, settings).ledger;
+    EXPECT_NEAR(ledger.largest_weight, 1.0, 1e-4) << strategy;
+    EXPECT_NEAR(ledger.effective_sample_size() / static_cast<double>(ledger.collisions), 1.0, 1e-4) << strategy;
+  }
 }
 
 TEST(PhotonTracing, CutsEndlessPathsAndCountsThem) {

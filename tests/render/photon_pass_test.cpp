@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/path_tracer.h"
 #include "render/radius_schedule.h"
 #include "render/render.h"
 #include "support/scenes.h"
@@ -309,6 +310,32 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
   const double exact = 0.5 / kPiD * 1.0 / std::sqrt(1.05);
   static const std::atomic<bool> kGoOn{false};
   for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn).image.pixels) EXPECT_NEAR(pixel.r, exact, 1e-4);
+}
+
+TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
+  GridFrame frame;
+  frame.lo = Vec3i(-8);
+  frame.hi = Vec3i(8);
+  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.125));
+  const auto grid = make_grid(frame, [](int x, int y, int z) { return lattice_noise(x, y, z); });
+  Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f)), PointLight{Vec3(0.2f, 1.8f, 0.1f), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, 8, 8, {});
+  RenderSettings settings = settings_of(2000, 0.2f);
+  settings.distance = {.strategy = "progressive-null", .majorant = 0.25f};
+  static const std::atomic<bool> kGoOn{false};
+  for (const Integrator integrator : {Integrator::photon, Integrator::path}) {
+    std::vector<WalkCounters> walks;
+    for (int pass = 0; pass < 3; ++pass) {
+      const bool photons = integrator == Integrator::photon;
+      const RenderStatistics s = photons ? render_photon_pass(scene, settings, pass, kGoOn).statistics
+                                         : render_path_pass(scene, settings, pass, kGoOn).statistics;
+      walks.push_back(photons ? s.ledger.walk : s.eye.walk);
+      EXPECT_GT(walks.back().null_collisions, 0u);
+    }
+    EXPECT_GT(walks[0].majorant_violations, walks[1].majorant_violations);
+    EXPECT_GT(walks[1].majorant_violations, 0u);
+    EXPECT_EQ(walks[2].majorant_violations, 0u);
+  }
 }
 
 TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {

@@ -142,7 +142,9 @@ TEST_P(VpmEveryStrategy, ClosesTheLedgerOfTheSmoke) {
 
 INSTANTIATE_TEST_SUITE_P(
     Strategies, VpmEveryStrategy,
-    ::testing::Values(Strategy{"regular", {}}, Strategy{"ray-march", {}},
+    ::testing::Values(Strategy{"regular", {}}, Strategy{"ray-march", {}}, Strategy{"ray-march-adaptive", {}},
+                      Strategy{"delta", {}}, Strategy{"delta-local", {}}, Strategy{"progressive-null", {}},
+                      Strategy{"decomposition", {}},
                       Strategy{"local-extinction",
                                {"media.smoke.sigma_t=10", "distance.extinction_floor=2", "photons.emitted=200_000"}},
                       Strategy{"mean-extinction", {"media.smoke.sigma_t=2", "photons.emitted=2_000_000"}}),

@@ -52,6 +52,8 @@ void print_warnings(const Stages& stages, const RenderStatistics& s) {
   // overlap.
   WalkCounters walk = s.ledger.walk;
   walk.merge(s.eye.walk);
+  warn(walk.majorant_violations,
+       "look-ups found more density than a majorant, which cut it: passes are biased until majorants have grown");
   if (walk.medium_mismatches > 100 + walk.crossings / 1'000'000)
     warn(walk.medium_mismatches,
          "boundaries were met from a medium that is not the one before them: check that media do not overlap");

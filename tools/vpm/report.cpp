@@ -45,6 +45,8 @@ Json photons(const RenderStatistics& s) {
           {"emitted_per_second_and_thread", per_second(s.ledger.emitted_count, s.trace_seconds) / thread_count()},
           {"stored_per_second", per_second(stored_photons(s), s.trace_seconds)},
           {"density_lookups", s.ledger.walk.lookups},
+          {"null_collisions", s.ledger.walk.null_collisions},
+          {"majorant_violations", s.ledger.walk.majorant_violations},
           {"largest_weight", s.ledger.largest_weight},
           {"effective_sample_size", s.ledger.effective_sample_size()},
           {"below_density_floor", s.ledger.floored},
@@ -93,6 +95,8 @@ Json eye(const RenderStatistics& s) {
           {"boundary_corrections", s.eye.regions.corrected},
           {"boundary_least_shares", s.eye.regions.least},
           {"density_lookups", s.eye.walk.lookups},
+          {"null_collisions", s.eye.walk.null_collisions},
+          {"majorant_violations", s.eye.walk.majorant_violations},
           {"paths_cut_at_max_events", s.eye.cut_paths},
           {"dropped_non_finite", s.eye.non_finite},
           {"last_volume_radius_m", s.last_volume_radius},
@@ -231,14 +235,15 @@ std::string settings_line(const RenderSettings& s) {
   const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
   return fmt::format(
       "integrator={} samples_per_pixel={} emitted={} stored={} in_cube={} importons={}:aim={}:split={}:scatter={} "
-      "distance={}:step={}:floor={} transmittance={}:step={} "
+      "distance={}:step={}:optical_step={}:floor={}:majorant={} transmittance={}:step={} "
       "volume={} form={} "
       "density_floor={} "
       "volume_direct={} "
       "surface={} surface_direct={} surface_indirect={} radii={} max_optical_step={} max_events={}",
       s.integrator == Integrator::path ? "path" : "photon", s.samples_per_pixel, s.photons_emitted, s.photons_stored,
       s.photons_in_cube, s.guide.importons, s.guide.aim, s.guide.split, s.guide.scatter, s.distance.strategy,
-      s.distance.step, s.distance.extinction_floor, s.transmittance.estimator, s.transmittance.step, gather(s.volume),
+      s.distance.step, s.distance.optical_step, s.distance.extinction_floor, s.distance.majorant,
+      s.transmittance.estimator, s.transmittance.step, gather(s.volume),
       s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
       direct(s.volume_direct), gather(s.surface), direct(s.surface_direct),
       s.surface_indirect == IndirectLight::photons

@@ -31,6 +31,11 @@ Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& in
     }
     if (density > 0.0) crossed += density * (end - t);
   }
+  if (sigma_t == 0.0) {  // nothing ends the march of a channel without extinction: only the others' weights ask for it
+    const Column through = column(medium, ray, interval);
+    crossed = through.value;
+    flight.lookups += through.lookups;
+  }
   flight.weight = analog_weight(medium, shares, crossed, flight.collided);
   return flight;
 }

@@ -38,4 +38,43 @@ class RayMarch final : public DistanceStrategy {
   float step_;  // in voxels
 };
 
+class RayMarchAdaptive final : public DistanceStrategy {
+ public:
+  RayMarchAdaptive(float step, float optical_step) : step_(step), optical_step_(optical_step) {}
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  float step_;          // the longest, in voxels
+  float optical_step_;  // optical thickness of a step, under the largest density around
+};
+
+class Delta final : public DistanceStrategy {
+ public:
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+};
+
+class DeltaLocal final : public DistanceStrategy {
+ public:
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+};
+
+class ProgressiveNull final : public DistanceStrategy {
+ public:
+  /// The majorant of pass 0, as a share of the medium's largest density. It doubles with every pass.
+  ProgressiveNull(float majorant, uint64_t pass);
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  double share_;  // the most that a majorant may be of the medium's largest density
+};
+
+class Decomposition final : public DistanceStrategy {
+ public:
+  explicit Decomposition(bool needs_density) : needs_density_(needs_density) {}
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  bool needs_density_;  // at collisions
+};
+
 }  // namespace vpm

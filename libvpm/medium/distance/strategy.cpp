@@ -8,7 +8,7 @@
 namespace vpm {
 
 std::span<const StrategyInfo> distance_strategies() {
-  static constexpr std::array<StrategyInfo, 5> kStrategies{{
+  static constexpr std::array<StrategyInfo, 10> kStrategies{{
       {.name = "regular", .summary = "exact in any medium: cells walked, the quartic column inverted"},
       {.name = "homogeneous", .summary = "exact in a medium of constant density", .heterogeneous = false},
       {.name = "local-extinction",
@@ -19,17 +19,35 @@ std::span<const StrategyInfo> distance_strategies() {
        .bounded_weight = false},
       {.name = "ray-march",
        .summary = "marched until the transmittance reaches the random number; bias falls as step^2",
+       .unbiased = false,
+       .marches = true},
+      {.name = "ray-march-adaptive",
+       .summary = "the same in steps of an optical thickness, by local majorants; bias falls as step^2",
+       .unbiased = false,
+       .marches = true},
+      {.name = "delta", .summary = "exact: null collisions under the medium's largest density"},
+      {.name = "delta-local", .summary = "exact: null collisions under the largest density of each brick"},
+      {.name = "progressive-null",
+       .summary = "null collisions under majorants that grow from pass to pass; biased until they bound",
        .unbiased = false},
+      {.name = "decomposition",
+       .summary = "exact: each brick's least density without look-ups, the rest by null collisions"},
   }};
   return kStrategies;
 }
 
-std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings) {
+std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings, const FlightUse& use) {
   if (settings.strategy == "regular") return std::make_unique<Regular>();
   if (settings.strategy == "homogeneous") return std::make_unique<Homogeneous>();
   if (settings.strategy == "local-extinction") return std::make_unique<LocalExtinction>(settings.extinction_floor);
   if (settings.strategy == "mean-extinction") return std::make_unique<MeanExtinction>();
   if (settings.strategy == "ray-march") return std::make_unique<RayMarch>(settings.step);
+  if (settings.strategy == "ray-march-adaptive")
+    return std::make_unique<RayMarchAdaptive>(settings.step, settings.optical_step);
+  if (settings.strategy == "delta") return std::make_unique<Delta>();
+  if (settings.strategy == "delta-local") return std::make_unique<DeltaLocal>();
+  if (settings.strategy == "progressive-null") return std::make_unique<ProgressiveNull>(settings.majorant, use.pass);
+  if (settings.strategy == "decomposition") return std::make_unique<Decomposition>(use.density);
   return nullptr;
 }
 

@@ -20,6 +20,8 @@ struct Flight {
                          // weight is black
   Rgb weight{1.0f};      // the photon's power is multiplied by it
   uint32_t lookups = 0;  // of density
+  uint32_t null_collisions = 0;
+  uint32_t majorant_violations = 0;  // look-ups that found more than a majorant, which cut the density to itself
 };
 
 /// Samples where a photon collides next. Its weight makes the photon's power the right one whatever the distances'
@@ -35,8 +37,16 @@ class DistanceStrategy {
 
 struct DistanceSettings {
   std::string strategy = "regular";
-  float step = 1.0f;              // ray-march: length of a step in voxels, > 0
+  float step = 1.0f;              // ray-march: length of a step in voxels, > 0; ray-march-adaptive: of the longest
+  float optical_step = 0.1f;      // ray-march-adaptive: optical thickness of a step, > 0
+  float majorant = 0.25f;         // progressive-null: of the first pass, as a share of the largest density, in (0, 1]
   float extinction_floor = 0.1f;  // local-extinction: the least rate, as a fraction of the mean one, > 0
+};
+
+/// What flights are for.
+struct FlightUse {
+  uint64_t pass = 0;    // of the render; progressive-null goes by it
+  bool density = true;  // is Flight::density needed? Else it may be any lower bound of it above 0
 };
 
 /// What a user should know of a strategy.
@@ -45,10 +55,11 @@ struct StrategyInfo {
   std::string_view summary;
   bool heterogeneous = true;  // false: refused in grids
   bool unbiased = true;
+  bool marches = false;  // in steps, whose length is its bias
   bool bounded_weight = true;
 };
 std::span<const StrategyInfo> distance_strategies();
 /// The strategy of that name; null where there is none.
-std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings);
+std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings, const FlightUse& use = {});
 
 }  // namespace vpm

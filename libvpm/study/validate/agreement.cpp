@@ -10,6 +10,7 @@
 #include "image/metrics.h"
 #include "render/path_tracer.h"
 #include "render/photon_pass.h"
+#include "study/careful_settings.h"
 #include "study/sample_moments.h"
 #include "study/validate/groups.h"
 #include "study/validate/ladder.h"
@@ -162,7 +163,8 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
 std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
   RenderSettings base = photon_settings(subject, effort.count(6'000, 20'000));
-  base.distance.step = base.transmittance.step = 0.1f;  // voxels: the bias of marching is far below the noise
+  base.distance = careful_settings(base.distance.strategy);
+  base.transmittance.step = base.distance.step;
   base.seed = effort.seed_of(subject.name + " reference");
   const uint64_t rays = effort.count(40'000, 1'000'000);
   const Measured reference = by_referee(scene, base, rays);

@@ -4,6 +4,7 @@
 
 #include "estimate/surface_estimate.h"
 #include "scene/build.h"
+#include "study/careful_settings.h"
 #include "study/estimates/irradiance.h"
 #include "study/photon_walk.h"
 #include "study/sample_moments.h"
@@ -32,7 +33,7 @@ std::vector<Check> check_box(const TestField& field, std::string_view strategy_n
   const Interface media{0, kVacuum};
   add_shape(scene, field_box(), Boundary{}, &media);
   scene.geometry.commit();
-  const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name), .step = 0.1f});
+  const auto strategy = make_distance_strategy(careful_settings(strategy_name));
   const Rgb lost = Rgb(1.0f) - scene.media[0].albedo();
   const Ray beam = test_ray();
   const std::string name = fmt::format("{}, {}", field.name, strategy_name);

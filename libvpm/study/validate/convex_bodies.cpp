@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <array>
 
+#include "study/careful_settings.h"
 #include "study/photon_walk.h"
 #include "study/sample_moments.h"
 #include "study/validate/directions.h"
@@ -50,7 +51,7 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
 
 void check_body(std::vector<Check>& checks, const LitBody& body, std::string_view strategy_name, const Effort& effort) {
   const Medium& medium = body.scene.media[0];
-  const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name), .step = 0.1f});
+  const auto strategy = make_distance_strategy(careful_settings(strategy_name));
   const Vec3d lit(body.scene.bounds.extent());
   const double hit_share =
       0.5 * body.area / (lit.x * lit.y + lit.y * lit.z + lit.z * lit.x);  // of surfaces, as of mean projections

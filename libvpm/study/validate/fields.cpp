@@ -64,6 +64,14 @@ std::vector<TestField> test_fields() {
           {"random grid", make_grid(smooth, random_value)}};
 }
 
+TestField fine_field() {
+  GridFrame frame;
+  frame.index_to_world = glm::scale(frame_transform(), Vec3d(0.25));
+  frame.lo = Vec3i(-4 * kReach);
+  frame.hi = Vec3i(4 * kReach);
+  return {"fine grid", make_grid(frame, [](int x, int y, int z) { return 0.5 + random_value(x, y, z); })};
+}
+
 Vec3 field_point(const Vec3d& index) { return Vec3(frame_transform() * glm::dvec4(index, 1.0)); }
 
 TriangleMesh field_box() {

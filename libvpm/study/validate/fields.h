@@ -19,6 +19,10 @@ struct TestField {
 /// turned frame of unequal voxels (about 1/8 m). The first two depend on the x index alone.
 std::vector<TestField> test_fields();
 
+/// The same box in voxels a quarter as long, 57^3, of random values from 1/2 to 1 1/2: bricks inside it hold no empty
+/// voxel, so that there is a least density.
+TestField fine_field();
+
 /// The point of the world at an index of these fields.
 Vec3 field_point(const Vec3d& index);
 /// The box of index -7 to 7, turned as the fields are, and the mean density in it; 1 without a grid.

@@ -56,10 +56,33 @@ Law flight_law(const Medium& medium) {
   return law;
 }
 
-/// By how much the law of a march of that step (m) is off in each cell, in probability.
-std::vector<double> march_bias(const Medium& medium, const Law& law, double step, double sigma_t) {
+/// The column along the test's ray up to `t` (m), by the midpoint rule in the steps that `ray-march-adaptive` takes in
+/// the bricks on its way: for stating its bias.
+double adaptively_marched_column(const Medium& medium, double t, const DistanceSettings& settings) {
+  const Ray ray = test_ray();
+  const double longest = double{settings.step} * double{medium.voxel_size()};
+  double sum = 0.0;
+  medium.visit_majorants(ray, test_stretch(), [&](const DensityStretch& brick) {
+    const double length = brick.t1 - brick.t0, extinction = double{max_channel(medium.sigma_t)} * double{brick.max};
+    const double wanted = std::min(std::max(settings.optical_step / extinction, longest / 16.0), longest);
+    const int steps = brick.min == brick.max ? 1 : static_cast<int>(std::ceil(length / wanted));
+    for (int i = 0; i < steps; ++i) {
+      const double from = brick.t0 + length * i / steps;
+      const auto middle = static_cast<float>(from + 0.5 * length / steps);
+      sum += std::clamp(t - from, 0.0, length / steps) * double{medium.density(ray.at(middle))};
+    }
+    return true;
+  });
+  return sum;
+}
+
+/// By how much the law of a march is off in each cell, in probability.
+std::vector<double> march_bias(const Medium& medium, const Law& law, const DistanceSettings& settings, double sigma_t) {
   Law marched = law;
-  for (size_t i = 0; i < kCells; ++i) marched.columns[i] = marched_column(medium, law.ends[i], step);
+  for (size_t i = 0; i < kCells; ++i)
+    marched.columns[i] = settings.strategy == "ray-march-adaptive"
+                             ? adaptively_marched_column(medium, law.ends[i], settings)
+                             : marched_column(medium, law.ends[i], double{settings.step} * double{medium.voxel_size()});
   std::vector<double> bias;
   for (size_t cell = 0; cell <= kCells; ++cell)
     bias.push_back(std::fabs(marched.probability(sigma_t, cell) - law.probability(sigma_t, cell)));
@@ -80,46 +103,82 @@ std::vector<Moments> fly(const Medium& medium, const DistanceStrategy& strategy,
   });
 }
 
-/// In voxels. Along the ramp the middle of a step of any length is exact: there a march is tested as it is used by
-/// default.
-float march_step(const std::string& field, const Effort& effort) {
-  if (field == "ramp grid") return 1.0f;
-  return effort.full ? 0.02f : 0.1f;
+/// Along the ramp the middle of a step of any length is exact: there a march is tested as it is used by default, and
+/// elsewhere in short steps. Majorants bound.
+DistanceSettings tested_settings(const std::string& field, const StrategyInfo& info, const Effort& effort) {
+  DistanceSettings settings{.strategy = std::string(info.name), .majorant = 1.0f};
+  if (field == "ramp grid") return settings;
+  const float step = effort.full ? 0.02f : 0.1f;              // voxels of most fields
+  settings.step = field == "fine grid" ? 4.0f * step : step;  // as many metres
+  if (info.name != "ray-march-adaptive") return settings;
+  settings.step *= 5.0f;
+  settings.optical_step = 0.2f * step;  // in the densest voxels about as long as the others' steps
+  return settings;
 }
 
 void check_flights(std::vector<Check>& checks, const TestField& field, const Rgb& sigma_t, const StrategyInfo& info,
                    const Effort& effort) {
   const Medium medium = make_medium(field.grid, sigma_t);
   const Law law = flight_law(medium);
-  const float step = march_step(field.name, effort);
-  const auto strategy = make_distance_strategy({.strategy = std::string(info.name), .step = step});
+  const DistanceSettings settings = tested_settings(field.name, info, effort);
+  const auto strategy = make_distance_strategy(settings);
   const std::string name = fmt::format("{}, {}", field.name, info.name);
-  const bool marches = !info.unbiased && field.grid;
-  const uint64_t count = marches && step < 1.0f ? effort.count(10'000, 200'000) : effort.count(40'000, 2'000'000);
+  const bool marches = info.marches && field.grid;
+  const bool short_steps = marches && field.name != "ramp grid";
+  const uint64_t count = short_steps ? effort.count(10'000, 200'000) : effort.count(40'000, 2'000'000);
   const auto cells = fly(medium, *strategy, law, count, effort.seed_of(name + (medium.grey() ? "" : ", colour")));
   for (int c = 0; c < (medium.grey() ? 1 : 3); ++c) {
     std::vector<double> probabilities, bias;
     for (size_t cell = 0; cell <= kCells; ++cell) probabilities.push_back(law.probability(sigma_t[c], cell));
-    if (marches) bias = march_bias(medium, law, step * medium.voxel_size(), sigma_t[c]);
+    if (marches) bias = march_bias(medium, law, settings, sigma_t[c]);
     const auto first = cells.begin() + c * static_cast<ptrdiff_t>(kCells + 1);
     checks.push_back(check_weights(name + (medium.grey() ? "" : kOfChannel[static_cast<size_t>(c)]),
                                    {first, first + kCells + 1}, probabilities, bias));
     if (marches)
-      checks.back().note += fmt::format("; steps of {} voxels, bias up to {:.1g} in a cell of about {:.1g} allowed for",
-                                        step, *std::max_element(bias.begin(), bias.end()), probabilities[0]);
+      checks.back().note +=
+          fmt::format("; steps of up to {} voxels, bias up to {:.1g} in a cell of about {:.1g} allowed for",
+                      settings.step, *std::max_element(bias.begin(), bias.end()), probabilities[0]);
   }
 }
 
 std::vector<Check> flights_by(const StrategyInfo& info, const Effort& effort) {
   std::vector<TestField> fields{{"homogeneous", nullptr}};
-  if (info.heterogeneous)
+  if (info.heterogeneous) {
     for (TestField& field : test_fields()) fields.push_back(std::move(field));
+    fields.push_back(fine_field());
+  }
   std::vector<Check> checks;
   for (const TestField& field : fields) {
     check_flights(checks, field, Rgb(1.2f), info, effort);
-    if (!field.grid || field.name == "ramp grid" || field.name == "random grid")
+    if (!field.grid || field.name == "ramp grid" || field.name == "random grid" || field.name == "fine grid")
       check_flights(checks, field, Rgb(0.6f, 1.2f, 2.4f), info, effort);
   }
+  return checks;
+}
+
+/// Majorants that do not bound cut the density: flights follow the law of the field cut likewise, until majorants have
+/// grown. In a grid of nearest voxels that field is a grid, too.
+std::vector<Check> check_majorants_that_cut(const Effort& effort) {
+  const std::shared_ptr<const DensityGrid> checker = test_fields()[2].grid;
+  std::vector<Check> checks;
+  for (const Rgb& sigma_t : {Rgb(1.2f), Rgb(0.6f, 1.2f, 2.4f)})
+    for (uint64_t pass = 0; pass < 3; ++pass) {
+      const double most = 0.375 * static_cast<double>(1 << pass);
+      const auto cut =
+          make_grid(checker->frame(), [&](int x, int y, int z) { return std::min((x + y + z) & 1 ? 1.5 : 0.3, most); });
+      const Law law = flight_law(make_medium(cut, sigma_t));
+      const auto strategy = make_distance_strategy({.strategy = "progressive-null", .majorant = 0.25f}, {.pass = pass});
+      const std::string name = fmt::format("checker grid, pass {}{}", pass, is_grey(sigma_t) ? "" : ", colour");
+      const auto cells = fly(make_medium(checker, sigma_t), *strategy, law, effort.count(40'000, 2'000'000),
+                             effort.seed_of(name + ", cut"));
+      for (int c = 0; c < (is_grey(sigma_t) ? 1 : 3); ++c) {
+        std::vector<double> probabilities;
+        for (size_t cell = 0; cell <= kCells; ++cell) probabilities.push_back(law.probability(sigma_t[c], cell));
+        const auto first = cells.begin() + c * static_cast<ptrdiff_t>(kCells + 1);
+        checks.push_back(check_weights(name + (is_grey(sigma_t) ? "" : kOfChannel[static_cast<size_t>(c)]),
+                                       {first, first + kCells + 1}, probabilities));
+      }
+    }
   return checks;
 }
 
@@ -157,6 +216,7 @@ std::vector<Experiment> flight_experiments() {
   for (const StrategyInfo& info : distance_strategies())
     all.push_back({0, fmt::format("free flights, {}", info.name),
                    [&info](const Effort& effort) { return flights_by(info, effort); }});
+  all.push_back({0, "free flights under majorants that cut", check_majorants_that_cut});
   return all;
 }
 

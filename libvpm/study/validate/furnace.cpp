@@ -11,6 +11,7 @@
 #include "render/path_tracer.h"
 #include "render/photon_pass.h"
 #include "scene/build.h"
+#include "study/careful_settings.h"
 #include "study/sample_moments.h"
 #include "study/validate/fields.h"
 #include "study/validate/groups.h"
@@ -25,7 +26,7 @@ namespace {
 Check check_radiance(const std::string& name, const Scene& scene, const Vec3& eye, std::string_view strategy,
                      const Effort& effort) {
   RenderSettings settings;
-  settings.distance = {.strategy = std::string(strategy), .step = 0.1f};
+  settings.distance = careful_settings(strategy);
   const PathContext context = make_path_context(scene, settings);
   const MediumId medium = medium_at(scene, eye);
   const auto samples = sample_moments(

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "medium/make_grid.h"
+#include "study/careful_settings.h"
 #include "study/photon_walk.h"
 #include "study/sample_moments.h"
 #include "study/validate/groups.h"
@@ -41,7 +42,7 @@ std::vector<Check> check_counts(const Effort& effort) {
     medium.phase = HenyeyGreenstein{0.5f};
     const Scene scene = endless(medium);
     for (const StrategyInfo& info : distance_strategies()) {
-      const auto strategy = make_distance_strategy({.strategy = std::string(info.name)});
+      const auto strategy = make_distance_strategy(careful_settings(info.name));
       const std::string name = fmt::format("{}, {}", grey ? "grey" : "colour", info.name);
       const auto samples =
           sample_moments(3, effort.count(20'000, 5'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {

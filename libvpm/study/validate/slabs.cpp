@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "study/careful_settings.h"
 #include "study/estimates/slab.h"
 #include "study/exact/slab.h"
 #include "study/validate/groups.h"
@@ -101,7 +102,7 @@ std::vector<Check> half_spaces(const Effort& effort) {
 /// Reflection, transmission and absorption by one strategy.
 void check_strategy(std::vector<Check>& checks, const Slab& slab, const StrategyInfo& info, const std::string& name,
                     const exact::SlabSolution& s, const Effort& effort) {
-  const auto strategy = make_distance_strategy({.strategy = std::string(info.name)});
+  const auto strategy = make_distance_strategy(careful_settings(info.name));
   const std::string title = fmt::format("{}, {}", name, info.name);
   const bool homogeneous = slab.layers.sigma_t.front() == slab.layers.sigma_t.back();
   const SlabEstimate e =

@@ -8,6 +8,7 @@
 #include "medium/make_grid.h"
 #include "medium/transmittance/estimator.h"
 #include "oracles/cases.h"
+#include "study/careful_settings.h"
 #include "study/estimates/flights.h"
 #include "study/estimates/layers.h"
 
@@ -149,7 +150,7 @@ void check_flights(std::vector<Check>& checks, const OracleCase& c, const Flight
   for (const StrategyInfo& info : distance_strategies()) {
     const bool homogeneous = path.medium.homogeneous();
     if (!homogeneous && (!info.heterogeneous || !info.unbiased)) continue;
-    const auto strategy = make_distance_strategy({.strategy = std::string(info.name)});
+    const auto strategy = make_distance_strategy(careful_settings(info.name));
     const std::string name = std::string(info.name) + ": ";
     const bool analog = homogeneous || info.bounded_weight;
     const uint64_t flights = effort.count(40'000, 2'000'000);

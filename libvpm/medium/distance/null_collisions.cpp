@@ -1,0 +1,47 @@
+// Weights of the channels over tentative collisions.
+#include "medium/distance/null_collisions.h"
+
+#include <algorithm>
+
+namespace vpm {
+namespace {
+
+/// The share of a photon's power below which a channel is given up: in an endless medium one without extinction would
+/// never see the others end.
+constexpr double kNothing = 1e-30;
+
+}  // namespace
+
+NullCollisionFlight::NullCollisionFlight(const Medium& medium, const Interval& interval, const Rgb& power, Rng& rng)
+    : rng_(rng),
+      sigma_t_(medium.sigma_t.r),
+      grey_(is_grey(medium.sigma_t)),
+      coefficients_(medium.sigma_t),
+      shares_(channel_shares(power)) {
+  flight_.t = interval.t1;
+  if (!grey_) drop_exhausted_channels();
+}
+
+void NullCollisionFlight::weigh_null(double share) {
+  weight_ *= (1.0 - coefficients_ / sigma_t_ * share) / (1.0 - chance_ * share);
+  drop_exhausted_channels();
+}
+
+void NullCollisionFlight::drop_exhausted_channels() {
+  sigma_t_ = 0.0;
+  for (int c = 0; c < 3; ++c)
+    if (shares_[c] * weight_[c] >= kNothing)
+      sigma_t_ = std::max(sigma_t_, coefficients_[c]);
+    else
+      weight_[c] = 0.0;
+  chance_ = sigma_t_ > 0.0 ? glm::dot(shares_ * weight_, coefficients_) / sigma_t_ : 0.0;
+}
+
+Flight NullCollisionFlight::result() const {
+  Flight flight = flight_;
+  if (grey_) return flight;
+  flight.weight = Rgb(flight.collided ? weight_ * coefficients_ / (chance_ * sigma_t_) : weight_);
+  return flight;
+}
+
+}  // namespace vpm

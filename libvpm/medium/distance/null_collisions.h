@@ -1,0 +1,87 @@
+// Flights through null collisions: what the tracking strategies share. A flight meets tentative collisions at the rate
+// of a majorant; each is real with the density's share of the majorant, or null, as if nothing were there
+// [Woodcock1965].
+//
+// Channels share one majorant. Whether a collision is real is drawn by the mean of their chances, each with its share
+// of the power that the photon carries by then, and the weights tell by how much a channel's own chance differs: the
+// mixture of [Wilkie2014] at every tentative collision, as [Kutz2017] has it where probabilities follow the path's
+// history. The sum over channels of power times weight does not change on the way.
+#pragma once
+
+#include <cmath>
+
+#include "medium/distance/mixture.h"
+
+namespace vpm {
+
+/// A flight under way. A strategy says where the next tentative collision is looked for, and under which majorant.
+class NullCollisionFlight {
+ public:
+  NullCollisionFlight(const Medium& medium, const Interval& interval, const Rgb& power, Rng& rng);
+
+  /// Moves t to the next tentative collision before t1 under that majorant (a density). Where there is none it returns
+  /// false, and the flight goes on in the next stretch.
+  bool advance(double& t, double t1, double majorant) {
+    if (!(left_ > 0.0)) left_ = -std::log1p(-rng_.uniform_double());
+    const double rate = sigma_t_ * majorant;
+    const double reach = rate > 0.0 ? (t1 - t) * rate : 0.0;
+    if (!(left_ < reach)) {
+      left_ -= reach;
+      return false;
+    }
+    t += left_ / rate;
+    left_ = 0.0;
+    decision_ = rng_.uniform_double();
+    return true;
+  }
+
+  /// Is the tentative collision real where the density has at least that share of the majorant?
+  bool is_real(double share) const { return decision_ < chance_ * share; }
+
+  /// Ends the flight by a real collision at t.
+  void collide(double t, double density) {
+    flight_.collided = true;
+    flight_.t = static_cast<float>(t);
+    flight_.density = static_cast<float>(density);
+  }
+
+  /// Meets the tentative collision at t with the density that a look-up found there; true where it is real. A majorant
+  /// that does not bound is counted, and cuts the density to itself.
+  bool meet(double t, float density, double majorant) {
+    ++flight_.lookups;
+    double share = density / majorant;
+    if (share > 1.0) {
+      ++flight_.majorant_violations;
+      share = 1.0;
+    }
+    if (is_real(share)) {
+      collide(t, share * majorant);
+      return true;
+    }
+    ++flight_.null_collisions;
+    if (!grey_) weigh_null(share);
+    return false;
+  }
+
+  void count_lookup() { ++flight_.lookups; }
+
+  /// The flight that ended by a real collision, or reached the interval's end.
+  Flight result() const;
+
+ private:
+  void weigh_null(double share);
+  void drop_exhausted_channels();
+
+  Rng& rng_;
+  Flight flight_;
+  double left_ = 0.0;      // optical thickness under the majorant up to the next tentative collision; 0: not drawn yet
+  double decision_ = 0.0;  // uniform: what a tentative collision is
+  double sigma_t_;         // the largest extinction at density 1 of channels that still carry power, 1/m
+  double chance_ = 1.0;    // mean over the power carried of extinctions, over sigma_t_
+  bool grey_;
+  Rgbd coefficients_;  // extinction of the channels at density 1, 1/m
+  Rgbd shares_;        // of the power, when the flight began
+  Rgbd weight_{1.0};
+};
+
+}  // namespace vpm
