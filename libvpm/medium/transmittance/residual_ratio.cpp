@@ -1,0 +1,40 @@
+// `residual-ratio`: residual ratio tracking. The extinction is a control, whose transmittance is known, and a residual,
+// which is left to ratio tracking: each look-up leaves the share 1 - residual / (largest residual) [Novak2014].
+//
+// The control is the middle of the density's bounds in each brick of the grid: of all constants it has the least
+// largest residual, half of what the bounds are apart, and needs half the look-ups of `ratio` where the least density
+// is 0. The relative variance is exp(int residual^2 / largest residual) - 1, no more than exp() of the mean number of
+// look-ups. Residuals of either sign: look-ups leave shares from 0 to 2, and values above 1 are legal.
+//
+// Known failure: a brick that is empty but for a small part. Its residual is as large as can be almost everywhere;
+// ratio tracking, whose look-ups leave the light alone there, is better in such bricks.
+#include "medium/transmittance/estimators.h"
+#include "medium/transmittance/marched_columns.h"
+#include "medium/transmittance/poisson_points.h"
+
+namespace vpm {
+
+TransmittanceEstimate ResidualRatioTransmittance::estimate(const Medium& medium, const Ray& ray,
+                                                           const Interval& interval, Rng& rng) const {
+  const Interval inside = medium.clip(ray, interval);
+  if (const auto known = known_transmittance(medium, inside)) return *known;
+  const Rgbd sigma_t(medium.sigma_t);
+  const double densest = max_channel(medium.sigma_t);
+  uint32_t lookups = 0;
+  Rgbd product(1.0);
+  PoissonPoints points(rng);
+  medium.visit_majorants(ray, inside, [&](double t0, double t1, float least, float most) {
+    const double control = 0.5 * (double{most} + least), reach = 0.5 * (double{most} - least);
+    const double rate = densest * reach;  // 1/m
+    product *= glm::exp(-sigma_t * (control * (t1 - t0)));
+    return points.visit(t0, t1, rate, [&](double t) {
+      ++lookups;
+      const double density = medium.density(ray.at(static_cast<float>(t)));
+      product *= 1.0 - sigma_t * (density - control) / rate;
+      return survives(product, rng);
+    });
+  });
+  return {Rgb(product), lookups};
+}
+
+}  // namespace vpm
