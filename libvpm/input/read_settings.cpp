@@ -27,6 +27,7 @@ Filter read_filter(TableReader& film) {
 constexpr Range kRadius{1e-10, 1e9, false, false};
 /// A step of a march, voxels: shorter ones would never come to an end.
 constexpr Range kVoxels{1e-3, kNoLimit, false, true};
+constexpr Range kSamples{1e-3, 1e6, false, false};
 
 void read_gather(TableReader& table, GatherSettings& gather) {
   gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}},
@@ -202,6 +203,9 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   read_section(root, "transmittance", [&](TableReader& table) {
     s.transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), s.transmittance.estimator);
     s.transmittance.step = table.number("step", kVoxels, s.transmittance.step);
+    s.transmittance.samples = table.number("samples", kSamples, s.transmittance.samples);
+    s.transmittance.majorants = table.choice<Majorants>(
+        "majorants", {{"local", Majorants::local}, {"global", Majorants::global}}, s.transmittance.majorants);
   });
   read_section(root, "volume", [&](TableReader& table) {
     read_gather(table, s.volume);

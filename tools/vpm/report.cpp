@@ -238,14 +238,15 @@ std::string settings_line(const RenderSettings& s) {
   const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
   return fmt::format(
       "integrator={} samples_per_pixel={} emitted={} stored={} in_cube={} importons={}:aim={}:split={}:scatter={} "
-      "distance={}:step={}:floor={} transmittance={}:step={} "
+      "distance={}:step={}:floor={} transmittance={}:step={}:samples={}:majorants={} "
       "volume={} form={} "
       "density_floor={} "
       "volume_direct={} "
       "surface={} surface_direct={} surface_indirect={} radii={} max_optical_step={} max_events={}",
       s.integrator == Integrator::path ? "path" : "photon", s.samples_per_pixel, s.photons_emitted, s.photons_stored,
       s.photons_in_cube, s.guide.importons, s.guide.aim, s.guide.split, s.guide.scatter, s.distance.strategy,
-      s.distance.step, s.distance.extinction_floor, s.transmittance.estimator, s.transmittance.step, gather(s.volume),
+      s.distance.step, s.distance.extinction_floor, s.transmittance.estimator, s.transmittance.step,
+      s.transmittance.samples, s.transmittance.majorants == Majorants::local ? "local" : "global", gather(s.volume),
       s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
       direct(s.volume_direct), gather(s.surface), direct(s.surface_direct),
       s.surface_indirect == IndirectLight::photons
