@@ -49,10 +49,6 @@ class DensityGrid {
   /// Bricks of zero density are left out. Returns the number of cells and uniform bricks read ("look-ups").
   template <class Visit>
   uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const;
-  /// Calls visit(t0, t1, min, max) for the bricks along the ray, in order, until it returns false: the stretch inside
-  /// each, m, and bounds of the interpolated density there. Bricks of zero density are left out.
-  template <class Visit>
-  void visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const;
 
   /// The part of the interval in which the density may differ from zero: all of it where the background does.
   Interval clip(const Ray& ray, const Interval& interval) const;
@@ -85,22 +81,12 @@ class DensityGrid {
     return {Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.origin), 1.0)),
             Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0))};
   }
-  /// The same in the coordinates in which cells lie between whole numbers, whatever the interpolation.
-  IndexRay to_lattice(const Ray& ray) const {
-    IndexRay result = to_index(ray);
-    result.origin += lattice_shift();
-    return result;
-  }
   double lattice_shift() const { return frame_.interpolation == Interpolation::nearest ? 0.5 : 0.0; }
   const Brick& brick(const Vec3i& b) const {
     return bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
   }
   void cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
                   DensityPiece& piece) const;
-  /// Calls outside(t0, t1) for the stretches beyond the bricks, where the background is positive, and inside(brick, t0,
-  /// t1) for those in a brick, in order, until one of them returns false.
-  template <class Outside, class Inside>
-  void visit_bricks(const IndexRay& ray, const Interval& interval, Outside&& outside, Inside&& inside) const;
   template <class Visit>
   bool visit_brick(const Vec3i& b, const IndexRay& ray, double t0, double t1, uint32_t& read, Visit& visit) const;
 

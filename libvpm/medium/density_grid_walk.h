@@ -84,53 +84,36 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
   return true;
 }
 
-template <class Outside, class Inside>
-void DensityGrid::visit_bricks(const IndexRay& ray, const Interval& interval, Outside&& outside,
-                               Inside&& inside) const {
-  const auto& [origin, direction] = ray;
+template <class Visit>
+uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  IndexRay lattice_ray = to_index(ray);
+  lattice_ray.origin += lattice_shift();
+  const auto& [origin, direction] = lattice_ray;
   const Vec3d lo = Vec3d(brick_lo_ * kCells);
   const Vec3d hi = lo + Vec3d(brick_count_ * kCells);
   double t0 = interval.t0;
   double t1 = interval.t1;
   clip_to_box(origin, direction, lo, hi, t0, t1);
-  const auto beyond = [&](double a, double b) { return !(frame_.background > 0.0f) || !(b > a) || outside(a, b); };
+  const bool fills_outside = frame_.background > 0.0f;
+  const auto outside = [&](double a, double b) {
+    return !fills_outside || !(b > a) || visit(DensityPiece{a, b, frame_.background, 0.0, 0.0, 0.0});
+  };
+  uint32_t read = 0;
   if (!(t1 > t0)) {
-    beyond(interval.t0, interval.t1);
-    return;
+    outside(interval.t0, interval.t1);
+    return read;
   }
-  if (!beyond(interval.t0, t0)) return;
+  if (!outside(interval.t0, t0)) return read;
   LatticeWalk walk(origin, direction, kCells, t0, brick_lo_, brick_lo_ + brick_count_ - 1);
   for (double t = t0; t < t1; walk.advance()) {
     const double end = std::min(walk.exit(), t1);
     if (end > t) {
-      if (!inside(walk.cell(), t, end)) return;
+      if (!visit_brick(walk.cell(), lattice_ray, t, end, read, visit)) return read;
       t = end;
     }
   }
-  beyond(t1, interval.t1);
-}
-
-template <class Visit>
-uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
-  const IndexRay lattice_ray = to_lattice(ray);
-  uint32_t read = 0;
-  visit_bricks(
-      lattice_ray, interval,
-      [&](double a, double b) {
-        return visit(DensityPiece{a, b, frame_.background, 0.0, 0.0, 0.0});
-      },
-      [&](const Vec3i& b, double t0, double t1) { return visit_brick(b, lattice_ray, t0, t1, read, visit); });
+  outside(t1, interval.t1);
   return read;
-}
-
-template <class Visit>
-void DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
-  visit_bricks(
-      to_lattice(ray), interval, [&](double a, double b) { return visit(a, b, frame_.background, frame_.background); },
-      [&](const Vec3i& b, double t0, double t1) {
-        const Brick& here = brick(b - brick_lo_);
-        return here.max == 0.0f || visit(t0, t1, here.min, here.max);
-      });
 }
 
 }  // namespace vpm

@@ -45,15 +45,6 @@ struct Medium {
     visit(DensityPiece{interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
     return 0;
   }
-  /// Calls visit(t0, t1, min, max) along the ray until it returns false: stretches, m, with bounds of the density in
-  /// them.
-  template <class Visit>
-  void visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
-    if (grid)
-      grid->visit_majorants(ray, interval, visit);
-    else
-      visit(static_cast<double>(interval.t0), static_cast<double>(interval.t1), 1.0f, 1.0f);
-  }
 };
 
 /// The column along a stretch of ray, m (the integral of density), with the look-ups it took.

@@ -104,49 +104,6 @@ TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
   }
 }
 
-TEST_P(DensityGridTest, BoundsOfBricksHoldTheField) {
-  const GridFrame frame = frame_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
-  const auto grid = noise_grid(frame);
-  Rng rng(1, rng_stream(RngUse::test, 2), 0);
-  for (int i = 0; i < 500; ++i) {
-    const Vec3d spread = Vec3d(20.0, 15.0, 16.0) * (i % 2 ? 3.0 : 1.0);  // every other ray may miss the grid
-    const Vec3d middle = Vec3d(0.0, 12.5, 8.0) + spread * (Vec3d(rng.uniform(), rng.uniform(), rng.uniform()) - 0.5);
-    const Vec3 target(frame.index_to_world * glm::dvec4(middle, 1.0));
-    const Vec3 origin = target - 3.0f * uniform_sphere(rng.uniform2());
-    const Ray ray{origin, glm::normalize(target - origin)};
-    const Interval interval{0.2f, 5.5f};
-    struct Stretch {
-      double t0, t1;
-      float least, most;
-    };
-    std::vector<Stretch> stretches;
-    grid->visit_majorants(ray, interval, [&](double t0, double t1, float least, float most) {
-      EXPECT_LT(t0, t1);
-      EXPECT_LE(least, most);
-      EXPECT_TRUE(stretches.empty() || t0 >= stretches.back().t1);
-      stretches.push_back({t0, t1, least, most});
-      return true;
-    });
-    // Every piece of the field lies in one of the stretches, and its density between the bounds.
-    size_t k = 0;
-    grid->visit_pieces(ray, interval, [&](const DensityPiece& piece) {
-      while (k < stretches.size() && stretches[k].t1 < piece.t1 - 1e-9) ++k;
-      EXPECT_LT(k, stretches.size());
-      if (k == stretches.size()) return false;
-      EXPECT_GE(piece.t0, stretches[k].t0 - 1e-9);
-      for (const double share : {0.0, 0.3, 0.7, 1.0}) {
-        const double density = piece.density(share * piece.length());
-        EXPECT_GE(density, stretches[k].least - 1e-5);
-        EXPECT_LE(density, stretches[k].most + 1e-5);
-      }
-      return true;
-    });
-    int seen = 0;
-    grid->visit_majorants(ray, interval, [&](double, double, float, float) { return ++seen < 2; });
-    EXPECT_EQ(seen, std::min<int>(2, static_cast<int>(stretches.size())));
-  }
-}
-
 TEST(DensityGrid, RaysAlongFacesAndEdgesOfCellsSeeTheField) {
   GridFrame frame;
   frame.lo = Vec3i(0);
