@@ -117,7 +117,7 @@ float DensityGrid::density(const Vec3& world) const {
   const Brick& b = brick(cell / kCells);
   if (b.uniform()) return b.min;
   const Vec3i c = cell % kCells;
-  const float* v = values_.data() + static_cast<size_t>(b.first) * kBrickValues + (c.z * kValues + c.y) * kValues + c.x;
+  const float* v = values_of(b) + (c.z * kValues + c.y) * kValues + c.x;
   if (frame_.interpolation == Interpolation::nearest) return *v;
   const Vec3 f(p - floored);
   const auto along_x = [&](const float* row) { return row[0] + f.x * (row[1] - row[0]); };

@@ -11,6 +11,7 @@
 
 #include "base/vec.h"
 #include "medium/density_piece.h"
+#include "medium/density_stretch.h"
 
 namespace vpm {
 
@@ -26,9 +27,8 @@ struct GridFrame {
 
 class DensityGrid {
  public:
-  static constexpr int kCells = 8;  // cells along a brick's edge
-  static constexpr int kValues =
-      kCells + 1;  // voxels along it: one more on the upper side, so a cell never leaves its brick
+  static constexpr int kCells = DensityStretch::kCells;
+  static constexpr int kValues = DensityStretch::kValues;
   static constexpr int kBrickValues = kValues * kValues * kValues;
 
   /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]; called from
@@ -49,6 +49,10 @@ class DensityGrid {
   /// Bricks of zero density are left out. Returns the number of cells and uniform bricks read ("look-ups").
   template <class Visit>
   uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  /// Calls visit(const DensityStretch&) for the ray's part in each brick, in order, until it returns false. Bricks of
+  /// zero density are left out.
+  template <class Visit>
+  void visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const;
 
   /// The part of the interval in which the density may differ from zero: all of it where the background does.
   Interval clip(const Ray& ray, const Interval& interval) const;
@@ -87,6 +91,13 @@ class DensityGrid {
   }
   void cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
                   DensityPiece& piece) const;
+  const float* values_of(const Brick& brick) const {
+    return values_.data() + static_cast<size_t>(brick.first) * kBrickValues;
+  }
+  /// Calls inside(brick coordinates, lattice ray, t0, t1) for the ray's part in each brick, and outside(t0, t1) for
+  /// those outside of all where the background is not empty; in order, until one returns false.
+  template <class Inside, class Outside>
+  void visit_bricks(const Ray& ray, const Interval& interval, Inside&& inside, Outside&& outside) const;
   template <class Visit>
   bool visit_brick(const Vec3i& b, const IndexRay& ray, double t0, double t1, uint32_t& read, Visit& visit) const;
 

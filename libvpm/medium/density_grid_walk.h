@@ -2,6 +2,8 @@
 // density_grid.h only.
 #pragma once
 
+#include <utility>
+
 namespace vpm {
 
 /// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at
@@ -64,7 +66,7 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
     ++read;
     return visit(DensityPiece{t0, t1, brick_here.min, 0.0, 0.0, 0.0});
   }
-  const float* values = values_.data() + static_cast<size_t>(brick_here.first) * kBrickValues;
+  const float* values = values_of(brick_here);
   const Vec3d inside = ray.origin - Vec3d(b * kCells);  // brick coordinates: 0 to 8
   LatticeWalk walk(inside, ray.direction, 1.0, t0, Vec3i(0), Vec3i(kCells - 1));
   const Vec3 step(ray.direction);
@@ -84,8 +86,8 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
   return true;
 }
 
-template <class Visit>
-uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
+template <class Inside, class Outside>
+void DensityGrid::visit_bricks(const Ray& ray, const Interval& interval, Inside&& inside, Outside&& outside) const {
   IndexRay lattice_ray = to_index(ray);
   lattice_ray.origin += lattice_shift();
   const auto& [origin, direction] = lattice_ray;
@@ -95,25 +97,55 @@ uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Vis
   double t1 = interval.t1;
   clip_to_box(origin, direction, lo, hi, t0, t1);
   const bool fills_outside = frame_.background > 0.0f;
-  const auto outside = [&](double a, double b) {
-    return !fills_outside || !(b > a) || visit(DensityPiece{a, b, frame_.background, 0.0, 0.0, 0.0});
-  };
-  uint32_t read = 0;
+  const auto beyond = [&](double a, double b) { return !fills_outside || !(b > a) || outside(a, b); };
   if (!(t1 > t0)) {
-    outside(interval.t0, interval.t1);
-    return read;
+    beyond(interval.t0, interval.t1);
+    return;
   }
-  if (!outside(interval.t0, t0)) return read;
+  if (!beyond(interval.t0, t0)) return;
   LatticeWalk walk(origin, direction, kCells, t0, brick_lo_, brick_lo_ + brick_count_ - 1);
   for (double t = t0; t < t1; walk.advance()) {
     const double end = std::min(walk.exit(), t1);
     if (end > t) {
-      if (!visit_brick(walk.cell(), lattice_ray, t, end, read, visit)) return read;
+      if (!inside(walk.cell(), lattice_ray, t, end)) return;
       t = end;
     }
   }
-  outside(t1, interval.t1);
+  beyond(t1, interval.t1);
+}
+
+template <class Visit>
+uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  uint32_t read = 0;
+  visit_bricks(
+      ray, interval,
+      [&](const Vec3i& b, const IndexRay& in, double t0, double t1) { return visit_brick(b, in, t0, t1, read, visit); },
+      [&](double t0, double t1) {
+        return visit(DensityPiece{t0, t1, frame_.background, 0.0, 0.0, 0.0});
+      });
   return read;
+}
+
+template <class Visit>
+void DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  DensityStretch stretch;
+  stretch.nearest = frame_.interpolation == Interpolation::nearest;
+  const auto inside = [&](const Vec3i& b, const IndexRay& in, double t0, double t1) {
+    const Brick& here = brick(b - brick_lo_);
+    if (here.max == 0.0f) return true;
+    stretch.t0 = t0;
+    stretch.t1 = t1;
+    stretch.min = here.min;
+    stretch.max = here.max;
+    stretch.values = here.uniform() ? nullptr : values_of(here);
+    stretch.origin = in.origin - Vec3d(b * kCells);
+    stretch.direction = in.direction;
+    return static_cast<bool>(visit(std::as_const(stretch)));
+  };
+  const auto outside = [&](double t0, double t1) {
+    return static_cast<bool>(visit(DensityStretch{t0, t1, frame_.background, frame_.background}));
+  };
+  visit_bricks(ray, interval, inside, outside);
 }
 
 }  // namespace vpm

@@ -45,6 +45,12 @@ struct Medium {
     visit(DensityPiece{interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
     return 0;
   }
+  /// Calls visit(const DensityStretch&) along the ray until it returns false.
+  template <class Visit>
+  void visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
+    if (grid) return grid->visit_majorants(ray, interval, visit);
+    visit(DensityStretch{interval.t0, interval.t1, 1.0f, 1.0f});
+  }
 };
 
 /// The column along a stretch of ray, m (the integral of density), with the look-ups it took.

@@ -64,18 +64,22 @@ TEST_P(DensityGridTest, LookUpsFollowTheDefinition) {
   }
 }
 
+/// A random ray at the grid of frame_of(); every other one may miss it.
+Ray ray_at_grid(const GridFrame& frame, int number, Rng& rng) {
+  const Vec3d spread = Vec3d(20.0, 15.0, 16.0) * (number % 2 ? 3.0 : 1.0);
+  const Vec3d middle = Vec3d(0.0, 12.5, 8.0) + spread * (Vec3d(rng.uniform(), rng.uniform(), rng.uniform()) - 0.5);
+  const Vec3 target(frame.index_to_world * glm::dvec4(middle, 1.0));
+  const Vec3 origin = target - 3.0f * uniform_sphere(rng.uniform2());
+  return {origin, glm::normalize(target - origin)};
+}
+
 TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
   const GridFrame frame = frame_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
   const auto grid = noise_grid(frame);
   const Mat4d to_index = glm::inverse(frame.index_to_world);
   Rng rng(1, rng_stream(RngUse::test, 1), 0);
   for (int i = 0; i < 500; ++i) {
-    // Every other ray may miss the grid.
-    const Vec3d spread = Vec3d(20.0, 15.0, 16.0) * (i % 2 ? 3.0 : 1.0);
-    const Vec3d middle = Vec3d(0.0, 12.5, 8.0) + spread * (Vec3d(rng.uniform(), rng.uniform(), rng.uniform()) - 0.5);
-    const Vec3 target(frame.index_to_world * glm::dvec4(middle, 1.0));
-    const Ray ray{target - 3.0f * uniform_sphere(rng.uniform2()), {}};
-    const Ray aimed{ray.origin, glm::normalize(target - ray.origin)};
+    const Ray aimed = ray_at_grid(frame, i, rng);
     const Interval interval{0.2f, 5.5f};
     double end = interval.t0, total = 0.0;
     grid->visit_pieces(aimed, interval, [&](const DensityPiece& piece) {
@@ -101,6 +105,68 @@ TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
     }
     const double tolerance = frame.interpolation == Interpolation::trilinear ? 2e-5 : 5e-3;
     ASSERT_NEAR(total, sum * interval.length() / kSteps, tolerance);
+  }
+}
+
+/// The extremes over the 9^3 voxels of the brick around a lattice point, one by one.
+std::pair<double, double> brick_extremes(const GridFrame& frame, const Vec3d& lattice) {
+  const Vec3i lo = Vec3i(glm::floor(lattice / 8.0)) * 8;
+  std::pair extremes(voxel(frame, lo), voxel(frame, lo));
+  for (int z = 0; z <= 8; ++z)
+    for (int y = 0; y <= 8; ++y)
+      for (int x = 0; x <= 8; ++x) {
+        const double value = voxel(frame, lo + Vec3i(x, y, z));
+        extremes = {std::min(extremes.first, value), std::max(extremes.second, value)};
+      }
+  return extremes;
+}
+
+TEST_P(DensityGridTest, MajorantsAreTheExtremesOfTheBricksOnTheWay) {
+  const GridFrame frame = frame_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  const auto grid = noise_grid(frame);
+  const Mat4d to_index = glm::inverse(frame.index_to_world);
+  const double shift = frame.interpolation == Interpolation::nearest ? 0.5 : 0.0;
+  Rng rng(1, rng_stream(RngUse::test, 2), 0);
+  for (int i = 0; i < 300; ++i) {
+    const Ray ray = ray_at_grid(frame, i, rng);
+    const Interval interval{0.2f, 5.5f};
+    const auto index_at = [&](double t) {
+      return Vec3d(to_index * glm::dvec4(Vec3d(ray.origin) + t * Vec3d(ray.direction), 1.0));
+    };
+    const auto between = [&](double a, double b) { return a + rng.uniform_double() * (b - a); };
+    const auto expect_empty = [&](double a, double b) {
+      if (!(b > a + 1e-9)) return;
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(defined_density(frame, index_at(between(a, b))), 0.0);
+    };
+    double end = interval.t0;
+    grid->visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
+      EXPECT_GE(stretch.t0, end - 1e-12);
+      EXPECT_GT(stretch.t1, stretch.t0);
+      expect_empty(end, stretch.t0);
+      end = stretch.t1;
+      const auto [min, max] = brick_extremes(frame, index_at(0.5 * (stretch.t0 + stretch.t1)) + shift);
+      EXPECT_EQ(stretch.min, static_cast<float>(min));
+      EXPECT_EQ(stretch.max, static_cast<float>(max));
+      for (int k = 0; k < 10; ++k) {
+        const double t = between(stretch.t0, stretch.t1);
+        EXPECT_NEAR(stretch.density(t), defined_density(frame, index_at(t)), 1e-6);
+        EXPECT_TRUE(stretch.density(t) >= stretch.min && stretch.density(t) <= stretch.max);
+      }
+      return true;
+    });
+    EXPECT_LE(end, interval.t1 + 1e-9);
+    expect_empty(end, interval.t1);
+  }
+}
+
+TEST(DensityGrid, MajorantsEndWhereAskedTo) {
+  const auto grid = noise_grid(frame_of(Interpolation::trilinear, 0.7f));
+  Rng rng(1, rng_stream(RngUse::test, 3), 0);
+  const Ray ray = ray_at_grid(grid->frame(), 0, rng);
+  for (int wanted = 1; wanted <= 4; ++wanted) {
+    int visited = 0;
+    grid->visit_majorants(ray, {}, [&](const DensityStretch&) { return ++visited < wanted; });
+    EXPECT_EQ(visited, wanted);
   }
 }
 
