@@ -204,8 +204,6 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
     s.transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), s.transmittance.estimator);
     s.transmittance.step = table.number("step", kVoxels, s.transmittance.step);
     s.transmittance.samples = table.number("samples", kSamples, s.transmittance.samples);
-    s.transmittance.majorants = table.choice<Majorants>(
-        "majorants", {{"local", Majorants::local}, {"global", Majorants::global}}, s.transmittance.majorants);
   });
   read_section(root, "volume", [&](TableReader& table) {
     read_gather(table, s.volume);

@@ -427,7 +427,7 @@ TEST(SceneFile, ReadsEverySetting) {
           "70\n"
           "aim = false\nsplit = false\nscatter = true\n[distance]\nstrategy = 'ray-march'\nstep "
           "= 0.5\nextinction_floor = 0.2\n"
-          "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\nsamples = 2.5\nmajorants = 'global'\n"
+          "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\nsamples = 2.5\n"
           "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
           "'density-at-photon'\ndirect = 'shadow-rays'\n"
           "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n"
@@ -457,7 +457,6 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.transmittance.estimator, "ray-march");
   EXPECT_EQ(s.transmittance.step, 0.75f);
   EXPECT_EQ(s.transmittance.samples, 2.5f);
-  EXPECT_EQ(s.transmittance.majorants, Majorants::global);
   EXPECT_EQ(s.volume.mode, GatherMode::nearest);
   EXPECT_EQ(s.volume.radius, 0.1f);
   EXPECT_EQ(s.volume.count, 40u);
@@ -521,7 +520,6 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(s.distance.strategy, d.distance.strategy);
   EXPECT_EQ(s.transmittance.estimator, d.transmittance.estimator);
   EXPECT_EQ(s.transmittance.samples, d.transmittance.samples);
-  EXPECT_EQ(s.transmittance.majorants, d.transmittance.majorants);
   EXPECT_EQ(s.volume.count, d.volume.count);
   EXPECT_EQ(s.volume.kernel, d.volume.kernel);
   EXPECT_EQ(s.surface_direct, d.surface_direct);

@@ -26,14 +26,10 @@ class TransmittanceEstimator {
                                          Rng& rng) const = 0;
 };
 
-/// Where bounds of the density are taken from that a tracking estimator needs: each brick of a grid, or all of it.
-enum class Majorants { local, global };
-
 struct TransmittanceSettings {
   std::string estimator = "regular";
-  float step = 1.0f;                       // ray-march, jackknife: length of a step in voxels, > 0
-  float samples = 1.0f;                    // unbiased-ray-march: times as many in a comb as the paper has, > 0
-  Majorants majorants = Majorants::local;  // ratio
+  float step = 1.0f;     // ray-march, jackknife: length of a step in voxels, > 0
+  float samples = 1.0f;  // unbiased-ray-march: times as many in a comb as the paper has, > 0
 };
 
 /// What a user should know of an estimator.

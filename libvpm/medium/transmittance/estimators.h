@@ -12,11 +12,12 @@ class RegularTransmittance final : public TransmittanceEstimator {
 
 class RatioTransmittance final : public TransmittanceEstimator {
  public:
-  explicit RatioTransmittance(Majorants majorants) : majorants_(majorants) {}
   TransmittanceEstimate estimate(const Medium&, const Ray&, const Interval&, Rng&) const override;
+};
 
- private:
-  Majorants majorants_;
+class LocalRatioTransmittance final : public TransmittanceEstimator {
+ public:
+  TransmittanceEstimate estimate(const Medium&, const Ray&, const Interval&, Rng&) const override;
 };
 
 class ResidualRatioTransmittance final : public TransmittanceEstimator {

@@ -41,10 +41,11 @@ double series_weight(int k) { return k == 0 ? 1.0 : std::ldexp(1.0 / kHigherOrde
 /// less the least of its local bounds. (The paper's control, whose minorant is 0, has more samples in even media.)
 double control_thickness(const Medium& medium, const Ray& ray, const Interval& inside) {
   double majorant = 0.0, covered = 0.0, least_bound = std::numeric_limits<double>::infinity();  // m, m, 1
-  medium.visit_majorants(ray, inside, [&](double t0, double t1, float least, float most) {
-    majorant += (t1 - t0) * most;
-    covered += t1 - t0;
-    least_bound = std::min(least_bound, double{least});
+  medium.visit_majorants(ray, inside, [&](const DensityStretch& stretch) {
+    const double length = stretch.t1 - stretch.t0;
+    majorant += length * stretch.max;
+    covered += length;
+    least_bound = std::min(least_bound, double{stretch.min});
     return true;
   });
   constexpr double kRounding = 1e-6;
