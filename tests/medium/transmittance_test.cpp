@@ -176,7 +176,7 @@ TEST(Transmittance, TrackingHasTheVarianceOfItsPoissonProcess) {
   expect_mean(square("residual-ratio"), exact * std::exp(of_residual), 1e-6, "residual-ratio");
 }
 
-/// Density 0.2 + 0.6 x along x, x from -1 to 1 m, and a ray along it.
+/// Density 0.8 + 0.6 x along x, x from -1 to 1 m, and a ray along it.
 Medium ramp(const Rgb& sigma_t) {
   GridFrame frame;
   frame.lo = Vec3i(-10);
