@@ -1,8 +1,11 @@
 // Numbers that say how far one picture is from another: the sums.
 #include "image/metrics.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "base/statistics.h"
@@ -29,6 +32,12 @@ double mean_error(const Image& image, const Image& reference, const Error& error
   return sum.value() / (3.0 * static_cast<double>(image.pixels.size()));
 }
 
+/// One channel's term of the relative MSE, for that mean of the reference over the channel.
+double relative_square(double value, double truth, double mean) {
+  const double difference = value - truth;
+  return difference == 0.0 ? 0.0 : difference * difference / (truth * truth + 0.01 * mean * mean);
+}
+
 }  // namespace
 
 Rgbd channel_means(const Image& image) {
@@ -49,10 +58,42 @@ double mse(const Image& image, const Image& reference) {
 
 double relative_mse(const Image& image, const Image& reference) {
   const Rgbd means = channel_means(reference);
-  return mean_error(image, reference, [&](int c, double value, double truth) {
+  return mean_error(image, reference,
+                    [&](int c, double value, double truth) { return relative_square(value, truth, means[c]); });
+}
+
+double relative_mse_of_pbrt(const Image& image, const Image& reference) {
+  return mean_error(image, reference, [](int, double value, double truth) {
     const double difference = value - truth;
-    return difference == 0.0 ? 0.0 : difference * difference / (truth * truth + 0.01 * means[c] * means[c]);
+    return difference == 0.0 ? 0.0 : difference * difference / ((truth + 0.01) * (truth + 0.01));
   });
+}
+
+std::vector<PixelError> worst_pixels(const Image& image, const Image& reference, size_t count) {
+  check_sizes(image, reference);
+  const Rgbd means = channel_means(reference);
+  std::vector<PixelError> all(image.pixels.size());
+  for (size_t i = 0; i < all.size(); ++i) {
+    double sum = 0.0;
+    for (int c = 0; c < 3; ++c) sum += relative_square(image.pixels[i][c], reference.pixels[i][c], means[c]);
+    const auto width = static_cast<size_t>(image.width);
+    all[i] = {static_cast<int>(i % width), static_cast<int>(i / width), sum / 3.0};
+  }
+  const auto worse = [](const PixelError& a, const PixelError& b) {
+    const bool a_broken = std::isnan(a.error), b_broken = std::isnan(b.error);
+    if (a_broken || b_broken || a.error == b.error)
+      return a_broken != b_broken ? a_broken : std::pair(a.y, a.x) < std::pair(b.y, b.x);
+    return a.error > b.error;
+  };
+  count = std::min(count, all.size());
+  std::partial_sort(all.begin(), all.begin() + static_cast<ptrdiff_t>(count), all.end(), worse);
+  all.resize(count);
+  return all;
+}
+
+size_t non_finite_pixels(const Image& image) {
+  return static_cast<size_t>(
+      std::count_if(image.pixels.begin(), image.pixels.end(), [](const Rgb& pixel) { return !is_finite(pixel); }));
 }
 
 }  // namespace vpm

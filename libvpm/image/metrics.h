@@ -11,7 +11,7 @@ inline float luminance(const Rgb& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.
 /// The mean of each channel over the pixels.
 Rgbd channel_means(const Image& image);
 
-// Both errors below are means over pixels and channels, no luminance involved. They throw InputError where the sizes
+// The errors below are means over pixels and channels, no luminance involved. They throw InputError where the sizes
 // differ, and a non-finite pixel in either picture makes them non-finite.
 
 /// Mean of (I - R)^2.
@@ -20,5 +20,20 @@ double mse(const Image& image, const Image& reference);
 /// Mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over the pixels of the same channel: the second term, a tenth of
 /// the mean squared, keeps dark pixels from deciding. 0 where I = R, also in a channel that is all black.
 double relative_mse(const Image& image, const Image& reference);
+
+/// Mean of (I - R)^2 / (R + 0.01)^2, as pbrt has it under the name MRSE [Pharr2023]: the 0.01 is in the pictures'
+/// unit, so that the number changes with their exposure. Infinite where a value of the reference is -0.01.
+double relative_mse_of_pbrt(const Image& image, const Image& reference);
+
+/// A pixel with its part in the relative MSE: the mean over channels of (I - R)^2 / (R^2 + 0.01 mean(R)^2).
+struct PixelError {
+  int x = 0, y = 0;  // from the left and the top
+  double error = 0.0;
+};
+/// The `count` pixels with the largest errors, largest first, those that are not a number before all others.
+std::vector<PixelError> worst_pixels(const Image& image, const Image& reference, size_t count);
+
+/// Pixels with a channel that is infinite or no number.
+size_t non_finite_pixels(const Image& image);
 
 }  // namespace vpm

@@ -29,6 +29,7 @@ constexpr Range kRadius{1e-10, 1e9, false, false};
 constexpr Range kVoxels{1e-3, kNoLimit, false, true};
 /// The same, optical thickness.
 constexpr Range kOpticalStep{1e-4, kNoLimit, false, true};
+constexpr Range kSamples{1e-3, 1e6, false, false};
 
 void read_gather(TableReader& table, GatherSettings& gather) {
   gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}},
@@ -212,6 +213,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
   read_section(root, "transmittance", [&](TableReader& table) {
     s.transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), s.transmittance.estimator);
     s.transmittance.step = table.number("step", kVoxels, s.transmittance.step);
+    s.transmittance.samples = table.number("samples", kSamples, s.transmittance.samples);
   });
   read_section(root, "volume", [&](TableReader& table) {
     read_gather(table, s.volume);

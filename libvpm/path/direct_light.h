@@ -9,7 +9,8 @@ namespace vpm {
 /// The light of a source at a point: attenuated by media, black where something stands between.
 struct DirectSample {
   Vec3 direction{0.0f};  // towards the light, unit
-  Rgb irradiance{0.0f};  // on a surface that faces it, W/m^2; its mean over samples is that of the source
+  Rgb irradiance{0.0f};  // on a surface that faces it, W/m^2; its mean over samples is that of the source. Below 0
+                         // where the estimator of transmittance was
   float pdf = 0.0f;      // of the direction, 1/sr; 0 where the light has one direction only
 };
 

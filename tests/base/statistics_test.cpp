@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/line_fit.h"
 #include "base/rng.h"
 
 namespace vpm {
@@ -158,6 +159,18 @@ TEST(StudentTail, BecomesNormal) {
   }
   EXPECT_EQ(student_tail(2.0, 1e9), normal_tail(2.0));
   EXPECT_TRUE(std::isnan(student_tail(kNaN, 7.0)));
+}
+
+TEST(LineFit, HasTheSlopeAndItsErrorOfLeastSquares) {
+  const std::vector<double> x{0.0, 1.0, 2.0, 3.0};
+  const LineFit straight = fit_line(x, std::vector<double>{1.0, -1.0, -3.0, -5.0});
+  EXPECT_DOUBLE_EQ(straight.slope, -2.0);
+  EXPECT_NEAR(straight.slope_error, 0.0, 1e-15);
+  // Off the line y = x by 1, -1, -1, 1: slope 1, variance 4 / (4 - 2), over the squares 5 of x about its mean.
+  const LineFit bent = fit_line(x, std::vector<double>{1.0, 0.0, 1.0, 4.0});
+  EXPECT_DOUBLE_EQ(bent.slope, 1.0);
+  EXPECT_DOUBLE_EQ(bent.slope_error, std::sqrt(2.0 / 5.0));
+  EXPECT_TRUE(std::isnan(fit_line(std::vector<double>{0.0, 2.0}, std::vector<double>{0.0, 1.0}).slope_error));
 }
 
 }  // namespace

@@ -54,6 +54,37 @@ TEST(Metrics, BlackChannel) {
   EXPECT_TRUE(std::isinf(relative_mse(row({{1, 0, 1}, {1, 0, 0}}), red)));
 }
 
+TEST(Metrics, RelativeErrorOfPbrt) {
+  const Image reference = row({{1, 2, 0}, {3, 2, 10}});
+  const Image image = row({{2, 2, 1}, {3, 1, 10}});
+  const double sum = 1.0 / (1.01 * 1.01) + 1.0 / (2.01 * 2.01) + 1.0 / (0.01 * 0.01);
+  EXPECT_DOUBLE_EQ(relative_mse_of_pbrt(image, reference), sum / 6.0);
+  EXPECT_EQ(relative_mse_of_pbrt(reference, reference), 0.0);
+}
+
+TEST(Metrics, WorstPixelsAreSortedByTheirPartInTheRelativeError) {
+  Image reference(2, 2), image(2, 2);
+  reference.pixels = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
+  image.pixels = {{1, 1, 2}, {1, 1, 1}, {4, 1, 1}, {1, 3, 1}};
+  const std::vector<PixelError> worst = worst_pixels(image, reference, 3);
+  ASSERT_EQ(worst.size(), 3u);
+  const double errors[] = {9.0 / 1.01 / 3.0, 4.0 / 1.01 / 3.0, 1.0 / 1.01 / 3.0};
+  const int columns[] = {0, 1, 0}, rows[] = {1, 1, 0};
+  double sum = 0.0;
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(worst[i].x, columns[i]);
+    EXPECT_EQ(worst[i].y, rows[i]);
+    EXPECT_DOUBLE_EQ(worst[i].error, errors[i]);
+    sum += worst[i].error;
+  }
+  EXPECT_DOUBLE_EQ(relative_mse(image, reference), sum / 4.0);
+  EXPECT_EQ(worst_pixels(image, reference, 9).size(), 4u);
+  image.pixels[1].g = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(worst_pixels(image, reference, 1)[0].error));
+  EXPECT_EQ(non_finite_pixels(image), 1u);
+  EXPECT_EQ(non_finite_pixels(reference), 0u);
+}
+
 TEST(Metrics, NonFinitePixelsShow) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const Image good = row({{1, 1, 1}}), bad = row({{1, nan, 1}});
@@ -65,6 +96,8 @@ TEST(Metrics, NonFinitePixelsShow) {
 TEST(Metrics, RefuseDifferentSizes) {
   EXPECT_THROW(mse(Image(2, 3), Image(3, 2)), InputError);
   EXPECT_THROW(relative_mse(Image(2, 3), Image(3, 2)), InputError);
+  EXPECT_THROW(relative_mse_of_pbrt(Image(2, 3), Image(3, 2)), InputError);
+  EXPECT_THROW(worst_pixels(Image(2, 3), Image(3, 2), 1), InputError);
 }
 
 }  // namespace

@@ -427,7 +427,7 @@ TEST(SceneFile, ReadsEverySetting) {
           "70\n"
           "aim = false\nsplit = false\nscatter = true\n[distance]\nstrategy = 'ray-march'\nstep "
           "= 0.5\noptical_step = 0.02\nextinction_floor = 0.2\nmajorant = 0.125\n"
-          "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\n"
+          "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\nsamples = 2.5\n"
           "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
           "'density-at-photon'\ndirect = 'shadow-rays'\n"
           "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n"
@@ -458,6 +458,7 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.distance.majorant, 0.125f);
   EXPECT_EQ(s.transmittance.estimator, "ray-march");
   EXPECT_EQ(s.transmittance.step, 0.75f);
+  EXPECT_EQ(s.transmittance.samples, 2.5f);
   EXPECT_EQ(s.volume.mode, GatherMode::nearest);
   EXPECT_EQ(s.volume.radius, 0.1f);
   EXPECT_EQ(s.volume.count, 40u);
@@ -520,6 +521,7 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(s.photons_stored, d.photons_stored);
   EXPECT_EQ(s.distance.strategy, d.distance.strategy);
   EXPECT_EQ(s.transmittance.estimator, d.transmittance.estimator);
+  EXPECT_EQ(s.transmittance.samples, d.transmittance.samples);
   EXPECT_EQ(s.volume.count, d.volume.count);
   EXPECT_EQ(s.volume.kernel, d.volume.kernel);
   EXPECT_EQ(s.surface_direct, d.surface_direct);

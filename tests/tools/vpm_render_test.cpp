@@ -467,9 +467,10 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
                {"40 x 24 pixels", "medium smoke: grid", "sigma_t 30 1/m", "mean free path", "around everything: vacuum",
                 "light 0, lamp: spot, power 10 W", "runs volume photon map", "runs surface photon map",
                 "skips shadow rays in media", "coefficients differ between channels"});
-  expect_words(
-      vpm_succeeds({"info", "scene.toml", "--set", "media.smoke.albedo=0.5", "--set", "volume.direct=shadow-rays"}).out,
-      {"all coefficients are grey", "runs shadow rays in media"});
+  expect_words(vpm_succeeds({"info", "scene.toml", "--set", "media.smoke.albedo=0.5", "--set",
+                             "volume.direct=shadow-rays", "--set", "transmittance.estimator=jackknife"})
+                   .out,
+               {"all coefficients are grey", "runs shadow rays in media, transmittance by jackknife (biased; "});
   expect_words(vpm_succeeds({"info", "smoke.vdb"}).out,
                {"grid density", "type float, class fog volume", "voxel size", "active voxels", "world box", "mean",
                 "background 0", "memory"});
@@ -481,7 +482,7 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
 
 TEST_F(VpmBinary, TellsItsVersionAndItsGrids) {
   expect_words(vpm_succeeds({"--version"}).out, {"vpm 0."});
-  expect_words(vpm_succeeds({"--help"}).out, {"render", "info", "media"});
+  expect_words(vpm_succeeds({"--help"}).out, {"render", "info", "error", "media"});
   expect_words(vpm_succeeds({"media"}).out, {"smoke", "cloud", "constant", "ramp", "gaussian"});
 }
 

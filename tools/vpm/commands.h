@@ -58,6 +58,16 @@ struct InfoOptions {
 /// Prints what a file holds; of a scene also what a render of it would run.
 int info_command(const InfoOptions& options);
 
+struct ErrorOptions {
+  std::vector<std::string> images;  // a picture and its reference; of a series the last is the reference
+  bool series = false;
+  std::string output;  // .exr for the difference; empty: none. Not of a series
+  int worst = 5;       // pixels to list
+  bool json = false;
+};
+/// Prints how far pictures are from a reference; of a series also how fast that falls with passes.
+int error_command(const ErrorOptions& options);
+
 struct MediaOptions {
   std::string name;      // of a generator; empty: list them
   int resolution = 128;  // voxels along the longest edge

@@ -114,6 +114,21 @@ void add_info(CLI::App& app, InfoOptions& options) {
       ->allow_extra_args(false);
 }
 
+void add_error(CLI::App& app, ErrorOptions& options) {
+  CLI::App* command = app.add_subcommand("error", "Tell how far a picture is from a reference, or several from one");
+  command->add_option("images", options.images, "Picture and reference (.exr); with --series the reference is the last")
+      ->required();
+  CLI::Option* series = command->add_flag(
+      "--series", options.series, "A line for each picture, and how their errors fall with the passes they tell");
+  command->add_option("-o,--output", options.output, "File for the difference, picture less reference (.exr)")
+      ->excludes(series);
+  command->add_option("--worst", options.worst, "Pixels to list, those with the largest part in the relative MSE")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str()
+      ->excludes(series);
+  command->add_flag("--json", options.json, "Print JSON");
+}
+
 void add_media(CLI::App& app, MediaOptions& options) {
   CLI::App* command = app.add_subcommand("media", "Make one of vpm's own density grids; without a name: list them");
   command->add_option("name", options.name, "Which one");
@@ -167,6 +182,7 @@ int run(int argc, char** argv) {
   BakeOptions bake;
   CompareOptions compare;
   InfoOptions info;
+  ErrorOptions error;
   MediaOptions media;
   MeshOptions mesh;
   ValidateOptions validate;
@@ -175,19 +191,21 @@ int run(int argc, char** argv) {
   add_bake(app, bake);
   add_compare(app, compare);
   add_info(app, info);
+  add_error(app, error);
   add_media(app, media);
   add_mesh(app, mesh);
   add_validate(app, validate);
   add_exact(app, exact);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
+  } catch (const CLI::ParseError& refusal) {
+    return app.exit(refusal) == 0 ? 0 : kBadInput;
   }
   if (app.got_subcommand("render")) return render_command(render);
   if (app.got_subcommand("bake")) return bake_command(bake);
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("info")) return info_command(info);
+  if (app.got_subcommand("error")) return error_command(error);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("validate")) return validate_command(validate);
   if (app.got_subcommand("exact")) return exact_command(exact);

@@ -235,7 +235,7 @@ std::string settings_line(const RenderSettings& s) {
   const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
   return fmt::format(
       "integrator={} samples_per_pixel={} emitted={} stored={} in_cube={} importons={}:aim={}:split={}:scatter={} "
-      "distance={}:step={}:optical_step={}:floor={}:majorant={} transmittance={}:step={} "
+      "distance={}:step={}:optical_step={}:floor={}:majorant={} transmittance={}:step={}:samples={} "
       "volume={} form={} "
       "density_floor={} "
       "volume_direct={} "
@@ -243,7 +243,7 @@ std::string settings_line(const RenderSettings& s) {
       s.integrator == Integrator::path ? "path" : "photon", s.samples_per_pixel, s.photons_emitted, s.photons_stored,
       s.photons_in_cube, s.guide.importons, s.guide.aim, s.guide.split, s.guide.scatter, s.distance.strategy,
       s.distance.step, s.distance.optical_step, s.distance.extinction_floor, s.distance.majorant,
-      s.transmittance.estimator, s.transmittance.step, gather(s.volume),
+      s.transmittance.estimator, s.transmittance.step, s.transmittance.samples, gather(s.volume),
       s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
       direct(s.volume_direct), gather(s.surface), direct(s.surface_direct),
       s.surface_indirect == IndirectLight::photons

@@ -7,11 +7,12 @@
 namespace vpm::tools {
 namespace {
 
-/// A strategy or an estimator with what its list says of it: "regular (exact in any medium: ...)".
+/// A strategy or an estimator with what its list says of it: "regular (exact in any medium: ...)", "ray-march (biased;
+/// ...)".
 template <class Info>
 std::string described(const std::string& name, std::span<const Info> infos) {
   for (const Info& info : infos)
-    if (info.name == name) return fmt::format("{} ({})", name, info.summary);
+    if (info.name == name) return fmt::format("{} ({}{})", name, info.unbiased ? "" : "biased; ", info.summary);
   return name;
 }
 

@@ -8,16 +8,31 @@
 namespace vpm {
 
 std::span<const EstimatorInfo> transmittance_estimators() {
-  static constexpr std::array<EstimatorInfo, 2> kEstimators{{
-      {"regular", "exact: the column of every cell along the ray"},
-      {"ray-march", "quadrature in equal steps with one random offset; bias falls as step^2"},
+  static constexpr std::array<EstimatorInfo, 7> kEstimators{{
+      {.name = "regular", .summary = "exact: the column of every cell along the ray"},
+      {.name = "ratio", .summary = "product of the shares that look-ups at the rate of the largest density leave"},
+      {.name = "ratio-local", .summary = "the same at the rate of the largest density of each brick"},
+      {.name = "residual-ratio", .summary = "the same for what the density is off the middle of each brick's bounds"},
+      {.name = "unbiased-ray-march", .summary = "power series of the columns of a few marches, mostly of one"},
+      {.name = "ray-march",
+       .summary = "quadrature in equal steps with one random offset; bias falls as step^2",
+       .unbiased = false},
+      {.name = "jackknife",
+       .summary = "two marches with a random offset in each step, joined; bias falls faster than one's",
+       .unbiased = false},
   }};
   return kEstimators;
 }
 
 std::unique_ptr<TransmittanceEstimator> make_transmittance_estimator(const TransmittanceSettings& settings) {
   if (settings.estimator == "regular") return std::make_unique<RegularTransmittance>();
+  if (settings.estimator == "ratio") return std::make_unique<RatioTransmittance>();
+  if (settings.estimator == "ratio-local") return std::make_unique<LocalRatioTransmittance>();
+  if (settings.estimator == "residual-ratio") return std::make_unique<ResidualRatioTransmittance>();
+  if (settings.estimator == "unbiased-ray-march")
+    return std::make_unique<UnbiasedRayMarchedTransmittance>(settings.samples);
   if (settings.estimator == "ray-march") return std::make_unique<RayMarchedTransmittance>(settings.step);
+  if (settings.estimator == "jackknife") return std::make_unique<JackknifeTransmittance>(settings.step);
   return nullptr;
 }
 

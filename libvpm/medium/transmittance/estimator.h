@@ -12,7 +12,8 @@
 
 namespace vpm {
 
-/// A transmittance per channel, with the look-ups of density it took.
+/// A transmittance per channel, with the look-ups of density it took. Values below 0 and above 1 are right where their
+/// mean is: whoever uses them must neither clamp nor drop them.
 struct TransmittanceEstimate {
   Rgb value{1.0f};
   uint32_t lookups = 0;
@@ -27,12 +28,15 @@ class TransmittanceEstimator {
 
 struct TransmittanceSettings {
   std::string estimator = "regular";
-  float step = 1.0f;  // ray-march: length of a step in voxels, > 0
+  float step = 1.0f;     // ray-march, jackknife: length of a step in voxels, > 0
+  float samples = 1.0f;  // unbiased-ray-march: times as many in a comb as the paper has, > 0
 };
 
+/// What a user should know of an estimator.
 struct EstimatorInfo {
   std::string_view name;
   std::string_view summary;
+  bool unbiased = true;
 };
 std::span<const EstimatorInfo> transmittance_estimators();
 /// The estimator of that name; null where there is none.

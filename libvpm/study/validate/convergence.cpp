@@ -6,6 +6,7 @@
 // alone.
 #include <fmt/format.h>
 
+#include "base/line_fit.h"
 #include "base/parallel.h"
 #include "estimate/surface_estimate.h"
 #include "estimate/volume_estimate.h"
@@ -29,17 +30,12 @@ std::vector<int> pass_counts(int first, int last) {
 
 /// The slope of log(error) over log(n), by least squares.
 double slope(const std::vector<int>& n, const std::vector<double>& errors) {
-  Moments x, y;
+  std::vector<double> x, y;
   for (size_t i = 0; i < n.size(); ++i) {
-    x.add(std::log(n[i]));
-    y.add(std::log(errors[i]));
+    x.push_back(std::log(n[i]));
+    y.push_back(std::log(errors[i]));
   }
-  double products = 0.0, squares = 0.0;
-  for (size_t i = 0; i < n.size(); ++i) {
-    products += (std::log(n[i]) - x.mean()) * (std::log(errors[i]) - y.mean());
-    squares += (std::log(n[i]) - x.mean()) * (std::log(n[i]) - x.mean());
-  }
-  return products / squares;
+  return fit_line(x, y).slope;
 }
 
 /// Independent groups of runs, each with its mean squared errors at the pass counts. run(seed) gives those of one run.

@@ -1,0 +1,39 @@
+// `residual-ratio`: residual ratio tracking. The extinction is a control, whose transmittance is known, and a residual,
+// which is left to ratio tracking: each look-up leaves the share 1 - residual / (largest residual) [Novak2014].
+//
+// The control is the middle of the density's bounds in each brick of the grid: of all constants it has the least
+// largest residual, half of what the bounds are apart, and needs half the look-ups of `ratio-local` where the least
+// density is 0. The relative variance is exp(int residual^2 / largest residual) - 1, no more than exp() of the mean
+// number of look-ups. Residuals of either sign: look-ups leave shares from 0 to 2, and values above 1 are legal.
+//
+// Known failure: a brick that is empty but for a small part. Its residual is as large as can be almost everywhere;
+// ratio tracking, whose look-ups leave the light alone there, is better in such bricks.
+#include "medium/transmittance/estimators.h"
+#include "medium/transmittance/marched_columns.h"
+#include "medium/transmittance/poisson_points.h"
+
+namespace vpm {
+
+TransmittanceEstimate ResidualRatioTransmittance::estimate(const Medium& medium, const Ray& ray,
+                                                           const Interval& interval, Rng& rng) const {
+  const Interval inside = medium.clip(ray, interval);
+  if (const auto known = known_transmittance(medium, inside)) return *known;
+  const Rgbd sigma_t(medium.sigma_t);
+  const double densest = max_channel(medium.sigma_t);
+  uint32_t lookups = 0;
+  Rgbd product(1.0);
+  PoissonPoints points(rng);
+  medium.visit_majorants(ray, inside, [&](const DensityStretch& stretch) {
+    const double control = 0.5 * (double{stretch.max} + stretch.min), reach = 0.5 * (double{stretch.max} - stretch.min);
+    const double rate = densest * reach;  // 1/m
+    product *= glm::exp(-sigma_t * (control * (stretch.t1 - stretch.t0)));
+    return points.visit(stretch.t0, stretch.t1, rate, [&](double t) {
+      ++lookups;
+      product *= 1.0 - sigma_t * (stretch.density(t) - control) / rate;
+      return survives(product, rng);
+    });
+  });
+  return {Rgb(product), lookups};
+}
+
+}  // namespace vpm

@@ -1,0 +1,154 @@
+// vpm error as its users meet it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "image/exr.h"
+#include "image/metrics.h"
+#include "tools/vpm_binary.h"
+
+namespace vpm {
+namespace {
+
+using Json = nlohmann::json;
+
+class VpmError : public VpmBinary {
+ protected:
+  /// A reference of 3 x 2 pixels, and a picture that is off it in two of them.
+  VpmError() : reference_(3, 2), image_(3, 2) {
+    for (size_t i = 0; i < reference_.pixels.size(); ++i)
+      reference_.pixels[i] = Rgb(1.0f, 0.5f * static_cast<float>(i + 1), 2.0f);
+    image_ = reference_;
+    image_.at(2, 1).g += 1.5f;
+    image_.at(0, 1).r -= 0.25f;
+    write_exr(path("image.exr"), image_, {}, {});
+    write_exr(path("reference.exr"), reference_, {}, {});
+  }
+  Json json(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "error");
+    arguments.emplace_back("--json");
+    return Json::parse(vpm_succeeds(arguments).out);
+  }
+  /// The reference with an error of that size in its first pixel, made of so many passes.
+  void write_member(const std::string& name, float off, const std::string& passes) const {
+    Image image = reference_;
+    image.pixels[0].b += off;
+    write_exr(path(name), image, {}, {{"vpm.passes", passes}});
+  }
+
+  Image reference_, image_;
+};
+
+TEST_F(VpmError, GivesTheLibrarysNumbers) {
+  const Json report = json({"image.exr", "reference.exr"});
+  EXPECT_EQ(report.at("width"), 3);
+  EXPECT_EQ(report.at("height"), 2);
+  EXPECT_DOUBLE_EQ(report.at("mse").at("value"), (1.5 * 1.5 + 0.25 * 0.25) / 18.0);
+  EXPECT_DOUBLE_EQ(report.at("relative_mse").at("value"), relative_mse(image_, reference_));
+  EXPECT_DOUBLE_EQ(report.at("relative_mse_of_pbrt").at("value"), relative_mse_of_pbrt(image_, reference_));
+  EXPECT_EQ(report.at("relative_mse").at("is"), "mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over the channel");
+  EXPECT_NEAR(report.at("means").at("difference")[0], -0.25 / 6.0, 1e-12);
+  EXPECT_NEAR(report.at("means").at("difference")[1], 1.5 / 6.0, 1e-12);
+  EXPECT_NEAR(report.at("means").at("reference")[2], 2.0, 1e-12);
+  const Json& worst = report.at("worst_pixels");
+  ASSERT_EQ(worst.size(), 5u);
+  EXPECT_EQ(worst[0].at("x"), 2);
+  EXPECT_EQ(worst[0].at("y"), 1);
+  EXPECT_EQ(worst[0].at("image")[1], 4.5);
+  EXPECT_EQ(worst[1].at("x"), 0);
+  EXPECT_EQ(worst[1].at("y"), 1);
+  EXPECT_EQ(worst[2].at("relative_square"), 0.0);
+  EXPECT_EQ(json({"image.exr", "reference.exr", "--worst", "1"}).at("worst_pixels").size(), 1u);
+}
+
+TEST_F(VpmError, IsNothingBetweenEqualPictures) {
+  const Json report = json({"image.exr", "image.exr"});
+  for (const char* error : {"mse", "relative_mse", "relative_mse_of_pbrt"})
+    EXPECT_EQ(report.at(error).at("value"), 0.0) << error;
+}
+
+TEST_F(VpmError, PrintsForPeople) {
+  const std::string text = vpm_succeeds({"error", "image.exr", "reference.exr"}).out;
+  for (const char* word : {"3 x 2 pixels", "MSE", "relMSE", "0.01 mean(R)^2", "(R + 0.01)^2", "red", "worst pixels"})
+    EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
+  EXPECT_EQ(files(), (std::vector<std::string>{"image.exr", "reference.exr"}));
+}
+
+TEST_F(VpmError, WritesTheSignedDifference) {
+  vpm_succeeds({"error", "image.exr", "reference.exr", "-o", "off.exr"});
+  const Image off = read_exr(path("off.exr"));
+  EXPECT_EQ(off.at(2, 1), Rgb(0.0f, 1.5f, 0.0f));
+  EXPECT_EQ(off.at(0, 1), Rgb(-0.25f, 0.0f, 0.0f));
+  EXPECT_EQ(off.at(1, 0), Rgb(0.0f));
+  const auto metadata = read_exr_channels(path("off.exr")).metadata;
+  EXPECT_EQ(metadata.at("vpm.image"), "image.exr");
+  EXPECT_EQ(metadata.at("vpm.reference"), "reference.exr");
+}
+
+TEST_F(VpmError, FitsHowASeriesConverges) {
+  // Errors that fall exactly as one over the passes.
+  for (const int passes : {1, 4, 16})
+    write_member(std::to_string(passes) + ".exr", 1.0f / std::sqrt(static_cast<float>(passes)), std::to_string(passes));
+  const Json report = json({"--series", "1.exr", "4.exr", "16.exr", "reference.exr"});
+  ASSERT_EQ(report.at("series").size(), 3u);
+  EXPECT_EQ(report.at("series")[1].at("passes"), 4);
+  EXPECT_DOUBLE_EQ(report.at("series")[1].at("mse"), 0.25 / 18.0);
+  for (const char* error : {"mse", "relative_mse"}) {
+    EXPECT_NEAR(report.at("over_passes").at(error).at("slope"), -1.0, 1e-12) << error;
+    EXPECT_NEAR(report.at("over_passes").at(error).at("standard_error"), 0.0, 1e-12) << error;
+  }
+  const std::string text = vpm_succeeds({"error", "--series", "1.exr", "4.exr", "16.exr", "reference.exr"}).out;
+  for (const char* word : {"against reference.exr", "16.exr", "relMSE falls as passes^-1.000"})
+    EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
+}
+
+TEST_F(VpmError, SaysWhyASeriesHasNoSlope) {
+  write_member("a.exr", 1.0f, "2");
+  write_member("b.exr", 0.5f, "2");
+  write_member("c.exr", 0.5f, "two");
+  const auto said = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"error", "--series"});
+    arguments.emplace_back("reference.exr");
+    return vpm_succeeds(arguments).out;
+  };
+  EXPECT_NE(said({"a.exr", "image.exr"}).find("image.exr does not tell its passes"), std::string::npos);
+  EXPECT_NE(said({"a.exr", "c.exr"}).find("c.exr does not tell its passes"), std::string::npos);
+  EXPECT_NE(said({"a.exr", "b.exr"}).find("the same number of passes"), std::string::npos);
+  EXPECT_NE(said({"a.exr"}).find("the same number of passes"), std::string::npos);
+  write_member("exact.exr", 0.0f, "8");
+  EXPECT_NE(said({"a.exr", "exact.exr"}).find("the error of exact.exr is 0"), std::string::npos);
+}
+
+TEST_F(VpmError, SaysThatPixelsAreNotFinite) {
+  image_.at(1, 1).r = std::numeric_limits<float>::quiet_NaN();
+  write_exr(path("broken.exr"), image_, {}, {});
+  const ProcessResult result = vpm_succeeds({"error", "broken.exr", "reference.exr", "--json"});
+  EXPECT_NE(result.err.find("broken.exr: 1 of its pixels are not finite"), std::string::npos) << result.err;
+  const Json report = Json::parse(result.out);
+  EXPECT_EQ(report.at("mse").at("value"), "nan");
+  EXPECT_EQ(report.at("non_finite_pixels").at("image"), 1);
+  EXPECT_EQ(report.at("worst_pixels")[0].at("x"), 1);
+  EXPECT_EQ(report.at("worst_pixels")[0].at("y"), 1);
+}
+
+TEST_F(VpmError, RefusesWhatItCannotCompare) {
+  write_exr(path("small.exr"), Image(2, 2), {}, {});
+  write("text.exr", "no picture");
+  vpm_refuses({"error", "small.exr", "reference.exr"}, {"small.exr has 2 x 2", "reference.exr has 3 x 2", "one size"});
+  vpm_refuses({"error", "--series", "image.exr", "small.exr", "reference.exr"}, {"small.exr has 2 x 2", "one size"});
+  vpm_refuses({"error", "text.exr", "reference.exr"}, {"text.exr"});
+  vpm_refuses({"error", "image.exr", "missing.exr"}, {"missing.exr", "no such file"});
+  vpm_refuses({"error", "image.exr"}, {"two pictures", "not 1", "--series"});
+  vpm_refuses({"error", "image.exr", "image.exr", "reference.exr"}, {"two pictures", "not 3", "--series"});
+  vpm_refuses({"error", "--series", "reference.exr"}, {"a series is"});
+  vpm_refuses({"error"}, {"images"});
+  vpm_refuses({"error", "image.exr", "reference.exr", "-o", "off.png"}, {"off.png", ".exr"});
+  vpm_refuses({"error", "image.exr", "reference.exr", "-o", "image.exr"}, {"image.exr", "one of the pictures"});
+  vpm_refuses({"error", "image.exr", "reference.exr", "-o", "missing/off.exr"}, {"missing/off.exr"});
+  vpm_refuses({"error", "--series", "image.exr", "reference.exr", "-o", "off.exr"}, {"--series", "--output"});
+  vpm_refuses({"error", "image.exr", "reference.exr", "--worst", "-1"}, {"--worst"});
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,247 @@
+// vpm error: how far pictures are from a reference, for people or as JSON.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/error.h"
+#include "base/line_fit.h"
+#include "commands.h"
+#include "image/exr.h"
+#include "image/metrics.h"
+
+namespace vpm::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr const char* kMse = "mean of (I - R)^2";
+constexpr const char* kRelativeMse = "mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over the channel";
+constexpr const char* kRelativeMseOfPbrt = "mean of (I - R)^2 / (R + 0.01)^2";
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
+Json rgb(const Rgbd& c) { return Json::array({number(c.r), number(c.g), number(c.b)}); }
+
+struct Errors {
+  double mse, relative_mse, relative_mse_of_pbrt;
+};
+
+/// Throws InputError where the sizes differ.
+Errors errors_of(const Image& image, const std::string& path, const Image& reference, const std::string& to) {
+  if (image.width != reference.width || image.height != reference.height)
+    throw InputError(fmt::format("{} has {} x {} pixels and {} has {} x {}: compare pictures of one size", path,
+                                 image.width, image.height, to, reference.width, reference.height));
+  return {mse(image, reference), relative_mse(image, reference), relative_mse_of_pbrt(image, reference)};
+}
+
+/// Errors over pixels that are not finite are not either: says which pictures have such.
+void warn_of_non_finite(const Image& image, const std::string& path) {
+  if (const size_t broken = non_finite_pixels(image))
+    fmt::print(stderr, "warning: {}: {} of its pixels are not finite, so that errors are not\n", path, broken);
+}
+
+// --- Two pictures
+
+Image difference_of(const Image& image, const Image& reference) {
+  Image difference(image.width, image.height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) difference.pixels[i] = image.pixels[i] - reference.pixels[i];
+  return difference;
+}
+
+/// The path of the difference, which must be writable, end in .exr and be none of the pictures.
+void check_output(const ErrorOptions& options) {
+  if (options.output.empty()) return;
+  if (fs::path(options.output).extension() != ".exr")
+    throw InputError(fmt::format("{}: the difference is an EXR file, its name must end in .exr", options.output));
+  for (const std::string& path : options.images)
+    if (std::error_code none; fs::equivalent(options.output, path, none))
+      throw InputError(fmt::format("cannot write '{}': it is one of the pictures; name another file", options.output));
+}
+
+Json report_of_pair(const ErrorOptions& options, const Image& image, const Image& reference, const Errors& errors) {
+  const Rgbd of_image = channel_means(image), of_reference = channel_means(reference);
+  Json worst = Json::array();
+  for (const PixelError& pixel : worst_pixels(image, reference, static_cast<size_t>(options.worst)))
+    worst.push_back({{"x", pixel.x},
+                     {"y", pixel.y},
+                     {"image", rgb(image.at(pixel.x, pixel.y))},
+                     {"reference", rgb(reference.at(pixel.x, pixel.y))},
+                     {"relative_square", number(pixel.error)}});
+  return {{"image", options.images[0]},
+          {"reference", options.images[1]},
+          {"width", image.width},
+          {"height", image.height},
+          {"mse", {{"value", number(errors.mse)}, {"is", kMse}}},
+          {"relative_mse", {{"value", number(errors.relative_mse)}, {"is", kRelativeMse}}},
+          {"relative_mse_of_pbrt", {{"value", number(errors.relative_mse_of_pbrt)}, {"is", kRelativeMseOfPbrt}}},
+          {"means",
+           {{"image", rgb(of_image)}, {"reference", rgb(of_reference)}, {"difference", rgb(of_image - of_reference)}}},
+          {"non_finite_pixels", {{"image", non_finite_pixels(image)}, {"reference", non_finite_pixels(reference)}}},
+          {"worst_pixels", std::move(worst)}};
+}
+
+void print_pair(const ErrorOptions& options, const Image& image, const Image& reference, const Errors& errors) {
+  fmt::print("{} (I) against {} (R), {} x {} pixels\n", options.images[0], options.images[1], image.width,
+             image.height);
+  fmt::print("{:<14} {:<12.6g} {}\n", "MSE", errors.mse, kMse);
+  fmt::print("{:<14} {:<12.6g} {}\n", "relMSE", errors.relative_mse, kRelativeMse);
+  fmt::print("{:<14} {:<12.6g} {}\n", "pbrt's MRSE", errors.relative_mse_of_pbrt, kRelativeMseOfPbrt);
+  const Rgbd of_image = channel_means(image), of_reference = channel_means(reference);
+  const auto print_means = [](const char* name, const Rgbd& c) {
+    fmt::print("{:<14} {:<12.6g} {:<12.6g} {:<12.6g}\n", name, c.r, c.g, c.b);
+  };
+  fmt::print("{:<14} {:<12} {:<12} {:<12}\n", "means", "red", "green", "blue");
+  print_means("  I", of_image);
+  print_means("  R", of_reference);
+  print_means("  I - R", of_image - of_reference);
+  if (options.worst > 0) fmt::print("worst pixels (column and row from the top left): I, R, part in relMSE\n");
+  for (const PixelError& pixel : worst_pixels(image, reference, static_cast<size_t>(options.worst))) {
+    const Rgb i = image.at(pixel.x, pixel.y), r = reference.at(pixel.x, pixel.y);
+    fmt::print("  {:>5} {:>5}  ({:.4g}, {:.4g}, {:.4g})  ({:.4g}, {:.4g}, {:.4g})  {:.3g}\n", pixel.x, pixel.y, i.r,
+               i.g, i.b, r.r, r.g, r.b, pixel.error);
+  }
+}
+
+int compare_pair(const ErrorOptions& options) {
+  check_output(options);
+  const Image image = read_exr(options.images[0]), reference = read_exr(options.images[1]);
+  const Errors errors = errors_of(image, options.images[0], reference, options.images[1]);
+  if (!options.output.empty())
+    write_exr(options.output, difference_of(image, reference), {},
+              {{"vpm.quantity", "difference, image - reference"},
+               {"vpm.image", fs::path(options.images[0]).filename().string()},
+               {"vpm.reference", fs::path(options.images[1]).filename().string()}});
+  warn_of_non_finite(image, options.images[0]);
+  warn_of_non_finite(reference, options.images[1]);
+  if (options.json)
+    fmt::print("{}\n", report_of_pair(options, image, reference, errors).dump(2));
+  else
+    print_pair(options, image, reference, errors);
+  return 0;
+}
+
+// --- A series
+
+/// A picture of a series with the passes that it is the mean of, where the file tells.
+struct Member {
+  std::string path;
+  std::optional<uint64_t> passes;
+  Errors errors;
+};
+
+std::optional<uint64_t> passes_of(const std::string& path) {
+  const std::map<std::string, std::string> metadata = read_exr_channels(path).metadata;
+  const auto found = metadata.find("vpm.passes");
+  if (found == metadata.end()) return std::nullopt;
+  const std::string& text = found->second;
+  uint64_t passes = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), passes);
+  const bool whole = error == std::errc() && stop == text.data() + text.size() && passes > 0;
+  return whole ? std::optional(passes) : std::nullopt;
+}
+
+/// How an error falls with passes, error ~ passes^slope; or why that cannot be said.
+struct Convergence {
+  std::optional<LineFit> line;
+  std::string why_not;
+};
+
+Convergence convergence_of(const std::vector<Member>& series, double Errors::*error) {
+  std::vector<double> x, y;
+  for (const Member& member : series) {
+    if (!member.passes) return {std::nullopt, fmt::format("{} does not tell its passes (vpm.passes)", member.path)};
+    const double value = member.errors.*error;
+    if (!(value > 0.0) || std::isinf(value))
+      return {std::nullopt, fmt::format("the error of {} is {}", member.path, value)};
+    x.push_back(std::log(static_cast<double>(*member.passes)));
+    y.push_back(std::log(value));
+  }
+  if (std::all_of(x.begin(), x.end(), [&](double value) { return value == x[0]; }))
+    return {std::nullopt, "all pictures have the same number of passes"};
+  return {fit_line(x, y), ""};
+}
+
+Json json_of(const Convergence& convergence) {
+  if (!convergence.line) return {{"slope", nullptr}, {"why_not", convergence.why_not}};
+  return {{"slope", number(convergence.line->slope)}, {"standard_error", number(convergence.line->slope_error)}};
+}
+
+void print_convergence(const char* name, const Convergence& convergence) {
+  if (!convergence.line)
+    fmt::print("{}: no slope over passes: {}\n", name, convergence.why_not);
+  else if (std::isnan(convergence.line->slope_error))
+    fmt::print("{} falls as passes^{:.3f} (two pictures: no error can be given)\n", name, convergence.line->slope);
+  else
+    fmt::print("{} falls as passes^{:.3f} +- {:.3f}\n", name, convergence.line->slope, convergence.line->slope_error);
+}
+
+void print_series(const std::vector<Member>& series, const std::string& to, const Image& reference) {
+  fmt::print("against {} (R), {} x {} pixels\n  MSE: {}\n  relMSE: {}\n  pbrt's MRSE: {}\n", to, reference.width,
+             reference.height, kMse, kRelativeMse, kRelativeMseOfPbrt);
+  fmt::print("{:>8} {:>12} {:>12} {:>12}  image (I)\n", "passes", "MSE", "relMSE", "pbrt's MRSE");
+  for (const Member& m : series)
+    fmt::print("{:>8} {:>12.6g} {:>12.6g} {:>12.6g}  {}\n", m.passes ? std::to_string(*m.passes) : "?", m.errors.mse,
+               m.errors.relative_mse, m.errors.relative_mse_of_pbrt, m.path);
+}
+
+void print_series_json(const std::vector<Member>& series, const std::string& to, const Image& reference,
+                       const Convergence& of_mse, const Convergence& of_relative) {
+  Json members = Json::array();
+  for (const Member& m : series)
+    members.push_back({{"image", m.path},
+                       {"passes", m.passes ? Json(*m.passes) : Json(nullptr)},
+                       {"mse", number(m.errors.mse)},
+                       {"relative_mse", number(m.errors.relative_mse)},
+                       {"relative_mse_of_pbrt", number(m.errors.relative_mse_of_pbrt)}});
+  const Json report{
+      {"reference", to},
+      {"width", reference.width},
+      {"height", reference.height},
+      {"formulas", {{"mse", kMse}, {"relative_mse", kRelativeMse}, {"relative_mse_of_pbrt", kRelativeMseOfPbrt}}},
+      {"series", std::move(members)},
+      {"over_passes", {{"mse", json_of(of_mse)}, {"relative_mse", json_of(of_relative)}}}};
+  fmt::print("{}\n", report.dump(2));
+}
+
+int compare_series(const ErrorOptions& options) {
+  const std::string& to = options.images.back();
+  const Image reference = read_exr(to);
+  std::vector<Member> series;
+  for (size_t i = 0; i + 1 < options.images.size(); ++i) {
+    const std::string& path = options.images[i];
+    const Image image = read_exr(path);
+    series.push_back({path, passes_of(path), errors_of(image, path, reference, to)});
+    warn_of_non_finite(image, path);
+  }
+  warn_of_non_finite(reference, to);
+  const Convergence of_mse = convergence_of(series, &Errors::mse);
+  const Convergence of_relative = convergence_of(series, &Errors::relative_mse);
+  if (options.json) {
+    print_series_json(series, to, reference, of_mse, of_relative);
+    return 0;
+  }
+  print_series(series, to, reference);
+  print_convergence("MSE", of_mse);
+  print_convergence("relMSE", of_relative);
+  return 0;
+}
+
+}  // namespace
+
+int error_command(const ErrorOptions& options) {
+  if (options.series && options.images.size() < 2)
+    throw InputError("error: a series is one picture or more and, last, the reference");
+  if (!options.series && options.images.size() != 2)
+    throw InputError(
+        fmt::format("error: two pictures, a picture and its reference, not {}; of several against one "
+                    "reference, the last, make a --series",
+                    options.images.size()));
+  return options.series ? compare_series(options) : compare_pair(options);
+}
+
+}  // namespace vpm::tools
