@@ -45,13 +45,17 @@ function swatch(i) {
 /** A method's name with its swatch. */
 const methodLabel = (scene, i) => element('span', {class: 'method'}, swatch(i), scene.methods[i].name);
 
-/** The points of a method: mean cost, error and its interval. */
+/** The points of a method: mean cost, error and its interval; whether the error is drawn, or an upper bound of it. */
 function pointsOf(method, metric, cost) {
-  return method.budgets.map(budget => ({x: meanOf(budget, cost.key), ...metric.of(budget)}));
+  return method.budgets.map(budget => {
+    const {value, lo, hi} = metric.of(budget);
+    const drawn = value > 0 && !(metric.mayBeZero && lo !== null && lo <= 0);
+    return {x: meanOf(budget, cost.key), value, lo, hi, drawn, bounded: !drawn && hi > 0};
+  });
 }
 
-/** What of a method's points is above 0 and so has a place on a logarithmic axis. */
-const positives = points => points.flatMap(p => [p.value, p.lo, p.hi]).filter(y => y !== null && y > 0);
+/** The number that a point stands at; nothing where it has no place on a logarithmic axis. */
+const heightOf = p => (p.drawn ? p.value : p.bounded ? p.hi : null);
 
 /** Room around positive values, as a factor. */
 function rangeOf(values, room) {
@@ -59,21 +63,18 @@ function rangeOf(values, room) {
   return {min: Math.min(...values) / room, max: Math.max(...values) * room};
 }
 
-/** The axis of errors: all values and upper ends; lower ends only as far as two decades below the values. */
+/** The axis of errors: all that stands in the plot, with its intervals; lower ends no further than a factor of 10. */
 function errorRange(curves) {
-  const all = rangeOf(curves.flatMap(positives), 1.25);
-  const values = curves.flatMap(points => points.map(p => p.value)).filter(y => y !== null && y > 0);
-  const ends = curves.flatMap(points => points.map(p => p.hi)).filter(y => y !== null && y > 0);
-  const least = Math.min(...(values.length > 0 ? values : ends));
-  return Number.isFinite(least) ? {min: Math.max(all.min, least / 30), max: all.max} : all;
+  const points = curves.flat().filter(p => heightOf(p) !== null), least = Math.min(...points.map(heightOf));
+  const ends = points.flatMap(p => (p.drawn ? [p.value, p.lo, p.hi] : [p.hi])).filter(y => y !== null && y >= least / 10);
+  return rangeOf(ends, 1.4);
 }
 
 /** The datasets of a method: upper and lower end of its band, its line, and upper bounds of what is not above 0. */
 function datasetsOf(scene, i, points, bottom) {
   const {colour, marker, dash} = seriesStyle(i);
   const invisible = {borderWidth: 0, pointRadius: 0, pointHitRadius: 0, role: 'band'};
-  const drawn = p => p.value !== null && p.value > 0;
-  const end = (p, y) => ({x: p.x, y: drawn(p) && y !== null ? Math.max(y, bottom) : NaN});
+  const end = (p, y) => ({x: p.x, y: p.drawn && y !== null ? Math.max(y, bottom) : NaN});
   const common = {method: i, borderColor: colour, backgroundColor: colour};
   return [
     {...common, ...invisible, data: points.map(p => end(p, p.hi)), fill: '+1', backgroundColor: colour + '26'},
@@ -81,12 +82,12 @@ function datasetsOf(scene, i, points, bottom) {
     {
       ...common, role: 'line', label: scene.methods[i].name, fill: false, borderWidth: 2, borderDash: dash,
       pointStyle: marker, pointRadius: 4.5, pointBorderWidth: 2, pointHoverRadius: 6, pointHitRadius: 10,
-      data: points.map(p => ({...p, y: drawn(p) ? p.value : NaN})),
+      data: points.map(p => ({...p, y: p.drawn ? p.value : NaN})),
     },
     {
       ...common, role: 'bound', label: scene.methods[i].name, showLine: false, fill: false, backgroundColor: 'transparent',
       pointStyle: 'triangle', rotation: 180, pointRadius: 6, pointBorderWidth: 2, pointHitRadius: 10,
-      data: points.map(p => ({...p, y: !drawn(p) && p.hi > 0 ? p.hi : NaN})),
+      data: points.map(p => ({...p, y: p.bounded ? p.hi : NaN})),
     },
   ];
 }
@@ -115,10 +116,9 @@ const whiskers = {
       ctx.strokeStyle = dataset.borderColor;
       ctx.lineWidth = 1;
       for (const p of dataset.data.filter(q => !Number.isNaN(q.y) && q.lo !== null && q.hi !== null)) {
-        const [px, top, bottom] = [x.getPixelForValue(p.x), y.getPixelForValue(p.hi), p.lo > 0 ? y.getPixelForValue(p.lo) : chartArea.bottom];
         ctx.beginPath();
-        ctx.moveTo(px, top);
-        ctx.lineTo(px, Math.min(bottom, chartArea.bottom));
+        ctx.moveTo(x.getPixelForValue(p.x), y.getPixelForValue(p.hi));
+        ctx.lineTo(x.getPixelForValue(p.x), p.lo > 0 ? y.getPixelForValue(p.lo) : chartArea.bottom);
         ctx.stroke();
       }
     });
@@ -167,17 +167,15 @@ const plotOptions = (metric, cost, xs, ys) => ({
 
 /** What of the numbers the plot cannot show, in words. */
 function plotNote(scene, metric, curves, ys) {
-  const hidden = scene.methods.filter((_, i) => curves[i].some(p => p.value === null || p.value <= 0)).map(m => m.name);
-  const cut = scene.methods.filter((_, i) => curves[i].some(p => p.value > 0 && p.lo !== null && p.lo < ys.min)).map(m => m.name);
-  const notes = [];
-  if (curves.every(points => points.every(p => p.lo === null))) notes.push('No interval is computed for this error.');
-  else notes.push('Bands and whiskers: 95 % confidence intervals.');
-  if (hidden.length > 0) notes.push(`An estimate that is not above 0 has no place here: ▽ is the upper end of its interval (${hidden.join(', ')}).`);
-  if (cut.length > 0) notes.push(`Intervals that reach the bottom go on below it, to 0 or less where a sign is not determined (${cut.join(', ')}).`);
-  if (metric.noise && metric.noise(scene) > 0) {
-    notes.push(`The reference has a relative MSE of ${number(metric.noise(scene))} itself; that is subtracted` +
-               (metric.noise(scene) > ys.min ? ', and the dotted line.' : '.'));
-  }
+  const namesWhere = holds => scene.methods.filter((_, i) => curves[i].some(holds)).map(method => method.name).join(', ');
+  const unknown = namesWhere(p => heightOf(p) === null), cut = namesWhere(p => p.drawn && p.lo !== null && p.lo < ys.min);
+  const noise = metric.noise ? metric.noise(scene) : 0;
+  const notes = [curves.flat().some(p => p.lo !== null) ? 'Bands and whiskers: 95 % confidence intervals.'
+                                                        : 'No interval is computed for this error.'];
+  if (namesWhere(p => p.bounded)) notes.push('▽: the upper end of an interval that reaches 0; the error may be none at all.');
+  if (cut) notes.push(`Intervals that reach the bottom go on below it: ${cut}.`);
+  if (unknown) notes.push(`Not determined at some budget: ${unknown}.`);
+  if (noise > 0) notes.push(`The reference has a relative MSE of ${number(noise)} itself${noise > ys.min ? ' (dotted)' : ''}; that is subtracted.`);
   return notes.join(' ');
 }
 

@@ -26,14 +26,6 @@ function magnitude({value, lo, hi}) {
   return {value: Math.abs(value), lo: lo < 0 && hi > 0 ? 0 : Math.min(...ends), hi: Math.max(...ends)};
 }
 
-/** What errors can be: of a method at a budget. */
-const kMetrics = [
-  {name: 'relative MSE', of: budget => budget.relative_mse, noise: scene => scene.reference.relative_mse},
-  {name: 'MSE', of: budget => budget.mse},
-  {name: '|bias|', of: budget => magnitude(budget.bias)},
-  {name: 'squared bias', of: budget => budget.squared_bias, noise: scene => scene.reference.relative_mse},
-  {name: 'variance', of: budget => ({value: budget.variance, lo: null, hi: null})},
-];
 
 const last = array => array[array.length - 1];
 const mean = numbers => numbers.reduce((sum, x) => sum + x, 0) / numbers.length;
@@ -51,3 +43,14 @@ function biasUnknown(budget) {
   const size = sampleSize(budget);
   return size !== null && size < kLeastSampleSize ? `effective sample size ${number(size)} < ${kLeastSampleSize}` : '';
 }
+
+const kUnknown = {value: null, lo: null, hi: null};
+
+/** What errors can be: of a method at a budget. Some may be 0: of these an interval that reaches 0 tells an upper bound only. */
+const kMetrics = [
+  {name: 'relative MSE', of: budget => budget.relative_mse, noise: scene => scene.reference.relative_mse},
+  {name: 'MSE', of: budget => budget.mse},
+  {name: '|bias|', of: budget => (biasUnknown(budget) ? kUnknown : magnitude(budget.bias)), mayBeZero: true},
+  {name: 'squared bias', of: budget => budget.squared_bias, noise: scene => scene.reference.relative_mse, mayBeZero: true},
+  {name: 'variance', of: budget => ({...kUnknown, value: budget.variance})},
+];
