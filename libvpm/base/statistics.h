@@ -137,16 +137,4 @@ inline double student_tail(double t, double dof) {
   return x < (a + 1.0) / (a + b + 2.0) ? factor * fraction(a, b, x) / a : 1.0 - factor * fraction(b, a, rest) / b;
 }
 
-/// The t >= 0 with student_tail(t, dof) = p, for 1e-6 <= p <= 1.
-inline double student_quantile(double p, double dof) {
-  assert(p >= 1e-6 && p <= 1.0);
-  double lo = 0.0, hi = 1.0;
-  while (student_tail(hi, dof) > p) hi *= 2.0;
-  while (true) {
-    const double middle = 0.5 * (lo + hi);
-    if (middle == lo || middle == hi) return middle;
-    (student_tail(middle, dof) >= p ? lo : hi) = middle;
-  }
-}
-
 }  // namespace vpm

@@ -115,37 +115,37 @@ std::vector<Method> read_methods(TableReader& root) {
   return methods;
 }
 
-void read_budgets(TableReader& root, Experiment& experiment) {
-  experiment.unit = root.choice<CostUnit>("unit",
-                                          {{"seconds", CostUnit::seconds},
-                                           {"passes", CostUnit::passes},
-                                           {"photons", CostUnit::photons},
-                                           {"lookups", CostUnit::lookups}},
-                                          CostUnit::seconds);
+void read_budgets(TableReader& root, ComparisonPlan& plan) {
+  plan.unit = root.choice<CostUnit>("unit",
+                                    {{"seconds", CostUnit::seconds},
+                                     {"passes", CostUnit::passes},
+                                     {"photons", CostUnit::photons},
+                                     {"lookups", CostUnit::lookups}},
+                                    CostUnit::seconds);
   const Node& budgets = root.require("budgets");
-  experiment.budgets = root.numbers("budgets", budgets.array() ? budgets.array()->size() : 1, kPositive);
-  if (experiment.budgets.empty()) root.fail("budgets", "there is no budget");
-  for (size_t i = 1; i < experiment.budgets.size(); ++i)
-    if (!(experiment.budgets[i] > experiment.budgets[i - 1])) root.fail("budgets", "budgets must rise");
+  plan.budgets = root.numbers("budgets", budgets.array() ? budgets.array()->size() : 1, kPositive);
+  if (plan.budgets.empty()) root.fail("budgets", "there is no budget");
+  for (size_t i = 1; i < plan.budgets.size(); ++i)
+    if (!(plan.budgets[i] > plan.budgets[i - 1])) root.fail("budgets", "budgets must rise");
 }
 
 }  // namespace
 
-Experiment load_experiment(const std::string& path) {
+ComparisonPlan load_comparison_plan(const std::string& path) {
   const Document document = read_toml(path);
   std::vector<std::string> files;
   TableReader root(document.root, "the experiment", files);
-  Experiment experiment;
-  experiment.text = document.text;
-  experiment.title = root.string("title");
-  read_budgets(root, experiment);
-  experiment.repetitions = static_cast<int>(root.integer("repetitions", 3, 10'000, 10));
-  experiment.seed = root.integer("seed", 0, uint64_t{1} << 62, 1);
-  experiment.reference_error = root.number("reference_error", kPositive, 1e-4f);
-  experiment.scenes = read_scenes(root);
-  experiment.methods = read_methods(root);
+  ComparisonPlan plan;
+  plan.text = document.text;
+  plan.title = root.string("title");
+  read_budgets(root, plan);
+  plan.repetitions = static_cast<int>(root.integer("repetitions", 3, 10'000, 10));
+  plan.seed = root.integer("seed", 0, uint64_t{1} << 62, 1);
+  plan.reference_error = root.number("reference_error", kPositive, 1e-4f);
+  plan.scenes = read_scenes(root);
+  plan.methods = read_methods(root);
   root.finish();
-  return experiment;
+  return plan;
 }
 
 }  // namespace vpm

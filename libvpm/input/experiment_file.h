@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "study/compare/experiment.h"
+#include "study/compare/plan.h"
 
 namespace vpm {
 
-/// Reads an experiment. Paths in the file are relative to its folder. The scenes it names are not read. Throws
+/// Reads an plan. Paths in the file are relative to its folder. The scenes it names are not read. Throws
 /// InputError for anything that is not right, telling file:line:column.
-Experiment load_experiment(const std::string& path);
+ComparisonPlan load_comparison_plan(const std::string& path);
 
 }  // namespace vpm

@@ -14,6 +14,15 @@ namespace {
 constexpr double kRate = 0.05;  // of intervals that miss
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// The t >= 0 beyond which Student's variable lies, either side, with probability p.
+double student_quantile(double p, double dof) {
+  double lo = 0.0, hi = 1.0;
+  while (student_tail(hi, dof) > p) hi *= 2.0;
+  for (double middle = 0.5 * hi; middle != lo && middle != hi; middle = 0.5 * (lo + hi))
+    (student_tail(middle, dof) >= p ? lo : hi) = middle;
+  return lo;
+}
+
 struct Estimate {
   double value, error;  // a standard error
 };
@@ -67,7 +76,7 @@ std::vector<double> studentised(size_t count, double value, const Statistic& sta
   constexpr uint64_t kResamples = 2000, kSeed = 1;
   std::vector<double> deviations;
   for (uint64_t i = 0; i < kResamples; ++i) {
-    Rng rng(kSeed, rng_stream(RngUse::resample, 0), i);
+    Rng rng(kSeed, rng_stream(RngUse::probe, 0), i);
     const Estimate drawn = jackknifed(resample(count, rng), statistic);
     if (std::isnan(drawn.value) || std::isnan(drawn.error)) return {};
     if (drawn.error > 0.0) deviations.push_back((drawn.value - value) / drawn.error);  // else one is all that was drawn

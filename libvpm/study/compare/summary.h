@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "study/compare/errors.h"
-#include "study/compare/experiment.h"
+#include "study/compare/plan.h"
 #include "study/compare/resampling.h"
 
 namespace vpm {

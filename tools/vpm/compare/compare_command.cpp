@@ -53,9 +53,9 @@ std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::vec
   }
 }
 
-std::string run_purpose(const Experiment& experiment) {
-  std::string text = fmt::format("{} threads; budgets in {}:", thread_count(), unit_name(experiment.unit));
-  for (const double budget : experiment.budgets) text += fmt::format(" {}", budget);
+std::string run_purpose(const ComparisonPlan& plan) {
+  std::string text = fmt::format("{} threads; budgets in {}:", thread_count(), unit_name(plan.unit));
+  for (const double budget : plan.budgets) text += fmt::format(" {}", budget);
   return text;
 }
 
@@ -66,16 +66,15 @@ void check_size(const Image& reference, const Camera& camera, const ComparedScen
 }
 
 /// Loads everything that will be needed, so that what is wrong is told before anything is rendered.
-std::vector<Contest> load_contests(const Experiment& experiment) {
+std::vector<Contest> load_contests(const ComparisonPlan& plan) {
   std::vector<Contest> contests;
-  for (const ComparedScene& scene : experiment.scenes) {
+  for (const ComparedScene& scene : plan.scenes) {
     Contest contest;
     contest.compared = &scene;
-    for (const Method& method : experiment.methods)
-      contest.methods.push_back(make_entrant(scene, method.settings, run_purpose(experiment)));
+    for (const Method& method : plan.methods)
+      contest.methods.push_back(make_entrant(scene, method.settings, run_purpose(plan)));
     if (scene.reference.empty()) {
-      contest.referee =
-          make_entrant(scene, {}, fmt::format("reference of relative MSE {}", experiment.reference_error));
+      contest.referee = make_entrant(scene, {}, fmt::format("reference of relative MSE {}", plan.reference_error));
       const Camera& camera = contest.referee->loaded.scene.camera;
       contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);
     } else {
@@ -88,38 +87,38 @@ std::vector<Contest> load_contests(const Experiment& experiment) {
 }
 
 /// Finds the reference of a scene, or makes it. False where `stop` was set first.
-bool make_reference(Contest& contest, const Experiment& experiment, const Store& store, const CompareOptions& options,
+bool make_reference(Contest& contest, const ComparisonPlan& plan, const Store& store, const CompareOptions& options,
                     const std::atomic<bool>& stop) {
   if (!contest.referee) return true;
   if (std::optional<Reference> known = store.find_reference(contest.referee->identity)) {
     contest.reference = std::move(*known);
     return true;
   }
-  const RenderResult result = run_referee(contest.referee->loaded, experiment.reference_error, stop, options.progress);
+  const RenderResult result = run_referee(contest.referee->loaded, plan.reference_error, stop, options.progress);
   if (stop) return false;
   contest.reference = {result.film.mean(), result.film.variance_of_mean()};
   store.add_reference(contest.referee->identity, contest.reference);
   return true;
 }
 
-std::string run_identity(const Entrant& entrant, const Experiment& experiment, int repetition) {
-  return fmt::format("{}; seed {}", entrant.identity, experiment.seed + static_cast<uint64_t>(repetition));
+std::string run_identity(const Entrant& entrant, const ComparisonPlan& plan, int repetition) {
+  return fmt::format("{}; seed {}", entrant.identity, plan.seed + static_cast<uint64_t>(repetition));
 }
 
 /// Makes the runs that are missing. Repetitions are interleaved, and each begins with another method, so that what
 /// changes about the machine in the meantime meets all methods alike.
-void make_runs(const std::vector<Contest>& contests, const Experiment& experiment, const Store& store,
+void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan, const Store& store,
                const CompareOptions& options, const std::atomic<bool>& stop) {
-  const size_t methods = experiment.methods.size();
-  const auto repetitions = static_cast<size_t>(experiment.repetitions);
+  const size_t methods = plan.methods.size();
+  const auto repetitions = static_cast<size_t>(plan.repetitions);
   Progress bar("compare", repetitions * contests.size() * methods, progress_enabled(options.progress));
   for (size_t r = 0; r < repetitions; ++r)
     for (const Contest& contest : contests)
       for (size_t turn = 0; turn < methods; ++turn) {
         const Entrant& entrant = *contest.methods[(turn + r) % methods];
-        const std::string identity = run_identity(entrant, experiment, static_cast<int>(r));
+        const std::string identity = run_identity(entrant, plan, static_cast<int>(r));
         if (!store.find_run(identity)) {
-          const std::vector<Snapshot> snapshots = run_method(entrant.loaded, experiment, static_cast<int>(r), stop);
+          const std::vector<Snapshot> snapshots = run_method(entrant.loaded, plan, static_cast<int>(r), stop);
           if (stop) return;
           store.add_run(identity, snapshots);
         }
@@ -128,12 +127,12 @@ void make_runs(const std::vector<Contest>& contests, const Experiment& experimen
   bar.finish();
 }
 
-BudgetSummary summarise(const Entrant& entrant, const Reference& reference, const Experiment& experiment,
+BudgetSummary summarise(const Entrant& entrant, const Reference& reference, const ComparisonPlan& plan,
                         const Store& store, size_t budget) {
   std::vector<RunCost> costs;
   std::vector<Image> images;
-  for (int r = 0; r < experiment.repetitions; ++r) {
-    const std::string identity = run_identity(entrant, experiment, r);
+  for (int r = 0; r < plan.repetitions; ++r) {
+    const std::string identity = run_identity(entrant, plan, r);
     costs.push_back(store.find_run(identity)->at(budget));
     images.push_back(store.picture(identity, budget));
   }
@@ -145,7 +144,7 @@ std::string reference_text(const Contest& contest, double error) {
   return fmt::format("the path tracer, relative MSE {:.2g}", error);
 }
 
-SceneResults results_of(const Contest& contest, const Experiment& experiment, const Store& store) {
+SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {
   SceneResults results;
   results.scene_text = read_whole_file(contest.compared->file);
   results.width = contest.reference.mean.width;
@@ -156,21 +155,21 @@ SceneResults results_of(const Contest& contest, const Experiment& experiment, co
     results.hashes.push_back(entrant->loaded.hash);
     results.settings.push_back(settings_line(entrant->loaded.settings));
     std::vector<BudgetSummary> budgets;
-    for (size_t b = 0; b < experiment.budgets.size(); ++b)
-      budgets.push_back(summarise(*entrant, contest.reference, experiment, store, b));
+    for (size_t b = 0; b < plan.budgets.size(); ++b)
+      budgets.push_back(summarise(*entrant, contest.reference, plan, store, b));
     results.budgets.push_back(std::move(budgets));
   }
-  results.summary = summarise_scene(results.budgets, experiment.unit);
+  results.summary = summarise_scene(results.budgets, plan.unit);
   return results;
 }
 
 /// Of runs at the last budget.
-PageImages images_of(const Contest& contest, const Experiment& experiment, const Store& store) {
+PageImages images_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {
   PageImages images{contest.reference.mean, {}};
   for (const auto& entrant : contest.methods) {
     std::vector<Image> repetitions;
-    for (int r = 0; r < experiment.repetitions; ++r)
-      repetitions.push_back(store.picture(run_identity(*entrant, experiment, r), experiment.budgets.size() - 1));
+    for (int r = 0; r < plan.repetitions; ++r)
+      repetitions.push_back(store.picture(run_identity(*entrant, plan, r), plan.budgets.size() - 1));
     images.methods.push_back(method_images(repetitions));
   }
   return images;
@@ -180,13 +179,13 @@ PageImages images_of(const Contest& contest, const Experiment& experiment, const
 
 int compare_command(const CompareOptions& options) {
   set_threads(options.threads);
-  const Experiment experiment = load_experiment(options.experiment);
-  std::vector<Contest> contests = load_contests(experiment);
+  const ComparisonPlan plan = load_comparison_plan(options.experiment);
+  std::vector<Contest> contests = load_contests(plan);
   const Store store(options.output);
   const std::atomic<bool>& stop = stop_on_signals();
   for (Contest& contest : contests)
-    if (!make_reference(contest, experiment, store, options, stop)) break;
-  if (!stop) make_runs(contests, experiment, store, options, stop);
+    if (!make_reference(contest, plan, store, options, stop)) break;
+  if (!stop) make_runs(contests, plan, store, options, stop);
   if (stop) {
     fmt::print(stderr, "interrupted: finished runs are kept in {}; the same command goes on\n", options.output);
     return kInterrupted;
@@ -194,15 +193,15 @@ int compare_command(const CompareOptions& options) {
   std::vector<SceneResults> scenes;
   std::vector<PageImages> images;
   for (const Contest& contest : contests) {
-    scenes.push_back(results_of(contest, experiment, store));
-    images.push_back(images_of(contest, experiment, store));
+    scenes.push_back(results_of(contest, plan, store));
+    images.push_back(images_of(contest, plan, store));
   }
   const std::filesystem::path folder = options.output;
-  const std::string results = results_json(experiment, scenes).dump(1) + "\n";
+  const std::string results = results_json(plan, scenes).dump(1) + "\n";
   write_text(folder / "results.json", results);
-  write_text(folder / "results.csv", results_csv(experiment, scenes));
+  write_text(folder / "results.csv", results_csv(plan, scenes));
   write_text(folder / "report.html", results_page(results, images));
-  fmt::print("{}{}: report.html, results.json, results.csv\n", results_text(experiment, scenes), folder.string());
+  fmt::print("{}{}: report.html, results.json, results.csv\n", results_text(plan, scenes), folder.string());
   return 0;
 }
 

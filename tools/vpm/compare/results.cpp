@@ -65,22 +65,22 @@ Json budget_json(const BudgetSummary& budget, const Comparison& by_mse, const Co
           {"runs", std::move(runs)}};
 }
 
-Json method_json(const Experiment& experiment, const SceneResults& scene, size_t m) {
+Json method_json(const ComparisonPlan& plan, const SceneResults& scene, size_t m) {
   const MethodSummary& summary = scene.summary.methods[m];
   Json budgets = Json::array(), equal_error = Json::array();
-  for (size_t b = 0; b < experiment.budgets.size(); ++b)
+  for (size_t b = 0; b < plan.budgets.size(); ++b)
     budgets.push_back(budget_json(scene.budgets[m][b], summary.by_mse[b], summary.by_relative_mse[b]));
   for (const std::optional<double>& cost : summary.equal_error)
     equal_error.push_back(cost ? Json(*cost) : Json(nullptr));
-  return {{"name", experiment.methods[m].name}, {"overrides", experiment.methods[m].settings},
-          {"settings", scene.settings[m]},      {"scene_hash", scene.hashes[m]},
-          {"slope", bounded(summary.slope)},    {"equal_error", std::move(equal_error)},
+  return {{"name", plan.methods[m].name},    {"overrides", plan.methods[m].settings},
+          {"settings", scene.settings[m]},   {"scene_hash", scene.hashes[m]},
+          {"slope", bounded(summary.slope)}, {"equal_error", std::move(equal_error)},
           {"budgets", std::move(budgets)}};
 }
 
-Json scene_json(const Experiment& experiment, const ComparedScene& compared, const SceneResults& scene) {
+Json scene_json(const ComparisonPlan& plan, const ComparedScene& compared, const SceneResults& scene) {
   Json methods = Json::array(), pairs = Json::array();
-  for (size_t m = 0; m < experiment.methods.size(); ++m) methods.push_back(method_json(experiment, scene, m));
+  for (size_t m = 0; m < plan.methods.size(); ++m) methods.push_back(method_json(plan, scene, m));
   for (const PairSummary& pair : scene.summary.pairs) {
     Json json{{"first", pair.first}, {"second", pair.second}};
     json.update(comparison_json(pair.comparison));
@@ -110,14 +110,14 @@ std::string csv_text(const std::string& text) {
 std::string with_interval(const Bounded& b) { return fmt::format("{:.3g} [{:.3g}, {:.3g}]", b.value, b.lo, b.hi); }
 
 /// The methods at one budget.
-std::string equal_cost_table(const Experiment& experiment, const SceneResults& scene, size_t b) {
-  std::string text = fmt::format("  at {:g} {}:\n    {:32} {:>28} {:>26} {:>24}\n", experiment.budgets[b],
-                                 unit_name(experiment.unit), "", "relative MSE", "bias, %", "efficiency over best");
-  for (size_t m = 0; m < experiment.methods.size(); ++m) {
+std::string equal_cost_table(const ComparisonPlan& plan, const SceneResults& scene, size_t b) {
+  std::string text = fmt::format("  at {:g} {}:\n    {:32} {:>28} {:>26} {:>24}\n", plan.budgets[b],
+                                 unit_name(plan.unit), "", "relative MSE", "bias, %", "efficiency over best");
+  for (size_t m = 0; m < plan.methods.size(); ++m) {
     const RepeatedErrors& errors = scene.budgets[m][b].errors;
     const Bounded percent{100.0 * errors.bias.value, 100.0 * errors.bias.lo, 100.0 * errors.bias.hi};
-    text += fmt::format("    {:32} {:>28} {:>26} {:>24}\n", experiment.methods[m].name,
-                        with_interval(errors.relative_mse), with_interval(percent),
+    text += fmt::format("    {:32} {:>28} {:>26} {:>24}\n", plan.methods[m].name, with_interval(errors.relative_mse),
+                        with_interval(percent),
                         m == scene.summary.best_by_relative_mse[b]
                             ? "best"
                             : with_interval(scene.summary.methods[m].by_relative_mse[b].ratio));
@@ -125,7 +125,7 @@ std::string equal_cost_table(const Experiment& experiment, const SceneResults& s
   return text;
 }
 
-std::string pairs_text(const Experiment& experiment, const SceneResults& scene) {
+std::string pairs_text(const ComparisonPlan& plan, const SceneResults& scene) {
   constexpr double kRate = 0.05;
   std::string text;
   size_t unknown = 0;
@@ -136,8 +136,8 @@ std::string pairs_text(const Experiment& experiment, const SceneResults& scene) 
     const bool first = c.ratio.value > 1.0;
     const Bounded ratio = first ? c.ratio : Bounded{1.0 / c.ratio.value, 1.0 / c.ratio.hi, 1.0 / c.ratio.lo};
     text += fmt::format("    {} is {} times as efficient as {} (p {:.1g})\n",
-                        experiment.methods[first ? pair.first : pair.second].name, with_interval(ratio),
-                        experiment.methods[first ? pair.second : pair.first].name, c.p_holm);
+                        plan.methods[first ? pair.first : pair.second].name, with_interval(ratio),
+                        plan.methods[first ? pair.second : pair.first].name, c.p_holm);
   }
   if (text.empty()) text = "    none\n";
   if (unknown > 0) text += fmt::format("    not determined: {} pairs, for the reference is too noisy\n", unknown);
@@ -161,18 +161,18 @@ std::string unit_name(CostUnit unit) {
   return "look-ups of density";
 }
 
-Json results_json(const Experiment& experiment, const std::vector<SceneResults>& scenes) {
+Json results_json(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
   Json all = Json::array();
-  for (size_t i = 0; i < scenes.size(); ++i) all.push_back(scene_json(experiment, experiment.scenes[i], scenes[i]));
+  for (size_t i = 0; i < scenes.size(); ++i) all.push_back(scene_json(plan, plan.scenes[i], scenes[i]));
   return {
       {"vpm", version()},
-      {"title", experiment.title},
-      {"experiment", experiment.text},
+      {"title", plan.title},
+      {"experiment", plan.text},
       {"machine", machine_json()},
-      {"seed", experiment.seed},
-      {"repetitions", experiment.repetitions},
-      {"unit", unit_name(experiment.unit)},
-      {"budgets", experiment.budgets},
+      {"seed", plan.seed},
+      {"repetitions", plan.repetitions},
+      {"unit", unit_name(plan.unit)},
+      {"budgets", plan.budgets},
       {"formulas",
        {{"mse", "mean over pixels and channels of (I - R)^2, less the reference's own variance"},
         {"relative_mse", "mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) by channel, less the reference's own"},
@@ -184,31 +184,31 @@ Json results_json(const Experiment& experiment, const std::vector<SceneResults>&
       {"scenes", std::move(all)}};
 }
 
-std::string results_csv(const Experiment& experiment, const std::vector<SceneResults>& scenes) {
+std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
   std::string csv =
       "scene,method,repetition,seed,budget,cpu_seconds,wall_seconds,passes,photons,stored,lookups,bytes,largest_weight,"
       "effective_sample_size,mse,relative_mse,mean_ratio\n";
   for (size_t s = 0; s < scenes.size(); ++s)
-    for (size_t m = 0; m < experiment.methods.size(); ++m)
-      for (size_t b = 0; b < experiment.budgets.size(); ++b)
+    for (size_t m = 0; m < plan.methods.size(); ++m)
+      for (size_t b = 0; b < plan.budgets.size(); ++b)
         for (size_t r = 0; r < scenes[s].budgets[m][b].each.size(); ++r) {
           const RunCost& cost = scenes[s].budgets[m][b].costs[r];
           const PictureErrors& errors = scenes[s].budgets[m][b].each[r];
-          csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                             csv_text(experiment.scenes[s].name), csv_text(experiment.methods[m].name), r,
-                             experiment.seed + r, experiment.budgets[b], cost.cpu_seconds, cost.wall_seconds,
-                             cost.passes, cost.photons, cost.stored, cost.lookups, cost.bytes, cost.largest_weight,
-                             cost.effective_sample_size, errors.mse, errors.relative_mse, errors.mean_ratio);
+          csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(plan.scenes[s].name),
+                             csv_text(plan.methods[m].name), r, plan.seed + r, plan.budgets[b], cost.cpu_seconds,
+                             cost.wall_seconds, cost.passes, cost.photons, cost.stored, cost.lookups, cost.bytes,
+                             cost.largest_weight, cost.effective_sample_size, errors.mse, errors.relative_mse,
+                             errors.mean_ratio);
         }
   return csv;
 }
 
-std::string results_text(const Experiment& experiment, const std::vector<SceneResults>& scenes) {
+std::string results_text(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
   std::string text;
   for (size_t i = 0; i < scenes.size(); ++i) {
-    text += fmt::format("{} (reference: {})\n", experiment.scenes[i].name, scenes[i].reference);
-    for (size_t b = 0; b < experiment.budgets.size(); ++b) text += equal_cost_table(experiment, scenes[i], b);
-    text += pairs_text(experiment, scenes[i]);
+    text += fmt::format("{} (reference: {})\n", plan.scenes[i].name, scenes[i].reference);
+    for (size_t b = 0; b < plan.budgets.size(); ++b) text += equal_cost_table(plan, scenes[i], b);
+    text += pairs_text(plan, scenes[i]);
   }
   return text;
 }

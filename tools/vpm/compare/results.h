@@ -22,13 +22,13 @@ struct SceneResults {
 };
 
 /// Everything: provenance, formulas, runs, summaries. The format is described in scenes/experiments/README.md.
-nlohmann::ordered_json results_json(const Experiment& experiment, const std::vector<SceneResults>& scenes);
+nlohmann::ordered_json results_json(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes);
 
 /// A line for each run at each budget, and one of column names before them.
-std::string results_csv(const Experiment& experiment, const std::vector<SceneResults>& scenes);
+std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes);
 
 /// Tables at equal cost and at equal error, and which differences are significant.
-std::string results_text(const Experiment& experiment, const std::vector<SceneResults>& scenes);
+std::string results_text(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes);
 
 /// "s of CPU time", "passes", ...
 std::string unit_name(CostUnit unit);

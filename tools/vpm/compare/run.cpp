@@ -29,10 +29,10 @@ RunCost counted(const RenderStatistics& s) {
 
 }  // namespace
 
-std::vector<Snapshot> run_method(const LoadedScene& loaded, const Experiment& experiment, int repetition,
+std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan& plan, int repetition,
                                  const std::atomic<bool>& stop) {
   RenderSettings settings = loaded.settings;
-  settings.seed = experiment.seed + static_cast<uint64_t>(repetition);
+  settings.seed = plan.seed + static_cast<uint64_t>(repetition);
   settings.passes = std::numeric_limits<int>::max();
   settings.seconds = settings.error = 0.0;
   std::vector<Snapshot> snapshots;
@@ -45,10 +45,9 @@ std::vector<Snapshot> run_method(const LoadedScene& loaded, const Experiment& ex
     RunCost cost = counted(so_far.statistics);
     cost.cpu_seconds = cpu;
     cost.wall_seconds = wall;
-    while (snapshots.size() < experiment.budgets.size() &&
-           cost_in(experiment.unit, cost) >= experiment.budgets[snapshots.size()])
+    while (snapshots.size() < plan.budgets.size() && cost_in(plan.unit, cost) >= plan.budgets[snapshots.size()])
       snapshots.push_back({cost, so_far.film.mean()});
-    done = stop || snapshots.size() == experiment.budgets.size();
+    done = stop || snapshots.size() == plan.budgets.size();
     cpu_begin = cpu_seconds();
     wall_begin = wall_seconds();
   };

@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "input/scene_file.h"
 #include "render/render.h"
-#include "study/compare/experiment.h"
+#include "study/compare/plan.h"
 
 namespace vpm::tools {
 
@@ -20,7 +20,7 @@ struct Snapshot {
 
 /// Renders passes until the last budget is passed. CPU time is that of rendering alone: what is done with snapshots
 /// does not count. Fewer snapshots than budgets where `stop` was set.
-std::vector<Snapshot> run_method(const LoadedScene& loaded, const Experiment& experiment, int repetition,
+std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan& plan, int repetition,
                                  const std::atomic<bool>& stop);
 
 /// Renders a scene by the path tracer until its estimated relative MSE is down to `error`. Its variance is that of its

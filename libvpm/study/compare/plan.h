@@ -28,7 +28,7 @@ struct ComparedScene {
   std::string reference;              // .exr; empty: the path tracer is run
 };
 
-struct Experiment {
+struct ComparisonPlan {
   std::string title;
   std::string text;  // of its file
   std::vector<ComparedScene> scenes;

@@ -1,0 +1,94 @@
+// Experiment files: every key arrives where it belongs, products are whole, and mistakes are refused with their place.
+#include "input/experiment_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "input/expectations.h"
+#include "support/test_file.h"
+
+namespace vpm {
+namespace {
+
+std::string write_experiment(const std::string& text) {
+  std::ofstream(test_file("fog.toml")) << "";
+  std::ofstream(test_file("truth.exr")) << "";
+  const std::string path = test_file("experiment.toml");
+  std::ofstream(path) << text;
+  return path;
+}
+ComparisonPlan load(const std::string& text) { return load_comparison_plan(write_experiment(text)); }
+std::string message(const std::string& text) {
+  return message_of([&] { load(text); });
+}
+
+const std::string kHead = "title = \"t\"\nbudgets = [1, 2]\n";
+const std::string kScene = "[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";
+const std::string kMethods = "[[methods]]\nname = \"a\"\n[[methods]]\nname = \"b\"\n[methods.set]\nrender.seed = 3\n";
+
+TEST(ExperimentFile, ReadsEveryKey) {
+  const std::string text =
+      "title = \"Fog\"\nunit = \"photons\"\nbudgets = [10, 1e3]\nrepetitions = 5\nseed = 9\nreference_error = 1e-3\n"
+      "[set]\nvolume.radius = 0.25\n" +
+      kScene + "reference = \"truth.exr\"\n[scenes.set]\nfilm.width = 8\ncamera.position = [0, 1.5, 2]\n" + kMethods;
+  const ComparisonPlan plan = load(text);
+  EXPECT_EQ(plan.title, "Fog");
+  EXPECT_EQ(plan.text, text);
+  EXPECT_EQ(plan.unit, CostUnit::photons);
+  EXPECT_EQ(plan.budgets, (std::vector<double>{10.0, 1000.0}));
+  EXPECT_EQ(plan.repetitions, 5);
+  EXPECT_EQ(plan.seed, 9u);
+  EXPECT_EQ(plan.reference_error, static_cast<double>(1e-3f));
+  ASSERT_EQ(plan.scenes.size(), 1u);
+  EXPECT_EQ(plan.scenes[0].name, "fog");
+  EXPECT_TRUE(plan.scenes[0].file.ends_with("/fog.toml"));
+  EXPECT_TRUE(plan.scenes[0].reference.ends_with("/truth.exr"));
+  EXPECT_EQ(plan.scenes[0].settings, (std::vector<std::string>{"film.width=8", "camera.position=[0, 1.5, 2]"}));
+  ASSERT_EQ(plan.methods.size(), 2u);
+  EXPECT_EQ(plan.methods[0].name, "a");
+  EXPECT_EQ(plan.methods[0].settings, (std::vector<std::string>{"volume.radius=0.25"}));
+  EXPECT_EQ(plan.methods[1].settings, (std::vector<std::string>{"volume.radius=0.25", "render.seed=3"}));
+}
+
+TEST(ExperimentFile, MakesEveryCombinationOfAProduct) {
+  const ComparisonPlan plan =
+      load(kHead + "[product]\ndistance.strategy = [\"regular\", \"ray-march\"]\nvolume.radius = [0.1, 0.2, 0.4]\n" +
+           kScene + "[[methods]]\nname = \"path\"\nset = { render.integrator = \"path\" }\n");
+  std::vector<std::string> names;
+  for (const Method& method : plan.methods) names.push_back(method.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"regular 0.1", "regular 0.2", "regular 0.4", "ray-march 0.1",
+                                             "ray-march 0.2", "ray-march 0.4", "path"}));
+  EXPECT_EQ(plan.methods[4].settings,
+            (std::vector<std::string>{"distance.strategy=\"ray-march\"", "volume.radius=0.2"}));
+  EXPECT_EQ(plan.unit, CostUnit::seconds);
+  EXPECT_EQ(plan.repetitions, 10);
+}
+
+TEST(ExperimentFile, RefusesWhatIsWrong) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "lacks the key 'title'"},
+      {"title = \"t\"\nbudgets = []\n", "there is no budget"},
+      {"title = \"t\"\nbudgets = [2, 2]\n", ":2:11: budgets must rise"},
+      {"title = \"t\"\nbudgets = [0]\n", "must be > 0"},
+      {"title = \"t\"\nbudgets = 3\n", "must be an array"},
+      {"unit = \"hours\"\n" + kHead, "cannot be 'hours'"},
+      {"repetitions = 2\n" + kHead + kScene + kMethods, "must be from 3"},
+      {kHead + kMethods, "the experiment has no scene"},
+      {kHead + kScene, "the experiment compares nothing"},
+      {kHead + kScene + kScene + kMethods, ":7:8: two scenes are named 'fog'"},
+      {kHead + kScene + kMethods + "[[methods]]\nname = \"a\"\n", "two methods are named 'a'"},
+      {kHead + "[product]\nvolume.radius = 0.1\n" + kScene + kMethods, ":4:17: 'volume.radius' of [product] must be"},
+      {kHead + "[set]\nvolume.radius = 1979-05-27\n" + kScene + kMethods, ":4:17: a setting cannot be a date"},
+      {kHead + "set = 3\n" + kScene + kMethods, "must be a table of settings, not an integer"},
+      {kHead + "[[scenes]]\nname = \"x\"\nfile = \"none.toml\"\n" + kMethods, "there is no file"},
+      {kHead + kScene + kMethods + "[reference]\n", "unknown key 'reference'"}};
+  for (const auto& [text, words] : cases) {
+    const std::string found = message(text);
+    EXPECT_NE(found.find(words), std::string::npos) << text << "\n" << found;
+    EXPECT_NE(found.find("experiment.toml:"), std::string::npos) << found;
+  }
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,143 @@
+// Comparisons from outside: what the folder holds, that finished runs are kept, and what a known ratio comes out as.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tools/vpm_binary.h"
+
+namespace vpm {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kScene = R"(
+[camera]
+position = [0, 0, 3]
+target = [0, 0, 0]
+[film]
+width = 6
+height = 4
+[media.fog]
+type = "homogeneous"
+sigma_s = 0.5
+sigma_a = 0.1
+[[shapes]]
+type = "sphere"
+material = { type = "boundary" }
+center = [0, 0, 0]
+radius = 1
+inside = "fog"
+[[lights]]
+type = "point"
+position = [0, 2, 0]
+power = 10
+[photons]
+emitted = 2000
+)";
+
+/// One ray for each pixel against four: in passes the second is four times as efficient, whatever the scene.
+constexpr const char* kKnownRatio = R"(
+title = "One ray against four"
+unit = "passes"
+budgets = [16, 64]
+repetitions = 8
+reference_error = 1e-4
+[set]
+render.integrator = "path"
+[product]
+render.samples_per_pixel = [1, 4]
+[[scenes]]
+name = "ball of fog"
+file = "fog.toml"
+)";
+
+class VpmCompare : public VpmBinary {
+ protected:
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+  json results(const std::string& folder) { return json::parse(std::ifstream(folder_ / folder / "results.json")); }
+  /// When each finished run was written.
+  std::map<fs::path, fs::file_time_type> runs(const std::string& folder) {
+    std::map<fs::path, fs::file_time_type> found;
+    for (const auto& entry : fs::directory_iterator(folder_ / folder / "runs"))
+      if (entry.path().extension() == ".json") found[entry.path()] = fs::last_write_time(entry);
+    return found;
+  }
+};
+
+TEST_F(VpmCompare, RecoversARatioKnownByConstruction) {
+  write("fog.toml", kScene);
+  write("known.toml", kKnownRatio);
+  const ProcessResult result = vpm_succeeds({"compare", "known.toml", "-o", "out"});
+  EXPECT_NE(result.out.find("4 is "), std::string::npos) << result.out;
+  const json scene = results("out").at("scenes").at(0);
+  for (const json& budget : scene.at("methods").at(0).at("budgets")) {
+    const json& efficiency = budget.at("efficiency");
+    EXPECT_LE(efficiency.at("lo"), 0.25);
+    EXPECT_GE(efficiency.at("hi"), 0.25);
+  }
+  EXPECT_EQ(scene.at("best"), json::array({1, 1}));
+  const json& pair = scene.at("pairs").at(0);
+  EXPECT_LE(pair.at("lo"), 0.25);
+  EXPECT_GE(pair.at("hi"), 0.25);
+  EXPECT_LT(pair.at("p_holm"), 0.01);
+  for (const json& method : scene.at("methods")) {
+    EXPECT_LE(method.at("slope").at("lo"), -1.0);
+    EXPECT_GE(method.at("slope").at("hi"), -1.0);
+    const json& last = method.at("budgets").at(1);
+    EXPECT_LE(last.at("bias").at("lo"), 0.0);
+    EXPECT_GE(last.at("bias").at("hi"), 0.0);
+    EXPECT_EQ(last.at("runs").at(7).at("passes"), 64);
+  }
+}
+
+TEST_F(VpmCompare, GoesOnWhereItWasInterruptedAndRepeatsNothing) {
+  write("fog.toml", kScene);
+  write("two.toml", R"(
+title = "Two radii"
+unit = "photons"
+budgets = [4000, 8000]
+repetitions = 3
+reference_error = 1e-2
+[product]
+volume.radius = [0.2, 0.4]
+[[scenes]]
+name = "ball of fog"
+file = "fog.toml"
+)");
+  vpm_succeeds({"compare", "two.toml", "-o", "out"});
+  const auto first = runs("out");
+  ASSERT_EQ(first.size(), 6u);
+  const json before = results("out");
+  fs::remove(first.begin()->first);
+  vpm_succeeds({"compare", "two.toml", "-o", "out"});
+  const auto second = runs("out");
+  ASSERT_EQ(second.size(), 6u);
+  size_t kept = 0;
+  for (const auto& [path, time] : first) kept += second.at(path) == time;
+  EXPECT_EQ(kept, 5u);
+  const auto errors = [](const json& all) {
+    std::vector<double> found;
+    for (const json& method : all.at("scenes").at(0).at("methods"))
+      for (const json& budget : method.at("budgets"))
+        for (const json& run : budget.at("runs")) found.push_back(run.at("relative_mse"));
+    return found;
+  };
+  EXPECT_EQ(errors(results("out")), errors(before));
+  std::ifstream csv(folder_ / "out/results.csv");
+  size_t lines = 0;
+  for (std::string line; std::getline(csv, line);) ++lines;
+  EXPECT_EQ(lines, 1u + 2u * 2u * 3u);
+}
+
+TEST_F(VpmCompare, RefusesBeforeItRenders) {
+  write("fog.toml", kScene);
+  const std::string head = "title = \"t\"\nbudgets = [1]\n[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";
+  write("unknown.toml", head + "[product]\nvolume.radios = [1, 2]\n");
+  vpm_refuses({"compare", "unknown.toml", "-o", "out"}, {"scene 'fog'", "--set volume.radios=1", "unknown key"});
+  write("sizes.toml", head + "[product]\nfilm.width = [6, 7]\n");
+  vpm_refuses({"compare", "sizes.toml", "-o", "out"}, {"6 x 4", "7 x 4"});
+  vpm_refuses({"compare", "none.toml", "-o", "out"}, {"none.toml"});
+}
+
+}  // namespace
+}  // namespace vpm
