@@ -139,9 +139,16 @@ class Comparer {
     this.parts = this.panes(width, height);
     for (const part of this.parts) drawPane(context, part, pictures, view, marked);
     if (mode.layout === 'divided') drawDivision(context, this.split * width, height);
-    this.drawThumbnails();
+    this.followWithThumbnails();
     this.showControls();
     this.showPixel();
+  }
+
+  /** At once where they only move; where all must be painted anew, when the reader's hand rests. */
+  followWithThumbnails() {
+    clearTimeout(this.rest);
+    if (this.paintings.size === this.pictures.length) this.drawThumbnails();
+    else this.rest = setTimeout(() => this.drawThumbnails(), 100);
   }
 
   drawThumbnails() {

@@ -22,6 +22,7 @@ function fixed(x, decimals) {
 /** To that many significant digits; a dash for null. */
 function number(x, digits = 3) {
   if (x === null || x === undefined || Number.isNaN(x)) return kNothing;
+  if (x === 0) return '0';
   if (!Number.isFinite(x)) return x > 0 ? '∞' : '−∞';
   const exponent = exponentOf(Number(x.toPrecision(digits)));
   if (isFar(exponent)) return fixed(x / 10 ** exponent, digits - 1) + tenTo(exponent);

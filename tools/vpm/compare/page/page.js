@@ -76,12 +76,12 @@ function countersTable(scene, b) {
     numberColumn('look-ups per photon', 'look-ups of density, by photons and eye paths, per photon emitted',
                  row => per(row, 'lookups', 'photons')),
     numberColumn('error × look-ups', 'relative MSE times look-ups of density: small where each look-up tells much',
-                 row => (meanOf(row, 'lookups') > 0 ? times(row.relative_mse.value, meanOf(row, 'lookups')) : null)),
+                 row => (row.relative_mse.value > 0 && meanOf(row, 'lookups') > 0 ? row.relative_mse.value * meanOf(row, 'lookups') : null)),
     numberColumn('stored per emitted', 'photons in all maps per photon emitted', row => per(row, 'stored', 'photons')),
     numberColumn('MiB', 'photon maps and guides of the largest pass', row => meanOf(row, 'bytes') / 2 ** 20),
     numberColumn('largest weight', 'of a photon, in any repetition', row => Math.max(...row.runs.map(run => run.largest_weight))),
-    {title: 'effective sample size', hint: 'of collisions, the least of the repetitions', key: sampleSize,
-     cell: row => (biasUnknown(row) ? `not determined: ${number(sampleSize(row))} < ${kLeastSampleSize}` : number(sampleSize(row)))},
+    {title: 'effective sample size', hint: `of collisions, the least of the repetitions; below ${kLeastSampleSize} nothing is determined`, key: sampleSize,
+     cell: row => (biasUnknown(row) ? `not determined (${number(sampleSize(row))})` : number(sampleSize(row)))},
     ...others.map(key => numberColumn(key.replaceAll('_', ' '), 'mean over repetitions', row => meanOf(row, key))),
   ];
   return sortableTable(`Counters at ${budgetText(b)}`, columns, rowsAt(scene, b));
@@ -156,7 +156,10 @@ function buildScene(scene, index, encoded) {
   part('.reference-text').textContent = `Reference: ${scene.reference.source}. ${scene.width} × ${scene.height} pixels. Scene file: ${scene.file}`;
   part('.finding').textContent = finding(scene);
   plots.push(new ErrorPlot(root, scene));
+  const intervalPlots = kIntervalPlots.map(kind => new IntervalPlot(part('.interval-plots'), scene, kind));
+  plots.push(...intervalPlots);
   const budget = part('.budget'), atBudget = () => {
+    intervalPlots.forEach(plot => plot.show(rowsAt(scene, Number(budget.value))));
     part('.equal-cost').replaceChildren(equalCostTable(scene, Number(budget.value)));
     part('.counters').replaceChildren(countersTable(scene, Number(budget.value)));
   };

@@ -127,10 +127,11 @@ function painted(pictures, layer) {
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [width, height];
   const context = canvas.getContext('2d'), image = context.createImageData(width, height);
-  const paint = kPainters[layer.kind](pictures, layer), colour = [0, 0, 0];
+  const paint = kPainters[layer.kind](pictures, layer), colour = [0, 0, 0], {data} = image;
   for (let i = 0; i < width * height; ++i) {
-    const [red, green, blue] = paint(3 * i, colour) ? colour : kMagenta;
-    image.data.set([red, green, blue, 255], 4 * i);
+    const shown = paint(3 * i, colour) ? colour : kMagenta;
+    for (let c = 0; c < 3; ++c) data[4 * i + c] = shown[c];
+    data[4 * i + 3] = 255;
   }
   context.putImageData(image, 0, 0);
   return canvas;
