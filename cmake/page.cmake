@@ -1,7 +1,7 @@
 # Writes page_template.cpp: page.html of a folder, with the files of that folder that it names, and Chart.js, in it.
 # cmake -D FOLDER= -D CHART= -D OUTPUT= -P page.cmake
 file(READ "${FOLDER}/page.html" page)
-string(REGEX MATCHALL "@[a-z]+[.](css|js)@" places "${page}")
+string(REGEX MATCHALL "@[a-z_]+[.](css|js)@" places "${page}")
 foreach(place IN LISTS places)
   string(REPLACE "@" "" name "${place}")
   if(name STREQUAL "chart.js")

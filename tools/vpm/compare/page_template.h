@@ -1,5 +1,5 @@
 // The report's page before anything is reported: page/page.html with the style, scripts and plotting library it names.
-// Written by cmake/page.cmake.
+// What is here is written by cmake/page.cmake.
 #pragma once
 
 #include <string_view>

@@ -15,8 +15,8 @@ class Comparer {
     this.find = selector => root.querySelector(selector);
     this.canvas = this.find('canvas.view');
     this.view = wholeView(pictures);
-    this.marked = null;      // the pixel whose values are shown
-    this.flipped = false;    // whether B is on top
+    this.marked = null;    // the pixel whose values are shown
+    this.flipped = false;  // whether B is on top
     this.paintings = new Map();
     this.automatic = autoExposure(pictures.of(0));
     this.typicalError = typicalError(scene);
@@ -58,9 +58,12 @@ class Comparer {
 
   thumbnail(i) {
     const name = this.pictures.names[i], canvas = this.thumbnails[i] = element('canvas');
-    const button = element('button', {type: 'button', title: `Put into A: ${name}`}, canvas,
-                           element('span', {}, name), element('span', {class: 'muted'}, this.pictures.remarks[i]));
-    button.addEventListener('click', () => this.change(() => { this.find('.first-picture').value = i; }));
+    const button = element(
+        'button', {type: 'button', title: `Put into A: ${name}`}, canvas, element('span', {}, name),
+        element('span', {class: 'muted'}, this.pictures.remarks[i]));
+    button.addEventListener('click', () => this.change(() => {
+      this.find('.first-picture').value = i;
+    }));
     return button;
   }
 
@@ -68,7 +71,9 @@ class Comparer {
     const redraw = () => this.draw();
     for (const control of this.root.querySelectorAll('select, input')) control.addEventListener('input', redraw);
     this.find('.swap').addEventListener('click', () => this.change(() => this.swap()));
-    this.find('.flip').addEventListener('click', () => this.change(() => { this.flipped = !this.flipped; }));
+    this.find('.flip').addEventListener('click', () => this.change(() => {
+      this.flipped = !this.flipped;
+    }));
     this.find('.reset').addEventListener('click', () => this.change(() => this.reset()));
     this.canvas.addEventListener('pointerdown', event => this.startDrag(event));
     this.canvas.addEventListener('pointermove', event => this.point(event));
@@ -98,16 +103,18 @@ class Comparer {
     const {mode, first, second, split} = this, names = this.pictures.names;
     const whole = {left: 0, top: 0, width, height};
     const part = (pane, clip, picture, letter, labelRight = false) =>
-      ({pane, clip, painting: this.painting(picture), label: `${letter}: ${names[picture]}`, labelRight});
+        ({pane, clip, painting: this.painting(picture), label: `${letter}: ${names[picture]}`, labelRight});
     if (mode.layout === 'two') {
       const half = {...whole, width: width / 2 - 2}, other = {...half, left: width / 2 + 2};
       return [part(half, half, first, 'A'), part(other, other, second, 'B')];
     }
     if (mode.layout === 'divided') {
-      const left = {...whole, width: width * split}, right = {...whole, left: width * split, width: width * (1 - split)};
+      const left = {...whole, width: width * split},
+            right = {...whole, left: width * split, width: width * (1 - split)};
       return [part(whole, left, first, 'A'), part(whole, right, second, 'B', true)];
     }
-    if (mode.kind === 'radiance') return [this.flipped ? part(whole, whole, second, 'B') : part(whole, whole, first, 'A')];
+    if (mode.kind === 'radiance')
+      return [this.flipped ? part(whole, whole, second, 'B') : part(whole, whole, first, 'A')];
     return [{...part(whole, whole, first, 'A'), label: `A: ${names[first]}, B: ${names[second]}`}];
   }
 
@@ -134,7 +141,8 @@ class Comparer {
     const {pictures, view, marked, mode, canvas} = this;
     const width = canvas.clientWidth, across = mode.layout === 'two' ? 2 : 1;
     if (width === 0) return;
-    const height = Math.round(Math.min(width / across * pictures.height / pictures.width, Math.max(320, 0.7 * window.innerHeight)));
+    const height = Math.round(
+        Math.min(width / across * pictures.height / pictures.width, Math.max(320, 0.7 * window.innerHeight)));
     const context = sizedContext(canvas, width, height);
     this.parts = this.panes(width, height);
     for (const part of this.parts) drawPane(context, part, pictures, view, marked);
@@ -147,8 +155,10 @@ class Comparer {
   /** At once where they only move; where all must be painted anew, when the reader's hand rests. */
   followWithThumbnails() {
     clearTimeout(this.rest);
-    if (this.paintings.size === this.pictures.length) this.drawThumbnails();
-    else this.rest = setTimeout(() => this.drawThumbnails(), 100);
+    if (this.paintings.size === this.pictures.length)
+      this.drawThumbnails();
+    else
+      this.rest = setTimeout(() => this.drawThumbnails(), 100);
   }
 
   drawThumbnails() {
@@ -156,7 +166,8 @@ class Comparer {
     this.thumbnails.forEach((canvas, i) => {
       const width = canvas.clientWidth, height = Math.round(width * pictures.height / pictures.width);
       const pane = {left: 0, top: 0, width, height};
-      drawPane(sizedContext(canvas, width, height), {pane, clip: pane, painting: this.painting(i)}, pictures, view, marked);
+      drawPane(
+          sizedContext(canvas, width, height), {pane, clip: pane, painting: this.painting(i)}, pictures, view, marked);
       canvas.parentElement.classList.toggle('chosen', i === this.first);
     });
   }
@@ -169,7 +180,8 @@ class Comparer {
     this.find('.flip').hidden = mode.name !== 'flip';
     this.find('.exposure output').textContent = `${exposure < 0 ? '−' : '+'}${Math.abs(exposure).toFixed(1)} stops`;
     this.find('.range output').textContent = percent(fullScale);
-    this.canvas.setAttribute('aria-label', `${mode.name}: A is ${pictures.names[first]}, B is ${pictures.names[second]}`);
+    this.canvas.setAttribute(
+        'aria-label', `${mode.name}: A is ${pictures.names[first]}, B is ${pictures.names[second]}`);
     showColourBar(this.find('.colour-bar'), mode.kind, fullScale);
   }
 
@@ -177,14 +189,15 @@ class Comparer {
   showPixel() {
     const {pictures, marked, first, second} = this;
     const table = this.find('table.pixel');
-    table.caption.textContent = marked ? `Pixel (${marked.x}, ${marked.y}), counted from the upper left corner`
-                                       : 'Point at a pixel to see its radiance';
+    table.caption.textContent = marked ? `Pixel (${marked.x}, ${marked.y}), counted from the upper left corner` :
+                                         'Point at a pixel to see its radiance';
     table.tBodies[0].replaceChildren(pixelRow(['', 'red', 'green', 'blue'], 'th'));
     table.classList.toggle('empty', !marked);
     const values = picture => (marked ? [...pictures.pixel(picture, marked)] : [null, null, null]);
     const a = values(first), b = values(second);
-    table.tBodies[0].append(pixelRow(['A', ...a.map(x => number(x, 4))]), pixelRow(['B', ...b.map(x => number(x, 4))]),
-                            pixelRow(['A / B − 1', ...a.map((x, c) => (marked && b[c] !== 0 ? percent(x / b[c] - 1) : kNothing))]));
+    table.tBodies[0].append(
+        pixelRow(['A', ...a.map(x => number(x, 4))]), pixelRow(['B', ...b.map(x => number(x, 4))]),
+        pixelRow(['A / B − 1', ...a.map((x, c) => (marked && b[c] !== 0 ? percent(x / b[c] - 1) : kNothing))]));
   }
 
   /** The part of the canvas under the pointer, and the point of the pictures there. */
@@ -197,7 +210,10 @@ class Comparer {
   point(event) {
     if (!this.parts || this.drag) return;
     const pixel = pixelAt(this.pictures, this.under(event).point);
-    if (pixel) this.change(() => { this.marked = pixel; });
+    if (pixel)
+      this.change(() => {
+        this.marked = pixel;
+      });
   }
 
   /** Dragging moves the pictures; near the division of the slider, that. */
@@ -207,8 +223,10 @@ class Comparer {
     const scale = magnification(from.pane, this.pictures, view);
     const drag = moved => this.change(() => {
       const dx = moved.clientX - event.clientX, dy = moved.clientY - event.clientY;
-      if (moves) this.find('.split input').value = (from.x + dx) / width;
-      else this.view = bounded({...view, x: view.x - dx / scale, y: view.y - dy / scale}, this.pictures);
+      if (moves)
+        this.find('.split input').value = (from.x + dx) / width;
+      else
+        this.view = bounded({...view, x: view.x - dx / scale, y: view.y - dy / scale}, this.pictures);
     });
     const end = () => {
       this.drag = false;
@@ -224,19 +242,31 @@ class Comparer {
     if (document.activeElement !== this.canvas && !event.ctrlKey) return;  // the page scrolls
     event.preventDefault();
     const {point} = this.under(event);
-    this.change(() => { this.view = zoomed(this.view, 2 ** (-event.deltaY / 300), point, this.pictures); });
+    this.change(() => {
+      this.view = zoomed(this.view, 2 ** (-event.deltaY / 300), point, this.pictures);
+    });
   }
 
   press(event) {
     const far = event.shiftKey ? 10 : 1;
     const middle = this.marked ? {x: this.marked.x + 0.5, y: this.marked.y + 0.5} : this.view;
-    const zoom = factor => { this.view = zoomed(this.view, factor, middle, this.pictures); };
+    const zoom = factor => {
+      this.view = zoomed(this.view, factor, middle, this.pictures);
+    };
     const actions = {
-      ArrowLeft: () => this.moveMark(-far, 0), ArrowRight: () => this.moveMark(far, 0),
-      ArrowUp: () => this.moveMark(0, -far), ArrowDown: () => this.moveMark(0, far),
-      '+': () => zoom(Math.SQRT2), '=': () => zoom(Math.SQRT2), '-': () => zoom(Math.SQRT1_2),
-      '0': () => { this.view = wholeView(this.pictures); },
-      ' ': () => { this.flipped = !this.flipped; },
+      ArrowLeft: () => this.moveMark(-far, 0),
+      ArrowRight: () => this.moveMark(far, 0),
+      ArrowUp: () => this.moveMark(0, -far),
+      ArrowDown: () => this.moveMark(0, far),
+      '+': () => zoom(Math.SQRT2),
+      '=': () => zoom(Math.SQRT2),
+      '-': () => zoom(Math.SQRT1_2),
+      '0': () => {
+        this.view = wholeView(this.pictures);
+      },
+      ' ': () => {
+        this.flipped = !this.flipped;
+      },
     };
     if (!actions[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
@@ -255,12 +285,13 @@ class Comparer {
 
 /** A relative error that pixels have: the root of the median over methods of what they have at last. */
 function typicalError(scene) {
-  const errors = scene.methods.map(method => last(method.budgets).relative_mse.value).filter(x => x > 0).sort((a, b) => a - b);
+  const errors =
+      scene.methods.map(method => last(method.budgets).relative_mse.value).filter(x => x > 0).sort((a, b) => a - b);
   return errors.length > 0 ? Math.sqrt(errors[Math.floor(errors.length / 2)]) : 1;
 }
 
 const pixelRow = (cells, tag = 'td') =>
-  element('tr', {}, ...cells.map((text, i) => element(i === 0 ? 'th' : tag, {}, text)));
+    element('tr', {}, ...cells.map((text, i) => element(i === 0 ? 'th' : tag, {}, text)));
 
 function drawDivision(context, x, height) {
   for (const [colour, width] of [['black', 3], ['white', 1]]) {
@@ -275,9 +306,11 @@ function showColourBar(bar, kind, full) {
   if (bar.hidden) return;
   const steps = Array.from({length: 33}, (_, i) => i / 32);
   const colours = steps.map(t => (kind === 'relative' ? heat(t) : signed(2 * t - 1)));
-  bar.querySelector('div').style.background = `linear-gradient(to right, ${colours.map(c => `rgb(${c.join(' ')})`).join(', ')})`;
+  bar.querySelector('div').style.background =
+      `linear-gradient(to right, ${colours.map(c => `rgb(${c.join(' ')})`).join(', ')})`;
   const ends = kind === 'relative' ? [full / 100, full / 10, full] : [-full, 0, full];
-  bar.querySelector('p').textContent = kind === 'relative' ? 'root mean square over channels of (A − B) / √(B² + 0.01 mean(B)²)'
-                                                           : 'mean over channels of (A − B) / √(B² + 0.01 mean(B)²)';
+  bar.querySelector('p').textContent = kind === 'relative' ?
+      'root mean square over channels of (A − B) / √(B² + 0.01 mean(B)²)' :
+      'mean over channels of (A − B) / √(B² + 0.01 mean(B)²)';
   bar.querySelector('ol').replaceChildren(...ends.map(x => element('li', {}, percent(x))));
 }

@@ -3,11 +3,15 @@
 
 const kIntervalPlots = [
   {
-    title: 'efficiency over that of the best', logarithmic: true, nothing: 1,
+    title: 'efficiency over that of the best',
+    logarithmic: true,
+    nothing: 1,
     of: row => (row.isBest ? {value: 1, lo: 1, hi: 1} : row.efficiency),
   },
   {
-    title: 'bias of the mean radiance, %', logarithmic: false, nothing: 0,
+    title: 'bias of the mean radiance, %',
+    logarithmic: false,
+    nothing: 0,
     of: row => (biasUnknown(row) ? kUnknown : timesHundred(row.bias)),
   },
 ];
@@ -17,21 +21,34 @@ const shortName = name => (name.length > kLongestName ? `${name.slice(0, kLonges
 
 /** The axis from the least to the greatest end, with what there would be without a difference. */
 function intervalAxis({title, logarithmic, nothing}, points) {
-  const ends = [nothing, ...points.flatMap(p => [p.value, p.lo, p.hi]).filter(x => x !== null && (!logarithmic || x > 0))];
+  const ends =
+      [nothing, ...points.flatMap(p => [p.value, p.lo, p.hi]).filter(x => x !== null && (!logarithmic || x > 0))];
   if (logarithmic) return logarithmicAxis(title, rangeOf(ends, 1.3));
   const [least, greatest] = [Math.min(...ends), Math.max(...ends)], room = 0.08 * (greatest - least) || 1;
   return {
-    type: 'linear', min: least - room, max: greatest + room,
+    type: 'linear',
+    min: least - room,
+    max: greatest + room,
     title: {display: true, text: title, color: cssColour('--text')},
-    ticks: {color: cssColour('--text'), maxRotation: 0, includeBounds: false, callback: value => plain(value).replace('-', '−')},
+    ticks: {
+      color: cssColour('--text'),
+      maxRotation: 0,
+      includeBounds: false,
+      callback: value => plain(value).replace('-', '−')
+    },
     grid: {color: cssColour('--faint'), borderColor: cssColour('--line')},
   };
 }
 
 /** Methods from the top. */
 const methodAxis = scene => ({
-  type: 'linear', reverse: true, min: -0.6, max: scene.methods.length - 0.4,
-  afterBuildTicks: axis => { axis.ticks = scene.methods.map((_, i) => ({value: i})); },
+  type: 'linear',
+  reverse: true,
+  min: -0.6,
+  max: scene.methods.length - 0.4,
+  afterBuildTicks: axis => {
+    axis.ticks = scene.methods.map((_, i) => ({value: i}));
+  },
   ticks: {autoSkip: false, color: cssColour('--text'), callback: i => shortName(scene.methods[i].name)},
   grid: {color: cssColour('--faint'), borderColor: cssColour('--line')},
 });
@@ -69,15 +86,22 @@ function writeUnknown(ctx, x, y) {
 function intervalDataset(scene, i, point) {
   const {colour, marker} = seriesStyle(i);
   return {
-    label: scene.methods[i].name, data: [{...point, x: point.value ?? NaN, y: i}], borderColor: colour, backgroundColor: colour,
-    pointStyle: marker, pointRadius: 4.5, pointBorderWidth: 2, pointHitRadius: 10,
+    label: scene.methods[i].name,
+    data: [{...point, x: point.value ?? NaN, y: i}],
+    borderColor: colour,
+    backgroundColor: colour,
+    pointStyle: marker,
+    pointRadius: 4.5,
+    pointBorderWidth: 2,
+    pointHitRadius: 10,
   };
 }
 
 class IntervalPlot {
   constructor(holder, scene, kind) {
     Object.assign(this, {scene, kind});
-    this.canvas = element('canvas', {role: 'img', 'aria-label': `${kind.title} of each method; the table below holds the numbers`});
+    this.canvas = element(
+        'canvas', {role: 'img', 'aria-label': `${kind.title} of each method; the table below holds the numbers`});
     const frame = element('div', {}, this.canvas);
     frame.style.height = `${26 * scene.methods.length + 62}px`;
     holder.append(frame);
@@ -93,13 +117,20 @@ class IntervalPlot {
     const {scene, kind, points} = this;
     this.chart?.destroy();
     this.chart = new Chart(this.canvas, {
-      type: 'scatter', plugins: [intervalLines],
+      type: 'scatter',
+      plugins: [intervalLines],
       data: {datasets: points.map((point, i) => intervalDataset(scene, i, point))},
       options: {
-        animation: false, maintainAspectRatio: false, devicePixelRatio: Math.max(2, window.devicePixelRatio),
-        nothing: kind.nothing, isLogarithmic: kind.logarithmic,
+        animation: false,
+        maintainAspectRatio: false,
+        devicePixelRatio: Math.max(2, window.devicePixelRatio),
+        nothing: kind.nothing,
+        isLogarithmic: kind.logarithmic,
         scales: {x: intervalAxis(kind, points), y: methodAxis(scene)},
-        plugins: {legend: {display: false}, tooltip: {callbacks: {label: ({dataset, raw}) => ` ${dataset.label}: ${interval(raw)}`}}},
+        plugins: {
+          legend: {display: false},
+          tooltip: {callbacks: {label: ({dataset, raw}) => ` ${dataset.label}: ${interval(raw)}`}}
+        },
       },
     });
   }

@@ -75,12 +75,15 @@ const toScreen = x => 255 * (x <= 0.0031308 ? 12.92 * Math.max(0, x) : 1.055 * M
 
 const kMagenta = [255, 0, 255];  // what is not finite
 
-/** From dark to bright by way of hues, as bright on grey paper: the cubehelix [Green2011, eq. 2] of start 0.5 and -1.5 turns. */
+/**
+ * From dark to bright by way of hues, as bright on grey paper: the cubehelix [Green2011, eq. 2] of start 0.5 and -1.5
+ * turns.
+ */
 function heat(t) {
   const angle = 2 * Math.PI * (0.5 / 3 + 1 - 1.5 * t), depth = t * (1 - t) / 2;
   const [cos, sin] = [depth * Math.cos(angle), depth * Math.sin(angle)];
-  return [t - 0.14861 * cos + 1.78277 * sin, t - 0.29227 * cos - 0.90649 * sin, t + 1.97294 * cos]
-      .map(x => 255 * Math.min(1, Math.max(0, x)));
+  return [t - 0.14861 * cos + 1.78277 * sin, t - 0.29227 * cos - 0.90649 * sin, t + 1.97294 * cos].map(
+      x => 255 * Math.min(1, Math.max(0, x)));
 }
 
 const kBelow = [0, 90, 181], kEqual = [247, 247, 247], kAbove = [200, 70, 0];
@@ -105,10 +108,10 @@ const kPainters = {
       return Number.isFinite(values[at] + values[at + 1] + values[at + 2]);
     };
   },
-  relative: (pictures, {picture, against, full}) => differencePainter(pictures, picture, against,
-    d => heat(heatPlace(rootMeanSquare(d), full))),
-  signed: (pictures, {picture, against, full}) => differencePainter(pictures, picture, against,
-    d => signed((d[0] + d[1] + d[2]) / 3 / full)),
+  relative: (pictures, {picture, against, full}) =>
+      differencePainter(pictures, picture, against, d => heat(heatPlace(rootMeanSquare(d), full))),
+  signed: (pictures, {picture, against, full}) =>
+      differencePainter(pictures, picture, against, d => signed((d[0] + d[1] + d[2]) / 3 / full)),
 };
 
 function differencePainter(pictures, picture, against, colourOf) {

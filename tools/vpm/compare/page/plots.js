@@ -33,7 +33,8 @@ function drawSwatch(canvas, i) {
   context.lineTo(width, height / 2);
   context.stroke();
   context.setLineDash([]);
-  Chart.helpers.drawPoint(context, {pointStyle: marker, radius: 4.5, rotation: 0, borderWidth: 2}, width / 2, height / 2);
+  Chart.helpers.drawPoint(
+      context, {pointStyle: marker, radius: 4.5, rotation: 0, borderWidth: 2}, width / 2, height / 2);
 }
 
 function swatch(i) {
@@ -66,7 +67,8 @@ function rangeOf(values, room) {
 /** The axis of errors: all that stands in the plot, with its intervals; lower ends no further than a factor of 10. */
 function errorRange(curves) {
   const points = curves.flat().filter(p => heightOf(p) !== null), least = Math.min(...points.map(heightOf));
-  const ends = points.flatMap(p => (p.drawn ? [p.value, p.lo, p.hi] : [p.hi])).filter(y => y !== null && y >= least / 10);
+  const ends =
+      points.flatMap(p => (p.drawn ? [p.value, p.lo, p.hi] : [p.hi])).filter(y => y !== null && y >= least / 10);
   return rangeOf(ends, 1.4);
 }
 
@@ -80,13 +82,31 @@ function datasetsOf(scene, i, points, bottom) {
     {...common, ...invisible, data: points.map(p => end(p, p.hi)), fill: '+1', backgroundColor: colour + '26'},
     {...common, ...invisible, data: points.map(p => end(p, p.lo)), fill: false},
     {
-      ...common, role: 'line', label: scene.methods[i].name, fill: false, borderWidth: 2, borderDash: dash,
-      pointStyle: marker, pointRadius: 4.5, pointBorderWidth: 2, pointHoverRadius: 6, pointHitRadius: 10,
+      ...common,
+      role: 'line',
+      label: scene.methods[i].name,
+      fill: false,
+      borderWidth: 2,
+      borderDash: dash,
+      pointStyle: marker,
+      pointRadius: 4.5,
+      pointBorderWidth: 2,
+      pointHoverRadius: 6,
+      pointHitRadius: 10,
       data: points.map(p => ({...p, y: p.drawn ? p.value : NaN})),
     },
     {
-      ...common, role: 'bound', label: scene.methods[i].name, showLine: false, fill: false, backgroundColor: 'transparent',
-      pointStyle: 'triangle', rotation: 180, pointRadius: 6, pointBorderWidth: 2, pointHitRadius: 10,
+      ...common,
+      role: 'bound',
+      label: scene.methods[i].name,
+      showLine: false,
+      fill: false,
+      backgroundColor: 'transparent',
+      pointStyle: 'triangle',
+      rotation: 180,
+      pointRadius: 6,
+      pointBorderWidth: 2,
+      pointHitRadius: 10,
       data: points.map(p => ({...p, y: p.bounded ? p.hi : NaN})),
     },
   ];
@@ -97,8 +117,15 @@ function noiseDatasets(scene, metric, xs, ys) {
   const noise = metric.noise ? metric.noise(scene) : 0;
   if (!(noise > ys.min && noise < ys.max)) return [];
   return [{
-    role: 'noise', label: 'noise of the reference', data: [{x: xs.min, y: noise}, {x: xs.max, y: noise}], fill: false,
-    borderColor: cssColour('--muted'), borderWidth: 1, borderDash: [2, 4], pointRadius: 0, pointHitRadius: 0,
+    role: 'noise',
+    label: 'noise of the reference',
+    data: [{x: xs.min, y: noise}, {x: xs.max, y: noise}],
+    fill: false,
+    borderColor: cssColour('--muted'),
+    borderWidth: 1,
+    borderDash: [2, 4],
+    pointRadius: 0,
+    pointHitRadius: 0,
   }];
 }
 
@@ -139,12 +166,14 @@ function tickText(value, {min, max}) {
 function logarithmicAxis(title, range) {
   const isPower = value => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-6;
   return {
-    type: 'logarithmic', ...range,
+    type: 'logarithmic',
+    ...range,
     title: {display: true, text: title, color: cssColour('--text')},
     ticks: {color: cssColour('--text'), maxRotation: 0, autoSkip: false, callback: value => tickText(value, range)},
     grid: {
       color: line => cssColour(line.tick && isPower(line.tick.value) ? '--line' : '--faint'),
-      tickColor: cssColour('--line'), borderColor: cssColour('--line'),
+      tickColor: cssColour('--line'),
+      borderColor: cssColour('--line'),
     },
   };
 }
@@ -155,27 +184,39 @@ function tooltipText({dataset, raw}) {
 }
 
 const plotOptions = (metric, cost, xs, ys) => ({
-  animation: false, maintainAspectRatio: false, normalized: true, parsing: false,
+  animation: false,
+  maintainAspectRatio: false,
+  normalized: true,
+  parsing: false,
   devicePixelRatio: Math.max(2, window.devicePixelRatio),
   interaction: {mode: 'nearest', intersect: true},
   scales: {x: logarithmicAxis(cost.title, xs), y: logarithmicAxis(metric.name, ys)},
   plugins: {
     legend: {display: false},
-    tooltip: {filter: item => ['line', 'bound'].includes(item.dataset.role), callbacks: {title: () => '', label: tooltipText}},
+    tooltip: {
+      filter: item => ['line', 'bound'].includes(item.dataset.role),
+      callbacks: {title: () => '', label: tooltipText}
+    },
   },
 });
 
 /** What of the numbers the plot cannot show, in words. */
 function plotNote(scene, metric, curves, ys) {
-  const namesWhere = holds => scene.methods.filter((_, i) => curves[i].some(holds)).map(method => method.name).join(', ');
-  const unknown = namesWhere(p => heightOf(p) === null), cut = namesWhere(p => p.drawn && p.lo !== null && p.lo < ys.min);
+  const namesWhere = holds =>
+      scene.methods.filter((_, i) => curves[i].some(holds)).map(method => method.name).join(', ');
+  const unknown = namesWhere(p => heightOf(p) === null),
+        cut = namesWhere(p => p.drawn && p.lo !== null && p.lo < ys.min);
   const noise = metric.noise ? metric.noise(scene) : 0;
-  const notes = [curves.flat().some(p => p.lo !== null) ? 'Bands and whiskers: 95 % confidence intervals.'
-                                                        : 'No interval is computed for this error.'];
-  if (namesWhere(p => p.bounded)) notes.push('▽: the upper end of an interval that reaches 0; the error may be none at all.');
+  const notes =
+      [curves.flat().some(p => p.lo !== null) ? 'Bands and whiskers: 95 % confidence intervals.' :
+                                                'No interval is computed for this error.'];
+  if (namesWhere(p => p.bounded))
+    notes.push('▽: the upper end of an interval that reaches 0; the error may be none at all.');
   if (cut) notes.push(`Intervals that reach the bottom go on below it: ${cut}.`);
   if (unknown) notes.push(`Not determined at some budget: ${unknown}.`);
-  if (noise > 0) notes.push(`The reference has a relative MSE of ${number(noise)} itself${noise > ys.min ? ' (dotted)' : ''}; that is subtracted.`);
+  if (noise > 0)
+    notes.push(`The reference has a relative MSE of ${number(noise)} itself${
+        noise > ys.min ? ' (dotted)' : ''}; that is subtracted.`);
   return notes.join(' ');
 }
 
@@ -205,10 +246,13 @@ class ErrorPlot {
     const datasets = curves.flatMap((points, i) => (this.hidden.has(i) ? [] : datasetsOf(scene, i, points, ys.min)));
     this.chart?.destroy();
     this.chart = new Chart(this.canvas, {
-      type: 'line', plugins: [whiskers], options: plotOptions(metric, cost, xs, ys),
+      type: 'line',
+      plugins: [whiskers],
+      options: plotOptions(metric, cost, xs, ys),
       data: {datasets: [...datasets, ...noiseDatasets(scene, metric, xs, ys)]},
     });
-    this.canvas.setAttribute('aria-label', `${metric.name} against ${cost.title} for each method; the tables below hold the numbers`);
+    this.canvas.setAttribute(
+        'aria-label', `${metric.name} against ${cost.title} for each method; the tables below hold the numbers`);
     this.root.querySelector('.plot-note').textContent = plotNote(scene, metric, curves, ys);
   }
 
@@ -221,8 +265,10 @@ class ErrorPlot {
       button.addEventListener('click', () => this.toggle(button, i));
       legend.append(button);
     });
-    legend.append(element('p', {class: 'muted'}, `Slopes are those of log relative MSE over log cost in ${results.unit}: ` +
-      '−1 is variance alone, 0 is bias alone. A click takes a method out of the plot.'));
+    legend.append(element(
+        'p', {class: 'muted'},
+        `Slopes are those of log relative MSE over log cost in ${results.unit}: ` +
+            '−1 is variance alone, 0 is bias alone. A click takes a method out of the plot.'));
   }
 
   toggle(button, i) {

@@ -1,8 +1,8 @@
 // What the page is about: the results that vpm wrote, and how their numbers are called.
 'use strict';
 
-const kLeastSampleSize = 1000;   // effective samples below which a bias is not determined
-const kFamilyWise = 0.05;        // rate of pairs wrongly called different
+const kLeastSampleSize = 1000;  // effective samples below which a bias is not determined
+const kFamilyWise = 0.05;       // rate of pairs wrongly called different
 
 const read = id => JSON.parse(document.getElementById(id).textContent);
 const results = read('results');
@@ -44,13 +44,25 @@ function biasUnknown(budget) {
   return size !== null && size < kLeastSampleSize ? `effective sample size ${number(size)} < ${kLeastSampleSize}` : '';
 }
 
-const kUnknown = {value: null, lo: null, hi: null};
+const kUnknown = {
+  value: null,
+  lo: null,
+  hi: null
+};
 
-/** What errors can be: of a method at a budget. Some may be 0: of these an interval that reaches 0 tells an upper bound only. */
+/**
+ * What errors can be: of a method at a budget. Some may be 0: of these an interval that reaches 0 tells an upper bound
+ * only.
+ */
 const kMetrics = [
   {name: 'relative MSE', of: budget => budget.relative_mse, noise: scene => scene.reference.relative_mse},
   {name: 'MSE', of: budget => budget.mse},
   {name: '|bias|', of: budget => (biasUnknown(budget) ? kUnknown : magnitude(budget.bias)), mayBeZero: true},
-  {name: 'squared bias', of: budget => budget.squared_bias, noise: scene => scene.reference.relative_mse, mayBeZero: true},
+  {
+    name: 'squared bias',
+    of: budget => budget.squared_bias,
+    noise: scene => scene.reference.relative_mse,
+    mayBeZero: true
+  },
   {name: 'variance', of: budget => ({...kUnknown, value: budget.variance})},
 ];

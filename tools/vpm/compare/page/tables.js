@@ -47,8 +47,9 @@ function sortableTable(caption, columns, rows, by = 0) {
     heads[index].setAttribute('aria-sort', direction > 0 ? 'ascending' : 'descending');
   }
   sort(by);
-  const table = element('table', {class: 'sortable'}, element('caption', {}, caption),
-                        element('thead', {}, element('tr', {}, ...heads)), body);
+  const table = element(
+      'table', {class: 'sortable'}, element('caption', {}, caption), element('thead', {}, element('tr', {}, ...heads)),
+      body);
   return element('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption}, table);
 }
 
@@ -69,4 +70,4 @@ function fillSelect(select, names, chosen = 0) {
 
 /** A text that opens on demand. */
 const foldedText = (title, text) =>
-  element('details', {}, element('summary', {}, title), element('pre', {tabindex: '0'}, text));
+    element('details', {}, element('summary', {}, title), element('pre', {tabindex: '0'}, text));

@@ -8,7 +8,7 @@ const wholeView = pictures => ({x: pictures.width / 2, y: pictures.height / 2, z
 
 /** Screen pixels that a pixel takes in a pane. */
 const magnification = (pane, pictures, view) =>
-  Math.min(pane.width / pictures.width, pane.height / pictures.height) * view.zoom;
+    Math.min(pane.width / pictures.width, pane.height / pictures.height) * view.zoom;
 
 /** Where in the pictures a point of a pane is, in pixels. */
 function picturePoint(pane, pictures, view, x, y) {
