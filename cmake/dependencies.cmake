@@ -19,3 +19,13 @@ endif()
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
 find_package(OpenVDB 10 MODULE REQUIRED COMPONENTS openvdb)
 list(POP_BACK CMAKE_MODULE_PATH)
+
+# Chart.js draws the plots of the page that `vpm compare` writes, which has the library in it.
+find_file(VPM_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js DOC "Chart.js 3, minified" NO_DEFAULT_PATH)
+if(NOT VPM_CHART_JS)
+  message(FATAL_ERROR "Chart.js is missing. tools/setup installs it (libjs-chart.js); elsewhere -D VPM_CHART_JS=.../chart.min.js names it.")
+endif()
+file(READ "${VPM_CHART_JS}" chart_head LIMIT 200)
+if(NOT chart_head MATCHES "Chart[.]js v3[.]")
+  message(FATAL_ERROR "${VPM_CHART_JS} is not Chart.js 3, or has lost its notice")
+endif()

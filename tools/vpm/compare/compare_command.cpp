@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "base/version.h"
 #include "commands.h"
+#include "compare/page.h"
 #include "compare/results.h"
 #include "compare/run.h"
 #include "compare/store.h"
@@ -164,6 +165,18 @@ SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, cons
   return results;
 }
 
+/// Of runs at the last budget.
+PageImages images_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {
+  PageImages images{contest.reference.mean, {}};
+  for (const auto& entrant : contest.methods) {
+    std::vector<Image> repetitions;
+    for (int r = 0; r < plan.repetitions; ++r)
+      repetitions.push_back(store.picture(run_identity(*entrant, plan, r), plan.budgets.size() - 1));
+    images.methods.push_back(method_images(repetitions));
+  }
+  return images;
+}
+
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
@@ -180,11 +193,17 @@ int compare_command(const CompareOptions& options) {
     return kInterrupted;
   }
   std::vector<SceneResults> scenes;
-  for (const Contest& contest : contests) scenes.push_back(results_of(contest, plan, store));
+  std::vector<PageImages> images;
+  for (const Contest& contest : contests) {
+    scenes.push_back(results_of(contest, plan, store));
+    images.push_back(images_of(contest, plan, store));
+  }
   const std::filesystem::path folder = options.output;
-  write_text(folder / "results.json", results_json(plan, scenes));
+  const std::string results = results_json(plan, scenes);
+  write_text(folder / "results.json", results);
   write_text(folder / "results.csv", results_csv(plan, scenes));
-  fmt::print("{}{}: results.json, results.csv\n", results_text(plan, scenes), folder.string());
+  write_text(folder / "report.html", results_page(results, images));
+  fmt::print("{}{}: report.html, results.json, results.csv\n", results_text(plan, scenes), folder.string());
   return 0;
 }
 

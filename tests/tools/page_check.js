@@ -1,0 +1,185 @@
+// The page's examination: it is used as a reader would use it, and what it shows is compared with the data. The verdict
+// is left in an attribute. kPixel is a pixel of the reference with its value, from elsewhere than the page.
+'use strict';
+
+const expect = (holds, text) => {
+  if (!holds) fail(text);
+};
+const near = (a, b, relative) => Math.abs(a - b) <= relative * Math.abs(b);
+
+/** The number that a text begins with, as the page writes numbers. */
+function readNumber(text) {
+  const digits = {'⁻': '-', '⁰': 0, '¹': 1, '²': 2, '³': 3, '⁴': 4, '⁵': 5, '⁶': 6, '⁷': 7, '⁸': 8, '⁹': 9};
+  const [, mantissa, exponent = ''] =
+      text.match(/^(−?[\d.]+)[^×]*(?:×\u202f10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?/) ?? [null, 'NaN'];
+  return Number(mantissa.replace('−', '-')) * 10 ** Number([...exponent].map(c => digits[c]).join(''));
+}
+
+/** Points of a canvas that have a colour, "#rrggbb". */
+function inkOf(canvas, colour) {
+  const wanted = [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16));
+  const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  let ink = 0;
+  for (let i = 0; i < data.length; i += 4)
+    ink += wanted.every((value, c) => Math.abs(data[i + c] - value) < 3) && data[i + 3] > 250;
+  return ink;
+}
+
+/** Errors and costs of all kinds are drawn. A bias may be too uncertain for a line. */
+function checkPlot(root, scene) {
+  const [metric, cost] = ['.metric', '.cost'].map(selector => root.querySelector(selector));
+  const plot = root.querySelector('.plot canvas'), colours = scene.methods.map((_, i) => cssColour(`--series-${i}`));
+  for (const select of [metric, cost]) {
+    for (const option of select.options) {
+      select.value = option.value;
+      select.dispatchEvent(new Event('change'));
+      expect(
+          metric.value > 1 || colours.some(colour => inkOf(plot, colour) > 50),
+          `nothing in the plot of ${option.text}`);
+    }
+    select.selectedIndex = 0;
+    select.dispatchEvent(new Event('change'));
+  }
+}
+
+/** In the legend each method has its slope, and a click on all others leaves its line alone. */
+function checkLegend(root, scene) {
+  const plot = root.querySelector('.plot canvas'), buttons = [...root.querySelectorAll('.legend button')];
+  scene.methods.forEach((method, i) => {
+    const text = buttons[i].textContent, others = buttons.filter(button => button !== buttons[i]);
+    expect(
+        text.includes(method.name) && near(readNumber(text.split('slope ')[1]), method.slope.value, 0.02),
+        `legend: ${text}`);
+    others.forEach(button => button.click());
+    scene.methods.forEach(
+        (_, k) =>
+            expect(inkOf(plot, cssColour(`--series-${k}`)) > 50 === (k === i), `${method.name} alone: colour ${k}`));
+    others.forEach(button => button.click());
+  });
+}
+
+const columnOf = (table, index) => [...table.tBodies[0].rows].map(row => row.cells[index].textContent);
+
+/** A click sorts up, another one down. */
+function checkSorting(table) {
+  [...table.tHead.rows[0].cells].forEach((head, index) => {
+    for (const direction of ['ascending', 'descending']) {
+      const before = head.getAttribute('aria-sort');
+      if (before !== direction) head.querySelector('button').click();
+      expect(head.getAttribute('aria-sort') === direction, `${head.textContent} is not ${direction}`);
+      const keys = columnOf(table, index).map(readNumber).filter(x => !Number.isNaN(x));
+      const sign = direction === 'ascending' ? 1 : -1;
+      const numeric = head.className === 'number' && !columnOf(table, index).some(text => /best|[<>]/.test(text));
+      expect(
+          !numeric || keys.every((key, i) => i === 0 || sign * key >= sign * keys[i - 1]),
+          `${head.textContent} is not sorted: ${keys}`);
+    }
+  });
+}
+
+/** The table at equal cost has the numbers of each budget, in the order of the errors. */
+function checkEqualCost(root, scene) {
+  const select = root.querySelector('.budget');
+  results.budgets.forEach((_, b) => {
+    select.value = b;
+    select.dispatchEvent(new Event('change'));
+    const errors = scene.methods.map(method => method.budgets[b].relative_mse.value).sort((x, y) => x - y);
+    const shown = columnOf(root.querySelector('.equal-cost table'), 2).map(readNumber);
+    expect(
+        errors.length === shown.length && errors.every((x, i) => near(shown[i], x, 0.05)),
+        `errors ${shown}, not ${errors}`);
+  });
+}
+
+/** The picture of the first run has the error that vpm gave it, so it is that picture. */
+function checkErrors(comparer, scene) {
+  scene.methods.forEach((method, i) => {
+    const run = last(method.budgets).runs[0],
+          error = relativeError(comparer.pictures.of(1 + i), comparer.pictures.of(0));
+    expect(
+        near(error, run.relative_mse + scene.reference.relative_mse, 2e-3),
+        `${method.name}: error ${error}, not ${run.relative_mse}`);
+  });
+}
+
+/** Where a pixel of the pictures is on the screen while all of them is shown. */
+function placeOf(canvas, {x, y}, width, height) {
+  const box = canvas.getBoundingClientRect(), scale = Math.min(box.width / width, box.height / height);
+  return {
+    clientX: box.left + box.width / 2 + (x + 0.5 - width / 2) * scale,
+    clientY: box.top + box.height / 2 + (y + 0.5 - height / 2) * scale
+  };
+}
+
+/** The colour in a canvas at a place of the screen. */
+function colourAt(canvas, {clientX, clientY}) {
+  const box = canvas.getBoundingClientRect(), density = canvas.width / box.width;
+  return [...canvas.getContext('2d')
+              .getImageData(Math.round((clientX - box.left) * density), Math.round((clientY - box.top) * density), 1, 1)
+              .data];
+}
+
+/** The sRGB curve [IEC1999], to 0 ... 255. */
+const sRgb = x => 255 * Math.min(1, x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
+
+/** Under the pointer is the pixel's value, and what is on the screen is that, exposed; zooming keeps it where it is. */
+function checkPixel(comparer, scene) {
+  const {root, canvas} = comparer, point = () => canvas.dispatchEvent(new PointerEvent('pointermove', place));
+  root.querySelector('.first-picture').value = 0;
+  comparer.drawNow();
+  const place = placeOf(canvas, kPixel, scene.width, scene.height);
+  point();
+  const exposure = Number(root.querySelector('.exposure input').value);
+  const expected = kPixel.value.map(x => sRgb(2 ** exposure * x));
+  comparer.drawNow();
+  const rowOfB = root.querySelector('table.pixel').tBodies[0].rows[2];
+  const shown = [1, 2, 3].map(c => readNumber(rowOfB.cells[c].textContent));
+  expect(kPixel.value.every((x, c) => near(shown[c], x, 1e-3)), `pixel ${shown}, not ${kPixel.value}`);
+  expect(
+      colourAt(canvas, place).slice(0, 3).every((x, c) => Math.abs(x - expected[c]) <= 2),
+      `colour ${colourAt(canvas, place)}, not ${expected}`);
+  for (const key of ['+', '+', '+']) canvas.dispatchEvent(new KeyboardEvent('keydown', {key}));
+  comparer.drawNow();
+  point();
+  expect(comparer.marked.x === kPixel.x && comparer.marked.y === kPixel.y, 'zooming moved the pixel');
+  canvas.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight'}));
+  expect(comparer.marked.x === kPixel.x + 1 && comparer.marked.y === kPixel.y, 'an arrow went elsewhere');
+}
+
+/** Every way to compare two pictures draws something. */
+function checkModes(comparer) {
+  comparer.root.querySelector('.first-picture').value = 1;
+  const drawn = [...comparer.root.querySelectorAll('.modes input')].map(input => {
+    input.click();
+    comparer.drawNow();
+    return comparer.canvas.toDataURL();
+  });
+  expect(new Set(drawn).size === drawn.length, 'two modes show the same');
+}
+
+function check() {
+  expect(
+      document.title === results.title && find('title').textContent === results.title,
+      'the title is not the experiment\'s');
+  expect(
+      document.documentElement.scrollWidth <= window.innerWidth,
+      `${document.documentElement.scrollWidth} pixels on ${window.innerWidth}`);
+  results.scenes.forEach((scene, i) => {
+    const root = find(`scene-${i}`);
+    checkPlot(root, scene);
+    checkLegend(root, scene);
+    checkEqualCost(root, scene);
+    root.querySelectorAll('table.sortable').forEach(checkSorting);
+    checkErrors(comparers[i], scene);
+    checkPixel(comparers[i], scene);
+    checkModes(comparers[i]);
+  });
+  expect(find('file-texts').textContent.includes(results.scenes[0].text), 'the scene\'s text is not in the page');
+}
+
+try {
+  check();
+} catch (error) {
+  fail(`exception: ${error.message}`);
+}
+document.body.dataset.verdict = failures.length === 0 ? 'passed' : failures.join(' | ');

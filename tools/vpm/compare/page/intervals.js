@@ -1,0 +1,137 @@
+// What intervals say at one budget: a row for each method, and a line where there is no difference. Drawn by Chart.js.
+'use strict';
+
+const kIntervalPlots = [
+  {
+    title: 'efficiency over that of the best',
+    logarithmic: true,
+    nothing: 1,
+    of: row => (row.isBest ? {value: 1, lo: 1, hi: 1} : row.efficiency),
+  },
+  {
+    title: 'bias of the mean radiance, %',
+    logarithmic: false,
+    nothing: 0,
+    of: row => (biasUnknown(row) ? kUnknown : timesHundred(row.bias)),
+  },
+];
+
+const kLongestName = 22;
+const shortName = name => (name.length > kLongestName ? `${name.slice(0, kLongestName - 1)}…` : name);
+
+/** The axis from the least to the greatest end, with what there would be without a difference. */
+function intervalAxis({title, logarithmic, nothing}, points) {
+  const ends =
+      [nothing, ...points.flatMap(p => [p.value, p.lo, p.hi]).filter(x => x !== null && (!logarithmic || x > 0))];
+  if (logarithmic) return logarithmicAxis(title, rangeOf(ends, 1.3));
+  const [least, greatest] = [Math.min(...ends), Math.max(...ends)], room = 0.08 * (greatest - least) || 1;
+  return {
+    type: 'linear',
+    min: least - room,
+    max: greatest + room,
+    title: {display: true, text: title, color: cssColour('--text')},
+    ticks: {
+      color: cssColour('--text'),
+      maxRotation: 0,
+      includeBounds: false,
+      callback: value => plain(value).replace('-', '−')
+    },
+    grid: {color: cssColour('--faint'), borderColor: cssColour('--line')},
+  };
+}
+
+/** Methods from the top. */
+const methodAxis = scene => ({
+  type: 'linear',
+  reverse: true,
+  min: -0.6,
+  max: scene.methods.length - 0.4,
+  afterBuildTicks: axis => {
+    axis.ticks = scene.methods.map((_, i) => ({value: i}));
+  },
+  ticks: {autoSkip: false, color: cssColour('--text'), callback: i => shortName(scene.methods[i].name)},
+  grid: {color: cssColour('--faint'), borderColor: cssColour('--line')},
+});
+
+/** The line of no difference, and the intervals, or that there is none. */
+const intervalLines = {
+  id: 'intervals',
+  beforeDatasetsDraw({ctx, chartArea, scales: {x, y}, data, options}) {
+    const line = (colour, width, fromX, fromY, toX, toY) => {
+      ctx.strokeStyle = colour;
+      ctx.lineWidth = width;
+      ctx.beginPath();
+      ctx.moveTo(fromX, fromY);
+      ctx.lineTo(toX, toY);
+      ctx.stroke();
+    };
+    const reference = x.getPixelForValue(options.nothing);
+    line(cssColour('--muted'), 1, reference, chartArea.top, reference, chartArea.bottom);
+    for (const {borderColor, data: [p]} of data.datasets) {
+      if (p.value === null) writeUnknown(ctx, chartArea.left + 6, y.getPixelForValue(p.y));
+      if (p.lo === null || p.hi === null) continue;
+      const from = p.lo > 0 || !options.isLogarithmic ? x.getPixelForValue(p.lo) : chartArea.left;
+      line(borderColor, 2, from, y.getPixelForValue(p.y), x.getPixelForValue(p.hi), y.getPixelForValue(p.y));
+    }
+  },
+};
+
+function writeUnknown(ctx, x, y) {
+  ctx.font = 'italic 12px system-ui, sans-serif';
+  ctx.fillStyle = cssColour('--muted');
+  ctx.textBaseline = 'middle';
+  ctx.fillText('not determined', x, y);
+}
+
+function intervalDataset(scene, i, point) {
+  const {colour, marker} = seriesStyle(i);
+  return {
+    label: scene.methods[i].name,
+    data: [{...point, x: point.value ?? NaN, y: i}],
+    borderColor: colour,
+    backgroundColor: colour,
+    pointStyle: marker,
+    pointRadius: 4.5,
+    pointBorderWidth: 2,
+    pointHitRadius: 10,
+  };
+}
+
+class IntervalPlot {
+  constructor(holder, scene, kind) {
+    Object.assign(this, {scene, kind});
+    this.canvas = element(
+        'canvas', {role: 'img', 'aria-label': `${kind.title} of each method; the table below holds the numbers`});
+    const frame = element('div', {}, this.canvas);
+    frame.style.height = `${26 * scene.methods.length + 62}px`;
+    holder.append(frame);
+  }
+
+  /** Of the methods at a budget: rows of the tables. */
+  show(rows) {
+    this.points = rows.map(this.kind.of);
+    this.draw();
+  }
+
+  draw() {
+    const {scene, kind, points} = this;
+    this.chart?.destroy();
+    this.chart = new Chart(this.canvas, {
+      type: 'scatter',
+      plugins: [intervalLines],
+      data: {datasets: points.map((point, i) => intervalDataset(scene, i, point))},
+      options: {
+        animation: false,
+        maintainAspectRatio: false,
+        devicePixelRatio: Math.max(2, window.devicePixelRatio),
+        nothing: kind.nothing,
+        isLogarithmic: kind.logarithmic,
+        scales: {x: intervalAxis(kind, points), y: methodAxis(scene)},
+        plugins: {
+          legend: {display: false},
+          tooltip: {callbacks: {label: ({dataset, raw}) => ` ${dataset.label}: ${interval(raw)}`}}
+        },
+      },
+    });
+  }
+}

@@ -1,0 +1,153 @@
+// What the tables of a scene have for columns and rows.
+'use strict';
+
+const isSignificant = pair => pair.p_holm !== null && pair.p_holm < kFamilyWise;
+const betterOf = pair => (pair.value >= 1 ? pair.first : pair.second);
+const worseOf = pair => (pair.value >= 1 ? pair.second : pair.first);
+
+/** The ratio of a pair's efficiencies, the better one's over the other's. */
+function ratioOf({value, lo, hi}) {
+  const over = x => (x === null ? null : 1 / x);
+  return value >= 1 || value === null ? {value, lo, hi} : {value: 1 / value, lo: over(hi), hi: over(lo)};
+}
+
+/** The first column: methods by their number in `row`. */
+const methodColumn = (scene, of = row => row.index, title = 'method') =>
+    ({title, words: true, key: row => scene.methods[of(row)].name, cell: row => methodLabel(scene, of(row))});
+
+const intervalColumn = (title, hint, of) =>
+    ({title, hint, key: row => of(row).value, cell: row => intervalCell(of(row))});
+const numberColumn = (title, hint, of, text = number) => ({title, hint, key: of, cell: row => text(of(row))});
+
+const rowsAt = (scene, b) =>
+    scene.methods.map((method, index) => ({index, ...method.budgets[b], isBest: scene.best[b] === index}));
+
+function equalCostTable(scene, b) {
+  const f = results.formulas;
+  const columns = [
+    methodColumn(scene),
+    numberColumn('cost', `${budgetCost.title}: mean over repetitions`, costOf),
+    intervalColumn('relative MSE', f.relative_mse, row => row.relative_mse),
+    {
+      title: 'efficiency',
+      hint: f.efficiency,
+      key: row => row.efficiency.value,
+      cell: row => (row.isBest ? element('strong', {}, 'best') : intervalCell(row.efficiency))
+    },
+    {
+      title: 'bias, %',
+      hint: f.bias,
+      key: row => (biasUnknown(row) ? null : row.bias.value),
+      cell: row =>
+          (biasUnknown(row) ? element('span', {title: biasUnknown(row)}, 'not determined') :
+                              intervalCell(timesHundred(row.bias)))
+    },
+    intervalColumn('squared bias', f.squared_bias, row => row.squared_bias),
+    numberColumn('variance', 'relative MSE less squared bias', row => row.variance),
+    intervalColumn('MSE', f.mse, row => row.mse),
+  ];
+  return sortableTable(`Errors at ${budgetText(b)}, with 95 % intervals`, columns, rowsAt(scene, b), 2);
+}
+
+/** Counters that have a column of their own below; others are shown by their name. */
+const kRunFields = [
+  'cpu_seconds', 'wall_seconds', 'passes', 'photons', 'stored', 'lookups', 'bytes', 'largest_weight',
+  'effective_sample_size', 'mse', 'relative_mse', 'mean_ratio'
+];
+
+function countersTable(scene, b) {
+  const per = (row, a, over) => (meanOf(row, over) > 0 ? meanOf(row, a) / meanOf(row, over) : null);
+  const positive = x => (x > 0 ? x : null);
+  const others = Object.keys(scene.methods[0].budgets[b].runs[0]).filter(key => !kRunFields.includes(key));
+  const columns = [
+    methodColumn(scene),
+    numberColumn('CPU, s', 'mean over repetitions', row => meanOf(row, 'cpu_seconds')),
+    numberColumn('wall, s', 'mean over repetitions', row => meanOf(row, 'wall_seconds')),
+    numberColumn('passes', 'mean over repetitions', row => meanOf(row, 'passes'), plain),
+    numberColumn(
+        'look-ups per photon', 'look-ups of density, by photons and eye paths, per photon emitted',
+        row => per(row, 'lookups', 'photons')),
+    numberColumn(
+        'error × look-ups', 'relative MSE times look-ups of density: small where each look-up tells much',
+        row => positive(row.relative_mse.value * meanOf(row, 'lookups'))),
+    numberColumn('stored per emitted', 'photons in all maps per photon emitted', row => per(row, 'stored', 'photons')),
+    numberColumn('MiB', 'photon maps and guides of the largest pass', row => meanOf(row, 'bytes') / 2 ** 20),
+    numberColumn(
+        'largest weight', 'of a photon, in any repetition',
+        row => Math.max(...row.runs.map(run => run.largest_weight))),
+    {
+      title: 'effective sample size',
+      hint: `of collisions, the least of the repetitions; below ${kLeastSampleSize} nothing is determined`,
+      key: sampleSize,
+      cell: row => (biasUnknown(row) ? `not determined (${number(sampleSize(row))})` : number(sampleSize(row)))
+    },
+    ...others.map(key => numberColumn(key.replaceAll('_', ' '), 'mean over repetitions', row => meanOf(row, key))),
+  ];
+  return sortableTable(`Counters at ${budgetText(b)}`, columns, rowsAt(scene, b));
+}
+
+/** The cost of reaching an error, and over the least: known, or a bound where the budgets do not span it. */
+function costOfError(method, target, cost, least) {
+  if (cost !== null) return {key: cost, text: `${number(cost)} (${number(cost / least, 2)}\u202f×)`};
+  if (method.budgets[0].relative_mse.value < target) return {key: 0, text: `< ${number(costOf(method.budgets[0]))}`};
+  if (last(method.budgets).relative_mse.value > target)
+    return {key: Infinity, text: `> ${number(costOf(last(method.budgets)))}`};
+  return {key: null, text: 'not determined'};
+}
+
+function equalErrorTable(scene) {
+  const {methods, targets} = scene;
+  const least = targets.map((_, t) => Math.min(...methods.map(method => method.equal_error[t] ?? Infinity)));
+  const cost = (row, t) => costOfError(methods[row.index], targets[t], methods[row.index].equal_error[t], least[t]);
+  const columnOf = (target, t) => {
+    const hint = `that of ${methods[scene.best[t]].name}, best at ${budgetText(t)}`;
+    return {
+      title: `relative MSE ${number(target)}`,
+      hint,
+      key: row => cost(row, t).key,
+      cell: row => cost(row, t).text
+    };
+  };
+  const caption = `Cost (${budgetCost.title}) at which a relative MSE is reached, and how many times the least`;
+  const rows = methods.map((_, index) => ({index}));
+  return sortableTable(caption, [methodColumn(scene), ...targets.map(columnOf)], rows, targets.length);
+}
+
+function pairsTable(scene) {
+  const columns = [
+    methodColumn(scene, betterOf, 'more efficient'),
+    methodColumn(scene, worseOf, 'less efficient'),
+    intervalColumn('ratio', `${results.formulas.efficiency}; ${results.formulas.intervals}`, ratioOf),
+    numberColumn('p', results.formulas.p, pair => pair.p, p => number(p, 2)),
+    numberColumn('p, Holm', results.formulas.p, pair => pair.p_holm, p => number(p, 2)),
+    {
+      title: 'difference',
+      words: true,
+      key: verdict,
+      cell: pair => (isSignificant(pair) ? element('strong', {}, verdict(pair)) : verdict(pair))
+    },
+  ];
+  return sortableTable(`Efficiencies at ${budgetText(results.budgets.length - 1)}, all pairs`, columns, scene.pairs, 4);
+}
+
+const verdict = pair => (pair.p_holm === null ? 'not determined' : isSignificant(pair) ? 'significant' : 'none shown');
+
+function pairsText(scene) {
+  const significant = scene.pairs.filter(isSignificant).length,
+        unknown = scene.pairs.filter(pair => pair.p_holm === null).length;
+  return `${significant} of ${scene.pairs.length} pairs differ significantly (p by Holm below ${kFamilyWise})` +
+      (unknown > 0 ? `; not determined: ${unknown}, for the reference is too noisy.` : '.');
+}
+
+function aboutTable(caption, entries) {
+  const said = (flag, yes, no) => (flag === undefined ? kNothing : flag ? yes : no);
+  const word = (title, of) => ({title, words: true, key: of, cell: of});
+  const columns = [word('name', s => s.name), word('what it is, and how it fails', s => s.summary)];
+  if (entries.some(s => s.unbiased !== undefined)) {
+    columns.push(
+        word('bias', s => said(s.unbiased, 'none', 'biased')),
+        word('weights', s => said(s.bounded_weight, 'bounded', 'without bound')),
+        word('grids', s => said(s.heterogeneous, 'yes', 'refused')));
+  }
+  return sortableTable(caption, columns, entries);
+}
