@@ -22,7 +22,7 @@ list(POP_BACK CMAKE_MODULE_PATH)
 
 # Chart.js draws the plots of the page that `vpm compare` writes, which has the library in it.
 find_file(VPM_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js DOC "Chart.js 3, minified" NO_DEFAULT_PATH)
-if(NOT VPM_CHART_JS)
+if(NOT EXISTS "${VPM_CHART_JS}")
   message(FATAL_ERROR "Chart.js is missing. tools/setup installs it (libjs-chart.js); elsewhere -D VPM_CHART_JS=.../chart.min.js names it.")
 endif()
 file(READ "${VPM_CHART_JS}" chart_head LIMIT 200)

@@ -15,6 +15,9 @@ function readNumber(text) {
   return Number(mantissa.replace('−', '-')) * 10 ** Number([...exponent].map(c => digits[c]).join(''));
 }
 
+/** Whether a number is the value of an interval, in two digits of half the interval's length. */
+const isValueOf = (shown, {value, lo, hi}) => Math.abs(shown - value) <= 0.05 * (hi - lo) / 2;
+
 /** Points of a canvas that have a colour, "#rrggbb". */
 function inkOf(canvas, colour) {
   const wanted = [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16));
@@ -48,8 +51,7 @@ function checkLegend(root, scene) {
   scene.methods.forEach((method, i) => {
     const text = buttons[i].textContent, others = buttons.filter(button => button !== buttons[i]);
     expect(
-        text.includes(method.name) && near(readNumber(text.split('slope ')[1]), method.slope.value, 0.02),
-        `legend: ${text}`);
+        text.includes(method.name) && isValueOf(readNumber(text.split('slope ')[1]), method.slope), `legend: ${text}`);
     others.forEach(button => button.click());
     scene.methods.forEach(
         (_, k) =>
@@ -83,11 +85,11 @@ function checkEqualCost(root, scene) {
   results.budgets.forEach((_, b) => {
     select.value = b;
     select.dispatchEvent(new Event('change'));
-    const errors = scene.methods.map(method => method.budgets[b].relative_mse.value).sort((x, y) => x - y);
+    const errors = scene.methods.map(method => method.budgets[b].relative_mse).sort((x, y) => x.value - y.value);
     const shown = columnOf(root.querySelector('.equal-cost table'), 2).map(readNumber);
     expect(
-        errors.length === shown.length && errors.every((x, i) => near(shown[i], x, 0.05)),
-        `errors ${shown}, not ${errors}`);
+        errors.length === shown.length && errors.every((error, i) => isValueOf(shown[i], error)),
+        `errors ${shown}, not ${errors.map(error => error.value)}`);
   });
 }
 

@@ -151,9 +151,9 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   referee.seed = effort.seed_of(subject.name + " referee");
   const Measured reference = by_referee(scene, referee, effort.count(40'000, 1'000'000));
   std::vector<Check> checks;
-  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(6'000, 20'000)), media, surfaces)) {
+  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'500, 20'000)), media, surfaces)) {
     settings.seed = effort.seed_of(subject.name + name);
-    const int passes = static_cast<int>(effort.count(22, 64));
+    const int passes = static_cast<int>(effort.count(20, 64));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
   }
   return checks;
@@ -162,7 +162,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
 /// Every strategy, for photons and for the referee's paths, and every estimator of transmittance.
 std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
-  RenderSettings base = photon_settings(subject, effort.count(6'000, 20'000));
+  RenderSettings base = photon_settings(subject, effort.count(3'500, 20'000));
   base.distance = careful_settings(base.distance.strategy);
   base.transmittance.step = base.distance.step;
   base.seed = effort.seed_of(subject.name + " reference");
@@ -180,7 +180,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
             scene.grey);
     settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
-    const int passes = static_cast<int>(effort.count(22, 64));
+    const int passes = static_cast<int>(effort.count(20, 64));
     compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
             reference, scene.grey);
   }
@@ -198,10 +198,10 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
 std::vector<Check> constant_grid(const Effort& effort) {
   const Scene plain = filled_box(false), grid = filled_box(true);
   std::vector<Check> checks;
-  RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(6'000, 20'000));
+  RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(3'500, 20'000));
   const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
     settings.seed = effort.seed_of(name);
-    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(22, 64)))
+    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(20, 64)))
                    : by_referee(scene, settings, effort.count(40'000, 1'000'000));
   };
   const Measured reference = measure(plain, "plain", false);
@@ -217,7 +217,7 @@ std::vector<Check> constant_grid(const Effort& effort) {
 std::vector<Experiment> agreement_experiments() {
   const auto seen_from = [](Viewpoint viewpoint) { return [=] { return puff(viewpoint, 2.0f); }; };
   const std::vector<Subject> by_gathering{
-      {"a lamp in chromatic fog, seen from inside", foggy_lamp, BiasOrder::smooth, 0.25f, 3},
+      {"a lamp in chromatic fog, seen from inside", foggy_lamp, BiasOrder::smooth, 0.25f, 2},
       {"a puff from outside", seen_from(Viewpoint::outside), BiasOrder::smooth, 0.3f},
       {"a puff from its border", seen_from(Viewpoint::border), BiasOrder::smooth, 0.3f},
       {"a puff from inside", seen_from(Viewpoint::inside), BiasOrder::smooth, 0.3f},
@@ -230,7 +230,7 @@ std::vector<Experiment> agreement_experiments() {
       {"a hollow cube", hollow_cube, BiasOrder::edges, 0.1f}};
   const std::vector<Subject> by_strategy{
       {"strategies in a puff", [] { return puff(Viewpoint::outside, 1.0f); }, BiasOrder::smooth, 0.3f},
-      {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.25f, 3}};
+      {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.25f}};
   std::vector<Experiment> all;
   for (const Subject& s : by_gathering)
     all.push_back({3, s.name, [s](const Effort& effort) { return compare_gatherings(s, effort); }});
