@@ -35,7 +35,7 @@ double mean_error(const Image& image, const Image& reference, const Error& error
 /// One channel's term of the relative MSE, for that mean of the reference over the channel.
 double relative_square(double value, double truth, double mean) {
   const double difference = value - truth;
-  return difference == 0.0 ? 0.0 : difference * difference / (truth * truth + 0.01 * mean * mean);
+  return difference == 0.0 ? 0.0 : difference * difference / relative_scale(truth, mean);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ double relative_mse(const Image& image, const Image& reference) {
 double relative_mse_of_pbrt(const Image& image, const Image& reference) {
   return mean_error(image, reference, [](int, double value, double truth) {
     const double difference = value - truth;
-    return difference == 0.0 ? 0.0 : difference * difference / ((truth + 0.01) * (truth + 0.01));
+    return difference == 0.0 ? 0.0 : difference * difference / scale_of_pbrt(truth);
   });
 }
 

@@ -17,9 +17,15 @@ Rgbd channel_means(const Image& image);
 /// Mean of (I - R)^2.
 double mse(const Image& image, const Image& reference);
 
+/// What the relative MSE divides squared errors of a value by; `mean` is that of its channel over the picture.
+inline double relative_scale(double truth, double mean) { return truth * truth + 0.01 * mean * mean; }
+
 /// Mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over the pixels of the same channel: the second term, a tenth of
 /// the mean squared, keeps dark pixels from deciding. 0 where I = R, also in a channel that is all black.
 double relative_mse(const Image& image, const Image& reference);
+
+/// The same of pbrt's.
+inline double scale_of_pbrt(double truth) { return (truth + 0.01) * (truth + 0.01); }
 
 /// Mean of (I - R)^2 / (R + 0.01)^2, as pbrt has it under the name MRSE [Pharr2023]: the 0.01 is in the pictures'
 /// unit, so that the number changes with their exposure. Infinite where a value of the reference is -0.01.

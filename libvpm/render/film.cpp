@@ -78,7 +78,7 @@ FilmErrors Film::errors() const {
     errors.variance.pixels[i] = Rgb(variance);
     errors.bias.pixels[i] = Rgb(0.5 * (bias_a + bias_b));
     for (int c = 0; c < 3; ++c) {
-      const double scale = value[c] * value[c] + 0.01 * means[c] * means[c];
+      const double scale = relative_scale(value[c], means[c]);
       if (scale == 0.0) continue;  // a black channel is exact
       errors.variance_part += variance[c] / scale;
       errors.bias_part += bias_a[c] * bias_b[c] / scale;

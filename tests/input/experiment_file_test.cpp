@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "input/expectations.h"
@@ -64,6 +65,18 @@ TEST(ExperimentFile, MakesEveryCombinationOfAProduct) {
             (std::vector<std::string>{"distance.strategy=\"ray-march\"", "volume.radius=0.2"}));
   EXPECT_EQ(plan.unit, CostUnit::seconds);
   EXPECT_EQ(plan.repetitions, 10);
+}
+
+TEST(ExperimentFile, TheProjectsOwnAreRight) {
+  int found = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(VPM_SOURCE_DIR "/scenes/experiments")) {
+    if (entry.path().extension() != ".toml") continue;
+    const ComparisonPlan plan = load_comparison_plan(entry.path().string());
+    EXPECT_GE(plan.methods.size(), 2u) << entry.path();
+    for (const ComparedScene& scene : plan.scenes) EXPECT_TRUE(std::filesystem::exists(scene.file)) << scene.file;
+    ++found;
+  }
+  EXPECT_GE(found, 5);
 }
 
 TEST(ExperimentFile, ReferencesMayBeMadeOfPhotons) {

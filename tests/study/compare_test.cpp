@@ -133,6 +133,7 @@ TEST(PictureErrors, AreLessTheReferencesOwnNoise) {
   const PictureErrors errors = picture_errors(off, {exact, variance});
   EXPECT_NEAR(errors.mse, 0.01 - 0.004, 1e-6);
   EXPECT_NEAR(errors.mean_ratio, 1.1, 1e-6);
+  EXPECT_NEAR(errors.relative_mse_of_pbrt, 0.006 * (1.0 / 0.2601 + 1.0 / 1.0201 + 1.0 / 2.2801) / 3.0, 1e-6);
   // Of scales value^2 + 0.01: those of 0.5, 1 and 1.5.
   const double scale = (1.0 / 0.26 + 1.0 / 1.01 + 1.0 / 2.26) / 3.0;
   EXPECT_NEAR(errors.relative_mse, 0.006 * scale, 1e-6);

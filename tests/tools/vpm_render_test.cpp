@@ -322,16 +322,20 @@ TEST_F(VpmRender, StopsAtAnError) {
 TEST_F(VpmRender, LogsErrorsAgainstAReference) {
   vpm_succeeds({"render", "scene.toml", "-o", "truth.exr", "--passes", "12"});
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "12", "--reference", "truth.exr"});
-  std::istringstream csv(read("a.errors.csv"));
-  std::string line;
-  std::getline(csv, line);
-  EXPECT_EQ(line, "passes,seconds,mse,relative_mse,mean_ratio");
-  std::vector<std::vector<double>> rows;
-  while (std::getline(csv, line)) {
-    std::vector<double>& row = rows.emplace_back();
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
-  }
+  const auto rows_of = [&](const std::string& file) {
+    std::istringstream csv(read(file));
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_EQ(line, "passes,seconds,mse,relative_mse,mean_ratio");
+    std::vector<std::vector<double>> rows;
+    while (std::getline(csv, line)) {
+      std::vector<double>& row = rows.emplace_back();
+      std::istringstream cells(line);
+      for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    }
+    return rows;
+  };
+  const auto rows = rows_of("a.errors.csv");
   ASSERT_EQ(rows.size(), 12u);  // a tenth of 11 is more than one, but the last has a line
   EXPECT_EQ(rows[0][0], 1.0);
   EXPECT_GT(rows[0][3], 0.0);
@@ -339,6 +343,18 @@ TEST_F(VpmRender, LogsErrorsAgainstAReference) {
   EXPECT_EQ(rows[11][0], 12.0);
   EXPECT_LT(rows[11][3], 0.0);
   EXPECT_EQ(rows[11][4], 1.0);
+  // A render that goes on keeps what it had told.
+  const std::vector<std::string> begin{"render", "scene.toml", "-o", "c.exr", "--reference", "truth.exr"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = begin;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  vpm_succeeds(with({"--passes", "5", "--checkpoint"}));
+  vpm_succeeds(with({"--passes", "12", "--resume"}));
+  const auto resumed = rows_of("c.errors.csv");
+  ASSERT_EQ(resumed.size(), rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(resumed[i][3], rows[i][3]);
   vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--set", "film.width=41", "--reference", "truth.exr"},
               {"truth.exr: the reference has 40 x 24 pixels, but the render 41 x 24"});
   vpm_refuses({"render", "scene.toml", "-o", "truth.exr", "--reference", "truth.exr"}, {"it is the reference"});

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "image/exr.h"
+#include "input/experiment_file.h"
 #include "input/scene_file.h"
 #include "tools/vpm_binary.h"
 
@@ -158,6 +159,29 @@ INSTANTIATE_TEST_SUITE_P(
       std::replace(name.begin(), name.end(), '-', '_');
       return name;
     });
+
+// Every key and value of the experiments is one that its scenes know.
+TEST_F(VpmScenes, OfAllExperimentsCanBeLoaded) {
+  size_t loaded = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scene_folder() + "experiments")) {
+    if (entry.path().extension() != ".toml") continue;
+    const ComparisonPlan plan = load_comparison_plan(entry.path().string());
+    for (const ComparedScene& scene : plan.scenes) {
+      const auto file = file_option(std::filesystem::path(scene.file).stem().string());
+      if (!file) continue;
+      std::vector<std::string> of_scene = scene.settings;
+      for (size_t i = 1; i < file->size(); i += 2) of_scene.push_back((*file)[i]);
+      const auto load = [&](std::vector<std::string> settings) {
+        settings.insert(settings.begin(), of_scene.begin(), of_scene.end());
+        EXPECT_NO_THROW(load_scene(scene.file, settings)) << entry.path() << ", " << scene.name;
+        ++loaded;
+      };
+      load(plan.reference_settings);
+      for (const Method& method : plan.methods) load(method.settings);
+    }
+  }
+  EXPECT_GT(loaded, 30u);
+}
 
 TEST_F(VpmScenes, TheHomogeneousStrategyRefusesGrids) {
   std::vector<std::string> arguments{"render", scene_folder() + "smoke.toml", "--set", "distance.strategy=homogeneous"};

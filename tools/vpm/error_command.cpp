@@ -175,9 +175,10 @@ void print_convergence(const char* name, const Convergence& convergence) {
   if (!convergence.line)
     fmt::print("{}: no slope over passes: {}\n", name, convergence.why_not);
   else if (std::isnan(convergence.line->slope_error))
-    fmt::print("{} falls as passes^{:.3f} (two pictures: no error can be given)\n", name, convergence.line->slope);
+    fmt::print("{} goes as passes^{:.3f} (two pictures: no error can be given)\n", name, convergence.line->slope);
   else
-    fmt::print("{} falls as passes^{:.3f} +- {:.3f}\n", name, convergence.line->slope, convergence.line->slope_error);
+    fmt::print("{} goes as passes^{:.3f} +- {:.3f}, for pictures that are independent of each other\n", name,
+               convergence.line->slope, convergence.line->slope_error);
 }
 
 void print_series(const std::vector<Member>& series, const std::string& to, const Image& reference) {

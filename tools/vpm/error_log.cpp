@@ -2,6 +2,8 @@
 #include "error_log.h"
 
 #include <fmt/format.h>
+#include <cstdlib>
+#include <fstream>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -13,9 +15,22 @@ ErrorLog::ErrorLog(const std::filesystem::path& reference, std::filesystem::path
     : reference_(read_reference(reference)), csv_(std::move(csv)) {
   check_writable(csv_, 1 << 16);
   const Image& truth = reference_.mean;
-  if (truth.width == film.width() && truth.height == film.height()) return;
-  throw InputError(fmt::format("{}: the reference has {} x {} pixels, but the render {} x {}", reference.string(),
-                               truth.width, truth.height, film.width(), film.height()));
+  if (truth.width != film.width() || truth.height != film.height())
+    throw InputError(fmt::format("{}: the reference has {} x {} pixels, but the render {} x {}", reference.string(),
+                                 truth.width, truth.height, film.width(), film.height()));
+  keep_lines_up_to(film.passes());
+}
+
+void ErrorLog::keep_lines_up_to(int passes) {
+  std::ifstream csv(csv_);
+  std::string line;
+  std::getline(csv, line);  // names of columns
+  while (std::getline(csv, line)) {
+    const int at = std::atoi(line.c_str());
+    if (at > passes) return;
+    last_ = at;
+    text_ += line + '\n';
+  }
 }
 
 void ErrorLog::add(const RenderResult& so_far) {

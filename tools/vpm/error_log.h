@@ -14,7 +14,7 @@ namespace vpm::tools {
 class ErrorLog {
  public:
   /// Throws InputError where the reference cannot be read or has another size than the film, and where the CSV file
-  /// could not be written.
+  /// could not be written. Where the film has passes already, the lines that the file has of them stay.
   ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film);
 
   /// After each pass; and once more after the last.
@@ -22,6 +22,7 @@ class ErrorLog {
   void finish(const RenderResult& result);
 
  private:
+  void keep_lines_up_to(int passes);
   void write(const RenderResult& so_far);
 
   Reference reference_;

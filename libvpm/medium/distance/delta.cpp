@@ -3,18 +3,13 @@
 // Known failure: a few dense voxels in a thin medium make nearly all collisions null, at a look-up each.
 #include "medium/distance/null_collisions.h"
 #include "medium/distance/strategies.h"
+#include "medium/majorant_of_lookups.h"
 
 namespace vpm {
-namespace {
-
-/// Look-ups round: among voxels of the largest density they can exceed it by some units in the last place.
-constexpr double kRoom = 1.0 + 1e-6;
-
-}  // namespace
 
 Flight Delta::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng) const {
   const Interval inside = medium.clip(ray, interval);
-  const double majorant = kRoom * static_cast<double>(medium.max_density());
+  const double majorant = majorant_of_lookups(medium);
   NullCollisionFlight flight(medium, interval, power, rng);
   for (double t = inside.t0; flight.advance(t, inside.t1, majorant);)
     if (flight.meet(t, medium.density(ray.at(static_cast<float>(t))), majorant)) break;

@@ -6,6 +6,7 @@
 // Known failure: it is as blind as delta tracking where the density is its majorant: in a constant medium the value is
 // 0 or 1. The relative variance is exp(int sigma_t^2 / majorant) - 1; look-ups are as many as the majorant's thickness,
 // which one dense voxel anywhere in the medium makes large.
+#include "medium/majorant_of_lookups.h"
 #include "medium/transmittance/estimators.h"
 #include "medium/transmittance/marched_columns.h"
 #include "medium/transmittance/poisson_points.h"
@@ -17,7 +18,7 @@ TransmittanceEstimate RatioTransmittance::estimate(const Medium& medium, const R
   const Interval inside = medium.clip(ray, interval);
   if (const auto known = known_transmittance(medium, inside)) return *known;
   const Rgbd sigma_t(medium.sigma_t);
-  const double majorant = double{max_channel(medium.sigma_t)} * medium.max_density();  // 1/m
+  const double majorant = double{max_channel(medium.sigma_t)} * majorant_of_lookups(medium);  // 1/m
   uint32_t lookups = 0;
   Rgbd product(1.0);
   PoissonPoints(rng).visit(inside.t0, inside.t1, majorant, [&](double t) {

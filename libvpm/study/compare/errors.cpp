@@ -2,6 +2,7 @@
 #include "study/compare/errors.h"
 
 #include <cassert>
+#include <cmath>
 
 #include "base/statistics.h"
 #include "image/metrics.h"
@@ -15,10 +16,7 @@ class Scales {
  public:
   explicit Scales(const Image& truth) : truth_(truth), means_(channel_means(truth)) {}
 
-  double at(size_t pixel, int channel) const {
-    const double value = truth_.pixels[pixel][channel], mean = means_[channel];
-    return value * value + 0.01 * mean * mean;
-  }
+  double at(size_t pixel, int channel) const { return relative_scale(truth_.pixels[pixel][channel], means_[channel]); }
 
  private:
   const Image& truth_;
@@ -39,6 +37,23 @@ double over(double square, double scale) { return square == 0.0 ? 0.0 : square /
 
 double brightness(const Image& image) { return sum_channels(channel_means(image)); }
 
+/// The standard error of a reference's brightness over it, were its pixels independent and their channels as one.
+double relative_error_of_brightness(const Reference& reference) {
+  Sum variance;
+  for (const Rgb& pixel : reference.variance.pixels) {
+    const Rgbd error = glm::sqrt(Rgbd(pixel));
+    variance.add(sum_channels(error) * sum_channels(error));
+  }
+  return std::sqrt(variance.value()) / static_cast<double>(reference.mean.pixels.size()) / brightness(reference.mean);
+}
+
+/// All repetitions have the same reference: its error moves all of them alike.
+Bounded widened(const Bounded& bound, double error) {
+  constexpr double kNormal = 1.96;  // standard errors, of a 95 % interval
+  const auto reach = [&](double own) { return std::hypot(own, kNormal * error); };
+  return {bound.value, bound.value - reach(bound.value - bound.lo), bound.value + reach(bound.hi - bound.value)};
+}
+
 }  // namespace
 
 double reference_noise(const Reference& reference) {
@@ -50,12 +65,15 @@ double reference_noise(const Reference& reference) {
 PictureErrors picture_errors(const Image& image, const Reference& reference) {
   const Image& variance = reference.variance;
   const double noise = mean_over(variance, [&](size_t i, int c) { return double{variance.pixels[i][c]}; });
+  const double noise_of_pbrt = mean_over(variance, [&](size_t i, int c) {
+    return over(variance.pixels[i][c], scale_of_pbrt(reference.mean.pixels[i][c]));
+  });
   return {mse(image, reference.mean) - noise, relative_mse(image, reference.mean) - reference_noise(reference),
-          brightness(image) / brightness(reference.mean)};
+          relative_mse_of_pbrt(image, reference.mean) - noise_of_pbrt, brightness(image) / brightness(reference.mean)};
 }
 
 RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference& reference) {
-  assert(images.size() >= 2);
+  assert(images.size() >= 3);
   std::vector<double> mses, relatives, biases;
   for (const Image& image : images) {
     const PictureErrors errors = picture_errors(image, reference);
@@ -76,7 +94,7 @@ RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference
   RepeatedErrors result;
   result.mse = mean_with_interval(mses);
   result.relative_mse = mean_with_interval(relatives);
-  result.bias = mean_with_interval(biases);
+  result.bias = widened(mean_with_interval(biases), relative_error_of_brightness(reference));
   result.squared_bias = jackknife(images.size(), squared_bias);
   result.variance = result.relative_mse.value - result.squared_bias.value;
   return result;

@@ -21,18 +21,21 @@ struct Bounded {
 /// Errors of one picture, the expected part that the reference's own noise has in them subtracted: they are unbiased,
 /// and may come out below 0 where the reference is too noisy to tell.
 struct PictureErrors {
-  double mse = 0.0;           // (W/(m^2 sr))^2
-  double relative_mse = 0.0;  // as relative_mse()
-  double mean_ratio = 0.0;    // the mean over pixels and channels over the reference's
+  double mse = 0.0;                   // (W/(m^2 sr))^2
+  double relative_mse = 0.0;          // as relative_mse()
+  double relative_mse_of_pbrt = 0.0;  // as relative_mse_of_pbrt()
+  double mean_ratio = 0.0;            // the mean over pixels and channels over the reference's
 };
 /// The relative MSE that the reference's own noise stands for.
 double reference_noise(const Reference& reference);
 PictureErrors picture_errors(const Image& image, const Reference& reference);
 
-/// The errors of a method at one budget, from repetitions (at least 2) that are independent of each other.
+/// The errors of a method at one budget, from repetitions (at least 3) that are independent of each other.
 struct RepeatedErrors {
   Bounded mse, relative_mse;
-  Bounded bias;  // of the mean over pixels and channels, relative to the reference's
+  /// Of the mean over pixels and channels, relative to the reference's. The reference's own noise is part of the
+  /// interval as far as its pixels are independent: those of paths are, those of photon maps hang together.
+  Bounded bias;
   /// The relative MSE that is left when repetitions without end are averaged, and what goes away. Estimated without
   /// bias: the first may come out below 0.
   Bounded squared_bias;

@@ -36,7 +36,7 @@ struct ComparisonPlan {
   CostUnit unit = CostUnit::seconds;
   std::vector<double>
       budgets;           // in that unit, > 0, rising: a run goes on to the last and is looked at as it passes each
-  int repetitions = 10;  // >= 2, with seeds of their own
+  int repetitions = 10;  // >= 3, with seeds of their own
   uint64_t seed = 1;     // of the first repetition
   /// How references are rendered where scenes name none, and to what estimated relative MSE, > 0.
   std::vector<std::string> reference_settings{"render.integrator=\"path\""};
@@ -50,6 +50,8 @@ struct RunCost {
   uint64_t photons = 0;  // emitted
   uint64_t stored = 0;   // in all maps
   uint64_t lookups = 0;
+  uint64_t null_collisions = 0;        // of flights
+  uint64_t majorant_violations = 0;    // see WalkCounters
   uint64_t bytes = 0;                  // of photon maps and guides, of the largest pass
   double largest_weight = 0.0;         // of a photon, see Ledger
   double effective_sample_size = 0.0;  // of collisions, see Ledger

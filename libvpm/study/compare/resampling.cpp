@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/line_fit.h"
 #include "base/rng.h"
 #include "base/statistics.h"
 
@@ -142,19 +143,14 @@ void correct_for_many(std::vector<Comparison>& comparisons) {
 Bounded convergence_slope(const std::vector<Repetitions>& budgets) {
   assert(budgets.size() >= 2);
   const Statistic slope = [&](const std::vector<double>& weights) {
-    Moments x, y;
-    double product = 0.0, square = 0.0;
+    std::vector<double> x, y;
     for (const Repetitions& budget : budgets) {
-      x.add(std::log(weighted_sum(weights, budget.costs)));
+      x.push_back(std::log(weighted_sum(weights, budget.costs)));
       const double error = weighted_sum(weights, budget.errors);
-      y.add(error > 0.0 ? std::log(error) : kUnknown);
+      y.push_back(error > 0.0 ? std::log(error) : kUnknown);
     }
-    for (const Repetitions& budget : budgets) {
-      const double off = std::log(weighted_sum(weights, budget.costs)) - x.mean();
-      product += off * (std::log(weighted_sum(weights, budget.errors)) - y.mean());
-      square += off * off;
-    }
-    return product / square;
+    const bool one_cost = std::all_of(x.begin(), x.end(), [&](double cost) { return cost == x[0]; });
+    return one_cost ? kUnknown : fit_line(x, y).slope;
   };
   return jackknife(budgets.front().errors.size(), slope);
 }

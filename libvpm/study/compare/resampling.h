@@ -38,7 +38,7 @@ Comparison compare_efficiency(const Repetitions& a, const Repetitions& b);
 void correct_for_many(std::vector<Comparison>& comparisons);
 
 /// The slope of log(error) over log(cost), of means over repetitions at several budgets (at least 2): errors and costs
-/// by budget. Least squares; NaN where an error is not above 0.
+/// by budget. Least squares; NaN where an error is not above 0 or all costs are the same.
 Bounded convergence_slope(const std::vector<Repetitions>& budgets);
 
 }  // namespace vpm

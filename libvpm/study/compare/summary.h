@@ -15,6 +15,7 @@ struct BudgetSummary {
   std::vector<RunCost> costs;       // by repetition
   std::vector<PictureErrors> each;  // by repetition
   RepeatedErrors errors;            // of all
+  std::string why_bias_unknown;     // empty: it is known
 };
 /// `images` and `costs` are of the same repetitions, at least 3.
 BudgetSummary summarise_budget(const std::vector<RunCost>& costs, const std::vector<Image>& images,

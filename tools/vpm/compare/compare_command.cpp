@@ -1,5 +1,6 @@
 // vpm compare: an experiment in, tables and a page out.
 #include <fmt/format.h>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -16,8 +17,10 @@
 #include "image/metrics.h"
 #include "input/experiment_file.h"
 #include "input/source.h"
+#include "medium/distance/strategy.h"
 #include "pass_run.h"
 #include "report.h"
+#include "study/validate/check.h"
 
 namespace vpm::tools {
 namespace {
@@ -59,6 +62,10 @@ std::string run_purpose(const ComparisonPlan& plan) {
   return text;
 }
 
+/// The reference's. A method may have the reference's settings, and must not have its random numbers: no repetition has
+/// this seed.
+uint64_t reference_seed(const ComparisonPlan& plan) { return plan.seed + (uint64_t{1} << 40); }
+
 void check_size(const Image& reference, const Camera& camera, const ComparedScene& scene) {
   if (reference.width == camera.width && reference.height == camera.height) return;
   throw InputError(fmt::format("scene '{}': its reference has {} x {} pixels, but a method renders {} x {}", scene.name,
@@ -74,8 +81,9 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
     for (const Method& method : plan.methods)
       contest.methods.push_back(make_entrant(scene, method.settings, run_purpose(plan)));
     if (scene.reference.empty()) {
-      contest.referee = make_entrant(scene, plan.reference_settings,
-                                     fmt::format("reference of relative MSE {}", plan.reference_error));
+      const std::string seed = fmt::format("render.seed={}", reference_seed(plan));
+      contest.referee = make_entrant(scene, joined(plan.reference_settings, {seed}),
+                                     fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
       const Camera& camera = contest.referee->loaded.scene.camera;
       contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);
     } else {
@@ -128,6 +136,27 @@ void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan,
   bar.finish();
 }
 
+bool has_bounded_weights(const LoadedScene& loaded) {
+  bool grids = false;
+  for (const Medium& medium : loaded.scene.media) grids |= !medium.homogeneous();
+  const auto strategies = distance_strategies();
+  const auto used = std::find_if(strategies.begin(), strategies.end(), [&](const StrategyInfo& info) {
+    return info.name == loaded.settings.distance.strategy;
+  });
+  return !grids || used->bounded_weight;
+}
+
+/// Why a bias cannot be told from repetitions; empty where it can. Means of heavy-tailed weights look biased in nearly
+/// all repetitions, and their intervals lie.
+std::string why_bias_unknown(const LoadedScene& loaded, const std::vector<RunCost>& costs) {
+  if (loaded.scene.media.empty() || has_bounded_weights(loaded)) return "";
+  if (loaded.settings.integrator == Integrator::path)
+    return "weights without bound, and of paths no effective sample size is counted";
+  double least = costs.front().effective_sample_size;
+  for (const RunCost& cost : costs) least = std::min(least, cost.effective_sample_size);
+  return least < kLeastSampleSize ? fmt::format("effective sample size {:.3g} < {:g}", least, kLeastSampleSize) : "";
+}
+
 BudgetSummary summarise(const Entrant& entrant, const Reference& reference, const ComparisonPlan& plan,
                         const Store& store, size_t budget) {
   std::vector<RunCost> costs;
@@ -137,7 +166,9 @@ BudgetSummary summarise(const Entrant& entrant, const Reference& reference, cons
     costs.push_back(store.find_run(identity)->at(budget));
     images.push_back(store.picture(identity, budget));
   }
-  return summarise_budget(costs, images, reference);
+  BudgetSummary summary = summarise_budget(costs, images, reference);
+  summary.why_bias_unknown = why_bias_unknown(entrant.loaded, costs);
+  return summary;
 }
 
 std::string reference_text(const Contest& contest, double error) {

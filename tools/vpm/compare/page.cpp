@@ -66,7 +66,7 @@ std::string about_json() {
                         {"unbiased", info.unbiased},
                         {"bounded_weight", info.bounded_weight}});
   for (const EstimatorInfo& info : transmittance_estimators())
-    transmittance.push_back({{"name", info.name}, {"summary", info.summary}});
+    transmittance.push_back({{"name", info.name}, {"summary", info.summary}, {"unbiased", info.unbiased}});
   return Json{{"distance", std::move(distance)}, {"transmittance", std::move(transmittance)}}.dump();
 }
 

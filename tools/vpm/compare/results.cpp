@@ -52,6 +52,7 @@ Json budget_json(const BudgetSummary& budget, const Comparison& by_mse, const Co
     Json run = Json::parse(cost_json(budget.costs[i]));
     run["mse"] = number(budget.each[i].mse);
     run["relative_mse"] = number(budget.each[i].relative_mse);
+    run["relative_mse_of_pbrt"] = number(budget.each[i].relative_mse_of_pbrt);
     run["mean_ratio"] = number(budget.each[i].mean_ratio);
     runs.push_back(std::move(run));
   }
@@ -59,6 +60,7 @@ Json budget_json(const BudgetSummary& budget, const Comparison& by_mse, const Co
   return {{"mse", bounded(errors.mse)},
           {"relative_mse", bounded(errors.relative_mse)},
           {"bias", bounded(errors.bias)},
+          {"why_bias_unknown", budget.why_bias_unknown},
           {"squared_bias", bounded(errors.squared_bias)},
           {"variance", number(errors.variance)},
           {"efficiency_by_mse", comparison_json(by_mse)},
@@ -117,8 +119,9 @@ std::string equal_cost_table(const ComparisonPlan& plan, const SceneResults& sce
   for (size_t m = 0; m < plan.methods.size(); ++m) {
     const RepeatedErrors& errors = scene.budgets[m][b].errors;
     const Bounded percent{100.0 * errors.bias.value, 100.0 * errors.bias.lo, 100.0 * errors.bias.hi};
+    const bool known = scene.budgets[m][b].why_bias_unknown.empty();
     text += fmt::format("    {:32} {:>28} {:>26} {:>24}\n", plan.methods[m].name, with_interval(errors.relative_mse),
-                        with_interval(percent),
+                        known ? with_interval(percent) : "not determined",
                         m == scene.summary.best_by_relative_mse[b]
                             ? "best"
                             : with_interval(scene.summary.methods[m].by_relative_mse[b].ratio));
@@ -177,9 +180,11 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
       {"formulas",
        {{"mse", "mean over pixels and channels of (I - R)^2, less the reference's own variance"},
         {"relative_mse", "mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) by channel, less the reference's own"},
-        {"bias", "mean over pixels and channels of I over that of R, less 1"},
+        {"relative_mse_of_pbrt", "mean of (I - R)^2 / (R + 0.01)^2, less the reference's own"},
+        {"bias",
+         "mean over pixels and channels of I over that of R, less 1; the interval has the reference's noise in it"},
         {"squared_bias", "relative MSE of the mean of repetitions, less its variance"},
-        {"efficiency", "1 / (relative MSE x cost), over that of the best method"},
+        {"efficiency", "1 / (relative MSE x cost), over that of the best method; whether two differ, pairs tell"},
         {"intervals", "95 %: Student's t over repetitions; ratios: studentised bootstrap of repetitions in pairs"},
         {"p", "Student's t of the jackknife over pairs of repetitions; p_holm: corrected for all pairs of a scene"}}},
       {"scenes", std::move(all)}};
@@ -188,19 +193,21 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
 
 std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
   std::string csv =
-      "scene,method,repetition,seed,budget,cpu_seconds,wall_seconds,passes,photons,stored,lookups,bytes,largest_weight,"
-      "effective_sample_size,mse,relative_mse,mean_ratio\n";
+      "scene,method,repetition,seed,budget,cpu_seconds,wall_seconds,passes,photons,stored,lookups,null_collisions,"
+      "majorant_violations,"
+      "bytes,largest_weight,effective_sample_size,mse,relative_mse,relative_mse_of_pbrt,mean_ratio\n";
   for (size_t s = 0; s < scenes.size(); ++s)
     for (size_t m = 0; m < plan.methods.size(); ++m)
       for (size_t b = 0; b < plan.budgets.size(); ++b)
         for (size_t r = 0; r < scenes[s].budgets[m][b].each.size(); ++r) {
           const RunCost& cost = scenes[s].budgets[m][b].costs[r];
           const PictureErrors& errors = scenes[s].budgets[m][b].each[r];
-          csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(plan.scenes[s].name),
-                             csv_text(plan.methods[m].name), r, plan.seed + r, plan.budgets[b], cost.cpu_seconds,
-                             cost.wall_seconds, cost.passes, cost.photons, cost.stored, cost.lookups, cost.bytes,
+          csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                             csv_text(plan.scenes[s].name), csv_text(plan.methods[m].name), r, plan.seed + r,
+                             plan.budgets[b], cost.cpu_seconds, cost.wall_seconds, cost.passes, cost.photons,
+                             cost.stored, cost.lookups, cost.null_collisions, cost.majorant_violations, cost.bytes,
                              cost.largest_weight, cost.effective_sample_size, errors.mse, errors.relative_mse,
-                             errors.mean_ratio);
+                             errors.relative_mse_of_pbrt, errors.mean_ratio);
         }
   return csv;
 }

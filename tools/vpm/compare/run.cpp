@@ -20,7 +20,11 @@ RunCost counted(const RenderStatistics& s) {
   cost.passes = static_cast<uint64_t>(s.passes);
   cost.photons = s.ledger.emitted_count;
   cost.stored = s.volume_photons + s.surface_photons + s.caustic_photons + s.guiding_photons;
-  cost.lookups = s.ledger.walk.lookups + s.eye.walk.lookups;
+  WalkCounters walk = s.ledger.walk;
+  walk.merge(s.eye.walk);
+  cost.lookups = walk.lookups;
+  cost.null_collisions = walk.null_collisions;
+  cost.majorant_violations = walk.majorant_violations;
   cost.bytes = s.photon_map_bytes + s.guide_bytes;
   cost.largest_weight = s.ledger.largest_weight;
   cost.effective_sample_size = s.ledger.effective_sample_size();

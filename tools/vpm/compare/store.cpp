@@ -17,9 +17,17 @@ namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
 RunCost cost_of(const json& j) {
-  return {j.at("cpu_seconds"), j.at("wall_seconds"),   j.at("passes"),
-          j.at("photons"),     j.at("stored"),         j.at("lookups"),
-          j.at("bytes"),       j.at("largest_weight"), j.at("effective_sample_size")};
+  return {j.at("cpu_seconds"),
+          j.at("wall_seconds"),
+          j.at("passes"),
+          j.at("photons"),
+          j.at("stored"),
+          j.at("lookups"),
+          j.at("null_collisions"),
+          j.at("majorant_violations"),
+          j.at("bytes"),
+          j.at("largest_weight"),
+          j.at("effective_sample_size")};
 }
 
 /// Makes a folder and those it is in.
@@ -50,6 +58,8 @@ std::string cost_json(const RunCost& cost) {
                  {"photons", cost.photons},
                  {"stored", cost.stored},
                  {"lookups", cost.lookups},
+                 {"null_collisions", cost.null_collisions},
+                 {"majorant_violations", cost.majorant_violations},
                  {"bytes", cost.bytes},
                  {"largest_weight", cost.largest_weight},
                  {"effective_sample_size", cost.effective_sample_size}};

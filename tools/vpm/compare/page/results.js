@@ -1,8 +1,7 @@
 // What the page is about: the results that vpm wrote, and how their numbers are called.
 'use strict';
 
-const kLeastSampleSize = 1000;  // effective samples below which a bias is not determined
-const kFamilyWise = 0.05;       // rate of pairs wrongly called different
+const kFamilyWise = 0.05;  // rate of pairs wrongly called different
 
 const read = id => JSON.parse(document.getElementById(id).textContent);
 const results = read('results');
@@ -39,10 +38,7 @@ function sampleSize(budget) {
 }
 
 /** Why the bias of a method at a budget is not determined; nothing where it is. */
-function biasUnknown(budget) {
-  const size = sampleSize(budget);
-  return size !== null && size < kLeastSampleSize ? `effective sample size ${number(size)} < ${kLeastSampleSize}` : '';
-}
+const biasUnknown = budget => budget.why_bias_unknown;
 
 const kUnknown = {
   value: null,

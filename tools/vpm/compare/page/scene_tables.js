@@ -45,6 +45,9 @@ function equalCostTable(scene, b) {
     intervalColumn('squared bias', f.squared_bias, row => row.squared_bias),
     numberColumn('variance', 'relative MSE less squared bias', row => row.variance),
     intervalColumn('MSE', f.mse, row => row.mse),
+    numberColumn(
+        'pbrt’s relative MSE', f.relative_mse_of_pbrt + '; mean over repetitions',
+        row => meanOf(row, 'relative_mse_of_pbrt')),
   ];
   return sortableTable(`Errors at ${budgetText(b)}, with 95 % intervals`, columns, rowsAt(scene, b), 2);
 }
@@ -52,7 +55,7 @@ function equalCostTable(scene, b) {
 /** Counters that have a column of their own below; others are shown by their name. */
 const kRunFields = [
   'cpu_seconds', 'wall_seconds', 'passes', 'photons', 'stored', 'lookups', 'bytes', 'largest_weight',
-  'effective_sample_size', 'mse', 'relative_mse', 'mean_ratio'
+  'effective_sample_size', 'mse', 'relative_mse', 'relative_mse_of_pbrt', 'mean_ratio'
 ];
 
 function countersTable(scene, b) {
@@ -77,9 +80,9 @@ function countersTable(scene, b) {
         row => Math.max(...row.runs.map(run => run.largest_weight))),
     {
       title: 'effective sample size',
-      hint: `of collisions, the least of the repetitions; below ${kLeastSampleSize} nothing is determined`,
+      hint: 'of collisions, the least of the repetitions',
       key: sampleSize,
-      cell: row => (biasUnknown(row) ? `not determined (${number(sampleSize(row))})` : number(sampleSize(row)))
+      cell: row => number(sampleSize(row))
     },
     ...others.map(key => numberColumn(key.replaceAll('_', ' '), 'mean over repetitions', row => meanOf(row, key))),
   ];
@@ -143,11 +146,11 @@ function aboutTable(caption, entries) {
   const said = (flag, yes, no) => (flag === undefined ? kNothing : flag ? yes : no);
   const word = (title, of) => ({title, words: true, key: of, cell: of});
   const columns = [word('name', s => s.name), word('what it is, and how it fails', s => s.summary)];
-  if (entries.some(s => s.unbiased !== undefined)) {
-    columns.push(
-        word('bias', s => said(s.unbiased, 'none', 'biased')),
-        word('weights', s => said(s.bounded_weight, 'bounded', 'without bound')),
-        word('grids', s => said(s.heterogeneous, 'yes', 'refused')));
-  }
+  const tell = (flag, title, yes, no) => {
+    if (entries.some(s => s[flag] !== undefined)) columns.push(word(title, s => said(s[flag], yes, no)));
+  };
+  tell('unbiased', 'bias', 'none', 'biased');
+  tell('bounded_weight', 'weights', 'bounded', 'without bound');
+  tell('heterogeneous', 'grids', 'yes', 'refused');
   return sortableTable(caption, columns, entries);
 }
