@@ -1,6 +1,8 @@
 // Lights above a plane.
 #include "study/estimates/irradiance.h"
 
+#include <optional>
+
 #include "estimate/surface_estimate.h"
 #include "path/direct_light.h"
 #include "photon/trace.h"
@@ -36,14 +38,17 @@ Moments estimate_mean_irradiance(const std::function<Light(Rng&)>& draw, const V
   })[0];
 }
 
-MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& receiver, double h, uint64_t photons,
-                                            uint64_t seed) {
+MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& receiver, double h, bool aimed,
+                                            uint64_t photons, uint64_t seed) {
   constexpr int kBatches = 40;
   Scene scene;
   const double half = 2.0 * h;
   const Vec3d corner = Vec3d(receiver) - Vec3d(half, half, 0.0);
   add_shape(scene, quad_mesh(corner, Vec3d(2.0 * half, 0.0, 0.0), Vec3d(0.0, 2.0 * half, 0.0)), Lambertian{});
   scene.lights.push_back(light);
+  // It sees the disc of radius h and what is around it.
+  const auto above = static_cast<float>(4.0 * h);
+  scene.camera = make_camera(receiver + above * kUp, receiver, Vec3(0.0f, 1.0f, 0.0f), 40.0f, 1, 1, {});
   scene.geometry.commit();
   finish(scene);
   const auto strategy = make_distance_strategy({});
@@ -54,6 +59,9 @@ MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& rece
     trace.seed = seed;
     trace.pass = static_cast<uint64_t>(batch);
     trace.emitted = photons;
+    std::optional<PhotonGuide> guide;
+    if (aimed) guide = learn_guide(scene, *strategy, {.importons = 2000}, seed, trace.pass, trace.max_events);
+    trace.guide = guide ? &*guide : nullptr;
     const TracedPhotons traced = trace_photons(scene, *strategy, trace, silent);
     const auto through = [&](double radius) {
       const GatherSettings gather{GatherMode::radius, static_cast<float>(radius), 0, KernelKind::epanechnikov};

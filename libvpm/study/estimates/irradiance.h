@@ -18,13 +18,14 @@ Moments estimate_mean_irradiance(const std::function<Light(Rng&)>& draw, const V
                                  uint64_t seed);
 
 /// The same through surface photon maps of the radii h and h/2, joined so that the h^2 of their bias goes. A sample is
-/// a batch of photons; `fewest`: within h/2, on average.
+/// a batch of photons; `fewest`: within h/2, on average. Aimed: photons are emitted to where importons from a camera
+/// above the receiver tell, so that many more come near it.
 struct MappedIrradiance {
   Moments unbiased;
   double fewest = 0.0;
 };
-MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& receiver, double h, uint64_t photons,
-                                            uint64_t seed);
+MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& receiver, double h, bool aimed,
+                                            uint64_t photons, uint64_t seed);
 
 /// A closed cavity with diffuse walls and a point source of 1 W inside.
 struct Cavity {
