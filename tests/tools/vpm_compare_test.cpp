@@ -2,6 +2,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tools/ball_of_fog.h"
 #include "tools/vpm_binary.h"
 
 namespace vpm {
@@ -10,30 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* kScene = R"(
-[camera]
-position = [0, 0, 3]
-target = [0, 0, 0]
-[film]
-width = 6
-height = 4
-[media.fog]
-type = "homogeneous"
-sigma_s = 0.5
-sigma_a = 0.1
-[[shapes]]
-type = "sphere"
-material = { type = "boundary" }
-center = [0, 0, 0]
-radius = 1
-inside = "fog"
-[[lights]]
-type = "directional"
-direction = [0, -1, 0.2]
-irradiance = 3
-[photons]
-emitted = 2000
-)";
+const std::string kScene = ball_of_fog(6, 4);
 
 /// One ray for each pixel against four: in passes the second is four times as efficient, whatever the scene.
 constexpr const char* kKnownRatio = R"(

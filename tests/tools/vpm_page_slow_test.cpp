@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "image/exr.h"
+#include "tools/ball_of_fog.h"
 #include "tools/vpm_binary.h"
 
 namespace vpm {
@@ -17,31 +18,8 @@ using nlohmann::json;
 
 constexpr int kWidth = 12, kHeight = 8;
 
-/// A ball of fog under a lamp.
-constexpr const char* kScene = R"(# </script><script>fail('a scene\'s text is no script')</script>
-[camera]
-position = [0, 0, 3]
-target = [0, 0, 0]
-[film]
-width = 12
-height = 8
-[media.fog]
-type = "homogeneous"
-sigma_s = 0.5
-sigma_a = 0.1
-[[shapes]]
-type = "sphere"
-material = { type = "boundary" }
-center = [0, 0, 0]
-radius = 1
-inside = "fog"
-[[lights]]
-type = "point"
-position = [0, 2, 0]
-power = 10
-[photons]
-emitted = 2000
-)";
+const std::string kScene =
+    "# </script><script>fail('a scene\\'s text is no script')</script>\n" + ball_of_fog(kWidth, kHeight);
 
 /// Two scenes and two methods. What texts mean in HTML, and the names of places in the template, mean nothing here.
 constexpr const char* kExperiment = R"(

@@ -3,30 +3,15 @@
 //
 // Known failure: that of `ratio`, and more of its noise: a majorant closer to the density has fewer look-ups, each of
 // which decides more.
-#include "medium/transmittance/estimators.h"
-#include "medium/transmittance/marched_columns.h"
-#include "medium/transmittance/poisson_points.h"
+#include "medium/transmittance/brick_tracking.h"
 
 namespace vpm {
 
 TransmittanceEstimate LocalRatioTransmittance::estimate(const Medium& medium, const Ray& ray, const Interval& interval,
                                                         Rng& rng) const {
-  const Interval inside = medium.clip(ray, interval);
-  if (const auto known = known_transmittance(medium, inside)) return *known;
-  const Rgbd sigma_t(medium.sigma_t);
-  const double densest = max_channel(medium.sigma_t);
-  uint32_t lookups = 0;
-  Rgbd product(1.0);
-  PoissonPoints points(rng);
-  medium.visit_majorants(ray, inside, [&](const DensityStretch& stretch) {
-    const double majorant = densest * stretch.max;  // 1/m
-    return points.visit(stretch.t0, stretch.t1, majorant, [&](double t) {
-      ++lookups;
-      product *= 1.0 - sigma_t * double{stretch.density(t)} / majorant;
-      return survives(product, rng);
-    });
+  return track_bricks(medium, ray, interval, rng, [](const DensityStretch& stretch) {
+    return BrickSplit{0.0, stretch.max};
   });
-  return {Rgb(product), lookups};
 }
 
 }  // namespace vpm

@@ -8,32 +8,15 @@
 //
 // Known failure: a brick that is empty but for a small part. Its residual is as large as can be almost everywhere;
 // ratio tracking, whose look-ups leave the light alone there, is better in such bricks.
-#include "medium/transmittance/estimators.h"
-#include "medium/transmittance/marched_columns.h"
-#include "medium/transmittance/poisson_points.h"
+#include "medium/transmittance/brick_tracking.h"
 
 namespace vpm {
 
 TransmittanceEstimate ResidualRatioTransmittance::estimate(const Medium& medium, const Ray& ray,
                                                            const Interval& interval, Rng& rng) const {
-  const Interval inside = medium.clip(ray, interval);
-  if (const auto known = known_transmittance(medium, inside)) return *known;
-  const Rgbd sigma_t(medium.sigma_t);
-  const double densest = max_channel(medium.sigma_t);
-  uint32_t lookups = 0;
-  Rgbd product(1.0);
-  PoissonPoints points(rng);
-  medium.visit_majorants(ray, inside, [&](const DensityStretch& stretch) {
-    const double control = 0.5 * (double{stretch.max} + stretch.min), reach = 0.5 * (double{stretch.max} - stretch.min);
-    const double rate = densest * reach;  // 1/m
-    product *= glm::exp(-sigma_t * (control * (stretch.t1 - stretch.t0)));
-    return points.visit(stretch.t0, stretch.t1, rate, [&](double t) {
-      ++lookups;
-      product *= 1.0 - sigma_t * (stretch.density(t) - control) / rate;
-      return survives(product, rng);
-    });
+  return track_bricks(medium, ray, interval, rng, [](const DensityStretch& stretch) {
+    return BrickSplit{0.5 * (double{stretch.max} + stretch.min), 0.5 * (double{stretch.max} - stretch.min)};
   });
-  return {Rgb(product), lookups};
 }
 
 }  // namespace vpm
