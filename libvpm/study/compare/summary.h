@@ -12,10 +12,10 @@ namespace vpm {
 
 /// A method at one budget.
 struct BudgetSummary {
-  std::vector<RunCost> costs;       // by repetition
-  std::vector<PictureErrors> each;  // by repetition
-  RepeatedErrors errors;            // of all
-  std::string why_bias_unknown;     // empty: it is known
+  std::vector<RunCost> costs;         // by repetition
+  std::vector<PictureErrors> each;    // by repetition
+  RepeatedErrors errors;              // of all
+  std::string why_bias_unknown = "";  // empty: it is known
 };
 /// `images` and `costs` are of the same repetitions, at least 3.
 BudgetSummary summarise_budget(const std::vector<RunCost>& costs, const std::vector<Image>& images,
