@@ -7,6 +7,16 @@
 
 namespace vpm {
 
+/// Voxels with indices from -reach to reach along each axis, `voxel` metres apart, the middle one at the origin.
+inline GridFrame centred_frame(int reach, double voxel, Interpolation interpolation = Interpolation::trilinear) {
+  GridFrame frame;
+  frame.lo = Vec3i(-reach);
+  frame.hi = Vec3i(reach);
+  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(voxel));
+  frame.interpolation = interpolation;
+  return frame;
+}
+
 /// A grid whose voxel (i, j, k) in lo..hi has the value f(i, j, k); the background elsewhere.
 template <class F>
 std::shared_ptr<const DensityGrid> make_grid(const GridFrame& frame, F&& f) {

@@ -26,10 +26,7 @@ Scene window(const Medium& medium) {
 
 /// A grid of that density, constant in all of [-2, 2]^3.
 std::shared_ptr<const DensityGrid> constant_grid(float density) {
-  GridFrame frame;
-  frame.lo = Vec3i(-9);
-  frame.hi = Vec3i(9);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.25));
+  const GridFrame frame = centred_frame(9, 0.25);
   return make_grid(frame, [&](int, int, int) { return density; });
 }
 

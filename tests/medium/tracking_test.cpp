@@ -92,11 +92,7 @@ TEST(Tracking, DecompositionFliesAsDeltaTrackingWithFewerLookUps) {
 }
 
 TEST(Tracking, ProgressiveMajorantsCutTheDensityUntilTheyHaveGrown) {
-  GridFrame frame;
-  frame.lo = Vec3i(-7);
-  frame.hi = Vec3i(7);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.125));
-  frame.interpolation = Interpolation::nearest;
+  const GridFrame frame = centred_frame(7, 0.125, Interpolation::nearest);
   const auto checker = [&](double most) {
     return make_grid(frame, [=](int x, int y, int z) { return std::min((x + y + z) & 1 ? 1.5 : 0.3, most); });
   };

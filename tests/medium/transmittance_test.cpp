@@ -13,10 +13,7 @@ namespace {
 const Ray kRay{Vec3(-3.0f, 0.4f, 0.2f), glm::normalize(Vec3(1.0f, -0.1f, 0.05f))};
 
 std::shared_ptr<const DensityGrid> blob() {
-  GridFrame frame;
-  frame.lo = Vec3i(-20);
-  frame.hi = Vec3i(20);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.05));
+  const GridFrame frame = centred_frame(20, 0.05);
   return make_grid(frame, [](int x, int y, int z) { return std::exp(-0.01 * (x * x + y * y + z * z)); });
 }
 
@@ -91,11 +88,7 @@ struct Field {
   Interval stretch;
 };
 std::vector<Field> fields() {
-  GridFrame voxels;
-  voxels.lo = Vec3i(-20);
-  voxels.hi = Vec3i(20);
-  voxels.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.05));
-  voxels.interpolation = Interpolation::nearest;
+  const GridFrame voxels = centred_frame(20, 0.05, Interpolation::nearest);
   return {{"blob", blob(), {0.0f, 6.0f}},
           {"blob from inside", blob(), {3.1f, 6.0f}},
           {"voxels", make_grid(voxels, [](int x, int y, int z) { return lattice_noise(x, y, z); }), {0.0f, 6.0f}},
@@ -178,10 +171,7 @@ TEST(Transmittance, TrackingHasTheVarianceOfItsPoissonProcess) {
 
 /// Density 0.8 + 0.6 x along x, x from -1 to 1 m, and a ray along it.
 Medium ramp(const Rgb& sigma_t) {
-  GridFrame frame;
-  frame.lo = Vec3i(-10);
-  frame.hi = Vec3i(10);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.1));
+  const GridFrame frame = centred_frame(10, 0.1);
   return make_medium(make_grid(frame, [](int x, int, int) { return 0.8 + 0.06 * x; }), sigma_t);
 }
 const Ray kAlongRamp{Vec3(-0.9f, 0.2f, 0.1f), Vec3(1, 0, 0)};

@@ -67,10 +67,8 @@ void expect_equal(const Tally& a, const Tally& b, const std::string& what) {
 }
 
 std::shared_ptr<const DensityGrid> grid_over_box(double (*density)(int, int, int)) {
-  GridFrame frame;  // voxels of 1/8 m over [-1.5, 1.5]^3: the fading at the grid's edge stays outside the box
-  frame.lo = Vec3i(-12);
-  frame.hi = Vec3i(12);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.125));
+  // Voxels of 1/8 m over [-1.5, 1.5]^3: the fading at the grid's edge stays outside the box.
+  const GridFrame frame = centred_frame(12, 0.125);
   return make_grid(frame, density);
 }
 

@@ -15,10 +15,7 @@ const Ray kRay{Vec3(-2.0f, 0.1f, -0.2f), glm::normalize(Vec3(1.0f, 0.05f, 0.1f))
 constexpr double kFalseAlarms = 1e-6;
 
 Medium noise_medium(const Rgb& sigma_t) {
-  GridFrame frame;
-  frame.lo = Vec3i(-10);
-  frame.hi = Vec3i(10);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.1));
+  const GridFrame frame = centred_frame(10, 0.1);
   return make_medium(
       make_grid(frame, [](int x, int y, int z) { return x % 5 == 0 ? 0.0 : 2.0 * lattice_noise(x, y, z); }), sigma_t);
 }

@@ -105,10 +105,7 @@ Scene furnace(std::shared_ptr<const DensityGrid> grid, float sigma_t) {
 }
 
 TEST(PhotonPass, AWhiteFurnaceIsUniform) {
-  GridFrame frame;
-  frame.lo = Vec3i(-9);
-  frame.hi = Vec3i(9);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.15));
+  const GridFrame frame = centred_frame(9, 0.15);
   const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.2 + lattice_noise(x, y, z); });
   for (const auto& density : {std::shared_ptr<const DensityGrid>(), grid})
     for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
@@ -313,10 +310,7 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
 }
 
 TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
-  GridFrame frame;
-  frame.lo = Vec3i(-8);
-  frame.hi = Vec3i(8);
-  frame.index_to_world = glm::scale(Mat4d(1.0), Vec3d(0.125));
+  const GridFrame frame = centred_frame(8, 0.125);
   const auto grid = make_grid(frame, [](int x, int y, int z) { return lattice_noise(x, y, z); });
   Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f)), PointLight{Vec3(0.2f, 1.8f, 0.1f), Rgb(1.0f)});
   scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, 8, 8, {});

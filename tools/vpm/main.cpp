@@ -156,8 +156,8 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
                    "Instead: check every case of the reference numbers in the files of this folder")
       ->excludes(level);
   CLI::Option* quick = command->add_flag_callback(
-      "--quick", [&options] { options.full = false; }, "Within about a minute (the default)");
-  command->add_flag("--full", options.full, "Tight errors, within 20 minutes")->excludes(quick);
+      "--quick", [&options] { options.full = false; }, "A minute and a half on two cores (the default)");
+  command->add_flag("--full", options.full, "Tight errors, some 20 minutes")->excludes(quick);
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
   command->add_option("--rate", options.rate, "Probability that right code fails the run")
       ->check(check_rate)
