@@ -1,6 +1,7 @@
 // Density grids made of functions: for studies and tests.
 #pragma once
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 
 #include "medium/medium.h"
