@@ -19,10 +19,10 @@ template <class Region>
 struct BoundedMap {
   const PhotonMap& map;
   const Region& region;
-  RegionCounters& counters;
+  GatherCounters& counters;
 };
 template <class Region>
-BoundedMap(const PhotonMap&, const Region&, RegionCounters&) -> BoundedMap<Region>;
+BoundedMap(const PhotonMap&, const Region&, GatherCounters&) -> BoundedMap<Region>;
 
 template <class Region>
 const GatherSettings& settings_of(const BoundedMap<Region>& bounded) {
@@ -30,9 +30,9 @@ const GatherSettings& settings_of(const BoundedMap<Region>& bounded) {
 }
 
 /// A sum over what a region has of a kernel, over its share.
-inline Rgb over_share(const Rgb& sum, const RegionShare& share, RegionCounters& counters) {
+inline Rgb over_share(const Rgb& sum, const RegionShare& share, GatherCounters& counters) {
   ++counters.corrected;
-  if (share.inside < kLeastShare) ++counters.least;
+  if (share.inside < kLeastShare) ++counters.least_shares;
   return sum / static_cast<float>(std::max(share.inside, kLeastShare));
 }
 
@@ -42,10 +42,11 @@ Rgb bounded_sum(const BoundedMap<Region>& bounded, const RadiusMap& map, const V
                 Within&& within, Value&& value) {
   const GatherSettings& settings = bounded.map.settings;
   const RegionShare share = bounded.region.share(settings.radius);
-  if (share.inside == 1.0) return kernel_sum<Dimension>(map, settings, point, accept, value);
-  const Rgb sum = share.others ? kernel_sum<Dimension>(map, settings, point, within, value)
-                               : kernel_sum<Dimension>(map, settings, point, accept, value);
-  return over_share(sum, share, bounded.counters);
+  GatherCounters& counters = bounded.counters;
+  if (share.inside == 1.0) return kernel_sum<Dimension>(map, settings, point, accept, value, counters);
+  const Rgb sum = share.others ? kernel_sum<Dimension>(map, settings, point, within, value, counters)
+                               : kernel_sum<Dimension>(map, settings, point, accept, value, counters);
+  return over_share(sum, share, counters);
 }
 
 /// Of the k nearest: the region's own are meant. Without the k-th they are k - 1 photons uniform in what the region has
@@ -54,12 +55,12 @@ template <int Dimension, class Region, class Accept, class Within, class Value>
 Rgb bounded_sum(const BoundedMap<Region>& bounded, const NearestMap& map, const Vec3& point, Accept&& accept,
                 Within&& within, Value&& value) {
   const GatherSettings& settings = bounded.map.settings;
-  const Neighbours& all = nearest(map, settings, point, accept);
+  const Neighbours& all = nearest(map, settings, point, accept, bounded.counters);
   const RegionShare share = bounded.region.share(std::sqrt(all.limit()));
   if (share.inside == 1.0) return neighbour_sum<Dimension>(map, settings.kernel, all, value);
   if (!share.others)
     return over_share(neighbour_sum<Dimension>(map, settings.kernel, all, value), share, bounded.counters);
-  const Neighbours& own = nearest(map, settings, point, within);
+  const Neighbours& own = nearest(map, settings, point, within, bounded.counters);
   const RegionShare of_own = bounded.region.share(std::sqrt(own.limit()));
   return over_share(neighbour_sum<Dimension>(map, settings.kernel, own, value), of_own, bounded.counters);
 }

@@ -23,10 +23,19 @@ struct GatherSettings {
   BoundaryRule boundary = BoundaryRule::none;
 };
 
-/// A gather in radius mode of a radius of its own, from a map that was made for about that.
-struct CountedGather {
-  GatherSettings settings;
-  uint64_t* found;  // grows by the photons that count, with whatever weight
+/// What gathering counts.
+struct GatherCounters {
+  uint64_t visited = 0;       // photons whose distance was computed
+  uint64_t used = 0;          // of these, those that count, with whatever weight
+  uint64_t corrected = 0;     // estimates at borders divided by a share of less than 1
+  uint64_t least_shares = 0;  // of these, divided by kLeastShare in the place of less
+
+  void merge(const GatherCounters& other) {
+    visited += other.visited;
+    used += other.used;
+    corrected += other.corrected;
+    least_shares += other.least_shares;
+  }
 };
 
 }  // namespace vpm

@@ -29,7 +29,8 @@ IrradiancePoints::IrradiancePoints(const std::vector<SurfaceSite>& sites, const 
   points_ = NearestMap(std::move(points), 1.0f);
 }
 
-std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towards_eye) const {
+std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towards_eye,
+                                                GatherCounters& counters) const {
   const float geometric = glm::dot(hit.normal, towards_eye), shading = glm::dot(hit.shading_normal, towards_eye);
   if (!(geometric * shading > 0.0f)) return std::nullopt;
   const float side = geometric > 0.0f ? 1.0f : -1.0f;
@@ -38,7 +39,7 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
   const auto agrees = [&](const Vec3& travel, const Vec3& offset) {
     return -glm::dot(travel, normal) > kSameNormal && in_plane(travel, offset);
   };
-  const Neighbours& near = nearest(points_, gather_, hit.position, agrees);
+  const Neighbours& near = nearest(points_, gather_, hit.position, agrees, counters);
   if (near.entries().empty()) return std::nullopt;
   return points_.photon(near.entries().front().photon).power;
 }

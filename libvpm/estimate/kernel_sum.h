@@ -11,9 +11,9 @@
 
 namespace vpm {
 
-/// How photons are gathered: of a map as it says or by a gather of its own, of a plain list with the number emitted.
+/// How photons are gathered: of a map as it says or as its view says, of a plain list with the number emitted.
 inline const GatherSettings& settings_of(const PhotonMap& map) { return map.settings; }
-inline const GatherSettings& settings_of(const PhotonMap&, const CountedGather& own) { return own.settings; }
+inline const GatherSettings& settings_of(const CountedMap& counted) { return counted.settings; }
 inline const GatherSettings& settings_of(const std::vector<Photon>&, const GatherSettings& settings, uint64_t) {
   return settings;
 }
@@ -45,16 +45,20 @@ auto with_kernel(KernelKind kind, F&& f) {
 
 /// Sum over the photons within the radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
-               Value&& value) {
+Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept, Value&& value,
+               GatherCounters& counters) {
   const float r = settings.radius;
   const float inverse = 1.0f / (r * r);
   return with_kernel(settings.kernel, [&](auto profile) {
     Rgb sum(0.0f);
-    map.for_each_near(point, r, [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
+    uint32_t used = 0;
+    counters.visited += map.for_each_near(point, r, [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
       const Vec3 travel = p.travel.unpack();
-      if (accept(travel, offset)) sum += value(travel, p.power) * profile(d2 * inverse);
+      if (!accept(travel, offset)) return;
+      sum += value(travel, p.power) * profile(d2 * inverse);
+      ++used;
     });
+    counters.used += used;
     return sum * kernel_norm<Dimension>(settings.kernel, r);
   });
 }
@@ -62,11 +66,14 @@ Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3&
 /// The k nearest photons that `accept`(travel, offset) takes, of those within the largest radius. Good until the
 /// thread's next call.
 template <class Accept>
-const Neighbours& nearest(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept) {
+const Neighbours& nearest(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
+                          GatherCounters& counters) {
   static thread_local Neighbours neighbours(0);
   neighbours.reserve(settings.count);
-  map.find(point, settings.radius, neighbours,
-           [&](const Photon& p, const Vec3& offset) { return accept(p.travel.unpack(), offset); });
+  counters.visited += map.find(point, settings.radius, neighbours, [&](const Photon& p, const Vec3& offset) {
+    return accept(p.travel.unpack(), offset);
+  });
+  counters.used += neighbours.entries().size();
   return neighbours;
 }
 
@@ -90,31 +97,32 @@ Rgb neighbour_sum(const NearestMap& map, KernelKind kernel, const Neighbours& ne
 
 /// Sum over the k nearest photons that `accept` takes.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
-               Value&& value) {
-  return neighbour_sum<Dimension>(map, settings.kernel, nearest(map, settings, point, accept), value);
+Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept, Value&& value,
+               GatherCounters& counters) {
+  return neighbour_sum<Dimension>(map, settings.kernel, nearest(map, settings, point, accept, counters), value);
+}
+
+template <int Dimension, class Accept, class Value>
+Rgb kernel_sum(const CountedMap& counted, const Vec3& point, Accept&& accept, Value&& value) {
+  const auto sum = [&](const auto& index) {
+    return kernel_sum<Dimension>(index, counted.settings, point, accept, value, counted.counters);
+  };
+  return std::visit(sum, counted.map.index);
 }
 
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const PhotonMap& map, const Vec3& point, Accept&& accept, Value&& value) {
-  return std::visit([&](const auto& index) { return kernel_sum<Dimension>(index, map.settings, point, accept, value); },
-                    map.index);
-}
-
-template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const PhotonMap& map, const CountedGather& own, const Vec3& point, Accept&& accept, Value&& value) {
-  const auto counted = [&](const Vec3& travel, const Rgb& power) {
-    ++*own.found;
-    return value(travel, power);
-  };
-  return kernel_sum<Dimension>(std::get<RadiusMap>(map.index), own.settings, point, accept, counted);
+  GatherCounters uncounted;
+  return kernel_sum<Dimension>(CountedMap{map, uncounted}, point, accept, value);
 }
 
 /// The radius, m, of the ball that kernel_sum() sums over.
 template <class Accept>
-float kernel_radius(const PhotonMap& map, const Vec3& point, Accept&& accept) {
-  const auto* by_count = std::get_if<NearestMap>(&map.index);
-  return by_count ? std::sqrt(nearest(*by_count, map.settings, point, accept).limit()) : map.settings.radius;
+float kernel_radius(const CountedMap& counted, const Vec3& point, Accept&& accept) {
+  const GatherSettings& settings = counted.settings;
+  const auto* by_count = std::get_if<NearestMap>(&counted.map.index);
+  if (!by_count) return settings.radius;
+  return std::sqrt(nearest(*by_count, settings, point, accept, counted.counters).limit());
 }
 
 /// The brute-force twin of both: looks at every photon of a plain list. Powers are divided by `emitted` here.

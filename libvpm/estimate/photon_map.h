@@ -19,6 +19,14 @@ struct PhotonMap {
   size_t memory_bytes() const;
 };
 
+/// A photon map to be gathered from with counting, and with settings of its own if they differ from the map's in the
+/// kernel or, by little, in the radius.
+struct CountedMap {
+  const PhotonMap& map;
+  GatherCounters& counters;
+  const GatherSettings& settings = map.settings;
+};
+
 /// Builds the map that the settings ask for. `emitted` > 0.
 PhotonMap make_photon_map(std::vector<Photon> photons, const GatherSettings& settings, uint64_t emitted);
 

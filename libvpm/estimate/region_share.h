@@ -1,7 +1,5 @@
-// How much of a kernel a region has, and what is counted of it.
+// How much of a kernel a region has.
 #pragma once
-
-#include <cstdint>
 
 namespace vpm {
 
@@ -9,12 +7,6 @@ namespace vpm {
 struct RegionShare {
   double inside = 1.0;  // the kernel's integral over the region; 1 exactly where nothing of the kernel lies outside
   bool others = false;  // may photons lie outside, within the kernel's reach?
-};
-
-/// Estimates that were corrected.
-struct RegionCounters {
-  uint64_t corrected = 0;  // divided by less than 1
-  uint64_t least = 0;      // of these, divided by kLeastShare in the place of less
 };
 
 /// The least share that a sum is divided by: an eighth of what the corner of a cube has. Where less is inside, the

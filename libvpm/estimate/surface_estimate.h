@@ -34,8 +34,7 @@ struct Arrives {
 };
 
 /// The sum of value(travel, power) K_r over the discs of photons that arrive at the side of a surface that `normal`
-/// (unit) points to. `Photons` are a PhotonMap, alone or with a CountedGather, or a plain list for the brute-force
-/// twin.
+/// (unit) points to. `Photons` are a map or a view of one, or a plain list for the brute-force twin.
 template <class Value, class... Photons>
 Rgb surface_sum(const Vec3& point, const Vec3& normal, Value&& value, const Photons&... photons) {
   return kernel_sum<2>(photons..., point, Arrives{normal, plane_thickness(settings_of(photons...))}, value);
@@ -77,7 +76,8 @@ Rgb scattered_radiance(const Material& material, const Hit& hit, const Vec3& tow
 }
 
 /// The radius of the disc, m, that scattered_radiance() gathers over.
-inline float scattered_radius(const Material& material, const Hit& hit, const Vec3& towards_eye, const PhotonMap& map) {
+inline float scattered_radius(const Material& material, const Hit& hit, const Vec3& towards_eye,
+                              const CountedMap& map) {
   const Vec3 eye_side = glm::dot(hit.normal, towards_eye) > 0.0f ? hit.normal : -hit.normal;
   return kernel_radius(map, hit.position, Arrives{eye_side, plane_thickness(map.settings), scatters_through(material)});
 }

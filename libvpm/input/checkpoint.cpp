@@ -31,10 +31,10 @@ void each_number(Ledger& ledger, auto&& use) {
 }
 void each_number(EyeCounters& eye, auto&& use) {
   auto& [rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
-         regions, walk] = eye;
-  auto& [corrected, least] = regions;
+         gather, walk] = eye;
+  auto& [visited, used, corrected, least_shares] = gather;
   use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
-      corrected, least);
+      visited, used, corrected, least_shares);
   each_number(walk, use);
 }
 void each_number(RenderStatistics& statistics, auto&& use) {

@@ -50,9 +50,9 @@ class NearestMap {
 
   /// The k nearest photons within `max_radius` (m; may be infinite) of `point` among those for which accept(const
   /// Photon&, offset from `point`) holds, k as the neighbours were made for. When full, the farthest is at
-  /// sqrt(limit()).
+  /// sqrt(limit()). Returns how many photons it computed the distance of.
   template <class Accept>
-  void find(const Vec3& point, float max_radius, Neighbours& neighbours, Accept&& accept) const;
+  uint32_t find(const Vec3& point, float max_radius, Neighbours& neighbours, Accept&& accept) const;
 
   const Photon& photon(uint32_t i) const { return tree_[i]; }
   size_t size() const { return tree_.size(); }
@@ -68,7 +68,7 @@ class NearestMap {
 };
 
 template <class Accept>
-void NearestMap::find(const Vec3& point, float max_radius, Neighbours& neighbours, Accept&& accept) const {
+uint32_t NearestMap::find(const Vec3& point, float max_radius, Neighbours& neighbours, Accept&& accept) const {
   neighbours.clear(max_radius);
   // Far children wait on a stack with the squared distance of their plane; depth is at most 32 for 2^32 photons.
   struct Waiting {
@@ -77,9 +77,10 @@ void NearestMap::find(const Vec3& point, float max_radius, Neighbours& neighbour
   };
   Waiting stack[64];
   int top = 0;
+  uint32_t visited = 0;
   size_t node = 0;
   for (;;) {
-    while (node < tree_.size()) {
+    for (; node < tree_.size(); ++visited) {
       const Photon& p = tree_[node];
       const Vec3 offset = p.position - point;
       const float d2 = glm::dot(offset, offset);
@@ -90,7 +91,7 @@ void NearestMap::find(const Vec3& point, float max_radius, Neighbours& neighbour
       node = near;
     }
     do {
-      if (top == 0) return;
+      if (top == 0) return visited;
       node = stack[--top].node;
     } while (stack[top].distance2 >= neighbours.limit() || node >= tree_.size());
   }

@@ -27,9 +27,9 @@ class RadiusMap {
   RadiusMap(const std::vector<Photon>& photons, float radius, float scale);
 
   /// Calls visit(const Payload&, offset from `point`, squared distance) for the photons nearer to `point` than
-  /// `radius`, m, in a fixed order.
+  /// `radius`, m, in a fixed order. Returns how many photons it computed the distance of.
   template <class Visit>
-  void for_each_near(const Vec3& point, float radius, Visit&& visit) const;
+  uint32_t for_each_near(const Vec3& point, float radius, Visit&& visit) const;
 
   size_t size() const { return payload_.size(); }
   /// The box around the photons.
@@ -71,9 +71,10 @@ void RadiusMap::scan(uint32_t begin, uint32_t end, const Vec3& point, float radi
 }
 
 template <class Visit>
-void RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit) const {
+uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit) const {
   for (int a = 0; a < 3; ++a)
-    if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return;
+    if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return 0;
+  uint32_t visited = 0;
   const float cell = 1.0f / per_cell_;
   const int z_end = cell_along(2, point.z + radius);
   for (int z = cell_along(2, point.z - radius); z <= z_end; ++z) {
@@ -94,10 +95,13 @@ void RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit) co
       if (rest < 0.0f) continue;
       const float reach_x = std::sqrt(rest);
       const size_t row = (static_cast<size_t>(z) * count_.y + y) * count_.x;
-      scan(first_[row + cell_along(0, point.x - reach_x)], first_[row + cell_along(0, point.x + reach_x) + 1], point,
-           radius, visit);
+      const uint32_t begin = first_[row + cell_along(0, point.x - reach_x)];
+      const uint32_t end = first_[row + cell_along(0, point.x + reach_x) + 1];
+      scan(begin, end, point, radius, visit);
+      visited += end - begin;
     }
   }
+  return visited;
 }
 
 }  // namespace vpm

@@ -21,7 +21,7 @@ float step_among(const PhotonMap& map, const Interval& interval) {
 class EyePath {
  public:
   EyePath(const EyeContext& context, const Ray& ray, Marcher& marcher, Rng& rng, EyeCounters& counters,
-          const CountedGather* own)
+          const PixelGather* own)
       : c_(context),
         ray_(ray),
         marcher_(marcher),
@@ -126,16 +126,18 @@ class EyePath {
       counters_.walk.lookups += march_evenly(
           around, ray_, near, before, step_among(map, near), rng_, [&](const Vec3& point, const Rgb& weight) {
             ++counters_.volume_queries;
-            radiance_ += throughput_ * weight * medium.albedo() * volume_sum(medium.phase, point, -ray_.direction, map);
+            radiance_ += throughput_ * weight * medium.albedo() *
+                         volume_sum(medium.phase, point, -ray_.direction, CountedMap{map, counters_.gather});
           });
     }
   }
 
   /// volume_sum() towards the eye, at a point of the medium that the ray is in.
   Rgb sum_at_query(const Medium& medium, const Vec3& point, const PhotonMap& map) {
-    if (map.settings.boundary == BoundaryRule::none) return volume_sum(medium.phase, point, -ray_.direction, map);
+    if (map.settings.boundary == BoundaryRule::none)
+      return volume_sum(medium.phase, point, -ray_.direction, CountedMap{map, counters_.gather});
     const VolumeRegion region(c_.scene, medium_, point, map.settings.kernel);
-    return volume_sum(medium.phase, point, -ray_.direction, BoundedMap{map, region, counters_.regions});
+    return volume_sum(medium.phase, point, -ray_.direction, BoundedMap{map, region, counters_.gather});
   }
 
   /// The part of the segment in the box grown by `margin`.
@@ -172,7 +174,7 @@ class EyePath {
   Marcher& marcher_;
   Rng& rng_;
   EyeCounters& counters_;
-  const CountedGather* own_;
+  const PixelGather* own_;
   MediumId medium_;
   Rgb throughput_{1.0f};
   Rgb radiance_{0.0f};
@@ -181,7 +183,7 @@ class EyePath {
 }  // namespace
 
 Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters,
-                 const CountedGather* own) {
+                 const PixelGather* own) {
   return EyePath(context, camera_ray, marcher, rng, counters, own).follow();
 }
 

@@ -3,6 +3,7 @@
 
 #include "render/eye_context.h"
 #include "render/march.h"
+#include "render/surface_light.h"
 
 namespace vpm {
 
@@ -10,6 +11,6 @@ namespace vpm {
 /// estimate [Jarosz2008, eq. 7.9]; the first rough surface adds what it sends (surface_light()) and ends the path.
 /// W/(m^2 sr). `own`, under Stages::pixel_discs, is how the ray's pixel gathers on that surface.
 Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, Marcher& marcher, Rng& rng, EyeCounters& counters,
-                 const CountedGather* own = nullptr);
+                 const PixelGather* own = nullptr);
 
 }  // namespace vpm

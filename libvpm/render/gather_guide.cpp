@@ -16,13 +16,15 @@ constexpr float kFewPhotons = 16.0f;    // so many are worth half of that share
 
 }  // namespace
 
-GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough) : view_(view) {
+GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, GatherCounters& counters)
+    : view_(view) {
   const Hit& hit = view.hit;
   const float side = glm::dot(hit.normal, view.travel) < 0.0f ? 1.0f : -1.0f;
   normals_ = {side * hit.shading_normal, -side * hit.shading_normal};
   const Arrives arrives{side * hit.normal, plane_thickness(from_rough.settings), scatters_through(view.material)};
   const auto& map = std::get<NearestMap>(from_rough.index);
-  const std::vector<Neighbours::Entry>& near = nearest(map, from_rough.settings, hit.position, arrives).entries();
+  const std::vector<Neighbours::Entry>& near =
+      nearest(map, from_rough.settings, hit.position, arrives, counters).entries();
   for (const Neighbours::Entry& entry : near) {
     const Photon& photon = map.photon(entry.photon);
     const Vec3 travel = photon.travel.unpack();

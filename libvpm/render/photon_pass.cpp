@@ -257,7 +257,7 @@ Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const
   const RayRadiance radiance = [&](const Ray& ray, size_t pixel, Rng& rng, EyeCounters& counters) {
     static thread_local Marcher marcher;
     if (!stages.pixel_discs) return eye_radiance(context, ray, marcher, rng, counters);
-    CountedGather own{settings.surface, &found[pixel]};
+    PixelGather own{settings.surface, &found[pixel]};
     own.settings.radius = radii[pixel];
     return eye_radiance(context, ray, marcher, rng, counters, &own);
   };

@@ -16,8 +16,7 @@ void EyeCounters::merge(const EyeCounters& other) {
   irradiance_misses += other.irradiance_misses;
   cut_paths += other.cut_paths;
   non_finite += other.non_finite;
-  regions.corrected += other.regions.corrected;
-  regions.least += other.regions.least;
+  gather.merge(other.gather);
   walk.merge(other.walk);
 }
 

@@ -1,7 +1,7 @@
 // What a render counts and measures, for its report.
 #pragma once
 
-#include "estimate/region_share.h"
+#include "estimate/gather.h"
 #include "photon/ledger.h"
 
 namespace vpm {
@@ -18,7 +18,7 @@ struct EyeCounters {
   uint64_t irradiance_misses = 0;   // those near no such point, which asked the map
   uint64_t cut_paths = 0;           // that reached the limit of events
   uint64_t non_finite = 0;          // samples that were dropped because they were not finite
-  RegionCounters regions;
+  GatherCounters gather;
   WalkCounters walk;
 
   void merge(const EyeCounters& other);

@@ -45,15 +45,19 @@ class SurfaceLight {
   Rgb of_map(const SurfaceView& view, const PhotonMap& map) {
     ++counters_.surface_queries;
     if (map.settings.boundary == BoundaryRule::none)
-      return scattered_radiance(view.material, view.hit, -view.travel, map);
+      return scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map, counters_.gather});
     const SurfaceRegion region(c_.scene, view.hit, -view.travel, map.settings);
-    return scattered_radiance(view.material, view.hit, -view.travel, BoundedMap{map, region, counters_.regions});
+    return scattered_radiance(view.material, view.hit, -view.travel, BoundedMap{map, region, counters_.gather});
   }
 
   /// The surface map's light by a pixel's own radius.
-  Rgb of_disc(const SurfaceView& view, const CountedGather& own) {
+  Rgb of_disc(const SurfaceView& view, const PixelGather& own) {
     ++counters_.surface_queries;
-    return scattered_radiance(view.material, view.hit, -view.travel, c_.surface, own);
+    const uint64_t before = counters_.gather.used;
+    const CountedMap disc{c_.surface, counters_.gather, own.settings};
+    const Rgb radiance = scattered_radiance(view.material, view.hit, -view.travel, disc);
+    *own.found += counters_.gather.used - before;
+    return radiance;
   }
 
   /// What rays do not gather, because few of them would find it: the light of lamps, straight or by way of mirrors,
@@ -79,7 +83,7 @@ class SurfaceLight {
   GatherGuide make_guide(const SurfaceView& view) {
     if (!c_.stages.guided_gather) return GatherGuide(view);
     ++counters_.surface_queries;
-    return {view, c_.from_rough};
+    return {view, c_.from_rough, counters_.gather};
   }
 
   /// Radiance of the rough surface that a gathering ray meets. Lamps on its way are left out: their light is direct, or
@@ -126,7 +130,7 @@ class SurfaceLight {
   Rgb of_end(const SurfaceView& view) {
     const auto* diffuse = std::get_if<Lambertian>(&view.material);
     if (!c_.stages.irradiance_points || !diffuse) return of_map(view, c_.surface);
-    const std::optional<Rgb> irradiance = c_.irradiance.irradiance(view.hit, -view.travel);
+    const std::optional<Rgb> irradiance = c_.irradiance.irradiance(view.hit, -view.travel, counters_.gather);
     if (irradiance) {
       ++counters_.irradiance_lookups;
       return diffuse->reflectance / kPi * *irradiance;
@@ -137,10 +141,11 @@ class SurfaceLight {
 
   /// Is a ray shorter than the radius of what the map tells at its end? At borders the k nearest of a region may reach
   /// farther than those of all photons: the largest radius stands for theirs.
-  bool is_too_short(float length, const SurfaceView& view) const {
-    const GatherSettings& gather = c_.surface.settings;
-    return length < gather.radius && (gather.boundary == BoundaryRule::corrected ||
-                                      length < scattered_radius(view.material, view.hit, -view.travel, c_.surface));
+  bool is_too_short(float length, const SurfaceView& view) {
+    const CountedMap map{c_.surface, counters_.gather};
+    return length < map.settings.radius &&
+           (map.settings.boundary == BoundaryRule::corrected ||
+            length < scattered_radius(view.material, view.hit, -view.travel, map));
   }
 
   const EyeContext& c_;

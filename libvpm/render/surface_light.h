@@ -19,13 +19,19 @@
 
 namespace vpm {
 
+/// How a pixel gathers from the surface map under Stages::pixel_discs.
+struct PixelGather {
+  GatherSettings settings;  // in radius mode, of about the map's radius
+  uint64_t* found;          // grows by the photons that count, with whatever weight
+};
+
 /// A rough surface as a path that travels along `travel` in `medium` meets it.
 struct SurfaceView {
   const Hit& hit;
   const Material& material;
   Vec3 travel{0.0f};  // unit
   MediumId medium = kVacuum;
-  const CountedGather* own = nullptr;  // under Stages::pixel_discs: of the pixel that looks
+  const PixelGather* own = nullptr;  // of the pixel that looks
 };
 
 /// Radiance that leaves against `travel`, W/(m^2 sr), but for what the surface emits. `gather_rays` >= 1.

@@ -48,7 +48,7 @@ struct Landing {
 
 struct Estimates {
   Moments plain, corrected;
-  RegionCounters counters;
+  GatherCounters counters;
 };
 
 /// Irradiance on the floor by photons that land as `land` says, 1 W/m^2 where all of them land evenly on 1 m^2.
@@ -302,7 +302,7 @@ TEST(SurfaceRegion, TheMapEqualsTheBruteForceTwin) {
       const SurfaceRegion region(scene, hit, kUp, gather);
       const float twin = surface_irradiance(hit.position, kUp, seen, gather, uint64_t{kPhotons}).r /
                          static_cast<float>(region.share(radius).inside);
-      RegionCounters counters;
+      GatherCounters counters;
       const PhotonMap map = make_photon_map(photons, gather, kPhotons);
       EXPECT_NEAR(surface_irradiance(hit.position, kUp, BoundedMap{map, region, counters}).r / twin, 1.0, 1e-4)
           << kernel.name;

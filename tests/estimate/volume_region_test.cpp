@@ -59,7 +59,7 @@ std::vector<Photon> even_photons(const Vec3& lo, const Vec3& hi, Rng& rng) {
 
 struct Estimates {
   Moments plain, corrected;
-  RegionCounters counters;
+  GatherCounters counters;
 };
 
 /// Estimates of the density of photons, 1/m^3, at a point, over the density that they have in the box.
@@ -149,7 +149,7 @@ TEST(VolumeRegion, EvenLightInACubeIsEvenUpToItsCorners) {
       if (mode == GatherMode::radius) expect_mean(found.plain, part, 1e-6, what);
       EXPECT_LT(found.plain.mean(), 0.85) << what;
       EXPECT_EQ(found.counters.corrected, 1500u);
-      EXPECT_EQ(found.counters.least, 0u);
+      EXPECT_EQ(found.counters.least_shares, 0u);
     };
     at(Vec3(0.99999f, 0.1f, -0.2f), 0.5, "face");
     at(Vec3(0.99999f, 0.99999f, -0.2f), 0.25, "edge");
@@ -195,7 +195,7 @@ TEST(VolumeRegion, TheMapEqualsTheBruteForceTwin) {
       const float radius = mode == GatherMode::radius ? 0.5f : std::min(0.5f, distances[11]);
       const float twin = fluence(Rgb(1.0f), point, seen, gather, uint64_t{kPhotons}).r /
                          static_cast<float>(region.share(radius).inside);
-      RegionCounters counters;
+      GatherCounters counters;
       const PhotonMap map = make_photon_map(photons, gather, kPhotons);
       EXPECT_NEAR(fluence(Rgb(1.0f), point, BoundedMap{map, region, counters}).r / twin, 1.0, 1e-4) << kernel.name;
     }
@@ -214,11 +214,11 @@ TEST(VolumeRegion, CountsWhereTheLeastShareStandsInForLess) {
   ASSERT_LT(region.share(0.5f).inside, kLeastShare);
   const GatherSettings gather{GatherMode::radius, 0.5f, 0, KernelKind::constant};
   const PhotonMap map = make_photon_map({{point, PackedDirection(Vec3(0, 0, 1)), Rgb(1.0f)}}, gather, 1);
-  RegionCounters counters;
+  GatherCounters counters;
   const float sum = fluence(Rgb(1.0f), point, BoundedMap{map, region, counters}).r;
   EXPECT_NEAR(sum * kLeastShare * 4.0 / 3.0 * kPiD * 0.125, 1.0, 1e-5);
   EXPECT_EQ(counters.corrected, 1u);
-  EXPECT_EQ(counters.least, 1u);
+  EXPECT_EQ(counters.least_shares, 1u);
 }
 
 }  // namespace

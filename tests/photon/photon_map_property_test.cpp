@@ -104,18 +104,19 @@ RC_GTEST_PROP(MapProperty, AnswersRadiiItWasNotMadeForAndCounts, ()) {
   const GatherSettings made{GatherMode::radius, static_cast<float>(*magnitude(1e-3, 1e1)), 0, *any_kernel()};
   const PhotonMap map = make_photon_map(photons, made, 1);
   for (int i = 0; i < 10; ++i) {
-    uint64_t found = 0;
-    CountedGather own{made, &found};
-    own.settings.radius *= static_cast<float>(*magnitude(0.02, 50.0));
-    const Vec3 at = any_query(photons, own.settings.radius), up(0, 1, 0);
-    RC_ASSERT(same(surface_irradiance(at, up, map, own), surface_irradiance(at, up, photons, own.settings, uint64_t{1}),
-                   kernel_norm<2>(made.kernel, own.settings.radius)));
-    const Arrives arrives{up, plane_thickness(own.settings)};
+    GatherSettings own = made;
+    own.radius *= static_cast<float>(*magnitude(0.02, 50.0));
+    const Vec3 at = any_query(photons, own.radius), up(0, 1, 0);
+    GatherCounters counters;
+    RC_ASSERT(same(surface_irradiance(at, up, CountedMap{map, counters, own}),
+                   surface_irradiance(at, up, photons, own, uint64_t{1}), kernel_norm<2>(made.kernel, own.radius)));
+    const Arrives arrives{up, plane_thickness(own)};
     const auto counts = [&](const Photon& p) {
       const Vec3 offset = p.position - at;
-      return glm::dot(offset, offset) < own.settings.radius * own.settings.radius && arrives(p.travel.unpack(), offset);
+      return glm::dot(offset, offset) < own.radius * own.radius && arrives(p.travel.unpack(), offset);
     };
-    RC_ASSERT(found == static_cast<uint64_t>(std::count_if(photons.begin(), photons.end(), counts)));
+    RC_ASSERT(counters.used == static_cast<uint64_t>(std::count_if(photons.begin(), photons.end(), counts)));
+    RC_ASSERT(counters.used <= counters.visited && counters.visited <= photons.size());
   }
 }
 

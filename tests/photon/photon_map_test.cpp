@@ -160,10 +160,9 @@ TEST(PhotonMap, KNearestIsUnbiasedInUniformPhotons) {
       Rng rng(4, rng_stream(RngUse::test, 30), trial);
       std::vector<Photon> all(2000);
       for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
-      const NearestMap map(all, 1.0f / 2000.0f);
-      const GatherSettings settings{GatherMode::nearest, 10.0f, 12, kernel};
+      const PhotonMap map = make_photon_map(all, {GatherMode::nearest, 10.0f, 12, kernel}, 2000);
       density.add(kernel_sum<3>(
-                      map, settings, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; })
+                      map, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; })
                       .r);
     }
     expect_mean(density, 1.0, 1e-6, "density");
@@ -182,6 +181,28 @@ TEST(PhotonMap, FixedRadiusMeanIsTheSmoothedDensity) {
                     .r);
   }
   expect_mean(density, 1.0, 1e-6, "density");
+}
+
+TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
+  const std::vector<Photon> all = photons(Layout::spread, 5000);
+  const Vec3 at(0.5f);
+  const auto count = [&](const PhotonMap& map) {
+    GatherCounters counters;
+    volume_sum(Isotropic{}, at, Vec3(0, 0, 1), CountedMap{map, counters});
+    return counters;
+  };
+  const GatherSettings by_radius{GatherMode::radius, 0.2f, 0, KernelKind::constant};
+  const GatherCounters near = count(make_photon_map(all, by_radius, 1));
+  const auto within = [&](const Photon& p) { return glm::distance(p.position, at) < by_radius.radius; };
+  EXPECT_EQ(near.used, static_cast<uint64_t>(std::count_if(all.begin(), all.end(), within)));
+  EXPECT_GE(near.visited, near.used);
+  EXPECT_LT(near.visited, 5 * near.used);  // rows of cells of half the radius reach little beyond the ball
+  const GatherCounters nearest = count(make_photon_map(all, {GatherMode::nearest, 1.0f, 40, KernelKind::constant}, 1));
+  EXPECT_EQ(nearest.used, 40u);
+  EXPECT_GE(nearest.visited, 40u);
+  EXPECT_LT(nearest.visited, 2000u);  // a tree does not look at all
+  const std::vector<Photon> none;
+  EXPECT_EQ(count(make_photon_map(none, by_radius, 1)).visited, 0u);
 }
 
 TEST(PhotonMap, TakesAtMost40BytesAPhoton) {

@@ -13,7 +13,7 @@ constexpr double kFalseAlarms = 1e-6;  // of each comparison
 
 struct Picture {
   Moments means;  // over the pixels, pass by pass
-  RegionCounters regions;
+  GatherCounters gather;
 };
 Picture render(const Scene& scene, const RenderSettings& settings, int passes) {
   static const std::atomic<bool> kGoOn{false};
@@ -23,8 +23,7 @@ Picture render(const Scene& scene, const RenderSettings& settings, int passes) {
     double sum = 0.0;
     for (const Rgb& p : found.image.pixels) sum += p.g / static_cast<double>(found.image.pixels.size());
     picture.means.add(sum);
-    picture.regions.corrected += found.statistics.eye.regions.corrected;
-    picture.regions.least += found.statistics.eye.regions.least;
+    picture.gather.merge(found.statistics.eye.gather);
   }
   return picture;
 }
@@ -45,11 +44,11 @@ void expect_white(const Scene& scene, float radius, double bias, double plain) {
   const double noise = normal_quantile(kFalseAlarms) * std::sqrt(corrected.means.variance_of_mean());
   EXPECT_NEAR(corrected.means.mean(), 1.0, bias + noise);
   EXPECT_LT(noise, 0.05);
-  EXPECT_GT(corrected.regions.corrected, 0u);
-  EXPECT_EQ(corrected.regions.least, 0u);
+  EXPECT_GT(corrected.gather.corrected, 0u);
+  EXPECT_EQ(corrected.gather.least_shares, 0u);
   const Picture dark = render(scene, settings_of(radius, BoundaryRule::none), 8);
   EXPECT_LT(dark.means.mean(), plain);
-  EXPECT_EQ(dark.regions.corrected, 0u);
+  EXPECT_EQ(dark.gather.corrected, 0u);
 }
 
 TEST(Boundaries, AWhiteMediumIsWhiteUpToItsFaces) {

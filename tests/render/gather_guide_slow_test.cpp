@@ -61,7 +61,8 @@ TEST(GatherGuide, ItsRaysWeighWhatTheMaterialScatters) {
           }
           return moments;
         };
-        expect_same(gathered(GatherGuide(view, map), 2), gathered(GatherGuide(view), 3), 0.01,
+        GatherCounters counters;
+        expect_same(gathered(GatherGuide(view, map, counters), 2), gathered(GatherGuide(view), 3), 0.01,
                     std::to_string(material.index()) + (down < 0.0f ? " from above" : " from below"));
       }
 }
@@ -74,7 +75,8 @@ TEST(GatherGuide, WithoutPhotonsDrawsAsTheMaterialScatters) {
   GatherSettings gather = kGuidingPhotons;
   gather.radius = 1.0f;
   Rng rng(7, rng_stream(RngUse::test, 4), 0), same = rng;
-  const Scatter guided = GatherGuide(view, make_photon_map({}, gather, 1)).sample(rng);
+  GatherCounters counters;
+  const Scatter guided = GatherGuide(view, make_photon_map({}, gather, 1), counters).sample(rng);
   const Scatter plain = GatherGuide(view).sample(same);
   EXPECT_EQ(guided.direction, plain.direction);
   EXPECT_EQ(guided.weight, plain.weight);

@@ -87,11 +87,11 @@ TEST(PixelDisc, TheMeanOfPassesIsTheTextbooksRadiance) {
 
       const GatherSettings made{GatherMode::radius, 0.2f, 0, KernelKind::constant};
       const PhotonMap map = make_photon_map(photons, made, photons.size());
-      uint64_t found = 0;
-      CountedGather own{made, &found};
-      own.settings.radius = disc_radius(disc, kFirst);
-      sum += surface_irradiance(at, up, map, own).g;
-      shrink(disc, found);
+      GatherSettings own = made;
+      own.radius = disc_radius(disc, kFirst);
+      GatherCounters counters;
+      sum += surface_irradiance(at, up, CountedMap{map, counters, own}).g;
+      shrink(disc, counters.used);
 
       double near = 0.0, power = 0.0;
       for (const Photon& p : photons)
@@ -99,7 +99,7 @@ TEST(PixelDisc, TheMeanOfPassesIsTheTextbooksRadiance) {
           ++near;
           power += p.power.g;
         }
-      ASSERT_EQ(found, near);
+      ASSERT_EQ(counters.used, near);
       textbook.add(near, power);
       ASSERT_NEAR(disc_radius(disc, kFirst), textbook.radius, 1e-6);
     }

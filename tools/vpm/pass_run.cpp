@@ -46,7 +46,7 @@ void print_warnings(const Stages& stages, const RenderStatistics& s) {
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");
-  warn(s.eye.regions.least, "estimates at borders had less than a 64th of their kernel left, and are too dark");
+  warn(s.eye.gather.least_shares, "estimates at borders had less than a 64th of their kernel left, and are too dark");
   warn(s.eye.cut_paths, "eye paths were cut at render.max_events");
   // Rays through the very edges of boundaries need a correction now and then: some in 1e7. More means media that
   // overlap.

@@ -100,15 +100,15 @@ double density_at(const Place& place) {
 }
 
 /// Fluence over sigma_t = 1/m in the volume, irradiance on the plane; each may count what it corrects.
-using Estimator = std::function<double(const PhotonMap&, RegionCounters&)>;
+using Estimator = std::function<double(const PhotonMap&, GatherCounters&)>;
 Estimator estimator(bool flat, const Scene& scene, const Vec3& point, const GatherSettings& settings) {
   if (!flat)
-    return [&scene, point, settings](const PhotonMap& map, RegionCounters& counters) {
+    return [&scene, point, settings](const PhotonMap& map, GatherCounters& counters) {
       const VolumeRegion region(scene, 0, point, settings.kernel);
       return fluence(Rgb(1.0f), point, BoundedMap{map, region, counters}).g;
     };
   const Hit hit = scene.geometry.intersect({point + 0.01f * kUp, -kUp}).value();
-  return [&scene, hit, settings](const PhotonMap& map, RegionCounters& counters) {
+  return [&scene, hit, settings](const PhotonMap& map, GatherCounters& counters) {
     const SurfaceRegion region(scene, hit, kUp, settings);
     return surface_irradiance(hit.position, kUp, BoundedMap{map, region, counters}).g;
   };
@@ -126,9 +126,9 @@ std::vector<Check> check_place(bool flat, const Place& place, GatherMode mode, c
   std::atomic<uint64_t> too_small{0};
   const auto samples =
       sample_moments(1, effort.count(1'200, 100'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-        RegionCounters counters;
+        GatherCounters counters;
         out[0] = estimate(make_photon_map(even_photons(flat, place, rng), settings, kPhotons), counters);
-        too_small += counters.least;
+        too_small += counters.least_shares;
       });
   std::vector<Check> checks{exact == 0.0 ? check_bound(name, samples[0].mean(), 0.0, 0.0)
                                          : check_mean(name, samples[0], exact, kShareError * exact)};

@@ -204,7 +204,7 @@ std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point
       2, effort.count(3'000, 100'000), effort.seed_of("border, " + body.name), [&](Rng& rng, double* out) {
         TracedPhotons photons = small_pass(body.scene, *strategy, rng);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
-        RegionCounters counters;
+        GatherCounters counters;
         const BoundedMap bounded{map, region, counters};
         out[0] = fluence(medium.majorant(), point, bounded).g;
         out[1] = volume_sum(medium.phase, point, uniform_sphere(rng.uniform2()), bounded).g / medium.majorant().g;
@@ -234,7 +234,7 @@ std::vector<Check> check_sheet(const Effort& effort) {
         sample_moments(1, effort.count(4'000, 100'000), effort.seed_of(name), [&](Rng& rng, double* out) {
           const TracedPhotons photons = small_pass(scene, *strategy, rng);
           const PhotonMap map = make_photon_map(photons.surface, gather, photons.ledger.emitted_count);
-          RegionCounters counters;
+          GatherCounters counters;
           out[0] = scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, counters}).g;
         });
     checks.push_back(check_mean(name, samples[0], 1.0, kShareError));
