@@ -52,10 +52,31 @@ struct RunCost {
   uint64_t lookups = 0;
   uint64_t null_collisions = 0;        // of flights
   uint64_t majorant_violations = 0;    // see WalkCounters
+  uint64_t queries = 0;                // of photon maps
+  uint64_t photons_visited = 0;        // by these, see GatherCounters
+  uint64_t photons_used = 0;
   uint64_t bytes = 0;                  // of photon maps and guides, of the largest pass
   double largest_weight = 0.0;         // of a photon, see Ledger
   double effective_sample_size = 0.0;  // of collisions, see Ledger
 };
+
+/// Calls f(name, number) for each of a run's numbers, with the names they have in files.
+void each_number(auto&& cost, auto&& f) {
+  f("cpu_seconds", cost.cpu_seconds);
+  f("wall_seconds", cost.wall_seconds);
+  f("passes", cost.passes);
+  f("photons", cost.photons);
+  f("stored", cost.stored);
+  f("lookups", cost.lookups);
+  f("null_collisions", cost.null_collisions);
+  f("majorant_violations", cost.majorant_violations);
+  f("queries", cost.queries);
+  f("photons_visited", cost.photons_visited);
+  f("photons_used", cost.photons_used);
+  f("bytes", cost.bytes);
+  f("largest_weight", cost.largest_weight);
+  f("effective_sample_size", cost.effective_sample_size);
+}
 
 /// That cost in a unit.
 inline double cost_in(CostUnit unit, const RunCost& cost) {

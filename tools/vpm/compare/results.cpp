@@ -192,22 +192,19 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
 }
 
 std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
-  std::string csv =
-      "scene,method,repetition,seed,budget,cpu_seconds,wall_seconds,passes,photons,stored,lookups,null_collisions,"
-      "majorant_violations,"
-      "bytes,largest_weight,effective_sample_size,mse,relative_mse,relative_mse_of_pbrt,mean_ratio\n";
+  std::string csv = "scene,method,repetition,seed,budget,";
+  each_number(RunCost{}, [&](const char* name, const auto&) { csv += fmt::format("{},", name); });
+  csv += "mse,relative_mse,relative_mse_of_pbrt,mean_ratio\n";
   for (size_t s = 0; s < scenes.size(); ++s)
     for (size_t m = 0; m < plan.methods.size(); ++m)
       for (size_t b = 0; b < plan.budgets.size(); ++b)
         for (size_t r = 0; r < scenes[s].budgets[m][b].each.size(); ++r) {
-          const RunCost& cost = scenes[s].budgets[m][b].costs[r];
-          const PictureErrors& errors = scenes[s].budgets[m][b].each[r];
-          csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                             csv_text(plan.scenes[s].name), csv_text(plan.methods[m].name), r, plan.seed + r,
-                             plan.budgets[b], cost.cpu_seconds, cost.wall_seconds, cost.passes, cost.photons,
-                             cost.stored, cost.lookups, cost.null_collisions, cost.majorant_violations, cost.bytes,
-                             cost.largest_weight, cost.effective_sample_size, errors.mse, errors.relative_mse,
-                             errors.relative_mse_of_pbrt, errors.mean_ratio);
+          csv += fmt::format("{},{},{},{},{},", csv_text(plan.scenes[s].name), csv_text(plan.methods[m].name), r,
+                             plan.seed + r, plan.budgets[b]);
+          each_number(scenes[s].budgets[m][b].costs[r],
+                      [&](const char*, const auto& number) { csv += fmt::format("{},", number); });
+          const PictureErrors& e = scenes[s].budgets[m][b].each[r];
+          csv += fmt::format("{},{},{},{}\n", e.mse, e.relative_mse, e.relative_mse_of_pbrt, e.mean_ratio);
         }
   return csv;
 }

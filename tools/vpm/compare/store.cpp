@@ -17,17 +17,9 @@ namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
 RunCost cost_of(const json& j) {
-  return {j.at("cpu_seconds"),
-          j.at("wall_seconds"),
-          j.at("passes"),
-          j.at("photons"),
-          j.at("stored"),
-          j.at("lookups"),
-          j.at("null_collisions"),
-          j.at("majorant_violations"),
-          j.at("bytes"),
-          j.at("largest_weight"),
-          j.at("effective_sample_size")};
+  RunCost cost;
+  each_number(cost, [&](const char* name, auto& number) { number = j.at(name); });
+  return cost;
 }
 
 /// Makes a folder and those it is in.
@@ -52,17 +44,8 @@ std::optional<Image> layer(const ExrChannels& file, const std::string& prefix) {
 }  // namespace
 
 std::string cost_json(const RunCost& cost) {
-  const json all{{"cpu_seconds", cost.cpu_seconds},
-                 {"wall_seconds", cost.wall_seconds},
-                 {"passes", cost.passes},
-                 {"photons", cost.photons},
-                 {"stored", cost.stored},
-                 {"lookups", cost.lookups},
-                 {"null_collisions", cost.null_collisions},
-                 {"majorant_violations", cost.majorant_violations},
-                 {"bytes", cost.bytes},
-                 {"largest_weight", cost.largest_weight},
-                 {"effective_sample_size", cost.effective_sample_size}};
+  json all;
+  each_number(cost, [&](const char* name, const auto& number) { all[name] = number; });
   return all.dump();
 }
 
