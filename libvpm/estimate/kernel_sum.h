@@ -70,9 +70,8 @@ const Neighbours& nearest(const NearestMap& map, const GatherSettings& settings,
                           GatherCounters& counters) {
   static thread_local Neighbours neighbours(0);
   neighbours.reserve(settings.count);
-  counters.visited += map.find(point, settings.radius, neighbours, [&](const Photon& p, const Vec3& offset) {
-    return accept(p.travel.unpack(), offset);
-  });
+  counters.visited += map.find(point, settings.radius, neighbours,
+                               [&](const Photon& p, const Vec3& offset) { return accept(p.travel.unpack(), offset); });
   counters.used += neighbours.entries().size();
   return neighbours;
 }

@@ -61,7 +61,8 @@ std::vector<ComparedScene> read_scenes(TableReader& root) {
     scene.name = table.string("name");
     if (!names.insert(scene.name).second) table.fail("name", "two scenes are named '" + scene.name + "'");
     scene.file = table.path("file");
-    if (table.has("reference")) scene.reference = table.path("reference");
+    scene.exact = table.has("reference") && table.string("reference") == "exact";
+    if (table.has("reference") && !scene.exact) scene.reference = table.path("reference");
     scene.settings = read_settings(table, "set");
     table.finish();
     scenes.push_back(std::move(scene));

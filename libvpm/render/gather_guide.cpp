@@ -16,8 +16,7 @@ constexpr float kFewPhotons = 16.0f;    // so many are worth half of that share
 
 }  // namespace
 
-GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, GatherCounters& counters)
-    : view_(view) {
+GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, GatherCounters& counters) : view_(view) {
   const Hit& hit = view.hit;
   const float side = glm::dot(hit.normal, view.travel) < 0.0f ? 1.0f : -1.0f;
   normals_ = {side * hit.shading_normal, -side * hit.shading_normal};

@@ -143,9 +143,8 @@ class SurfaceLight {
   /// farther than those of all photons: the largest radius stands for theirs.
   bool is_too_short(float length, const SurfaceView& view) {
     const CountedMap map{c_.surface, counters_.gather};
-    return length < map.settings.radius &&
-           (map.settings.boundary == BoundaryRule::corrected ||
-            length < scattered_radius(view.material, view.hit, -view.travel, map));
+    return length < map.settings.radius && (map.settings.boundary == BoundaryRule::corrected ||
+                                            length < scattered_radius(view.material, view.hit, -view.travel, map));
   }
 
   const EyeContext& c_;

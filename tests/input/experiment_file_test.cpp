@@ -53,6 +53,13 @@ TEST(ExperimentFile, ReadsEveryKey) {
   EXPECT_EQ(plan.methods[1].settings, (std::vector<std::string>{"volume.radius=0.25", "render.seed=3"}));
 }
 
+TEST(ExperimentFile, ReferencesMayBeExact) {
+  const ComparisonPlan plan = load(kHead + kScene + "reference = \"exact\"\n" + kMethods);
+  EXPECT_TRUE(plan.scenes[0].exact);
+  EXPECT_TRUE(plan.scenes[0].reference.empty());
+  EXPECT_FALSE(load(kHead + kScene + kMethods).scenes[0].exact);
+}
+
 TEST(ExperimentFile, MakesEveryCombinationOfAProduct) {
   const ComparisonPlan plan =
       load(kHead + "[product]\ndistance.strategy = [\"regular\", \"ray-march\"]\nvolume.radius = [0.1, 0.2, 0.4]\n" +

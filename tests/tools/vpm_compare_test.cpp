@@ -109,6 +109,33 @@ file = "fog.toml"
   EXPECT_EQ(lines, 1u + 2u * 2u * 3u);
 }
 
+TEST_F(VpmCompare, TakesExactPicturesForReferences) {
+  const std::string even_light = kScene.substr(0, kScene.find("[[lights]]")) + "[[lights]]\ntype = \"environment\"\n";
+  write("fog.toml", even_light + "radiance = 2\n");
+  write("exact.toml", R"(
+title = "Paths against the exact solution"
+unit = "passes"
+budgets = [64]
+repetitions = 8
+[product]
+render.integrator = ["path", "photons"]
+[[scenes]]
+name = "ball of fog"
+file = "fog.toml"
+reference = "exact"
+)");
+  vpm_succeeds({"compare", "exact.toml", "-o", "out"});
+  const json scene = results("out").at("scenes").at(0);
+  EXPECT_EQ(scene.at("reference").at("source"), "the exact solution");
+  const json& bias = scene.at("methods").at(0).at("budgets").at(0).at("bias");
+  EXPECT_LE(bias.at("lo"), 0.0);
+  EXPECT_GE(bias.at("hi"), 0.0);
+  EXPECT_LT(bias.at("hi").get<double>() - bias.at("lo").get<double>(), 0.02);
+  const json& queries = scene.at("methods").at(1).at("budgets").at(0).at("runs").at(0);
+  EXPECT_GT(queries.at("photons_visited"), queries.at("photons_used"));
+  EXPECT_GT(queries.at("photons_used"), 0);
+}
+
 TEST_F(VpmCompare, RefusesBeforeItRenders) {
   write("fog.toml", kScene);
   const std::string head = "title = \"t\"\nbudgets = [1]\n[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";
@@ -116,6 +143,8 @@ TEST_F(VpmCompare, RefusesBeforeItRenders) {
   vpm_refuses({"compare", "unknown.toml", "-o", "out"}, {"scene 'fog'", "--set volume.radios=1", "unknown key"});
   write("sizes.toml", head + "[product]\nfilm.width = [6, 7]\n");
   vpm_refuses({"compare", "sizes.toml", "-o", "out"}, {"6 x 4", "7 x 4"});
+  write("exact.toml", head + "reference = \"exact\"\n[product]\nrender.seed = [1, 2]\n");
+  vpm_refuses({"compare", "exact.toml", "-o", "out"}, {"scene 'fog'", "no exact picture", "constant environment"});
   vpm_refuses({"compare", "none.toml", "-o", "out"}, {"none.toml"});
 }
 

@@ -25,7 +25,8 @@ struct ComparedScene {
   std::string name;
   std::string file;                   // a scene file
   std::vector<std::string> settings;  // key.path=value, of all methods and the reference
-  std::string reference;              // .exr; empty: it is rendered
+  std::string reference;              // .exr; empty: it is rendered, or
+  bool exact = false;                 // it is exact_picture()
 };
 
 struct ComparisonPlan {
@@ -50,10 +51,10 @@ struct RunCost {
   uint64_t photons = 0;  // emitted
   uint64_t stored = 0;   // in all maps
   uint64_t lookups = 0;
-  uint64_t null_collisions = 0;        // of flights
-  uint64_t majorant_violations = 0;    // see WalkCounters
-  uint64_t queries = 0;                // of photon maps
-  uint64_t photons_visited = 0;        // by these, see GatherCounters
+  uint64_t null_collisions = 0;      // of flights
+  uint64_t majorant_violations = 0;  // see WalkCounters
+  uint64_t queries = 0;              // of photon maps
+  uint64_t photons_visited = 0;      // by these, see GatherCounters
   uint64_t photons_used = 0;
   uint64_t bytes = 0;                  // of photon maps and guides, of the largest pass
   double largest_weight = 0.0;         // of a photon, see Ledger

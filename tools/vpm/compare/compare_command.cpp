@@ -20,6 +20,7 @@
 #include "medium/distance/strategy.h"
 #include "pass_run.h"
 #include "report.h"
+#include "study/compare/exact_picture.h"
 #include "study/validate/check.h"
 
 namespace vpm::tools {
@@ -35,7 +36,7 @@ struct Entrant {
 struct Contest {
   const ComparedScene* compared = nullptr;
   std::vector<std::unique_ptr<Entrant>> methods;
-  std::unique_ptr<Entrant> referee;  // null where the reference is read from a file
+  std::unique_ptr<Entrant> referee;  // null where the reference is read from a file, or exact
   Reference reference;
 };
 
@@ -72,6 +73,14 @@ void check_size(const Image& reference, const Camera& camera, const ComparedScen
                                reference.width, reference.height, camera.width, camera.height));
 }
 
+Reference exact_reference(const Scene& scene, const ComparedScene& compared) {
+  try {
+    return {exact_picture(scene), Image(scene.camera.width, scene.camera.height)};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("scene '{}': {}", compared.name, error.what()));
+  }
+}
+
 /// Loads everything that will be needed, so that what is wrong is told before anything is rendered.
 std::vector<Contest> load_contests(const ComparisonPlan& plan) {
   std::vector<Contest> contests;
@@ -80,7 +89,9 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
     contest.compared = &scene;
     for (const Method& method : plan.methods)
       contest.methods.push_back(make_entrant(scene, method.settings, run_purpose(plan)));
-    if (scene.reference.empty()) {
+    if (scene.exact) {
+      contest.reference = exact_reference(contest.methods.front()->loaded.scene, scene);
+    } else if (scene.reference.empty()) {
       const std::string seed = fmt::format("render.seed={}", reference_seed(plan));
       contest.referee = make_entrant(scene, joined(plan.reference_settings, {seed}),
                                      fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
@@ -172,6 +183,7 @@ BudgetSummary summarise(const Entrant& entrant, const Reference& reference, cons
 }
 
 std::string reference_text(const Contest& contest, double error) {
+  if (contest.compared->exact) return "the exact solution";
   if (!contest.referee) return contest.compared->reference;
   const bool paths = contest.referee->loaded.settings.integrator == Integrator::path;
   return fmt::format("{}, relative MSE {:.2g}", paths ? "the path tracer" : "photon mapping", error);
