@@ -70,7 +70,7 @@ class NearestMaps {
     const auto key = std::tuple(dimension, n, k);
     const auto found = facts_.find(key);
     if (found != facts_.end()) return found->second;
-    const double photons = effort_.full ? 5e9 : 1e8;
+    const double photons = effort_.full ? 5e9 : 5e7;
     const auto maps =
         static_cast<uint64_t>(std::clamp(photons / static_cast<double>(n), 1000.0, effort_.full ? 1e6 : 2e4));
     const uint64_t seed = effort_.seed_of(fmt::format("nearest {} {} {}", dimension, n, k));
@@ -146,7 +146,7 @@ CaseResult run_radius(const OracleCase& c, const Effort& effort) {
   const int d = read_dimension(c, 2);
   const uint64_t n = c.count("N");
   const double h = c.number_in("h", 1e-6, 0.5);
-  const double photons = effort.full ? 5e9 : 5e7;
+  const double photons = effort.full ? 5e9 : 2.5e7;
   const auto maps = static_cast<uint64_t>(std::clamp(photons / static_cast<double>(n), 500.0, 1e6));
   const DensityFacts facts = estimate_radius_density(d, n, h, maps, effort.seed_of(c.place()));
   CaseResult result;
