@@ -125,7 +125,7 @@ std::vector<Check> check_place(bool flat, const Place& place, GatherMode mode, c
   const Estimator estimate = estimator(flat, scene, place.point, settings);
   std::atomic<uint64_t> too_small{0};
   const auto samples =
-      sample_moments(1, effort.count(1'200, 100'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+      sample_moments(1, effort.count(1'200, 25'000), effort.seed_of(name), [&](Rng& rng, double* out) {
         GatherCounters counters;
         out[0] = estimate(make_photon_map(even_photons(flat, place, rng), settings, kPhotons), counters);
         too_small += counters.least_shares;

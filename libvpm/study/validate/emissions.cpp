@@ -253,7 +253,7 @@ std::vector<Check> check_emission(const EmissionLaw& law, const Effort& effort) 
   const bool chromatic = law.shares[0][0] != law.shares[0][1];
   const size_t channels = chromatic ? 3 : 1, cells = law.shares.size();
   const auto samples =
-      sample_moments(3 * cells, effort.count(100'000, 4'000'000), effort.seed_of(law.name), [&](Rng& rng, double* out) {
+      sample_moments(3 * cells, effort.count(100'000, 1'500'000), effort.seed_of(law.name), [&](Rng& rng, double* out) {
         const Emission emission = emit(law.light, kLitBox, rng);
         const size_t cell = law.cell(emission.ray);
         for (size_t c = 0; c < channels; ++c) {

@@ -125,7 +125,7 @@ void check_flights(std::vector<Check>& checks, const TestField& field, const Rgb
   const std::string name = fmt::format("{}, {}", field.name, info.name);
   const bool marches = info.marches && field.grid;
   const bool short_steps = marches && field.name != "ramp grid";
-  const uint64_t count = short_steps ? effort.count(10'000, 200'000) : effort.count(40'000, 2'000'000);
+  const uint64_t count = short_steps ? effort.count(10'000, 200'000) : effort.count(40'000, 800'000);
   const auto cells = fly(medium, *strategy, law, count, effort.seed_of(name + (medium.grey() ? "" : ", colour")));
   for (int c = 0; c < (medium.grey() ? 1 : 3); ++c) {
     std::vector<double> probabilities, bias;
@@ -169,7 +169,7 @@ std::vector<Check> check_majorants_that_cut(const Effort& effort) {
       const Law law = flight_law(make_medium(cut, sigma_t));
       const auto strategy = make_distance_strategy({.strategy = "progressive-null", .majorant = 0.25f}, {.pass = pass});
       const std::string name = fmt::format("checker grid, pass {}{}", pass, is_grey(sigma_t) ? "" : ", colour");
-      const auto cells = fly(make_medium(checker, sigma_t), *strategy, law, effort.count(40'000, 2'000'000),
+      const auto cells = fly(make_medium(checker, sigma_t), *strategy, law, effort.count(40'000, 800'000),
                              effort.seed_of(name + ", cut"));
       for (int c = 0; c < (is_grey(sigma_t) ? 1 : 3); ++c) {
         std::vector<double> probabilities;

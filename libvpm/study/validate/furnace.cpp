@@ -158,7 +158,7 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, const char
   const std::string name = fmt::format("{}, {}", body.name, strategy_name);
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   const auto samples =
-      sample_moments(2, effort.count(2'400, 100'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
+      sample_moments(2, effort.count(2'400, 60'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
         TracedPhotons photons = small_pass(body.scene, *strategy, rng, 100, form);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         out[0] = fluence(medium.majorant(), inside, map).g;
@@ -201,7 +201,7 @@ std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   const VolumeRegion region(body.scene, 0, point, gather.kernel);
   const auto samples = sample_moments(
-      2, effort.count(3'000, 100'000), effort.seed_of("border, " + body.name), [&](Rng& rng, double* out) {
+      2, effort.count(3'000, 60'000), effort.seed_of("border, " + body.name), [&](Rng& rng, double* out) {
         TracedPhotons photons = small_pass(body.scene, *strategy, rng);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         GatherCounters counters;

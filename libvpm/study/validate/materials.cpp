@@ -184,7 +184,7 @@ std::vector<Check> check_rough_materials(const Effort& effort) {
         const std::string name =
             fmt::format("{}, {:.1f} rad from {}", what, angle, from_outside ? "outside" : "inside");
         const RoughIncidence in{material, kNormal, arriving(angle, from_outside)};
-        append(checks, check_lobes(name, in, effort.count(50'000, 1'000'000), effort));
+        append(checks, check_lobes(name, in, effort.count(50'000, 500'000), effort));
       }
   }
   return checks;

@@ -43,7 +43,7 @@ std::vector<Check> check_maps(bool flat, const Effort& effort) {
       const GatherSettings settings{mode, nearest ? 0.85f : 0.5f, 12, kernel.kind};
       const std::string name = fmt::format("{} kernel, {} {}", kernel.name, nearest ? "12 nearest" : "fixed radius",
                                            flat ? "on a plane" : "in a volume");
-      const auto samples = sample_moments(1, effort.count(4'500, 200'000), effort.seed_of(name),
+      const auto samples = sample_moments(1, effort.count(4'500, 60'000), effort.seed_of(name),
                                           [&](Rng& rng, double* out) { out[0] = estimate(flat, settings, rng); });
       checks.push_back(check_mean(name, samples[0], exact));
     }
