@@ -136,7 +136,7 @@ TEST(VolumeRegion, LeavesOutWhereThereIsNoDensity) {
 }
 
 // False alarms: 1e-6 each. The share's error at these places is below 0.5 %, a fifth of the standard errors.
-TEST(VolumeRegion, EvenLightInACubeIsEvenUpToItsCorners) {
+TEST(SlowVolumeRegion, EvenLightInACubeIsEvenUpToItsCorners) {
   const Scene scene = cube();
   const Vec3 lo(-1.0f), hi(1.0f);
   uint64_t use = 10;

@@ -63,7 +63,7 @@ void expect_exact(const Medium& medium, const DistanceSettings& settings, const 
   }
 }
 
-TEST(DistanceStrategy, EveryUnbiasedOneFollowsTheExactTransmittance) {
+TEST(SlowDistanceStrategy, EveryUnbiasedOneFollowsTheExactTransmittance) {
   for (const FlightField& field : flight_fields())
     for (const StrategyInfo& info : distance_strategies()) {
       if (!info.heterogeneous || info.marches) continue;

@@ -111,7 +111,7 @@ std::vector<Moments> estimates(const TransmittanceSettings& settings, const Medi
   return moments;
 }
 
-TEST(Transmittance, UnbiasedOnesHaveTheExactMeanInEveryChannel) {
+TEST(SlowTransmittance, UnbiasedOnesHaveTheExactMeanInEveryChannel) {
   std::vector<TransmittanceSettings> all{{.estimator = "unbiased-ray-march", .samples = 2.0f}};
   for (const EstimatorInfo& info : transmittance_estimators())
     if (info.unbiased && info.name != "regular") all.push_back({.estimator = std::string(info.name)});
@@ -126,7 +126,7 @@ TEST(Transmittance, UnbiasedOnesHaveTheExactMeanInEveryChannel) {
   }
 }
 
-TEST(Transmittance, RouletteKeepsTheMeanOfOpaqueMedia) {
+TEST(SlowTransmittance, RouletteKeepsTheMeanOfOpaqueMedia) {
   const Medium medium = make_medium(blob(), Rgb(12.0f, 11.0f, 10.0f));
   const Interval stretch{0.0f, 6.0f};
   const double exact = column(medium, kRay, stretch).value;
@@ -235,7 +235,7 @@ TEST(Transmittance, MarchesOfARampHaveTheBiasOfItsClosedForm) {
   }
 }
 
-TEST(Transmittance, TheJackknifeHasTheMeanOfItsTwoMarches) {
+TEST(SlowTransmittance, TheJackknifeHasTheMeanOfItsTwoMarches) {
   // In any field, as above: the mean over the places in each step by the midpoint rule.
   const double sigma = 3.0;
   constexpr int kPlaces = 40000;

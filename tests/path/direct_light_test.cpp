@@ -38,7 +38,7 @@ TEST(DirectLight, TransmittancesBelowZeroAndAboveOneAreKept) {
   EXPECT_FLOAT_EQ(sample.irradiance.g, 3.0f / 9.0f);
 }
 
-TEST(DirectLight, TheRefereeKeepsNegativeSamples) {
+TEST(SlowDirectLight, TheRefereeKeepsNegativeSamples) {
   // A lamp behind a slab that is denser than a march can see: many samples are negative, none is dropped, and their
   // mean is that of the exact estimator.
   const GridFrame frame = centred_frame(10, 0.1, Interpolation::nearest);

@@ -81,7 +81,7 @@ Scene sheet(const Material& material) {
 }
 
 /// From both sides, as light does not meet the same material from below.
-TEST(GuidedScatter, OfSurfacesHasTheMeansOfTheirOwn) {
+TEST(SlowGuidedScatter, OfSurfacesHasTheMeansOfTheirOwn) {
   const DirectionGuide guide = lopsided();
   const std::vector<Material> materials{Lambertian{Rgb(0.8f, 0.5f, 0.3f)},
                                         Phong{Rgb(0.4f, 0.3f, 0.2f), Rgb(0.3f, 0.4f, 0.5f), 20.0f},

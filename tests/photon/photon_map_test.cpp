@@ -151,7 +151,7 @@ TEST(PhotonMap, SmallAndEmptyMapsAnswer) {
     }
 }
 
-TEST(PhotonMap, KNearestIsUnbiasedInUniformPhotons) {
+TEST(SlowPhotonMap, KNearestIsUnbiasedInUniformPhotons) {
   // 2000 photons of power 1/2000 uniform in the unit cube: the density at its middle is 1. With k counted instead of k
   // - 1 the mean would be k/(k-1).
   for (const auto& [kernel, kernel_name, disc_norm, ball_norm] : kKernels) {

@@ -79,7 +79,7 @@ Medium colourful(std::shared_ptr<const DensityGrid> grid) {
   return medium;
 }
 
-TEST(PhotonTracing, AConstantGridEqualsTheHomogeneousMedium) {
+TEST(SlowPhotonTracing, AConstantGridEqualsTheHomogeneousMedium) {
   const auto constant = grid_over_box([](int, int, int) { return 1.0; });
   for (const bool grey : {true, false}) {
     const Medium in_grid = grey ? make_medium(constant, Rgb(1.5f), 0.8f) : colourful(constant);
@@ -95,7 +95,7 @@ TEST(PhotonTracing, AConstantGridEqualsTheHomogeneousMedium) {
 }
 
 // Effective sample sizes: 134 thousand grey collisions by the regular strategy, 41 thousand by the mean extinction's.
-TEST(PhotonTracing, TheStrategiesAgreeOnASmoothGrid) {
+TEST(SlowPhotonTracing, TheStrategiesAgreeOnASmoothGrid) {
   const auto smooth =
       grid_over_box([](int x, int y, int z) { return 0.25 + std::exp(-0.015 * ((x - 2) * (x - 2) + y * y + z * z)); });
   for (const bool grey : {true, false}) {
@@ -180,7 +180,7 @@ TEST(PhotonTracing, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(PhotonTracing, FillsTheMapAndDividesByTheEmitted) {
+TEST(SlowPhotonTracing, FillsTheMapAndDividesByTheEmitted) {
   const Scene scene = full_scene();
   // The mean does not depend on how many are asked for: power stored over photons emitted.
   std::array<Moments, 2> stored;

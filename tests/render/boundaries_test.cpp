@@ -51,7 +51,7 @@ void expect_white(const Scene& scene, float radius, double bias, double plain) {
   EXPECT_EQ(dark.gather.corrected, 0u);
 }
 
-TEST(Boundaries, AWhiteMediumIsWhiteUpToItsFaces) {
+TEST(SlowBoundaries, AWhiteMediumIsWhiteUpToItsFaces) {
   Medium medium = make_medium(nullptr, Rgb(1.5f), 1.0f);
   medium.phase = HenyeyGreenstein{0.3f};
   Scene scene = boxed_medium(medium, ConstantEnvironment{Rgb(1.0f)});
@@ -59,7 +59,7 @@ TEST(Boundaries, AWhiteMediumIsWhiteUpToItsFaces) {
   expect_white(scene, 0.6f, 0.005, 0.85);
 }
 
-TEST(Boundaries, AWhiteGridIsWhiteWhereItsDensityEnds) {
+TEST(SlowBoundaries, AWhiteGridIsWhiteWhereItsDensityEnds) {
   GridFrame frame;
   frame.hi = Vec3i(11);
   frame.interpolation = Interpolation::nearest;

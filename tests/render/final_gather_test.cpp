@@ -77,7 +77,7 @@ void expect_same(const Moments& gathered, const Moments& paths) {
 
 // Within a radius of the cube's edges the map is dark, which gathering rays see in proportion to the radius: at 0.1 m
 // 0.5 % of all light is missing, at 1 m 6 %. Extrapolated to 0 from 0.1 m and 0.2 m it is 0.04 %.
-TEST(FinalGather, SeesWhatPathsSee) {
+TEST(SlowFinalGather, SeesWhatPathsSee) {
   const Scene scene = hollow_cube();
   const Moments extrapolated = means([&](int pass) {
     return 2.0 * pass_mean(scene, gathering(0.1f), pass, render_photon_pass) -
@@ -87,7 +87,7 @@ TEST(FinalGather, SeesWhatPathsSee) {
 }
 
 // Where every ray is too short for the map nothing is left of its blur.
-TEST(FinalGather, NeedsNoMapInACavitySmallerThanItsRadius) {
+TEST(SlowFinalGather, NeedsNoMapInACavitySmallerThanItsRadius) {
   const Scene scene = hollow_cube();
   expect_same(by_gathering(scene, 10.0f), by_paths(scene));
 }
@@ -132,7 +132,7 @@ TEST(FinalGather, RaysBeyondTheNearestPhotonsEndInTheMap) {
 
 // Light varies over the walls by half of it within 1 m, and points lie about 0.05 m apart: seen is a difference of
 // 0.1 % with a standard error of 0.1 %.
-TEST(FinalGather, SeesNearlyTheSameByIrradianceComputedBeforehand) {
+TEST(SlowFinalGather, SeesNearlyTheSameByIrradianceComputedBeforehand) {
   const Scene scene = hollow_cube();
   RenderSettings settings = gathering(0.1f);
   settings.end_irradiance = EndIrradiance::precomputed;

@@ -166,7 +166,7 @@ Scene cube_of_quads() {
 
 // Over the walls of a closed cavity the mean of irradiance is Phi / (A (1 - rho)), by symmetry on each wall of a cube.
 // Indirect light of the map is dark within a radius of the edges: at most by a half there.
-TEST(LightMap, OnTheWallOfACubeEachWattArrivesTwice) {
+TEST(SlowLightMap, OnTheWallOfACubeEachWattArrivesTwice) {
   const Scene scene = cube_of_quads();
   constexpr double kPower = 1.0 / 6.0 / (1.0 - kReflectance), kIndirect = kPower / 2.0;
   constexpr float kRadius = 0.04f;
@@ -190,7 +190,7 @@ TriangleMesh stretched_floor() {
 }
 
 // What texels say the floor receives is what the ledger says that it absorbs, over 1 - rho.
-TEST(LightMap, ReceivesThePowerOfTheLedger) {
+TEST(SlowLightMap, ReceivesThePowerOfTheLedger) {
   const Scene scene = lit(stretched_floor(), PointLight{Vec3(0.6f, 0.4f, 0.7f), Rgb(1.0f)});
   const RenderSettings settings = fixed_radius(0.05f, 50'000);
   const UvLayout layout = lay_out_light_map(scene, 0, 48);

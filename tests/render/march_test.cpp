@@ -53,7 +53,7 @@ double reference(const Medium& medium, float sigma, float t1, bool times_density
   return sum;
 }
 
-TEST(March, IsUnbiasedForAnyStep) {
+TEST(SlowMarch, IsUnbiasedForAnyStep) {
   const Rgb sigma(0.2f, 1.0f, 6.0f);
   const Medium medium = noise_medium(sigma);
   for (const StepLimits limits :

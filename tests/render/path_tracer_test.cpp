@@ -26,7 +26,7 @@ Moments samples(const Scene& scene, const Ray& ray, int count, const RenderSetti
 
 // A ball that absorbs nothing in uniform light is invisible, whatever the phase function; in the chromatic one every
 // channel is.
-TEST(PathTracer, WhiteFurnace) {
+TEST(SlowPathTracer, WhiteFurnace) {
   for (const Phase& phase : {Phase(Isotropic{}), Phase(HenyeyGreenstein{0.8f}), Phase(Rayleigh{})}) {
     Scene scene;
     Medium medium = make_medium(nullptr, Rgb(1.0f, 3.0f, 8.0f), 1.0f);

@@ -74,7 +74,7 @@ TEST(PhotonPass, DirectLightByPhotonsEqualsShadowRaysOnSurfaces) {
   expect_same(photons, rays, 2e-3, "direct light on a floor");
 }
 
-TEST(PhotonPass, SingleScatteringByPhotonsEqualsShadowRays) {
+TEST(SlowPhotonPass, SingleScatteringByPhotonsEqualsShadowRays) {
   Medium fog = make_medium(nullptr, Rgb(0.4f, 0.6f, 0.9f), 0.7f);
   fog.phase = HenyeyGreenstein{0.4f};
   const Scene scene = lamp_and_floor(&fog);
@@ -104,7 +104,7 @@ Scene furnace(std::shared_ptr<const DensityGrid> grid, float sigma_t) {
   return scene;
 }
 
-TEST(PhotonPass, AWhiteFurnaceIsUniform) {
+TEST(SlowPhotonPass, AWhiteFurnaceIsUniform) {
   const GridFrame frame = centred_frame(9, 0.15);
   const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.2 + lattice_noise(x, y, z); });
   for (const auto& density : {std::shared_ptr<const DensityGrid>(), grid})
@@ -123,7 +123,7 @@ TEST(PhotonPass, AWhiteFurnaceIsUniform) {
       }
 }
 
-TEST(PhotonPass, AClosedDiffuseFurnaceIsUniform) {
+TEST(SlowPhotonPass, AClosedDiffuseFurnaceIsUniform) {
   // Six walls of reflectance 1/2 that also emit 1: L = 1 / (1 - 1/2) everywhere, fog of albedo 1 or none.
   for (const bool foggy : {false, true}) {
     Scene scene;

@@ -193,7 +193,7 @@ TEST(RadiiOfPixels, ShrinkTheLaterTheFewerPhotonsArrive) {
 }
 
 // The mean over pixels of renders of 12 passes, each of its own seed.
-TEST(RadiiOfPixels, AreRightInTheMeanWhileTheyShrink) {
+TEST(SlowRadiiOfPixels, AreRightInTheMeanWhileTheyShrink) {
   const Scene scene = lit_floor(DirectionalLight{Vec3(0, -1, 0), Rgb(2.0f)});
   RenderSettings settings = per_pixel(2000);
   Moments radiance, area;

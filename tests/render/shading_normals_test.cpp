@@ -95,7 +95,7 @@ Moments flux_by_eye_paths(const Scene& scene, const Detector& detector) {
   return flux;
 }
 
-TEST(ShadingNormals, PhotonsCarryTheFluxThatEyePathsSee) {
+TEST(SlowShadingNormals, PhotonsCarryTheFluxThatEyePathsSee) {
   const TriangleMesh bumpy = bumpy_plate();
   for (const auto& [name, material, height] : {std::tuple("diffuse", Material(Lambertian{Rgb(0.8f)}), 1.2f),
                                                std::tuple("mirror", Material(Mirror{Rgb(0.9f)}), 1.2f),

@@ -362,7 +362,7 @@ TEST(LeaveSurface, NeverMeetsTheSameDiscAgain) {
 
 // What a ray was sent to is where it stands, from near and far and at grazing angles; what is a hundredth of the way
 // before it is not.
-TEST(StandsAt, TellsThePointAimedAtFromWhatIsBefore) {
+TEST(SlowStandsAt, TellsThePointAimedAtFromWhatIsBefore) {
   Rng rng(8, static_cast<uint64_t>(RngUse::test), 0);
   int before = 0;
   for (int k = 0; k < 20000; ++k) {

@@ -123,7 +123,7 @@ TEST(FacetLoss, ReturnsFromPerfectMetal) {
 }
 
 // Glass sends on all, to one side or the other.
-TEST(FacetLoss, ReturnsFromGlass) {
+TEST(SlowFacetLoss, ReturnsFromGlass) {
   for (const float ior : {1.5f, 0.7f})
     for (const float roughness : {0.05f, 1.0f}) {
       const Lossless glass(RoughDielectric{ior, roughness});
