@@ -38,31 +38,27 @@ inline Rgb over_share(const Rgb& sum, const RegionShare& share, GatherCounters& 
 
 /// Of a fixed radius. `within` takes those of the photons that `accept` takes which the region holds.
 template <int Dimension, class Region, class Accept, class Within, class Value>
-Rgb bounded_sum(const BoundedMap<Region>& bounded, const RadiusMap& map, const Vec3& point, Accept&& accept,
+Rgb bounded_sum(const Region& region, const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept,
                 Within&& within, Value&& value) {
-  const GatherSettings& settings = bounded.map.settings;
-  const RegionShare share = bounded.region.share(settings.radius);
-  GatherCounters& counters = bounded.counters;
-  if (share.inside == 1.0) return kernel_sum<Dimension>(map, settings, point, accept, value, counters);
-  const Rgb sum = share.others ? kernel_sum<Dimension>(map, settings, point, within, value, counters)
-                               : kernel_sum<Dimension>(map, settings, point, accept, value, counters);
-  return over_share(sum, share, counters);
+  const RegionShare share = region.share(map.settings.radius);
+  if (share.inside == 1.0) return kernel_sum<Dimension>(map, point, accept, value);
+  const Rgb sum = share.others ? kernel_sum<Dimension>(map, point, within, value)
+                               : kernel_sum<Dimension>(map, point, accept, value);
+  return over_share(sum, share, map.counters);
 }
 
 /// Of the k nearest: the region's own are meant. Without the k-th they are k - 1 photons uniform in what the region has
 /// of the ball that reaches it, so that the estimate is unbiased there, too.
 template <int Dimension, class Region, class Accept, class Within, class Value>
-Rgb bounded_sum(const BoundedMap<Region>& bounded, const NearestMap& map, const Vec3& point, Accept&& accept,
+Rgb bounded_sum(const Region& region, const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept,
                 Within&& within, Value&& value) {
-  const GatherSettings& settings = bounded.map.settings;
-  const Neighbours& all = nearest(map, settings, point, accept, bounded.counters);
-  const RegionShare share = bounded.region.share(std::sqrt(all.limit()));
-  if (share.inside == 1.0) return neighbour_sum<Dimension>(map, settings.kernel, all, value);
-  if (!share.others)
-    return over_share(neighbour_sum<Dimension>(map, settings.kernel, all, value), share, bounded.counters);
-  const Neighbours& own = nearest(map, settings, point, within, bounded.counters);
-  const RegionShare of_own = bounded.region.share(std::sqrt(own.limit()));
-  return over_share(neighbour_sum<Dimension>(map, settings.kernel, own, value), of_own, bounded.counters);
+  const Neighbours& all = nearest(map, point, accept);
+  const RegionShare share = region.share(std::sqrt(all.limit()));
+  if (share.inside == 1.0) return neighbour_sum<Dimension>(map, all, value);
+  if (!share.others) return over_share(neighbour_sum<Dimension>(map, all, value), share, map.counters);
+  const Neighbours& own = nearest(map, point, within);
+  const RegionShare of_own = region.share(std::sqrt(own.limit()));
+  return over_share(neighbour_sum<Dimension>(map, own, value), of_own, map.counters);
 }
 
 /// The sum over the region's photons, over its share.
@@ -72,8 +68,11 @@ Rgb kernel_sum(const BoundedMap<Region>& bounded, const Vec3& point, Accept&& ac
   const auto within = [&](const Vec3& travel, const Vec3& offset) {
     return accept(travel, offset) && bounded.region.holds(offset);
   };
-  return std::visit([&](const auto& map) { return bounded_sum<Dimension>(bounded, map, point, accept, within, value); },
-                    bounded.map.index);
+  const auto sum = [&](const auto& index) {
+    const Gathering map{index, bounded.map.settings, bounded.counters};
+    return bounded_sum<Dimension>(bounded.region, map, point, accept, within, value);
+  };
+  return std::visit(sum, bounded.map.index);
 }
 
 }  // namespace vpm

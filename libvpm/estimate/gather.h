@@ -25,12 +25,14 @@ struct GatherSettings {
 
 /// What gathering counts.
 struct GatherCounters {
-  uint64_t visited = 0;       // photons whose distance was computed
-  uint64_t used = 0;          // of these, those that count, with whatever weight
+  uint64_t searches = 0;      // of maps: one for an estimate, as a rule; more at borders and where radii are asked for
+  uint64_t visited = 0;       // by these: photons whose distance was computed
+  uint64_t used = 0;          // photons that count in estimates, with whatever weight
   uint64_t corrected = 0;     // estimates at borders divided by a share of less than 1
   uint64_t least_shares = 0;  // of these, divided by kLeastShare in the place of less
 
   void merge(const GatherCounters& other) {
+    searches += other.searches;
     visited += other.visited;
     used += other.used;
     corrected += other.corrected;

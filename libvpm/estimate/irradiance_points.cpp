@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t kChunk = 256;  // points computed one after another
 
-Photon point_at(const SurfaceSite& site, const PhotonMap& map) {
+Photon point_at(const SurfaceSite& site, const CountedMap& map) {
   Hit hit;
   hit.position = site.position;
   hit.normal = site.normal.unpack();
@@ -19,13 +19,17 @@ Photon point_at(const SurfaceSite& site, const PhotonMap& map) {
 
 }  // namespace
 
-IrradiancePoints::IrradiancePoints(const std::vector<SurfaceSite>& sites, const PhotonMap& map)
+IrradiancePoints::IrradiancePoints(const std::vector<SurfaceSite>& sites, const PhotonMap& map,
+                                   GatherCounters& counters)
     : gather_{.mode = GatherMode::nearest, .radius = map.settings.radius, .count = 1},
       thickness_(plane_thickness(map.settings)) {
   std::vector<Photon> points(sites.size());
+  std::vector<GatherCounters> counted(sites.size() / kChunk + 1);
   parallel_for_chunks(sites.size(), kChunk, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) points[i] = point_at(sites[i], map);
+    const CountedMap here{map, counted[begin / kChunk]};
+    for (size_t i = begin; i < end; ++i) points[i] = point_at(sites[i], here);
   });
+  for (const GatherCounters& of_chunk : counted) counters.merge(of_chunk);
   points_ = NearestMap(std::move(points), 1.0f);
 }
 
@@ -39,8 +43,9 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
   const auto agrees = [&](const Vec3& travel, const Vec3& offset) {
     return -glm::dot(travel, normal) > kSameNormal && in_plane(travel, offset);
   };
-  const Neighbours& near = nearest(points_, gather_, hit.position, agrees, counters);
+  const Neighbours& near = nearest(Gathering{points_, gather_, counters}, hit.position, agrees);
   if (near.entries().empty()) return std::nullopt;
+  ++counters.used;
   return points_.photon(near.entries().front().photon).power;
 }
 

@@ -24,7 +24,7 @@ class IrradiancePoints {
  public:
   IrradiancePoints() = default;
   /// Computes the irradiance of the map's photons at the sites, in parallel.
-  IrradiancePoints(const std::vector<SurfaceSite>& sites, const PhotonMap& map);
+  IrradiancePoints(const std::vector<SurfaceSite>& sites, const PhotonMap& map, GatherCounters& counters);
 
   /// Irradiance by the cosines to the shading normal, W/m^2, on the side of a hit that `towards_eye` (unit) lies on:
   /// that of the nearest point there, within the map's radius. Nothing where there is none, or where `towards_eye` lies

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 #include "estimate/photon_map.h"
@@ -43,36 +44,45 @@ auto with_kernel(KernelKind kind, F&& f) {
   return f([](float q) { return kernel_profile<KernelKind::triweight>(q); });
 }
 
+/// One of the kinds of map, with how it is gathered from and where that is counted.
+template <class Index>
+struct Gathering {
+  const Index& index;
+  const GatherSettings& settings;
+  GatherCounters& counters;
+};
+
 /// Sum over the photons within the radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const RadiusMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept, Value&& value,
-               GatherCounters& counters) {
-  const float r = settings.radius;
+Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
+  const float r = map.settings.radius;
   const float inverse = 1.0f / (r * r);
-  return with_kernel(settings.kernel, [&](auto profile) {
+  return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgb sum(0.0f);
     uint32_t used = 0;
-    counters.visited += map.for_each_near(point, r, [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
+    const auto visit = [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
       const Vec3 travel = p.travel.unpack();
       if (!accept(travel, offset)) return;
       sum += value(travel, p.power) * profile(d2 * inverse);
       ++used;
-    });
-    counters.used += used;
-    return sum * kernel_norm<Dimension>(settings.kernel, r);
+    };
+    ++map.counters.searches;
+    map.counters.visited += map.index.for_each_near(point, r, visit);
+    map.counters.used += used;
+    return sum * kernel_norm<Dimension>(map.settings.kernel, r);
   });
 }
 
 /// The k nearest photons that `accept`(travel, offset) takes, of those within the largest radius. Good until the
 /// thread's next call.
 template <class Accept>
-const Neighbours& nearest(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept,
-                          GatherCounters& counters) {
+const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept) {
   static thread_local Neighbours neighbours(0);
-  neighbours.reserve(settings.count);
-  counters.visited += map.find(point, settings.radius, neighbours,
-                               [&](const Photon& p, const Vec3& offset) { return accept(p.travel.unpack(), offset); });
-  counters.used += neighbours.entries().size();
+  neighbours.reserve(map.settings.count);
+  ++map.counters.searches;
+  map.counters.visited +=
+      map.index.find(point, map.settings.radius, neighbours,
+                     [&](const Photon& p, const Vec3& offset) { return accept(p.travel.unpack(), offset); });
   return neighbours;
 }
 
@@ -80,31 +90,32 @@ const Neighbours& nearest(const NearestMap& map, const GatherSettings& settings,
 /// that reaches it, which is unbiased; kernels that vanish there leave it out by themselves. Where fewer than k lie
 /// within the largest radius, all count over that one.
 template <int Dimension, class Value>
-Rgb neighbour_sum(const NearestMap& map, KernelKind kernel, const Neighbours& neighbours, Value&& value) {
+Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
-  return with_kernel(kernel, [&](auto profile) {
+  const size_t first = neighbours.full() ? 1 : 0;  // the heap's first is the farthest
+  map.counters.used += neighbours.entries().size() - first;
+  return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgb sum(0.0f);
-    for (size_t i = neighbours.full() ? 1 : 0; i < neighbours.entries().size();
-         ++i) {  // the heap's first is the farthest
+    for (size_t i = first; i < neighbours.entries().size(); ++i) {
       const auto [d2, index] = neighbours.entries()[i];
-      const Photon& p = map.photon(index);
+      const Photon& p = map.index.photon(index);
       sum += value(p.travel.unpack(), p.power) * profile(d2 / r2);
     }
-    return sum * kernel_norm<Dimension>(kernel, std::sqrt(r2));
+    return sum * kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2));
   });
 }
 
 /// Sum over the k nearest photons that `accept` takes.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const NearestMap& map, const GatherSettings& settings, const Vec3& point, Accept&& accept, Value&& value,
-               GatherCounters& counters) {
-  return neighbour_sum<Dimension>(map, settings.kernel, nearest(map, settings, point, accept, counters), value);
+Rgb kernel_sum(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
+  return neighbour_sum<Dimension>(map, nearest(map, point, accept), value);
 }
 
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const CountedMap& counted, const Vec3& point, Accept&& accept, Value&& value) {
+  assert(counted.settings.mode == counted.map.settings.mode);
   const auto sum = [&](const auto& index) {
-    return kernel_sum<Dimension>(index, counted.settings, point, accept, value, counted.counters);
+    return kernel_sum<Dimension>(Gathering{index, counted.settings, counted.counters}, point, accept, value);
   };
   return std::visit(sum, counted.map.index);
 }
@@ -121,7 +132,7 @@ float kernel_radius(const CountedMap& counted, const Vec3& point, Accept&& accep
   const GatherSettings& settings = counted.settings;
   const auto* by_count = std::get_if<NearestMap>(&counted.map.index);
   if (!by_count) return settings.radius;
-  return std::sqrt(nearest(*by_count, settings, point, accept, counted.counters).limit());
+  return std::sqrt(nearest(Gathering{*by_count, settings, counted.counters}, point, accept).limit());
 }
 
 /// The brute-force twin of both: looks at every photon of a plain list. Powers are divided by `emitted` here.

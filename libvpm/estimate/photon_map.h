@@ -19,8 +19,8 @@ struct PhotonMap {
   size_t memory_bytes() const;
 };
 
-/// A photon map to be gathered from with counting, and with settings of its own if they differ from the map's in the
-/// kernel or, by little, in the radius.
+/// A photon map to be gathered from with counting, and with settings of its own where they differ from the map's in
+/// radius or kernel, but not in mode.
 struct CountedMap {
   const PhotonMap& map;
   GatherCounters& counters;

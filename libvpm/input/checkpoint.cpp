@@ -32,9 +32,9 @@ void each_number(Ledger& ledger, auto&& use) {
 void each_number(EyeCounters& eye, auto&& use) {
   auto& [rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
          gather, walk] = eye;
-  auto& [visited, used, corrected, least_shares] = gather;
+  auto& [searches, visited, used, corrected, least_shares] = gather;
   use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
-      visited, used, corrected, least_shares);
+      searches, visited, used, corrected, least_shares);
   each_number(walk, use);
 }
 void each_number(RenderStatistics& statistics, auto&& use) {

@@ -2,6 +2,7 @@
 #include "input/experiment_file.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <set>
 
 #include "input/table_reader.h"
@@ -53,6 +54,17 @@ std::vector<std::string> read_settings(TableReader& reader, const std::string& k
   return options;
 }
 
+/// Where the reference comes from.
+void read_source(TableReader& table, ComparedScene& scene) {
+  if (!table.has("reference")) return;
+  if (table.string("reference") == "exact") {
+    scene.source = ReferenceSource::exact;
+  } else {
+    scene.source = ReferenceSource::file;
+    scene.reference = table.path("reference");
+  }
+}
+
 std::vector<ComparedScene> read_scenes(TableReader& root) {
   std::vector<ComparedScene> scenes;
   std::set<std::string> names;
@@ -61,8 +73,7 @@ std::vector<ComparedScene> read_scenes(TableReader& root) {
     scene.name = table.string("name");
     if (!names.insert(scene.name).second) table.fail("name", "two scenes are named '" + scene.name + "'");
     scene.file = table.path("file");
-    scene.exact = table.has("reference") && table.string("reference") == "exact";
-    if (table.has("reference") && !scene.exact) scene.reference = table.path("reference");
+    read_source(table, scene);
     scene.settings = read_settings(table, "set");
     table.finish();
     scenes.push_back(std::move(scene));
@@ -133,6 +144,9 @@ void read_budgets(TableReader& root, ComparisonPlan& plan) {
 void read_reference(TableReader& root, ComparisonPlan& plan) {
   std::optional<TableReader> table = root.table("reference", "[reference]");
   if (!table) return;
+  const auto is_rendered = [](const ComparedScene& scene) { return scene.source == ReferenceSource::rendered; };
+  if (std::none_of(plan.scenes.begin(), plan.scenes.end(), is_rendered))
+    root.fail("reference", "no reference is rendered: every scene names its own", "leave out [reference]");
   plan.reference_error = table->number("error", kPositive, static_cast<float>(plan.reference_error));
   if (table->has("set")) plan.reference_settings = read_settings(*table, "set");
   table->finish();
@@ -151,8 +165,8 @@ ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<s
   read_budgets(root, plan);
   plan.repetitions = static_cast<int>(root.integer("repetitions", 3, 10'000, 10));
   plan.seed = root.integer("seed", 0, uint64_t{1} << 62, 1);
-  read_reference(root, plan);
   plan.scenes = read_scenes(root);
+  read_reference(root, plan);
   plan.methods = read_methods(root);
   root.finish();
   return plan;

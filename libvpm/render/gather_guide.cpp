@@ -23,7 +23,8 @@ GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, G
   const Arrives arrives{side * hit.normal, plane_thickness(from_rough.settings), scatters_through(view.material)};
   const auto& map = std::get<NearestMap>(from_rough.index);
   const std::vector<Neighbours::Entry>& near =
-      nearest(map, from_rough.settings, hit.position, arrives, counters).entries();
+      nearest(Gathering{map, from_rough.settings, counters}, hit.position, arrives).entries();
+  counters.used += near.size();
   for (const Neighbours::Entry& entry : near) {
     const Photon& photon = map.photon(entry.photon);
     const Vec3 travel = photon.travel.unpack();

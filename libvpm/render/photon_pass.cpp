@@ -130,7 +130,7 @@ void make_gathering(EyeContext& context, TracedPhotons& photons, int pass, Rende
     context.from_rough = make_map(photons.from_rough, gather, emitted, settings, statistics);
   }
   if (context.stages.irradiance_points) {
-    context.irradiance = IrradiancePoints(photons.sites, context.surface);
+    context.irradiance = IrradiancePoints(photons.sites, context.surface, statistics.eye.gather);
     statistics.irradiance_points = context.irradiance.size();
     statistics.photon_map_bytes += context.irradiance.memory_bytes();
   }

@@ -329,6 +329,11 @@ bool Geometry::has_uvs(uint32_t shape) const {
   return mesh ? !mesh->uvs.empty() : std::holds_alternative<SphereShape>(impl_->shapes[shape]);
 }
 
+std::optional<SphereShape> Geometry::sphere(uint32_t shape) const {
+  const auto* sphere = std::get_if<SphereShape>(&impl_->shapes[shape]);
+  return sphere ? std::optional(*sphere) : std::nullopt;
+}
+
 size_t Geometry::triangle_count(uint32_t shape) const {
   const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);
   return mesh ? mesh->count : 0;

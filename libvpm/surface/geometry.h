@@ -99,6 +99,8 @@ class Geometry {
   Vec2 uv(const Hit& hit) const;
   /// Has a shape coordinates in a texture? Spheres do, and meshes with uvs.
   bool has_uvs(uint32_t shape) const;
+  /// The sphere that a shape is; nothing where it is another.
+  std::optional<SphereShape> sphere(uint32_t shape) const;
   /// How many triangles a shape has, counted as in Hit::triangle; 0 where it is no mesh.
   size_t triangle_count(uint32_t shape) const;
   /// The point of a mesh with these barycentric coordinates, as a ray finds it; `t` is 0.

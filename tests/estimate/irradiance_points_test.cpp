@@ -77,7 +77,9 @@ TEST(IrradiancePoints, EqualTheirBruteForceTwin) {
   for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
     for (const float radius : {0.005f, 0.02f, 0.1f}) {
       const PhotonMap map = make_photon_map(photons, {mode, radius, 20, KernelKind::epanechnikov}, 1'000);
-      const IrradiancePoints points(sites, map);
+      GatherCounters counters;
+      const IrradiancePoints points(sites, map, counters);
+      EXPECT_EQ(counters.searches, sites.size());
       EXPECT_EQ(points.size(), sites.size());
       int found = 0, differ = 0;
       for (uint64_t i = 0; i < 1'000; ++i) {
@@ -99,7 +101,8 @@ TEST(IrradiancePoints, EqualTheirBruteForceTwin) {
 TEST(IrradiancePoints, AreNoneWhereTheTwoNormalsAreSeenFromDifferentSides) {
   const Vec3 up(0, 1, 0), leaning = glm::normalize(Vec3(1, 1, 0));
   const PhotonMap map = make_photon_map({{Vec3(0.0f), PackedDirection(-up), Rgb(1.0f)}}, {GatherMode::radius, 1.0f}, 1);
-  const IrradiancePoints points({{Vec3(0.0f), PackedDirection(up), PackedDirection(leaning)}}, map);
+  GatherCounters counters;
+  const IrradiancePoints points({{Vec3(0.0f), PackedDirection(up), PackedDirection(leaning)}}, map, counters);
   const Hit hit = hit_at(Vec3(0.1f, 0.0f, 0.0f), up, leaning);
   EXPECT_TRUE(seen(points, hit, up));
   EXPECT_FALSE(seen(points, hit, glm::normalize(Vec3(-1.0f, 0.5f, 0.0f))));
@@ -128,7 +131,8 @@ TEST(SlowIrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
     EXPECT_EQ(photons.surface_emitted, settings.emitted - settings.emitted / kSiteStep);
     const PhotonMap map =
         make_photon_map(std::move(photons.surface), {GatherMode::radius, 0.08f}, photons.surface_emitted);
-    const IrradiancePoints points(photons.sites, map);
+    GatherCounters counters;
+    const IrradiancePoints points(photons.sites, map, counters);
     Moments pass_mean;
     for (uint64_t i = 0; i < 500; ++i) {
       Rng rng(5, rng_stream(RngUse::test, 3 + pass), i);

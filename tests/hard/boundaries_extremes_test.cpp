@@ -128,7 +128,7 @@ TEST(BoundariesExtremes, NestedGlassWithMediaClosesItsLedger) {
   EXPECT_NEAR(gone / ledger.emitted.r, 1.0, 0.01);
 }
 
-TEST(SlowBoundariesExtremes, GrazingTotalInternalReflectionKeepsEveryPhoton) {
+TEST(BoundariesExtremes, GrazingTotalInternalReflectionKeepsEveryPhoton) {
   // A beam in a glass bar at angles just beyond the critical one, and next to parallel to its walls: nothing leaves by
   // the sides.
   for (const double cosine : {1e-6, 1e-4, 1e-2, 0.1, 0.7, std::sqrt(5.0) / 3.0 - 1e-4}) {  // to the wall's normal

@@ -32,7 +32,8 @@ TEST(ExperimentFile, ReadsEveryKey) {
   const std::string text =
       "title = \"Fog\"\nunit = \"photons\"\nbudgets = [10, 1e3]\nrepetitions = 5\nseed = 9\n"
       "[reference]\nerror = 1e-3\n[set]\nvolume.radius = 0.25\n" +
-      kScene + "reference = \"truth.exr\"\n[scenes.set]\nfilm.width = 8\ncamera.position = [0, 1.5, 2]\n" + kMethods;
+      kScene + "reference = \"truth.exr\"\n[scenes.set]\nfilm.width = 8\ncamera.position = [0, 1.5, 2]\n" +
+      "[[scenes]]\nname = \"mist\"\nfile = \"fog.toml\"\n" + kMethods;
   const ComparisonPlan plan = load(text);
   EXPECT_EQ(plan.title, "Fog");
   EXPECT_EQ(plan.text, text);
@@ -42,9 +43,11 @@ TEST(ExperimentFile, ReadsEveryKey) {
   EXPECT_EQ(plan.seed, 9u);
   EXPECT_EQ(plan.reference_error, static_cast<double>(1e-3f));
   EXPECT_EQ(plan.reference_settings, std::vector<std::string>{"render.integrator=\"path\""});
-  ASSERT_EQ(plan.scenes.size(), 1u);
+  ASSERT_EQ(plan.scenes.size(), 2u);
+  EXPECT_EQ(plan.scenes[1].source, ReferenceSource::rendered);
   EXPECT_EQ(plan.scenes[0].name, "fog");
   EXPECT_TRUE(plan.scenes[0].file.ends_with("/fog.toml"));
+  EXPECT_EQ(plan.scenes[0].source, ReferenceSource::file);
   EXPECT_TRUE(plan.scenes[0].reference.ends_with("/truth.exr"));
   EXPECT_EQ(plan.scenes[0].settings, (std::vector<std::string>{"film.width=8", "camera.position=[0, 1.5, 2]"}));
   ASSERT_EQ(plan.methods.size(), 2u);
@@ -55,9 +58,8 @@ TEST(ExperimentFile, ReadsEveryKey) {
 
 TEST(ExperimentFile, ReferencesMayBeExact) {
   const ComparisonPlan plan = load(kHead + kScene + "reference = \"exact\"\n" + kMethods);
-  EXPECT_TRUE(plan.scenes[0].exact);
-  EXPECT_TRUE(plan.scenes[0].reference.empty());
-  EXPECT_FALSE(load(kHead + kScene + kMethods).scenes[0].exact);
+  EXPECT_EQ(plan.scenes[0].source, ReferenceSource::exact);
+  EXPECT_EQ(load(kHead + kScene + kMethods).scenes[0].source, ReferenceSource::rendered);
 }
 
 TEST(ExperimentFile, MakesEveryCombinationOfAProduct) {
@@ -119,6 +121,8 @@ TEST(ExperimentFile, RefusesWhatIsWrong) {
       {kHead + "[set]\nvolume.radius = 1979-05-27\n" + kScene + kMethods, ":4:17: a setting cannot be a date"},
       {kHead + "set = 3\n" + kScene + kMethods, "must be a table of settings, not an integer"},
       {kHead + "[[scenes]]\nname = \"x\"\nfile = \"none.toml\"\n" + kMethods, "there is no file"},
+      {kHead + "[reference]\nerror = 1e-3\n" + kScene + "reference = \"exact\"\n" + kMethods,
+       "no reference is rendered"},
       {kHead + kScene + kMethods + "[referees]\n", "unknown key 'referees'"}};
   for (const auto& [text, words] : cases) {
     const std::string found = message(text);

@@ -195,10 +195,11 @@ TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
   const GatherCounters near = count(make_photon_map(all, by_radius, 1));
   const auto within = [&](const Photon& p) { return glm::distance(p.position, at) < by_radius.radius; };
   EXPECT_EQ(near.used, static_cast<uint64_t>(std::count_if(all.begin(), all.end(), within)));
+  EXPECT_EQ(near.searches, 1u);
   EXPECT_GE(near.visited, near.used);
   EXPECT_LT(near.visited, 5 * near.used);  // rows of cells of half the radius reach little beyond the ball
   const GatherCounters nearest = count(make_photon_map(all, {GatherMode::nearest, 1.0f, 40, KernelKind::constant}, 1));
-  EXPECT_EQ(nearest.used, 40u);
+  EXPECT_EQ(nearest.used, 39u);  // the k-th sets the radius
   EXPECT_GE(nearest.visited, 40u);
   EXPECT_LT(nearest.visited, 2000u);  // a tree does not look at all
   const std::vector<Photon> none;

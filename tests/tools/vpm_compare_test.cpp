@@ -111,14 +111,14 @@ file = "fog.toml"
 
 TEST_F(VpmCompare, TakesExactPicturesForReferences) {
   const std::string even_light = kScene.substr(0, kScene.find("[[lights]]")) + "[[lights]]\ntype = \"environment\"\n";
-  write("fog.toml", even_light + "radiance = 2\n");
+  write("fog.toml", even_light + "radiance = 2\n[photons]\nemitted = 2000\n");
   write("exact.toml", R"(
 title = "Paths against the exact solution"
 unit = "passes"
 budgets = [64]
 repetitions = 8
 [product]
-render.integrator = ["path", "photons"]
+render.integrator = ["path", "photon"]
 [[scenes]]
 name = "ball of fog"
 file = "fog.toml"
@@ -127,6 +127,7 @@ reference = "exact"
   vpm_succeeds({"compare", "exact.toml", "-o", "out"});
   const json scene = results("out").at("scenes").at(0);
   EXPECT_EQ(scene.at("reference").at("source"), "the exact solution");
+  // Right paths miss it with 5 % of all seeds; the seed is fixed.
   const json& bias = scene.at("methods").at(0).at("budgets").at(0).at("bias");
   EXPECT_LE(bias.at("lo"), 0.0);
   EXPECT_GE(bias.at("hi"), 0.0);
@@ -144,7 +145,7 @@ TEST_F(VpmCompare, RefusesBeforeItRenders) {
   write("sizes.toml", head + "[product]\nfilm.width = [6, 7]\n");
   vpm_refuses({"compare", "sizes.toml", "-o", "out"}, {"6 x 4", "7 x 4"});
   write("exact.toml", head + "reference = \"exact\"\n[product]\nrender.seed = [1, 2]\n");
-  vpm_refuses({"compare", "exact.toml", "-o", "out"}, {"scene 'fog'", "no exact picture", "constant environment"});
+  vpm_refuses({"compare", "exact.toml", "-o", "out"}, {"scene 'fog'", "no exact picture", "its light is no"});
   vpm_refuses({"compare", "none.toml", "-o", "out"}, {"none.toml"});
 }
 

@@ -7,6 +7,7 @@
 #include "image/exr.h"
 #include "input/experiment_file.h"
 #include "input/scene_file.h"
+#include "study/compare/exact_picture.h"
 #include "tools/vpm_binary.h"
 
 namespace vpm {
@@ -176,6 +177,9 @@ TEST_F(VpmScenes, OfAllExperimentsCanBeLoaded) {
         EXPECT_NO_THROW(load_scene(scene.file, settings)) << entry.path() << ", " << scene.name;
         ++loaded;
       };
+      if (scene.source == ReferenceSource::exact) {
+        EXPECT_NO_THROW(exact_picture(load_scene(scene.file, of_scene).scene)) << entry.path() << ", " << scene.name;
+      }
       load(plan.reference_settings);
       for (const Method& method : plan.methods) load(method.settings);
     }

@@ -1,7 +1,9 @@
 // The list of distance strategies.
 #include "medium/distance/strategy.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "medium/distance/strategies.h"
 
@@ -34,6 +36,13 @@ std::span<const StrategyInfo> distance_strategies() {
        .summary = "exact: each brick's least density without look-ups, the rest by null collisions"},
   }};
   return kStrategies;
+}
+
+const StrategyInfo& strategy_info(std::string_view name) {
+  const auto all = distance_strategies();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const StrategyInfo& info) { return info.name == name; });
+  assert(found != all.end());
+  return *found;
 }
 
 std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings, const FlightUse& use) {

@@ -59,6 +59,8 @@ struct StrategyInfo {
   bool bounded_weight = true;
 };
 std::span<const StrategyInfo> distance_strategies();
+/// Of the strategy of that name, which there is.
+const StrategyInfo& strategy_info(std::string_view name);
 /// The strategy of that name; null where there is none.
 std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings, const FlightUse& use = {});
 

@@ -11,7 +11,7 @@
 //
 // Known failure: a comb too coarse for the field. Differences of many optical thicknesses make rare powers enormous, of
 // either sign: values below 0 and above 1 are legal, and their variance may be too large to be seen in few samples.
-// And media that vary by many optical thicknesses: a comb has as many samples, also where no light is left to find.
+// And in media that vary by many optical thicknesses a comb has as many samples as these, also where no light is left.
 #include <algorithm>
 #include <limits>
 

@@ -2,6 +2,7 @@
 #include "study/compare/exact_picture.h"
 
 #include <fmt/format.h>
+#include <array>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -19,8 +20,7 @@ namespace {
 
 void check(const Scene& scene) {
   if (scene.shapes.size() != 1) refuse("it has not one shape");
-  const bool round = scene.geometry.triangle_count(0) == 0 && scene.geometry.has_uvs(0);
-  if (!round) refuse("its shape is no sphere");
+  if (!scene.geometry.sphere(0)) refuse("its shape is no sphere");
   if (!is_boundary(scene.materials[scene.shapes[0].material])) refuse("its sphere is no boundary of a medium");
   const Interface& media = scene.shapes[0].media;
   if (media.inside == kVacuum || media.outside != kVacuum) refuse("its sphere does not hold fog in vacuum");
@@ -42,7 +42,9 @@ class BallImage {
       const double cosine = static_cast<double>(i) / kNodes;
       impacts.push_back(std::sqrt((1.0 - cosine) * (1.0 + cosine)));
     }
-    values_ = exact::solve_sphere(optical_radius, albedo, {}, impacts).image.values;
+    exact::BoundedSeries image = exact::solve_sphere(optical_radius, albedo, {}, impacts).image;
+    if (image.error > kMostError) refuse("its ball is too thick to be solved");
+    values_ = std::move(image.values);
   }
 
   /// Along a ray that meets the ball's surface at that cosine to its normal: smooth in it, where in the distance from
@@ -55,41 +57,68 @@ class BallImage {
 
  private:
   static constexpr int kNodes = 1024;
+  static constexpr double kMostError = 1e-6;
   std::vector<double> values_ = std::vector<double>(kNodes + 1, 1.0);
 };
 
-/// The cosine at which a ray meets a sphere; 0 where it passes by.
-double meeting_cosine(const Ray& ray, const Vec3d& centre, double radius) {
-  const Vec3d to_centre = centre - Vec3d(ray.origin), d(ray.direction);
-  const double impact = glm::length(glm::cross(to_centre, d)) / radius;
-  return impact < 1.0 && glm::dot(to_centre, d) > 0.0 ? std::sqrt((1.0 - impact) * (1.0 + impact)) : 0.0;
+/// The ball as the camera sees it.
+struct Ball {
+  Vec3d centre;                     // m
+  double radius;                    // m
+  std::array<BallImage, 3> images;  // by channel
+
+  explicit Ball(const Scene& scene)
+      : centre(scene.geometry.sphere(0)->centre),
+        radius(scene.geometry.sphere(0)->radius),
+        images(images_of(scene.media[scene.shapes[0].media.inside], radius)) {}
+
+  /// The cosine at which a ray meets the ball; 0 where it passes by.
+  double meeting_cosine(const Ray& ray) const {
+    const Vec3d to_centre = centre - Vec3d(ray.origin), d(ray.direction);
+    const double impact = glm::length(glm::cross(to_centre, d)) / radius;
+    return impact < 1.0 && glm::dot(to_centre, d) > 0.0 ? std::sqrt((1.0 - impact) * (1.0 + impact)) : 0.0;
+  }
+
+ private:
+  static std::array<BallImage, 3> images_of(const Medium& fog, double radius) {
+    const auto image = [&](int c) { return BallImage(fog.sigma_t[c] * radius, fog.albedo()[c]); };
+    const BallImage red = image(0);
+    if (fog.grey()) return {red, red, red};
+    return {red, image(1), image(2)};
+  }
+};
+
+/// The mean of the image over a pixel, by `along` rays along each side of its filter. `rim` becomes whether some of
+/// these pass the ball by and others meet it.
+Rgbd pixel_mean(const Ball& ball, const Camera& camera, size_t pixel, int along, bool& rim) {
+  const Vec2 middle = Vec2(pixel % camera.width, pixel / camera.width) + 0.5f;
+  Rgbd sum(0.0);
+  int met = 0;
+  for (int i = 0; i < along * along; ++i) {
+    const Vec2 u = (Vec2(i % along, i / along) + 0.5f) / static_cast<float>(along);
+    const double cosine = ball.meeting_cosine(camera.ray(middle + sample_filter(camera.filter, u)));
+    met += cosine > 0.0;
+    for (int c = 0; c < 3; ++c) sum[c] += ball.images[c].at(cosine);
+  }
+  rim = met > 0 && met < along * along;
+  return sum / static_cast<double>(along * along);
 }
 
 }  // namespace
 
 Image exact_picture(const Scene& scene) {
+  constexpr int kRays = 16, kRaysAtRim = 256;  // along each side of a pixel
   check(scene);
-  const Box& box = scene.geometry.bounds(0);
-  const Vec3d centre = 0.5 * (Vec3d(box.lo) + Vec3d(box.hi));
-  const double radius = 0.5 * (static_cast<double>(box.hi.x) - box.lo.x);
-  const Medium& fog = scene.media[scene.shapes[0].media.inside];
-  std::vector<BallImage> channels;
-  for (int c = 0; c < 3; ++c) channels.emplace_back(fog.sigma_t[c] * radius, fog.albedo()[c]);
-  const Rgbd environment(std::get<ConstantEnvironment>(scene.lights[0]).radiance);
-  constexpr int kAlong = 16;  // rays along each side of a pixel
+  const Ball ball(scene);
   const Camera& camera = scene.camera;
+  const Rgbd environment(std::get<ConstantEnvironment>(scene.lights[0]).radiance);
   Image image(camera.width, camera.height);
   parallel_for_chunks(image.pixels.size(), 64, [&](size_t begin, size_t end, size_t) {
     for (size_t pixel = begin; pixel < end; ++pixel) {
-      const Vec2 middle = Vec2(pixel % camera.width, pixel / camera.width) + 0.5f;
-      Rgbd sum(0.0);
-      for (int i = 0; i < kAlong * kAlong; ++i) {
-        const Vec2 u = (Vec2(i % kAlong, i / kAlong) + 0.5f) / static_cast<float>(kAlong);
-        const Ray ray = camera.ray(middle + sample_filter(camera.filter, u));
-        const double cosine = meeting_cosine(ray, centre, radius);
-        for (int c = 0; c < 3; ++c) sum[c] += channels[c].at(cosine);
-      }
-      image.pixels[pixel] = Rgb(environment * sum / static_cast<double>(kAlong * kAlong));
+      bool rim = false;
+      Rgbd mean = pixel_mean(ball, camera, pixel, kRays, rim);
+      if (rim) mean = pixel_mean(ball, camera, pixel, kRaysAtRim, rim);
+      image.pixels[pixel] = Rgb(environment * mean);
     }
   });
   return image;

@@ -21,12 +21,15 @@ struct Method {
   std::vector<std::string> settings;  // key.path=value
 };
 
+/// What a scene's pictures are compared with.
+enum class ReferenceSource { rendered, file, exact };
+
 struct ComparedScene {
   std::string name;
   std::string file;                   // a scene file
   std::vector<std::string> settings;  // key.path=value, of all methods and the reference
-  std::string reference;              // .exr; empty: it is rendered, or
-  bool exact = false;                 // it is exact_picture()
+  ReferenceSource source = ReferenceSource::rendered;
+  std::string reference;  // the file
 };
 
 struct ComparisonPlan {
@@ -53,7 +56,7 @@ struct RunCost {
   uint64_t lookups = 0;
   uint64_t null_collisions = 0;      // of flights
   uint64_t majorant_violations = 0;  // see WalkCounters
-  uint64_t queries = 0;              // of photon maps
+  uint64_t searches = 0;             // of photon maps
   uint64_t photons_visited = 0;      // by these, see GatherCounters
   uint64_t photons_used = 0;
   uint64_t bytes = 0;                  // of photon maps and guides, of the largest pass
@@ -71,7 +74,7 @@ void each_number(auto&& cost, auto&& f) {
   f("lookups", cost.lookups);
   f("null_collisions", cost.null_collisions);
   f("majorant_violations", cost.majorant_violations);
-  f("queries", cost.queries);
+  f("searches", cost.searches);
   f("photons_visited", cost.photons_visited);
   f("photons_used", cost.photons_used);
   f("bytes", cost.bytes);

@@ -151,9 +151,9 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   referee.seed = effort.seed_of(subject.name + " referee");
   const Measured reference = by_referee(scene, referee, effort.count(40'000, 300'000));
   std::vector<Check> checks;
-  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'000, 10'000)), media, surfaces)) {
+  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces)) {
     settings.seed = effort.seed_of(subject.name + name);
-    const int passes = static_cast<int>(effort.count(20, 40));
+    const int passes = static_cast<int>(effort.count(20, 36));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
   }
   return checks;
@@ -162,7 +162,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
 /// Every strategy, for photons and for the referee's paths, and every estimator of transmittance.
 std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
-  RenderSettings base = photon_settings(subject, effort.count(3'000, 10'000));
+  RenderSettings base = photon_settings(subject, effort.count(3'000, 8'000));
   base.distance = careful_settings(base.distance.strategy);
   base.transmittance.step = base.distance.step;
   base.seed = effort.seed_of(subject.name + " reference");
@@ -180,7 +180,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
             scene.grey);
     settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
-    const int passes = static_cast<int>(effort.count(20, 40));
+    const int passes = static_cast<int>(effort.count(20, 36));
     compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
             reference, scene.grey);
   }
@@ -198,10 +198,10 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
 std::vector<Check> constant_grid(const Effort& effort) {
   const Scene plain = filled_box(false), grid = filled_box(true);
   std::vector<Check> checks;
-  RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(3'000, 10'000));
+  RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(3'000, 8'000));
   const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
     settings.seed = effort.seed_of(name);
-    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(20, 40)))
+    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(20, 36)))
                    : by_referee(scene, settings, effort.count(40'000, 300'000));
   };
   const Measured reference = measure(plain, "plain", false);

@@ -124,12 +124,11 @@ std::vector<Check> check_place(bool flat, const Place& place, GatherMode mode, c
                                        nearest ? "12 nearest" : "fixed radius");
   const Estimator estimate = estimator(flat, scene, place.point, settings);
   std::atomic<uint64_t> too_small{0};
-  const auto samples =
-      sample_moments(1, effort.count(1'200, 25'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-        GatherCounters counters;
-        out[0] = estimate(make_photon_map(even_photons(flat, place, rng), settings, kPhotons), counters);
-        too_small += counters.least_shares;
-      });
+  const auto samples = sample_moments(1, effort.count(1'200, 15'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+    GatherCounters counters;
+    out[0] = estimate(make_photon_map(even_photons(flat, place, rng), settings, kPhotons), counters);
+    too_small += counters.least_shares;
+  });
   std::vector<Check> checks{exact == 0.0 ? check_bound(name, samples[0].mean(), 0.0, 0.0)
                                          : check_mean(name, samples[0], exact, kShareError * exact)};
   if (too_small > 0) checks.push_back(check_bound(name + ", least shares", static_cast<double>(too_small), 0.0, 0.0));

@@ -74,7 +74,7 @@ std::vector<Check> referee(const Effort& effort) {
   scene.geometry.commit();
   finish(scene);
   const std::vector<int> n = pass_counts(8, static_cast<int>(effort.count(128, 1024)));
-  const Groups groups = run_groups(n, effort.count(12, 20), effort, "referee", [&](uint64_t seed) {
+  const Groups groups = run_groups(n, effort.count(12, 16), effort, "referee", [&](uint64_t seed) {
     static const std::atomic<bool> kGoOn{false};
     RenderSettings settings;
     settings.seed = seed;
@@ -140,7 +140,7 @@ constexpr uint64_t kPhotons = 1000;  // in a pass
 
 std::vector<Check> density_estimation(const Field& field, const std::string& name, const Effort& effort) {
   const std::vector<int> n = pass_counts(4, static_cast<int>(effort.count(128, 1024)));
-  const Groups groups = run_groups(n, effort.count(12, 20), effort, name, [&](uint64_t seed) {
+  const Groups groups = run_groups(n, effort.count(12, 16), effort, name, [&](uint64_t seed) {
     std::vector<double> sums, errors;
     for (int pass = 0; pass < n.back(); ++pass) {
       const auto estimates = field.estimate(seed, pass, radius_of_pass(field.radius, field.dimension, pass));

@@ -56,7 +56,7 @@ void check_body(std::vector<Check>& checks, const LitBody& body, std::string_vie
   const double hit_share =
       0.5 * body.area / (lit.x * lit.y + lit.y * lit.z + lit.z * lit.x);  // of surfaces, as of mean projections
   const std::string name = fmt::format("{}, {}", body.name, strategy_name);
-  const auto samples = sample_moments(3 * tallies, effort.count(40'000, 2'000'000), effort.seed_of(name),
+  const auto samples = sample_moments(3 * tallies, effort.count(40'000, 1'200'000), effort.seed_of(name),
                                       [&](Rng& rng, double* out) { follow(body, *strategy, hit_share, rng, out); });
   for (size_t c = 0; c < (medium.grey() ? 1 : 3); ++c) {
     const Moments* sums = samples.data() + c * tallies;

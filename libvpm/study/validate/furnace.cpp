@@ -23,14 +23,15 @@ namespace vpm {
 namespace {
 
 /// Radiance along rays from a point inside, into random directions.
-Check check_radiance(const std::string& name, const Scene& scene, const Vec3& eye, std::string_view strategy,
+Check check_radiance(const std::string& name, const Scene& scene, const Vec3& eye, const StrategyInfo& strategy,
                      const Effort& effort) {
+  const uint64_t tight = strategy.bounded_weight ? 700'000 : 1'700'000;
   RenderSettings settings;
-  settings.distance = careful_settings(strategy);
+  settings.distance = careful_settings(strategy.name);
   const PathContext context = make_path_context(scene, settings);
   const MediumId medium = medium_at(scene, eye);
-  const auto samples = sample_moments(
-      1, effort.count(20'000, 1'700'000), effort.seed_of("radiance, " + name), [&](Rng& rng, double* out) {
+  const auto samples =
+      sample_moments(1, effort.count(20'000, tight), effort.seed_of("radiance, " + name), [&](Rng& rng, double* out) {
         EyeCounters counters;
         out[0] = path_radiance(context, {eye, uniform_sphere(rng.uniform2())}, medium, rng, counters).g;
       });
@@ -118,6 +119,7 @@ std::vector<Check> check_inside_glass(const Effort& effort) {
 }
 
 std::vector<Check> check_radiances(const Effort& effort) {
+  const StrategyInfo &regular = strategy_info("regular"), &homogeneous = strategy_info("homogeneous");
   const auto fields = test_fields();
   const Rgb sigma_t(1.5f);
   const Vec3 eye = field_point({0.5, -1.5, -2.5});
@@ -127,7 +129,7 @@ std::vector<Check> check_radiances(const Effort& effort) {
                                     {"g = 0.9", HenyeyGreenstein{0.9f}},
                                     {"g = -0.6", HenyeyGreenstein{-0.6f}}}) {
     const LitBody body = lit_box("", white_medium(nullptr, sigma_t, phase));
-    checks.push_back(check_radiance(fmt::format("homogeneous, {}", name), body.scene, eye, "homogeneous", effort));
+    checks.push_back(check_radiance(fmt::format("homogeneous, {}", name), body.scene, eye, homogeneous, effort));
   }
   for (const TestField& field : fields)
     for (const StrategyInfo& info : distance_strategies()) {
@@ -136,17 +138,16 @@ std::vector<Check> check_radiances(const Effort& effort) {
       if (!info.bounded_weight && field.name == "sparse grid") continue;
       const LitBody body =
           lit_box("", white_medium(field.grid, tested_extinction(info, *field.grid), HenyeyGreenstein{0.5f}));
-      checks.push_back(
-          check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info.name, effort));
+      checks.push_back(check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info, effort));
     }
   const Scene furnished = furnished_box(white_medium(fields[5].grid, sigma_t, HenyeyGreenstein{0.5f}));
-  checks.push_back(check_radiance("white surfaces in a random grid", furnished, eye, "regular", effort));
+  checks.push_back(check_radiance("white surfaces in a random grid", furnished, eye, regular, effort));
   append(checks, check_inside_glass(effort));
   const Scene room = glowing_room(white_medium(nullptr, sigma_t, HenyeyGreenstein{0.5f}));
-  checks.push_back(check_radiance("a room of glowing walls", room, Vec3(0.4f, -0.2f, 0.1f), "homogeneous", effort));
+  checks.push_back(check_radiance("a room of glowing walls", room, Vec3(0.4f, -0.2f, 0.1f), homogeneous, effort));
   const Scene mesh = glowing_mesh(white_medium(nullptr, sigma_t, HenyeyGreenstein{0.5f}));
   checks.push_back(
-      check_radiance("a glowing mesh in its own light", mesh, Vec3(0.4f, -0.2f, 0.1f), "homogeneous", effort));
+      check_radiance("a glowing mesh in its own light", mesh, Vec3(0.4f, -0.2f, 0.1f), homogeneous, effort));
   return checks;
 }
 
@@ -158,7 +159,7 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, const char
   const std::string name = fmt::format("{}, {}", body.name, strategy_name);
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   const auto samples =
-      sample_moments(2, effort.count(2'400, 60'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
+      sample_moments(2, effort.count(2'400, 30'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
         TracedPhotons photons = small_pass(body.scene, *strategy, rng, 100, form);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         out[0] = fluence(medium.majorant(), inside, map).g;
@@ -201,7 +202,7 @@ std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   const VolumeRegion region(body.scene, 0, point, gather.kernel);
   const auto samples = sample_moments(
-      2, effort.count(3'000, 60'000), effort.seed_of("border, " + body.name), [&](Rng& rng, double* out) {
+      2, effort.count(3'000, 40'000), effort.seed_of("border, " + body.name), [&](Rng& rng, double* out) {
         TracedPhotons photons = small_pass(body.scene, *strategy, rng);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         GatherCounters counters;

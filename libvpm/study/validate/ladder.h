@@ -14,7 +14,7 @@ namespace vpm {
 /// How much work an experiment does, and with which random numbers.
 struct Effort {
   uint64_t seed = 1;
-  bool full = false;  // tight errors: minutes; otherwise seconds
+  bool full = false;  // tight errors, some fifteen times the work
 
   /// A number of samples.
   uint64_t count(uint64_t quick, uint64_t tight) const { return full ? tight : quick; }

@@ -36,7 +36,7 @@ struct Entrant {
 struct Contest {
   const ComparedScene* compared = nullptr;
   std::vector<std::unique_ptr<Entrant>> methods;
-  std::unique_ptr<Entrant> referee;  // null where the reference is read from a file, or exact
+  std::unique_ptr<Entrant> referee;  // null where no reference is rendered
   Reference reference;
 };
 
@@ -73,11 +73,13 @@ void check_size(const Image& reference, const Camera& camera, const ComparedScen
                                reference.width, reference.height, camera.width, camera.height));
 }
 
-Reference exact_reference(const Scene& scene, const ComparedScene& compared) {
+Reference exact_reference(const ComparedScene& scene) {
+  const std::unique_ptr<Entrant> entrant = make_entrant(scene, {}, "");
   try {
-    return {exact_picture(scene), Image(scene.camera.width, scene.camera.height)};
+    const Image picture = exact_picture(entrant->loaded.scene);
+    return {picture, Image(picture.width, picture.height)};
   } catch (const InputError& error) {
-    throw InputError(fmt::format("scene '{}': {}", compared.name, error.what()));
+    throw InputError(fmt::format("scene '{}': {}", scene.name, error.what()));
   }
 }
 
@@ -89,9 +91,9 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
     contest.compared = &scene;
     for (const Method& method : plan.methods)
       contest.methods.push_back(make_entrant(scene, method.settings, run_purpose(plan)));
-    if (scene.exact) {
-      contest.reference = exact_reference(contest.methods.front()->loaded.scene, scene);
-    } else if (scene.reference.empty()) {
+    if (scene.source == ReferenceSource::exact) {
+      contest.reference = exact_reference(scene);
+    } else if (scene.source == ReferenceSource::rendered) {
       const std::string seed = fmt::format("render.seed={}", reference_seed(plan));
       contest.referee = make_entrant(scene, joined(plan.reference_settings, {seed}),
                                      fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
@@ -150,11 +152,7 @@ void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan,
 bool has_bounded_weights(const LoadedScene& loaded) {
   bool grids = false;
   for (const Medium& medium : loaded.scene.media) grids |= !medium.homogeneous();
-  const auto strategies = distance_strategies();
-  const auto used = std::find_if(strategies.begin(), strategies.end(), [&](const StrategyInfo& info) {
-    return info.name == loaded.settings.distance.strategy;
-  });
-  return !grids || used->bounded_weight;
+  return !grids || strategy_info(loaded.settings.distance.strategy).bounded_weight;
 }
 
 /// Why a bias cannot be told from repetitions; empty where it can. Means of heavy-tailed weights look biased in nearly
@@ -183,8 +181,8 @@ BudgetSummary summarise(const Entrant& entrant, const Reference& reference, cons
 }
 
 std::string reference_text(const Contest& contest, double error) {
-  if (contest.compared->exact) return "the exact solution";
-  if (!contest.referee) return contest.compared->reference;
+  if (contest.compared->source == ReferenceSource::exact) return "the exact solution";
+  if (contest.compared->source == ReferenceSource::file) return contest.compared->reference;
   const bool paths = contest.referee->loaded.settings.integrator == Integrator::path;
   return fmt::format("{}, relative MSE {:.2g}", paths ? "the path tracer" : "photon mapping", error);
 }

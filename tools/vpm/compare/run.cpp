@@ -25,7 +25,7 @@ RunCost counted(const RenderStatistics& s) {
   cost.lookups = walk.lookups;
   cost.null_collisions = walk.null_collisions;
   cost.majorant_violations = walk.majorant_violations;
-  cost.queries = s.eye.volume_queries + s.eye.surface_queries;
+  cost.searches = s.eye.gather.searches;
   cost.photons_visited = s.eye.gather.visited;
   cost.photons_used = s.eye.gather.used;
   cost.bytes = s.photon_map_bytes + s.guide_bytes;

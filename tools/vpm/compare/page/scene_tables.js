@@ -54,8 +54,9 @@ function equalCostTable(scene, b) {
 
 /** Counters that have a column of their own below; others are shown by their name. */
 const kRunFields = [
-  'cpu_seconds', 'wall_seconds', 'passes', 'photons', 'stored', 'lookups', 'queries', 'photons_visited', 'photons_used',
-  'bytes', 'largest_weight', 'effective_sample_size', 'mse', 'relative_mse', 'relative_mse_of_pbrt', 'mean_ratio'
+  'cpu_seconds', 'wall_seconds', 'passes', 'photons', 'stored', 'lookups', 'searches', 'photons_visited',
+  'photons_used', 'bytes', 'largest_weight', 'effective_sample_size', 'mse', 'relative_mse', 'relative_mse_of_pbrt',
+  'mean_ratio'
 ];
 
 function countersTable(scene, b) {
@@ -74,10 +75,11 @@ function countersTable(scene, b) {
         'error × look-ups', 'relative MSE times look-ups of density: small where each look-up tells much',
         row => positive(row.relative_mse.value * meanOf(row, 'lookups'))),
     numberColumn('stored per emitted', 'photons in all maps per photon emitted', row => per(row, 'stored', 'photons')),
-    numberColumn('queries', 'of photon maps, mean over repetitions', row => meanOf(row, 'queries')),
+    numberColumn('searches', 'of photon maps, mean over repetitions', row => meanOf(row, 'searches')),
     numberColumn(
-        'visited per query', 'photons whose distance a query computed', row => per(row, 'photons_visited', 'queries')),
-    numberColumn('used per query', 'of these, photons that count', row => per(row, 'photons_used', 'queries')),
+        'visited per search', 'photons whose distance a search computed',
+        row => per(row, 'photons_visited', 'searches')),
+    numberColumn('used per search', 'photons that count in an estimate', row => per(row, 'photons_used', 'searches')),
     numberColumn('MiB', 'photon maps and guides of the largest pass', row => meanOf(row, 'bytes') / 2 ** 20),
     numberColumn(
         'largest weight', 'of a photon, in any repetition',
