@@ -100,6 +100,31 @@ TEST(VolumeRegion, SharesOfCutBallsAreTheirIntegrals) {
   EXPECT_LT(std::sqrt(squares / count), 0.005);
 }
 
+TEST(VolumeRegion, SlotsAreKnownToAPercent) {
+  constexpr float kHalf = 0.2f;  // m, of the slot's width
+  for (int axis = 0; axis < 3; ++axis) {
+    Scene scene;
+    scene.media.push_back(make_medium(nullptr, Rgb(1.0f), 1.0f));
+    scene.world_medium = 0;
+    for (const double side : {-1.0, 1.0}) {
+      Vec3d corner(-5.0), u(0.0), v(0.0);
+      corner[axis] = side * kHalf;
+      u[(axis + 1) % 3] = v[(axis + 2) % 3] = 10.0;
+      add_shape(scene, quad_mesh(corner, u, v), Lambertian{});
+    }
+    scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
+    scene.geometry.commit();
+    finish(scene);
+    for (const double radius : {0.3, 0.5, 0.7, 0.87, 1.0, 1.2}) {
+      const double q = kHalf / radius, exact = 1.5 * q - 0.5 * q * q * q;  // of the ball's volume
+      const RegionShare share =
+          VolumeRegion(scene, 0, Vec3(0.0f), KernelKind::constant).share(static_cast<float>(radius));
+      EXPECT_NEAR(share.inside / exact, 1.0, 0.01) << axis << ", " << radius;
+      EXPECT_TRUE(share.others);
+    }
+  }
+}
+
 TEST(VolumeRegion, HalvesAreHalvesAndWholesAreWholes) {
   const Scene scene = cube();
   for (const KernelInfo& kernel : kKernels) {
