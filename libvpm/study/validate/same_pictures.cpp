@@ -1,11 +1,13 @@
 // Pictures that must be the same, with all their bias: of a lamp and of two at its place that share its intensity; by
-// densities at the query and at the photon where the density is the same everywhere.
+// densities at the query and at the photon where the density is the same everywhere; by caustic photons that are aimed
+// and by those among all.
 #include "base/parallel.h"
 #include "medium/make_grid.h"
 #include "render/path_tracer.h"
 #include "render/photon_pass.h"
 #include "scene/build.h"
 #include "study/validate/groups.h"
+#include "study/validate/small_scenes.h"
 
 namespace vpm {
 
@@ -44,6 +46,21 @@ Moments radiance(const Scene& scene, RenderSettings settings, size_t passes, con
   return all;
 }
 
+/// A ball of glass over a floor, seen with a caustic so blurred that few photons tell its power.
+Check check_caustics(const Effort& effort) {
+  const Scene scene = lit_corner(1.5f);
+  RenderSettings settings;
+  settings.photons_emitted = 1000;
+  settings.surface.radius = settings.caustics.radius = 0.4f;
+  settings.surface_indirect = IndirectLight::final_gather;
+  settings.gather_rays = 1;
+  const size_t passes = effort.count(200, 4000);
+  const Moments by_all = radiance(scene, settings, passes, effort, "caustics by all");
+  settings.caustics_emitted = 1000;
+  return check_same("caustics by photons that are aimed", radiance(scene, settings, passes, effort, "caustics aimed"),
+                    by_all);
+}
+
 std::vector<Check> check_pictures(const Effort& effort) {
   const Scene whole = lit_by({1.0f}), parts = lit_by({0.2f, 0.8f});
   RenderSettings photons;
@@ -67,7 +84,8 @@ std::vector<Check> check_pictures(const Effort& effort) {
           check_same("a lamp in two, shadow rays", find("shadow rays, two", parts, shadow_rays),
                      find("shadow rays", whole, shadow_rays)),
           check_same("a lamp in two, paths", find("paths, two", parts, paths), find("paths", whole, paths)),
-          check_same("density at the photon or at the query", find("at photons", whole, at_photons), by_photons)};
+          check_same("density at the photon or at the query", find("at photons", whole, at_photons), by_photons),
+          check_caustics(effort)};
 }
 
 }  // namespace
