@@ -22,7 +22,7 @@ std::vector<Vec3> half_sphere(int count, double turn) {
 }
 const std::vector<Vec3> kDirections = half_sphere(64, 0.98), kManyDirections = half_sphere(256, 0.68);
 
-constexpr double kNarrow = 0.5;  // shares below this are found by many directions: what they are off counts for more
+constexpr double kNarrow = 0.6;  // shares below this are found by many directions: what they are off counts for more
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace vpm {
 /// and where the density is not zero. Light does not leak through thin walls into it, and what sticks out of the medium
 /// is no part of it.
 ///
-/// Its share of a kernel is found by rays into 128 fixed directions, into 512 where it is less than a half, exact along
+/// Its share of a kernel is found by rays into 128 fixed directions, into 512 where it is less than 0.6, exact along
 /// each in homogeneous media. In the root mean square over places and orientations it is off by 0.3 % of the whole near
 /// faces and by 0.4 % near corners of right angles, at most by 2.3 %; right at such a corner by 0.1 % where its faces
 /// stand across the axes, by 0.3 %, at most 1.2 %, where they do not; between two walls by 1 % of itself. No ray is

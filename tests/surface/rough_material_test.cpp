@@ -173,7 +173,7 @@ TEST(Phong, ReflectsItsCoefficientsAlongTheNormalAndNoMoreElsewhere) {
 }
 
 // Directions, weights, what is absorbed, and reciprocity. False-alarm rate 1e-6 of all together.
-TEST(RoughMaterials, DrawWhatTheirValuesSay) {
+TEST(SlowRoughMaterials, DrawWhatTheirValuesSay) {
   const Rgb eta(0.4f), k(2.5f);
   const Material materials[] = {Lambertian{Rgb(0.7f)},
                                 Phong{Rgb(0.0f), Rgb(0.6f), 0.0f},
