@@ -104,7 +104,7 @@ Scene furnace(std::shared_ptr<const DensityGrid> grid, float sigma_t) {
   return scene;
 }
 
-TEST(SlowPhotonPass, AWhiteFurnaceIsUniform) {
+TEST(PhotonPass, AWhiteFurnaceIsUniform) {
   const GridFrame frame = centred_frame(9, 0.15);
   const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.2 + lattice_noise(x, y, z); });
   for (const auto& density : {std::shared_ptr<const DensityGrid>(), grid})

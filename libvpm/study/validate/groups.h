@@ -26,6 +26,7 @@ std::vector<Experiment> emission_experiments();
 std::vector<Experiment> irradiance_experiments();
 std::vector<Experiment> photon_map_experiments();
 std::vector<Experiment> border_experiments();
+std::vector<Experiment> guide_experiments();
 
 // Level 1.
 std::vector<Experiment> furnace_experiments();

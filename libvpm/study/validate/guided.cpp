@@ -1,0 +1,123 @@
+// Scattering by a guide that is far from what media and surfaces do by themselves: what goes on, by direction, is still
+// what they send there.
+#include <fmt/format.h>
+
+#include "base/warp.h"
+#include "medium/make_grid.h"
+#include "photon/guided_scatter.h"
+#include "scene/build.h"
+#include "study/sample_moments.h"
+#include "study/validate/directions.h"
+#include "study/validate/groups.h"
+
+namespace vpm {
+
+namespace {
+
+constexpr size_t kRings = 6, kCells = kRings * kSectors;
+const Vec3 kUp(0.0f, 0.0f, 1.0f);
+
+/// One cube that knows of some light along all directions and of much along two narrow beams, one to either side of a
+/// level sheet.
+DirectionGuide lopsided(uint64_t seed) {
+  DirectionGuide guide({Vec3(-1.0f), Vec3(1.0f)}, 1);
+  Rng rng(seed, rng_stream(RngUse::test, 0), 0);
+  for (int i = 0; i < 500; ++i) guide.add_track({Vec3(0.0f), uniform_sphere(rng.uniform2())}, 1.0f, 1.0f);
+  guide.add_track({Vec3(0.0f), -glm::normalize(Vec3(0.8f, 0.1f, 0.5f))}, 1.0f, 300.0f);
+  guide.add_track({Vec3(0.0f), -glm::normalize(Vec3(-0.2f, 0.7f, -0.5f))}, 1.0f, 300.0f);
+  guide.finish();
+  return guide;
+}
+
+/// The cell in which a direction lies, of equal solid angle, and the cosine to where the path was going.
+std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort) {
+  constexpr float kAlbedo = 0.7f, kG = 0.6f;
+  const Vec3 travel = glm::normalize(Vec3(0.2f, -0.3f, 0.9f));
+  const auto scattered = [&](const Phase& phase, Rng& rng) {
+    Medium fog = make_medium(nullptr, Rgb(1.0f), kAlbedo);
+    fog.phase = phase;
+    PathState state{{Vec3(0.1f), travel}, 0, Rgb(1.0f)};
+    if (!scatter_in_medium(guide, fog, state, rng)) state.power = Rgb(0.0f);
+    return state;
+  };
+  const uint64_t count = effort.count(100'000, 4'000'000);
+  const auto even = sample_moments(kCells, count, effort.seed_of("guided, isotropic"), [&](Rng& rng, double* out) {
+    const PathState state = scattered(Isotropic{}, rng);
+    const Vec3& d = state.ray.direction;
+    out[cell_of(0.5 * away_from(kUp, d), kRings) * kSectors + sector_about(kUp, d)] = state.power.g;
+  });
+  const auto forward = sample_moments(1, count, effort.seed_of("guided, forward"), [&](Rng& rng, double* out) {
+    const PathState state = scattered(HenyeyGreenstein{kG}, rng);
+    out[0] = state.power.g * (1.0 - away_from(travel, state.ray.direction));
+  });
+  return {check_weights("isotropic medium, power by direction", even,
+                        std::vector<double>(kCells, kAlbedo / static_cast<double>(kCells))),
+          check_mean("Henyey-Greenstein, g = 0.6, power times cosine", forward[0], double{kAlbedo} * double{kG})};
+}
+
+/// A level sheet of that material.
+Scene sheet(const Material& material) {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1, -1, 0), Vec3d(2, 0, 0), Vec3d(0, 2, 0)), material);
+  scene.geometry.commit();
+  return scene;
+}
+
+/// A path that comes down on the sheet, scattered there.
+class Landing {
+ public:
+  explicit Landing(const Material& material) : scene_(sheet(material)) {
+    met_ = scene_.geometry.encounter(ray_, kInfinity);
+  }
+  /// By `guide`, or by the surface alone where there is none. Its power is 0 where it was absorbed.
+  PathState scattered(const DirectionGuide* guide, Rng& rng) const {
+    PathState state{ray_, kVacuum, Rgb(1.0f)};
+    Scatter scatter;
+    const bool alive = guide ? scatter_at_surface(*guide, scene_, met_.hits[0], state, rng, scatter)
+                             : scatter_at_surface(scene_, met_.hits[0], state, rng, scatter);
+    if (!alive) state.power = Rgb(0.0f);
+    return state;
+  }
+
+ private:
+  Scene scene_;
+  const Ray ray_{Vec3(0.2f, -0.1f, 1.0f), glm::normalize(Vec3(-0.4f, 0.3f, -1.0f))};
+  Encounter met_;
+};
+
+/// A diffuse sheet fills cells of equal flux evenly; rough glass sends to either side what it does without a guide.
+std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& effort) {
+  constexpr float kReflectance = 0.7f;
+  const Landing diffuse(Lambertian{Rgb(kReflectance)}), glass(RoughDielectric{1.5f, 0.4f});
+  const uint64_t count = effort.count(100'000, 4'000'000);
+  const auto cells = sample_moments(kCells, count, effort.seed_of("guided, diffuse"), [&](Rng& rng, double* out) {
+    const PathState state = diffuse.scattered(&guide, rng);
+    const Vec3& d = state.ray.direction;
+    const double cosine = 1.0 - away_from(kUp, d);
+    out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(kUp, d)] = state.power.g;
+  });
+  const auto by_side = [&](const DirectionGuide* by, const char* name) {
+    return sample_moments(2, count, effort.seed_of(name), [&](Rng& rng, double* out) {
+      const PathState state = glass.scattered(by, rng);
+      out[state.ray.direction.z > 0.0f ? 0 : 1] = state.power.g;
+    });
+  };
+  const auto guided = by_side(&guide, "guided, glass"), plain = by_side(nullptr, "not guided, glass");
+  return {check_weights("diffuse sheet, power by direction", cells,
+                        std::vector<double>(kCells, kReflectance / static_cast<double>(kCells))),
+          check_same("rough glass, reflected power", guided[0], plain[0]),
+          check_same("rough glass, transmitted power", guided[1], plain[1])};
+}
+
+}  // namespace
+
+std::vector<Experiment> guide_experiments() {
+  return {{0, "directions drawn by a guide", [](const Effort& effort) {
+             const DirectionGuide guide = lopsided(effort.seed_of("guide"));
+             std::vector<Check> checks = check_media(guide, effort);
+             append(checks, check_surfaces(guide, effort));
+             return checks;
+           }}};
+}
+
+}  // namespace vpm
