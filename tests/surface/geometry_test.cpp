@@ -1,26 +1,14 @@
-// Rays against shapes: Embree and our spheres against brute force in higher precision, and rays that leave surfaces.
+// Rays against shapes: Embree and our spheres against brute force in higher precision.
 #include "surface/geometry.h"
 
 #include <gtest/gtest.h>
 #include <immintrin.h>
 
 #include "base/error.h"
-#include "base/rng.h"
-#include "base/warp.h"
+#include "surface/random_shapes.h"
 
 namespace vpm {
 namespace {
-
-float power_of_ten(Rng& rng, float lo, float hi) { return std::pow(10.0f, lo + (hi - lo) * rng.uniform()); }
-Vec3 in_cube(Rng& rng) { return 2.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.0f; }
-TriangleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c) { return {{a, b, c}, {{0, 1, 2}}}; }
-
-/// A direction whose cosine to `normal` is spread over magnitudes from 2e-6 to 1, on either side.
-Vec3 grazing_direction(const Vec3& normal, Rng& rng) {
-  const float cosine = power_of_ten(rng, -5.7f, 0.0f);
-  const Vec3 axis = rng.uniform() < 0.5f ? normal : -normal;
-  return direction_about(axis, 1.0f - cosine, 2.0f * kPi * rng.uniform());
-}
 
 /// Nearest hit by testing every shape in double; `margin` is how far, relative to size, the decision was from changing.
 struct BruteHit {
@@ -269,156 +257,6 @@ TEST(Geometry, LeavesTheRoundingModeAlone) {
   geometry.commit();
   geometry.intersect({{0, 0, 5}, {0, 0, -1}});
   EXPECT_EQ(_mm_getcsr() & kFlush, 0u);
-}
-
-// Triangles of 0.1 mm to 1000 km anywhere within 1000 km, aslant, across an axis, or narrow.
-TEST(LeaveSurface, NeverMeetsTheSameTriangleAgain) {
-  Rng rng(3, static_cast<uint64_t>(RngUse::test), 0);
-  int left = 0;
-  for (int k = 0; k < 2500; ++k) {
-    const float away = power_of_ten(rng, -4.0f, 6.0f);
-    const float size = std::max(power_of_ten(rng, -4.0f, 6.0f), 1e-5f * away);
-    const Vec3 centre = away * in_cube(rng);
-    Vec3 a = centre + size * in_cube(rng), b = centre + size * in_cube(rng), c = centre + size * in_cube(rng);
-    if (k % 3 == 1) a[k % 9 / 3] = b[k % 9 / 3] = c[k % 9 / 3] = centre[k % 9 / 3];
-    if (k % 3 == 2) c = glm::mix(a, b, rng.uniform()) + 0.01f * (c - a);
-    Geometry geometry;
-    geometry.add(triangle(a, b, c));
-    geometry.commit();
-    for (int i = 0; i < 100; ++i) {
-      const Vec2 u = rng.uniform2();
-      const float root = std::sqrt(u.x);
-      const Vec3 target = (1.0f - root) * a + root * (1.0f - u.y) * b + root * u.y * c;
-      const Vec3 direction = uniform_sphere(rng.uniform2());
-      const auto hit = geometry.intersect({target - size * power_of_ten(rng, -3.0f, 2.0f) * direction, direction});
-      if (!hit) continue;
-      for (int j = 0; j < 4; ++j) {
-        const Vec3 out = grazing_direction(hit->normal, rng);
-        const Vec3 origin = leave_surface(*hit, out);
-        ++left;
-        ASSERT_FALSE(geometry.intersect({origin, out}))
-            << "size " << size << ", away " << away << ", cosine " << glm::dot(out, hit->normal);
-      }
-    }
-  }
-  EXPECT_GT(left, 900000);
-}
-
-TEST(LeaveSurface, LeavesASphereOutwardForGoodAndInwardToItsFarSide) {
-  Rng rng(4, static_cast<uint64_t>(RngUse::test), 0);
-  int left = 0;
-  for (int k = 0; k < 2500; ++k) {
-    const float away = power_of_ten(rng, -4.0f, 6.0f);
-    const float radius = std::max(power_of_ten(rng, -4.0f, 6.0f), 1e-5f * away);
-    const SphereShape sphere{away * in_cube(rng), radius};
-    Geometry geometry;
-    geometry.add(sphere);
-    geometry.commit();
-    for (int i = 0; i < 100; ++i) {
-      const Vec3 direction = uniform_sphere(rng.uniform2());
-      const float back = radius * power_of_ten(rng, -2.0f, 2.0f);
-      const auto hit = geometry.intersect({sphere.centre + 0.5f * radius * in_cube(rng) - back * direction, direction});
-      if (!hit) continue;
-      for (int j = 0; j < 4; ++j) {
-        const Vec3 out = grazing_direction(hit->normal, rng);
-        const float cosine = glm::dot(out, hit->normal);
-        const auto next = geometry.intersect({leave_surface(*hit, out), out});
-        ++left;
-        ASSERT_EQ(next.has_value(), cosine < 0.0f) << "radius " << radius << ", away " << away << ", cosine " << cosine;
-        // The chord, but for the offset and the rounding of the coordinates, which tilts the normal.
-        const float rounding = 1e-6f * (away + radius);
-        const float tolerance = 4.0f * rounding + std::sqrt(8.0f * rounding * radius);
-        ASSERT_NEAR(next ? next->t : 0.0f, next ? -2.0f * radius * cosine : 0.0f, tolerance);
-      }
-    }
-  }
-  EXPECT_GT(left, 900000);
-}
-
-TEST(LeaveSurface, NeverMeetsTheSameDiscAgain) {
-  Rng rng(7, static_cast<uint64_t>(RngUse::test), 0);
-  int left = 0;
-  for (int k = 0; k < 2500; ++k) {
-    const float away = power_of_ten(rng, -4.0f, 6.0f);
-    const float radius = std::max(power_of_ten(rng, -4.0f, 6.0f), 1e-5f * away);
-    const DiscShape disc{away * in_cube(rng), uniform_sphere(rng.uniform2()), radius};
-    Geometry geometry;
-    geometry.add(disc);
-    geometry.commit();
-    for (int i = 0; i < 100; ++i) {
-      const Vec3 direction = uniform_sphere(rng.uniform2());
-      const float back = radius * power_of_ten(rng, -2.0f, 2.0f);
-      const auto hit = geometry.intersect({disc.centre + 0.5f * radius * in_cube(rng) - back * direction, direction});
-      if (!hit) continue;
-      for (int j = 0; j < 4; ++j) {
-        const Vec3 out = grazing_direction(hit->normal, rng);
-        ++left;
-        ASSERT_FALSE(geometry.intersect({leave_surface(*hit, out), out})) << "radius " << radius << ", away " << away;
-      }
-    }
-  }
-  EXPECT_GT(left, 300000);
-}
-
-// What a ray was sent to is where it stands, from near and far and at grazing angles; what is a hundredth of the way
-// before it is not.
-TEST(SlowStandsAt, TellsThePointAimedAtFromWhatIsBefore) {
-  Rng rng(8, static_cast<uint64_t>(RngUse::test), 0);
-  int before = 0;
-  for (int k = 0; k < 20000; ++k) {
-    const float size = power_of_ten(rng, -2.0f, 2.0f);
-    const Vec3 a = size * in_cube(rng), b = size * in_cube(rng), c = size * in_cube(rng);
-    Geometry geometry;
-    geometry.add(triangle(a, b, c));
-    geometry.commit();
-    const Vec3 target = (a + b + c) / 3.0f;
-    const Vec3 normal = glm::normalize(glm::cross(b - a, c - a));
-    const Vec3 origin = target - size * power_of_ten(rng, -1.0f, 3.0f) * grazing_direction(normal, rng);
-    const float distance = glm::distance(origin, target);
-    const Ray ray{origin, glm::normalize(target - origin)};
-    const auto hit = geometry.intersect(ray);
-    if (!hit) continue;  // beside a needle
-    ASSERT_TRUE(stands_at(*hit, ray, distance)) << "size " << size << ", distance " << distance;
-    if (std::abs(glm::dot(hit->normal, ray.direction)) < 0.01f) continue;
-    ++before;
-    ASSERT_FALSE(stands_at(*hit, ray, 1.01f * distance)) << "size " << size << ", distance " << distance;
-  }
-  EXPECT_GT(before, 5000);
-}
-
-// Near the origin coordinates are so exact that the sphere's own rounding is what counts.
-TEST(LeaveSurface, LeavesASphereThatPassesThroughTheOrigin) {
-  Rng rng(5, static_cast<uint64_t>(RngUse::test), 0);
-  for (const float radius : {1e-2f, 1.0f, 1e3f, 1e6f}) {
-    Geometry geometry;
-    geometry.add(SphereShape{{0, -radius, 0}, radius});
-    geometry.commit();
-    for (int i = 0; i < 20000; ++i) {
-      const float near = radius * power_of_ten(rng, -8.0f, -3.0f);
-      const auto hit = geometry.intersect({near * Vec3(rng.uniform(), 1.0f, rng.uniform()), {0, -1, 0}});
-      ASSERT_TRUE(hit);
-      const Vec3 out = grazing_direction(hit->normal, rng);
-      ASSERT_EQ(geometry.intersect({leave_surface(*hit, out), out}).has_value(), glm::dot(out, hit->normal) < 0.0f);
-    }
-  }
-}
-
-TEST(LeaveSurface, MovesByUnitsInTheLastPlaceOnly) {
-  Geometry geometry;
-  geometry.add(TriangleMesh{{{-1e6f, 0, -1e6f}, {1e6f, 0, -1e6f}, {0, 0, 1e6f}}, {{0, 2, 1}}});  // the ground, up is +y
-  geometry.add(SphereShape{{0, 5, 0}, 1.0f});
-  geometry.commit();
-  const auto ground = geometry.intersect({{0.5f, 1.0f, 0.25f}, {0, -1, 0}});
-  ASSERT_TRUE(ground);
-  EXPECT_EQ(ground->normal, Vec3(0, 1, 0));
-  const Vec3 up = leave_surface(*ground, {0, 1, 0}), down = leave_surface(*ground, {0, -1, 0});
-  EXPECT_GT(up.y, 0.0f);
-  EXPECT_LT(up.y, 1e-6f);
-  EXPECT_LT(down.y, 0.0f);
-  const auto ball = geometry.intersect({{0, 9, 0}, {0, -1, 0}});
-  ASSERT_TRUE(ball);
-  EXPECT_GT(leave_surface(*ball, {0, 1, 0}).y, 6.0f);
-  EXPECT_LT(leave_surface(*ball, {0, 1, 0}).y, 6.00001f);
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // Pictures that must be the same, with all their bias: of a lamp and of two at its place that share its intensity; by
 // densities at the query and at the photon where the density is the same everywhere; by caustic photons that are aimed
-// and by those among all.
+// and by those among all; by irradiance where gathering rays end and by that computed beforehand.
 #include "base/parallel.h"
 #include "medium/make_grid.h"
 #include "render/path_tracer.h"
 #include "render/photon_pass.h"
 #include "scene/build.h"
+#include "study/estimates/irradiance.h"
 #include "study/validate/groups.h"
 #include "study/validate/small_scenes.h"
 
@@ -61,6 +62,31 @@ Check check_caustics(const Effort& effort) {
                     by_all);
 }
 
+/// Final gathering in a hollow sphere with a lamp of 1 W at its centre: irradiance is even, so that points where it was
+/// computed beforehand blur nothing.
+std::vector<Check> check_irradiances(const Effort& effort) {
+  constexpr float kRadius = 1.5f, kReflectance = 0.5f, kRatio = 0.15f;
+  Scene scene;
+  add_shape(scene, SphereShape{Vec3(0.0f), kRadius}, Lambertian{Rgb(kReflectance)});
+  scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f / (4.0f * kPi))});
+  scene.camera = make_camera(Vec3(0.3f, 0.2f, 0.1f), Vec3(0.6f, -0.5f, 0.3f), Vec3(0, 1, 0), 60.0f, 4, 4, {});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings settings;
+  settings.photons_emitted = 500;
+  settings.surface.radius = kRatio * kRadius;
+  settings.surface_indirect = IndirectLight::final_gather;
+  settings.gather_rays = 4;
+  const size_t passes = effort.count(500, 20'000);
+  const Moments at_ends = radiance(scene, settings, passes, effort, "irradiance at ends");
+  settings.end_irradiance = EndIrradiance::precomputed;
+  const double exact = kReflectance / kPiD / (1.0 - double{kReflectance}) / (4.0 * kPiD * kRadius * kRadius);
+  const double missed = exact * kReflectance * kCapLoss * kRatio * kRatio;
+  return {check_mean("final gathering in a hollow sphere", at_ends, exact, missed),
+          check_same("irradiance computed beforehand or where rays end",
+                     radiance(scene, settings, passes, effort, "irradiance beforehand"), at_ends)};
+}
+
 std::vector<Check> check_pictures(const Effort& effort) {
   const Scene whole = lit_by({1.0f}), parts = lit_by({0.2f, 0.8f});
   RenderSettings photons;
@@ -80,12 +106,15 @@ std::vector<Check> check_pictures(const Effort& effort) {
     return radiance(scene, settings, passes, effort, name);
   };
   const Moments by_photons = find("photons", whole, photons);
-  return {check_same("a lamp in two, photons", find("photons, two", parts, photons), by_photons),
-          check_same("a lamp in two, shadow rays", find("shadow rays, two", parts, shadow_rays),
-                     find("shadow rays", whole, shadow_rays)),
-          check_same("a lamp in two, paths", find("paths, two", parts, paths), find("paths", whole, paths)),
-          check_same("density at the photon or at the query", find("at photons", whole, at_photons), by_photons),
-          check_caustics(effort)};
+  std::vector<Check> checks{
+      check_same("a lamp in two, photons", find("photons, two", parts, photons), by_photons),
+      check_same("a lamp in two, shadow rays", find("shadow rays, two", parts, shadow_rays),
+                 find("shadow rays", whole, shadow_rays)),
+      check_same("a lamp in two, paths", find("paths, two", parts, paths), find("paths", whole, paths)),
+      check_same("density at the photon or at the query", find("at photons", whole, at_photons), by_photons),
+      check_caustics(effort)};
+  append(checks, check_irradiances(effort));
+  return checks;
 }
 
 }  // namespace

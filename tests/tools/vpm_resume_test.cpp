@@ -1,0 +1,172 @@
+// Renders that end early, go on later, or stop by themselves: what is kept, and that it is the same as of one run.
+#include <signal.h>
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <thread>
+
+#include "image/exr.h"
+#include "tools/plume.h"
+
+namespace vpm {
+namespace {
+
+using Json = nlohmann::json;
+
+// --- Interruption
+
+/// Starts a render, sends it the signal when `sign` is in its error output, and waits for its end.
+ProcessResult interrupt(Process& process, int signal, const std::string& sign) {
+  EXPECT_TRUE(process.wait_for_error_output(sign));
+  process.signal(signal);
+  return process.wait();
+}
+
+TEST_F(VpmRender, AnInterruptedRenderKeepsItsFinishedPasses) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Process process(command({"render", "scene.toml", "-o", "a.exr", "--time", "50", "--progress", "always"}),
+                    {60.0, 0, folder_.string()});
+    // Of a render by time the time left is told once a pass is finished.
+    const ProcessResult result = interrupt(process, signal, " left");
+    EXPECT_EQ(result.status, 130) << result.err;
+    const int passes = report("a.json")["passes"];
+    EXPECT_GE(passes, 1);
+    EXPECT_EQ(read_exr_channels(path("a.exr")).metadata.at("vpm.passes"), std::to_string(passes));
+    vpm_succeeds({"render", "scene.toml", "-o", "whole.exr", "--passes", std::to_string(passes)});
+    EXPECT_TRUE(read("a.exr") == read("whole.exr"));
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.exr", "a.json", "a.png", "scene.toml", "smoke.vdb", "whole.exr",
+                                                 "whole.json", "whole.png"}));
+  }
+}
+
+TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
+  const std::vector<std::string> before = files();
+  for (const char* slow : {"render.samples_per_pixel=64", "photons.emitted=4_000_000_000"}) {
+    Process process(command({"render", "scene.toml", "-o", "a.exr", "--set", slow, "--set", "film.width=1024", "--set",
+                             "film.height=1024", "--progress", "always"}),
+                    {20.0, 0, folder_.string()});
+    const ProcessResult result = interrupt(process, SIGINT, "render  [");
+    EXPECT_EQ(result.status, 130) << result.err;
+    EXPECT_NE(result.err.find("nothing is written"), std::string::npos) << result.err;
+    EXPECT_EQ(files(), before);
+  }
+}
+
+// --- Checkpoints
+
+TEST_F(VpmRender, KilledAtAnyMomentItResumesToTheSameBits) {
+  const std::vector<std::string> passes{"--passes", "40", "--set", "photons.emitted=3_000"};
+  const auto render = [&](const std::string& name, const std::string& option) {
+    std::vector<std::string> arguments{"render", "scene.toml", "-o", name, option};
+    arguments.insert(arguments.end(), passes.begin(), passes.end());
+    return arguments;
+  };
+  const double whole = vpm_succeeds(render("whole.exr", "--checkpoint")).seconds;
+  int resumed = 0;
+  for (int kill = 0; kill < 10; ++kill) {
+    const bool begun = std::filesystem::exists(path("a.checkpoint"));
+    resumed += begun;
+    Process process(command(render("a.exr", begun ? "--resume" : "--checkpoint")), {60.0, 0, folder_.string()});
+    std::this_thread::sleep_for(std::chrono::duration<double>(whole * (0.2 + 0.37 * kill - std::floor(0.37 * kill))));
+    process.signal(SIGKILL);
+    process.wait();
+  }
+  EXPECT_GT(resumed, 0);
+  vpm_succeeds(render("a.exr", "--resume"));
+  EXPECT_TRUE(read("a.exr") == read("whole.exr"));
+  EXPECT_EQ(without_circumstances(report("a.json")), without_circumstances(report("whole.json")));
+}
+
+TEST_F(VpmRender, ACheckpointTakesMorePassesButNoOtherScene) {
+  vpm_succeeds({"render", "scene.toml", "-o", "whole.exr", "--passes", "5"});
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "2", "--checkpoint"});
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "5", "--resume"});
+  EXPECT_TRUE(read("a.exr") == read("whole.exr"));
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--seed", "9"}, {"another render", "seed 9"});
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--set", "film.width=20"}, {"another render"});
+  vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--resume"}, {"b.checkpoint", "there is no such file"});
+  vpm_succeeds({"media", "smoke", "--resolution", "17", "-o", "smoke.vdb"});  // other bytes under the same name
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render"});
+}
+
+TEST_F(VpmRender, RadiiOfPixelsResumeToTheSameBits) {
+  const auto render = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "scene.toml", "-o", name, "--set", "render.radii=per-pixel"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    vpm_succeeds(arguments);
+  };
+  render("whole.exr", {"--passes", "9", "--threads", "1"});
+  render("a.exr", {"--passes", "2", "--checkpoint"});
+  render("a.exr", {"--passes", "5", "--resume"});
+  render("a.exr", {"--passes", "9", "--resume"});
+  EXPECT_TRUE(read("a.exr") == read("whole.exr"));
+  EXPECT_EQ(without_circumstances(report("a.json")), without_circumstances(report("whole.json")));
+  const Json a = report("a.json"), radii = a["radii_of_pixels"];
+  EXPECT_LT(radii["smallest"], 0.08);
+  EXPECT_LT(radii["smallest"], radii["mean"]);
+  EXPECT_LT(radii["mean"], radii["largest"]);
+  EXPECT_LE(radii["largest"], 0.1f);
+  EXPECT_EQ(a["memory"]["radii_of_pixels"], 40 * 24 * 16);
+  EXPECT_EQ(a["error"]["bias_not_seen_of"], Json::array({"surface"}));
+  vpm_succeeds({"render", "scene.toml", "-o", "b.exr"});
+  EXPECT_TRUE(report("b.json")["radii_of_pixels"].is_null());
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render", "radii=per-pass"});
+}
+
+TEST_F(VpmRender, StopsAtAnError) {
+  for (const char* error : {"0", "-1", "nan"}) vpm_refuses({"render", "scene.toml", "--error", error}, {"--error"});
+  vpm_refuses({"render", "scene.toml", "--error", "0.1", "--passes", "3"}, {"--error"});
+  const ProcessResult coarse = vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--error", "0.2"});
+  vpm_succeeds({"render", "scene.toml", "-o", "b.exr", "--error", "0.02"});
+  const Json a = report("a.json"), b = report("b.json");
+  EXPECT_LE(a["error"]["estimated"], 0.2);
+  EXPECT_LE(b["error"]["estimated"], 0.02);
+  EXPECT_GT(b["passes"], a["passes"]);
+  EXPECT_NE(coarse.out.find("estimated relative MSE"), std::string::npos) << coarse.out;
+}
+
+TEST_F(VpmRender, LogsErrorsAgainstAReference) {
+  vpm_succeeds({"render", "scene.toml", "-o", "truth.exr", "--passes", "12"});
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "12", "--reference", "truth.exr"});
+  const auto rows_of = [&](const std::string& file) {
+    std::istringstream csv(read(file));
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_EQ(line, "passes,seconds,mse,relative_mse,mean_ratio");
+    std::vector<std::vector<double>> rows;
+    while (std::getline(csv, line)) {
+      std::vector<double>& row = rows.emplace_back();
+      std::istringstream cells(line);
+      for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    }
+    return rows;
+  };
+  const auto rows = rows_of("a.errors.csv");
+  ASSERT_EQ(rows.size(), 12u);  // a tenth of 11 is more than one, but the last has a line
+  EXPECT_EQ(rows[0][0], 1.0);
+  EXPECT_GT(rows[0][3], 0.0);
+  // The same picture: nothing is left but the reference's own noise, subtracted.
+  EXPECT_EQ(rows[11][0], 12.0);
+  EXPECT_LT(rows[11][3], 0.0);
+  EXPECT_EQ(rows[11][4], 1.0);
+  // A render that goes on keeps what it had told.
+  const std::vector<std::string> begin{"render", "scene.toml", "-o", "c.exr", "--reference", "truth.exr"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = begin;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  vpm_succeeds(with({"--passes", "5", "--checkpoint"}));
+  vpm_succeeds(with({"--passes", "12", "--resume"}));
+  const auto resumed = rows_of("c.errors.csv");
+  ASSERT_EQ(resumed.size(), rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(resumed[i][3], rows[i][3]);
+  vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--set", "film.width=41", "--reference", "truth.exr"},
+              {"truth.exr: the reference has 40 x 24 pixels, but the render 41 x 24"});
+  vpm_refuses({"render", "scene.toml", "-o", "truth.exr", "--reference", "truth.exr"}, {"it is the reference"});
+  vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--reference", "none.exr"}, {"none.exr"});
+}
+
+}  // namespace
+}  // namespace vpm
