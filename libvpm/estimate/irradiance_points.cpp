@@ -24,9 +24,9 @@ IrradiancePoints::IrradiancePoints(const std::vector<SurfaceSite>& sites, const 
     : gather_{.mode = GatherMode::nearest, .radius = map.settings.radius, .count = 1},
       thickness_(plane_thickness(map.settings)) {
   std::vector<Photon> points(sites.size());
-  std::vector<GatherCounters> counted(sites.size() / kChunk + 1);
-  parallel_for_chunks(sites.size(), kChunk, [&](size_t begin, size_t end, size_t) {
-    const CountedMap here{map, counted[begin / kChunk]};
+  std::vector<GatherCounters> counted(chunk_count(sites.size(), kChunk));
+  parallel_for_chunks(sites.size(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
+    const CountedMap here{map, counted[chunk]};
     for (size_t i = begin; i < end; ++i) points[i] = point_at(sites[i], here);
   });
   for (const GatherCounters& of_chunk : counted) counters.merge(of_chunk);

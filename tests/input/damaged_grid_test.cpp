@@ -1,6 +1,8 @@
 // Grid files that are none, or are cut or damaged: refused, or harmless.
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <random>
 
 #include "base/error.h"

@@ -5,10 +5,8 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
-#include "base/error.h"
 #include "input/grid_expectations.h"
 #include "input/grid_folder.h"
-#include "input/source.h"
 
 namespace vpm {
 namespace {

@@ -1,4 +1,4 @@
-// Scene files: the camera, the film and how to render; defaults.
+// Scene files: ranges, the camera, the film and how to render; defaults.
 #include "input/scene_file.h"
 
 #include <gtest/gtest.h>

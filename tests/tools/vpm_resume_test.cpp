@@ -114,6 +114,8 @@ TEST_F(VpmRender, RadiiOfPixelsResumeToTheSameBits) {
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render", "radii=per-pass"});
 }
 
+// --- Errors
+
 TEST_F(VpmRender, StopsAtAnError) {
   for (const char* error : {"0", "-1", "nan"}) vpm_refuses({"render", "scene.toml", "--error", error}, {"--error"});
   vpm_refuses({"render", "scene.toml", "--error", "0.1", "--passes", "3"}, {"--error"});

@@ -1,6 +1,6 @@
-// Scattering by a guide that is far from what media and surfaces do by themselves: what goes on, by direction, is still
-// what they send there.
-#include <fmt/format.h>
+// Scattering by a guide that is far from what media and surfaces do by themselves: what goes on is still what they
+// send on, and where they send it.
+#include <cassert>
 
 #include "medium/make_grid.h"
 #include "photon/guided_scatter.h"
@@ -29,26 +29,29 @@ DirectionGuide lopsided() {
 std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort) {
   constexpr float kAlbedo = 0.7f, kG = 0.6f;
   const Vec3 travel = glm::normalize(Vec3(0.2f, -0.3f, 0.9f));
-  const auto scattered = [&](const Phase& phase, Rng& rng) {
-    Medium fog = make_medium(nullptr, Rgb(1.0f), kAlbedo);
-    fog.phase = phase;
+  const Medium isotropic = make_medium(nullptr, Rgb(1.0f), kAlbedo);
+  Medium haze = isotropic;
+  haze.phase = HenyeyGreenstein{kG};
+  const auto scattered = [&](const Medium& fog, Rng& rng) {
     PathState state{{Vec3(0.1f), travel}, 0, Rgb(1.0f)};
     if (!scatter_in_medium(guide, fog, state, rng)) state.power = Rgb(0.0f);
     return state;
   };
   const uint64_t count = effort.count(100'000, 4'000'000);
   const auto even = sample_moments(kCells, count, effort.seed_of("guided, isotropic"), [&](Rng& rng, double* out) {
-    const PathState state = scattered(Isotropic{}, rng);
+    const PathState state = scattered(isotropic, rng);
     const Vec3& d = state.ray.direction;
     out[cell_of(0.5 * away_from(kUp, d), kRings) * kSectors + sector_about(kUp, d)] = state.power.g;
   });
-  const auto forward = sample_moments(1, count, effort.seed_of("guided, forward"), [&](Rng& rng, double* out) {
-    const PathState state = scattered(HenyeyGreenstein{kG}, rng);
-    out[0] = state.power.g * (1.0 - away_from(travel, state.ray.direction));
+  const auto forward = sample_moments(2, count, effort.seed_of("guided, forward"), [&](Rng& rng, double* out) {
+    const PathState state = scattered(haze, rng);
+    out[0] = state.power.g;
+    out[1] = state.power.g * (1.0 - away_from(travel, state.ray.direction));
   });
   return {check_weights("isotropic medium, power by direction", even,
                         std::vector<double>(kCells, kAlbedo / static_cast<double>(kCells))),
-          check_mean("Henyey-Greenstein, g = 0.6, power times cosine", forward[0], double{kAlbedo} * double{kG})};
+          check_mean("Henyey-Greenstein, g = 0.6, power", forward[0], double{kAlbedo}),
+          check_mean("Henyey-Greenstein, g = 0.6, power times cosine", forward[1], double{kAlbedo} * double{kG})};
 }
 
 /// A level sheet of that material.
@@ -64,11 +67,11 @@ class Landing {
  public:
   explicit Landing(const Material& material) : scene_(sheet(material)) {
     met_ = scene_.geometry.encounter(ray_, kInfinity);
+    assert(met_);
   }
   /// By `guide`, or by the surface alone where there is none. Its power is 0 where it was absorbed.
-  PathState scattered(const DirectionGuide* guide, Rng& rng) const {
+  PathState scattered(const DirectionGuide* guide, Rng& rng, Scatter& scatter) const {
     PathState state{ray_, kVacuum, Rgb(1.0f)};
-    Scatter scatter;
     const bool alive = guide ? scatter_at_surface(*guide, scene_, met_.hits[0], state, rng, scatter)
                              : scatter_at_surface(scene_, met_.hits[0], state, rng, scatter);
     if (!alive) state.power = Rgb(0.0f);
@@ -81,26 +84,31 @@ class Landing {
   Encounter met_;
 };
 
-/// A diffuse sheet fills cells of equal flux evenly; rough glass sends to either side what it does without a guide.
+/// A diffuse sheet fills cells of equal flux evenly, and what goes on and what is absorbed make up what came; rough
+/// glass sends to either side what it does without a guide.
 std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& effort) {
   constexpr float kReflectance = 0.7f;
   const Landing diffuse(Lambertian{Rgb(kReflectance)}), glass(RoughDielectric{1.5f, 0.4f});
   const uint64_t count = effort.count(100'000, 4'000'000);
-  const auto cells = sample_moments(kCells, count, effort.seed_of("guided, diffuse"), [&](Rng& rng, double* out) {
-    const PathState state = diffuse.scattered(&guide, rng);
+  const auto above = sample_moments(kCells + 1, count, effort.seed_of("guided, diffuse"), [&](Rng& rng, double* out) {
+    Scatter scatter;
+    const PathState state = diffuse.scattered(&guide, rng, scatter);
     const Vec3& d = state.ray.direction;
     const double cosine = 1.0 - away_from(kUp, d);
-    out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(kUp, d)] = state.power.g;
+    if (cosine > 0.0) out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(kUp, d)] = state.power.g;
+    out[kCells] = state.power.g + (1.0 - scatter.weight.g);
   });
   const auto by_side = [&](const DirectionGuide* by, const char* name) {
     return sample_moments(2, count, effort.seed_of(name), [&](Rng& rng, double* out) {
-      const PathState state = glass.scattered(by, rng);
+      Scatter scatter;
+      const PathState state = glass.scattered(by, rng, scatter);
       out[state.ray.direction.z > 0.0f ? 0 : 1] = state.power.g;
     });
   };
   const auto guided = by_side(&guide, "guided, glass"), plain = by_side(nullptr, "not guided, glass");
-  return {check_weights("diffuse sheet, power by direction", cells,
+  return {check_weights("diffuse sheet, power by direction", {above.begin(), above.end() - 1},
                         std::vector<double>(kCells, kReflectance / static_cast<double>(kCells))),
+          check_mean("diffuse sheet, power that goes on and is absorbed", above.back(), 1.0),
           check_same("rough glass, reflected power", guided[0], plain[0]),
           check_same("rough glass, transmitted power", guided[1], plain[1])};
 }
