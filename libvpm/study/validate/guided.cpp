@@ -84,19 +84,24 @@ class Landing {
   Encounter met_;
 };
 
-/// A diffuse sheet fills cells of equal flux evenly, and what goes on and what is absorbed make up what came; rough
-/// glass sends to either side what it does without a guide.
+/// A diffuse sheet fills cells of equal flux evenly; what metal sends on and absorbs, by directions that absorb unlike
+/// shares, is what came; rough glass sends to either side what it does without a guide.
 std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& effort) {
   constexpr float kReflectance = 0.7f;
   const Landing diffuse(Lambertian{Rgb(kReflectance)}), glass(RoughDielectric{1.5f, 0.4f});
+  const Landing metal(RoughConductor{Rgb(0.4f), Rgb(2.5f), 0.6f});
   const uint64_t count = effort.count(100'000, 4'000'000);
-  const auto above = sample_moments(kCells + 1, count, effort.seed_of("guided, diffuse"), [&](Rng& rng, double* out) {
+  const auto above = sample_moments(kCells, count, effort.seed_of("guided, diffuse"), [&](Rng& rng, double* out) {
     Scatter scatter;
     const PathState state = diffuse.scattered(&guide, rng, scatter);
     const Vec3& d = state.ray.direction;
     const double cosine = 1.0 - away_from(kUp, d);
     if (cosine > 0.0) out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(kUp, d)] = state.power.g;
-    out[kCells] = state.power.g + (1.0 - scatter.weight.g);
+  });
+  const auto balance = sample_moments(1, count, effort.seed_of("guided, metal"), [&](Rng& rng, double* out) {
+    Scatter scatter;
+    out[0] = metal.scattered(&guide, rng, scatter).power.g;
+    out[0] += 1.0 - scatter.weight.g;
   });
   const auto by_side = [&](const DirectionGuide* by, const char* name) {
     return sample_moments(2, count, effort.seed_of(name), [&](Rng& rng, double* out) {
@@ -106,9 +111,9 @@ std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& eff
     });
   };
   const auto guided = by_side(&guide, "guided, glass"), plain = by_side(nullptr, "not guided, glass");
-  return {check_weights("diffuse sheet, power by direction", {above.begin(), above.end() - 1},
+  return {check_weights("diffuse sheet, power by direction", above,
                         std::vector<double>(kCells, kReflectance / static_cast<double>(kCells))),
-          check_mean("diffuse sheet, power that goes on and is absorbed", above.back(), 1.0),
+          check_mean("rough metal, power that goes on and is absorbed", balance[0], 1.0),
           check_same("rough glass, reflected power", guided[0], plain[0]),
           check_same("rough glass, transmitted power", guided[1], plain[1])};
 }
