@@ -51,6 +51,8 @@ struct Gathering {
   const GatherSettings& settings;
   GatherCounters& counters;
 };
+template <class Index>
+Gathering(const Index&, const GatherSettings&, GatherCounters&) -> Gathering<Index>;  // Clang 14 does not deduce it
 
 /// Sum over the photons within the radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
