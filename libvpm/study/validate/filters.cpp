@@ -38,7 +38,7 @@ std::vector<Check> check_filters(const Effort& effort) {
           out[cell_of(unit.x, kAlong) * kAlong + cell_of(unit.y, kAlong)] = 1.0;
         });
     std::vector<double> probabilities;
-    const auto part = [&](size_t cell) {
+    const auto part = [kind = kind](size_t cell) {
       const double lo = 2.0 * static_cast<double>(cell) / kAlong - 1.0;
       return below(kind, lo + 2.0 / kAlong) - below(kind, lo);
     };

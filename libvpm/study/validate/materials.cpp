@@ -135,8 +135,8 @@ std::vector<Check> check_furnaces(const Effort& effort) {
     set_facet_loss(material, loss.get());
     for (const bool from_outside : {true, false}) {
       const std::string name = fmt::format("furnace {} of {}", from_outside ? "outside" : "inside", what);
-      const auto samples =
-          sample_moments(1, effort.count(20'000, 2'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+      const auto samples = sample_moments(
+          1, effort.count(20'000, 2'000'000), effort.seed_of(name), [&, &material = material](Rng& rng, double* out) {
             const Vec3 travel = -cosine_hemisphere(from_outside ? kNormal : -kNormal, rng.uniform2());
             const float choice = rng.uniform();
             out[0] = sample_scatter(material, kNormal, travel, choice, rng.uniform2()).weight.g;
