@@ -153,7 +153,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   std::vector<Check> checks;
   for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces)) {
     settings.seed = effort.seed_of(subject.name + name);
-    const int passes = static_cast<int>(effort.count(20, 36));
+    const int passes = static_cast<int>(effort.count(20, 64));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
   }
   return checks;
@@ -180,7 +180,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
             scene.grey);
     settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
-    const int passes = static_cast<int>(effort.count(20, 36));
+    const int passes = static_cast<int>(effort.count(20, 64));
     compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
             reference, scene.grey);
   }
@@ -201,7 +201,7 @@ std::vector<Check> constant_grid(const Effort& effort) {
   RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(3'000, 8'000));
   const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
     settings.seed = effort.seed_of(name);
-    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(20, 36)))
+    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(20, 64)))
                    : by_referee(scene, settings, effort.count(40'000, 300'000));
   };
   const Measured reference = measure(plain, "plain", false);

@@ -118,10 +118,10 @@ EmissionLaw disc_law() {
   const DiscLight light = test_disc();
   return {"disc", light, kPiD * kPiD * light.radius * light.radius * Rgbd(kColour),
           [=](const Ray& ray) {
-            return disc_cell(ray, light.centre, light.normal, light.radius) * kRings * kSectors +
-                   cosine_law_cell(light.normal, ray.direction);
+            const size_t place = disc_cell(ray, light.centre, light.normal, light.radius) / 2;  // sectors in pairs
+            return place * kRings * kSectors + cosine_law_cell(light.normal, ray.direction);
           },
-          equal_cells(kRings * kSectors * kRings * kSectors)};
+          equal_cells(kRings * kSectors / 2 * kRings * kSectors)};
 }
 
 /// A tetrahedron: the four volumes that a point of a face spans with three of the vertices, over the whole, are its
