@@ -84,7 +84,8 @@ std::vector<Photon> even_photons(bool flat, const Place& place, Rng& rng) {
   for (Photon& p : photons) {
     p = {2.0f * Vec3(rng.uniform(), rng.uniform(), flat ? 0.5f : rng.uniform()) - 1.0f, PackedDirection(-kUp),
          Rgb(1.0f)};
-    if (place.lit == Lit::half) p.position.x = std::abs(p.position.x);
+    // Not on the sheet itself, which belongs to both of its sides.
+    if (place.lit == Lit::half) p.position.x = std::max(std::abs(p.position.x), kClose);
     if (place.lit == Lit::beyond && rng.uniform() < 0.5f)
       while (p.position.x > 0.0f && p.position.x < kSheet) p.position.x = 2.0f * rng.uniform() - 1.0f;
   }
