@@ -171,14 +171,17 @@ class Shares {
   std::vector<double> ratios_;  // at multiples of the step
 };
 
-/// The distance of the k-th of the photons that can come to the place.
-double radius_of_nearest(const std::vector<Photon>& photons, const Place& place, size_t k) {
+/// As far as the nearest photons are looked for: to the k-th of those that can come to the place, or, of fewer, to the
+/// largest radius.
+double radius_of_nearest(const std::vector<Photon>& photons, const Place& place, const GatherSettings& settings) {
   const Reach reach(place);
   std::vector<double> distances;
   for (const Photon& p : photons)
     if (reach.holds(p.position)) distances.push_back(glm::distance(Vec3d(p.position), Vec3d(place.point)));
-  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(k - 1), distances.end());
-  return distances[k - 1];
+  if (distances.size() < settings.count) return settings.radius;
+  const auto last = distances.begin() + settings.count - 1;
+  std::nth_element(distances.begin(), last, distances.end());
+  return *last;
 }
 
 Hit on_square(const Scene& scene, const Vec3& point) {
@@ -224,7 +227,7 @@ std::vector<Check> check_place(bool flat, const Place& place, GatherMode mode, c
   const auto samples = sample_moments(1, effort.count(1'200, 15'000), effort.seed_of(name), [&](Rng& rng, double* out) {
     GatherCounters counters;
     std::vector<Photon> photons = even_photons(flat, place, rng);
-    const double radius = nearest && exact > 0.0 ? radius_of_nearest(photons, place, settings.count) : settings.radius;
+    const double radius = nearest && exact > 0.0 ? radius_of_nearest(photons, place, settings) : settings.radius;
     out[0] = estimate(make_photon_map(std::move(photons), settings, kPhotons), counters) * shares.ratio(radius);
     too_small += counters.least_shares;
   });
