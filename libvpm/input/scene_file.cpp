@@ -210,6 +210,19 @@ void check_media(const Scene& scene, const ScenePlan& plan) {
           "overlap in part");
 }
 
+/// Tells of a scene so far from the origin that the spacing of floats there shows in its shapes.
+void note_unresolved_place(LoadedScene& loaded) {
+  const Box& bounds = loaded.scene.bounds;
+  if (bounds.empty()) return;
+  constexpr double kVisible = 1e-4;  // of the scene's size
+  const double far = glm::length(bounds.centre()), spacing = 0x1p-23 * far;
+  if (spacing > kVisible * bounds.diagonal())
+    loaded.notes.push_back(fmt::format(
+        "the scene, {:.2g} m across, is {:.2g} m from the origin, where positions are {:.2g} m apart: its shapes are "
+        "rounded to that; move it to the origin",
+        bounds.diagonal(), far, spacing));
+}
+
 /// Tells of media whose free paths are shorter than floats resolve positions: what enters these does not come out
 /// again.
 void note_unresolved_media(LoadedScene& loaded) {
@@ -257,6 +270,7 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
     fail_at(plan.lights_place, error.what());
   }
   check_media(scene, plan);
+  note_unresolved_place(loaded);
   note_unresolved_media(loaded);
   return loaded;
 }

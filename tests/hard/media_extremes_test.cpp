@@ -241,6 +241,31 @@ TEST(MediaExtremes, TheWhiteFurnaceIsOneWhateverTheExtinctionAndTheAnisotropy) {
     }
 }
 
+TEST(MediaExtremes, TheWhiteFurnaceIsOneInBallsOfAllSizes) {
+  // From a third of a nanometre at 1e9 per metre to 300000 km at 1e-9: the same optical thickness.
+  Worst worst("error of the furnace's 1, in balls of all sizes");
+  for (const float sigma : {1e-9f, 1e-3f, 1e3f, 1e6f, 1e9f}) {
+    const float radius = 0.3f / sigma;
+    Scene scene;
+    scene.media.push_back(make_medium(nullptr, Rgb(sigma), 1.0f));
+    const Interface media{0, kVacuum};
+    add_shape(scene, SphereShape{Vec3(0.0f), radius}, Boundary{}, &media);
+    scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+    scene.camera = make_camera(Vec3(0, 0, 4 * radius), Vec3(0.0f), Vec3(0, 1, 0), 10.0f, 8, 8, {});
+    scene.geometry.commit();
+    finish(scene);
+    RenderSettings settings = settings_of(20000, 0.2f * radius);
+    for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
+      settings.volume_direct = direct;
+      const Moments mean = clean_means(scene, settings, 16);
+      const double error = std::sqrt(mean.variance_of_mean());
+      worst.see(mean.mean() - 1.0);
+      EXPECT_NEAR(mean.mean(), 1.0, 0.05 * -std::expm1(-0.6) + 6.0 * error) << sigma;
+      EXPECT_LT(error, 0.02) << sigma;
+    }
+  }
+}
+
 TEST(MediaExtremes, TheRefereesWhiteFurnaceIsOneInTheNarrowestPeak) {
   Worst worst("error of the referee's 1");
   // No photon map resolves a peak of 1e-4 rad; paths that combine both ways of sampling do, up to thousands of

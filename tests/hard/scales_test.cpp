@@ -88,5 +88,14 @@ TEST(Scales, AWorldFarFromTheOriginIsTheSamePicture) {
     }
 }
 
+TEST(Scales, AMetreAThousandKilometresAwayIsCleanThoughUnresolved) {
+  // Positions there are 1/16 m apart: shapes are rounded to that, which the scene file's notes say. Nothing may break.
+  for (const Lamp lamp : {Lamp::spot, Lamp::panel, Lamp::sun})
+    for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
+      EXPECT_GT(mean_of(clean_image(small_world(1.0f, Vec3(1e6f, -1e6f, 1e6f), lamp),
+                                    settings_for(1.0f, direct, GatherMode::radius, VolumeForm::density_at_query))),
+                0.01);
+}
+
 }  // namespace
 }  // namespace vpm

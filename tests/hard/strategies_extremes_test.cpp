@@ -1,5 +1,9 @@
-// The weighted strategies where they are known to fail: unbiased, of enormous variance, and the report tells.
+// Strategies and estimators where they are known to fail, and along rays that are hard for all.
+#include <fmt/format.h>
+
 #include "hard/hard_scenes.h"
+#include "medium/transmittance/estimator.h"
+#include "study/careful_settings.h"
 
 namespace vpm {
 namespace {
@@ -66,6 +70,110 @@ TEST(StrategiesExtremes, TheLedgerReportsHeavyTails) {
               weighted.largest_weight, weighted.effective_sample_size(), double(weighted.collisions));
   EXPECT_GT(weighted.largest_weight, 5.0);
   EXPECT_LT(weighted.effective_sample_size(), 0.5 * static_cast<double>(weighted.collisions));
+}
+
+/// A ray through a medium along which the optical thickness is known.
+struct HardRay {
+  std::string name;
+  Medium medium;
+  Ray ray;
+  Interval interval;
+  double thickness = 0.0;
+};
+
+/// A grid of that many cells along each axis, voxels of that size, densities by the lattice point.
+template <class Density>
+std::shared_ptr<const DensityGrid> cells_of(const Vec3i& cells, const Vec3d& voxel, Interpolation kind,
+                                            Density density) {
+  GridFrame frame;
+  frame.lo = Vec3i(0);
+  frame.hi = cells;
+  frame.index_to_world = glm::scale(Mat4d(1.0), voxel);
+  frame.interpolation = kind;
+  return make_grid(frame, density);
+}
+
+/// Columns that follow from the field's formula: spikes, needles, faces, edges, directions next to an axis.
+std::vector<HardRay> hard_rays() {
+  const auto spike = [](int x, int, int) { return x == 100 ? 1e6 : 1e-6; };
+  const auto linear = [](int x, int y, int z) { return 1.0 + x + 2.0 * y + 3.0 * z; };
+  const Vec3d needle(1e-3, 1.0, 1.0), unit(1.0);
+  const auto box = cells_of(Vec3i(200, 2, 2), unit, Interpolation::nearest, spike);
+  const auto tent = cells_of(Vec3i(200, 2, 2), unit, Interpolation::trilinear, spike);
+  const auto field = cells_of(Vec3i(24), unit, Interpolation::trilinear, linear);
+  const auto needles = cells_of(Vec3i(24), needle, Interpolation::trilinear, linear);
+  const auto denormal = cells_of(Vec3i(24), unit, Interpolation::nearest, [](int, int, int) { return 0x1p-130; });
+  const Vec3 x(1, 0, 0), almost_x(1.0f, 1e-38f, -1e-38f);
+  const Vec3 across = glm::normalize(Vec3(12e-3f, 12.0f, 12.0f));
+  const float way = glm::length(Vec3(12e-3f, 12.0f, 12.0f));
+  return {
+      {"a spike of one voxel", make_medium(box, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, {}, 2.0},
+      {"the same, interpolated", make_medium(tent, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, {}, 2.0},
+      {"aslant through a spike",
+       make_medium(box, Rgb(5e-7f)),
+       {Vec3(100, 0, 0), glm::normalize(Vec3(0.1f, 1, 1))},
+       {},
+       1.25 * std::sqrt(2.01)},
+      {"along an edge", make_medium(field, Rgb(0.004f)), {Vec3(2, 8, 8), x}, {0.0f, 7.0f}, 0.004 * 7.0 * 46.5},
+      {"next to a face",
+       make_medium(field, Rgb(0.004f)),
+       {Vec3(2, 8, 8.5f), almost_x},
+       {0.0f, 7.0f},
+       0.004 * 7.0 * 48.0},
+      {"along needles", make_medium(needles, Rgb(4.0f)), {Vec3(2e-3f, 8, 8), x}, {0.0f, 7e-3f}, 4.0 * 7e-3 * 46.5},
+      {"across needles",
+       make_medium(needles, Rgb(0.002f)),
+       {Vec3(4e-3f, 4, 4), across},
+       {0.0f, way},
+       0.002 * way * 61.0},
+      {"denormal densities", make_medium(denormal, Rgb(0x1p126f)), {Vec3(2, 8, 8), x}, {0.0f, 16.0f}, 1.0},
+  };
+}
+
+TEST(StrategiesExtremes, HardRaysAreCrossedByAllThatHaveNoBias) {
+  constexpr int kFlights = 20000;
+  std::vector<Check> checks;
+  for (const HardRay& hard : hard_rays()) {
+    const double through = std::exp(-hard.thickness);
+    const auto mean_of_draws = [&](const std::string& name, const auto& draw) {
+      Moments draws;
+      for (uint64_t i = 0; i < kFlights; ++i) {
+        Rng rng(1, rng_stream(RngUse::test, 1), i);
+        draws.add(draw(rng));
+      }
+      EXPECT_TRUE(std::isfinite(draws.variance())) << name;
+      const bool one_value = draws.variance() <= 1e-12 * draws.mean() * draws.mean();
+      checks.push_back(one_value ? check_bound(name, draws.mean(), through, 1e-6 * through)
+                                 : check_mean(name, draws, through));
+      return effective_sample_size(draws);
+    };
+    for (const StrategyInfo& info : distance_strategies()) {
+      if (!info.heterogeneous || info.marches) continue;
+      const auto strategy = make_distance_strategy(careful_settings(info.name));
+      const double size = mean_of_draws(fmt::format("{}: {}", hard.name, info.name), [&](Rng& rng) {
+        const Flight flight = strategy->sample(hard.medium, hard.ray, hard.interval, Rgb(1.0f), rng);
+        EXPECT_TRUE(std::isfinite(flight.weight.r));
+        return flight.collided ? 0.0 : double(flight.weight.r);
+      });
+      if (size < kLeastSampleSize) checks.pop_back();  // of heavy tails nothing can be said
+      EXPECT_TRUE(size >= kLeastSampleSize || !info.bounded_weight) << checks.back().name;
+    }
+    for (const EstimatorInfo& info : transmittance_estimators()) {
+      if (!info.unbiased) continue;
+      const auto estimator = make_transmittance_estimator({.estimator = std::string(info.name)});
+      mean_of_draws(fmt::format("{}: {}", hard.name, info.name), [&](Rng& rng) {
+        return double(estimator->estimate(hard.medium, hard.ray, hard.interval, rng).value.r);
+      });
+    }
+  }
+  judge(checks, kFalseAlarms);
+  int failed = 0;
+  for (const Check& check : checks) {
+    failed += check.verdict == Verdict::fail;
+    EXPECT_NE(check.verdict, Verdict::fail)
+        << check.name << ": " << check.value << ", exact " << check.exact << " +- " << check.error;
+  }
+  std::printf("hard rays: %d of %d passed\n", int(checks.size()) - failed, int(checks.size()));
 }
 
 TEST(StrategiesExtremes, ASpikeOfOneVoxelIsSeenByAllButTheMarch) {

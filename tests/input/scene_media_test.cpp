@@ -123,5 +123,16 @@ TEST(SceneFile, NotesMediaThatPositionsDoNotResolve) {
   EXPECT_NE(notes("1e9", "0.5")[0].find("medium 'fog': its free paths, down to 1e-09 m"), std::string::npos);
 }
 
+TEST(SceneFile, NotesAPlaceThatPositionsDoNotResolve) {
+  const auto notes = [](const std::string& x) {
+    return load_with("[[shapes]]\ntype = 'sphere'\nmaterial = { type = 'lambertian', reflectance = 0.5 }\ncenter = [" +
+                     x + ", 0, 0]\nradius = 1\n")
+        .notes;
+  };
+  EXPECT_TRUE(notes("1e3").empty());
+  ASSERT_EQ(notes("1e6").size(), 1u);
+  EXPECT_NE(notes("1e6")[0].find("1e+06 m from the origin, where positions are 0.12 m apart"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace vpm

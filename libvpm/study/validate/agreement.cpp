@@ -194,6 +194,29 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
   return checks;
 }
 
+/// The referee with every strategy together with every estimator.
+std::vector<Check> combinations(const Effort& effort) {
+  const Scene scene = puff(Viewpoint::outside, 2.0f);
+  RenderSettings base;
+  base.seed = effort.seed_of("combinations reference");
+  const Measured reference = by_referee(scene, base, effort.count(80'000, 600'000));
+  std::vector<Check> checks;
+  for (const StrategyInfo& strategy : distance_strategies()) {
+    if (!strategy.heterogeneous) continue;
+    for (const EstimatorInfo& estimator : transmittance_estimators()) {
+      RenderSettings settings = base;
+      settings.distance = careful_settings(strategy.name);
+      settings.distance.extinction_floor = 1.0f;
+      settings.transmittance.estimator = estimator.name;
+      settings.transmittance.step = settings.distance.step;
+      const std::string name = fmt::format("paths by {}, shadow rays by {}", strategy.name, estimator.name);
+      settings.seed = effort.seed_of(name);
+      compare(checks, name, by_referee(scene, settings, effort.count(10'000, 80'000)), reference, scene.grey);
+    }
+  }
+  return checks;
+}
+
 /// The same box as a homogeneous medium and as a constant grid.
 std::vector<Check> constant_grid(const Effort& effort) {
   const Scene plain = filled_box(false), grid = filled_box(true);
@@ -236,6 +259,7 @@ std::vector<Experiment> agreement_experiments() {
     all.push_back({3, s.name, [s](const Effort& effort) { return compare_gatherings(s, effort); }});
   for (const Subject& s : by_strategy)
     all.push_back({3, s.name, [s](const Effort& effort) { return compare_strategies(s, effort); }});
+  all.push_back({3, "every strategy with every estimator", combinations});
   all.push_back({3, "a constant grid is a homogeneous medium", constant_grid});
   for (const Experiment& e : light_map_experiments()) all.push_back(e);
   return all;
