@@ -243,7 +243,8 @@ std::vector<Experiment> convergence_experiments() {
   std::vector<Experiment> all{{4, "the referee", referee},
                               {4, "photons in a volume, kernel of dimension 3", volume_photons},
                               {4, "photons on a surface, kernel of dimension 2", surface_photons}};
-  for (Experiment& e : pass_experiments()) all.push_back(std::move(e));
+  for (auto* group : {pass_experiments, march_experiments})
+    for (Experiment& e : group()) all.push_back(std::move(e));
   return all;
 }
 

@@ -47,5 +47,6 @@ std::vector<Experiment> light_map_experiments();
 
 // Level 4.
 std::vector<Experiment> pass_experiments();
+std::vector<Experiment> march_experiments();
 
 }  // namespace vpm
