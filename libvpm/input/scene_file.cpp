@@ -215,7 +215,9 @@ void note_unresolved_place(LoadedScene& loaded) {
   const Box& bounds = loaded.scene.bounds;
   if (bounds.empty()) return;
   constexpr double kVisible = 1e-4;  // of the scene's size
-  const double far = glm::length(bounds.centre()), spacing = 0x1p-23 * far;
+  const Vec3 apart = glm::abs(bounds.centre());
+  const float far = std::max({apart.x, apart.y, apart.z});
+  const double spacing = double(std::nextafter(far, kInfinity)) - far;
   if (spacing > kVisible * bounds.diagonal())
     loaded.notes.push_back(fmt::format(
         "the scene, {:.2g} m across, is {:.2g} m from the origin, where positions are {:.2g} m apart: its shapes are "

@@ -93,87 +93,89 @@ std::shared_ptr<const DensityGrid> cells_of(const Vec3i& cells, const Vec3d& vox
   return make_grid(frame, density);
 }
 
-/// Columns that follow from the field's formula: spikes, needles, faces, edges, directions next to an axis.
+/// Columns that follow from the field's formula: spikes, needles, plates, faces, edges, directions next to an axis.
 std::vector<HardRay> hard_rays() {
   const auto spike = [](int x, int, int) { return x == 100 ? 1e6 : 1e-6; };
   const auto linear = [](int x, int y, int z) { return 1.0 + x + 2.0 * y + 3.0 * z; };
-  const Vec3d needle(1e-3, 1.0, 1.0), unit(1.0);
-  const auto box = cells_of(Vec3i(200, 2, 2), unit, Interpolation::nearest, spike);
-  const auto tent = cells_of(Vec3i(200, 2, 2), unit, Interpolation::trilinear, spike);
+  const Vec3d unit(1.0), needle(1.0, 1e-3, 1e-3), plate(1e-3, 1.0, 1.0);
+  const auto box = cells_of(Vec3i(200, 40, 2), unit, Interpolation::nearest, spike);
+  const auto tent = cells_of(Vec3i(200, 40, 2), unit, Interpolation::trilinear, spike);
   const auto field = cells_of(Vec3i(24), unit, Interpolation::trilinear, linear);
   const auto needles = cells_of(Vec3i(24), needle, Interpolation::trilinear, linear);
+  const auto plates = cells_of(Vec3i(24), plate, Interpolation::trilinear, linear);
   const auto denormal = cells_of(Vec3i(24), unit, Interpolation::nearest, [](int, int, int) { return 0x1p-130; });
-  const Vec3 x(1, 0, 0), almost_x(1.0f, 1e-38f, -1e-38f);
-  const Vec3 across = glm::normalize(Vec3(12e-3f, 12.0f, 12.0f));
-  const float way = glm::length(Vec3(12e-3f, 12.0f, 12.0f));
+  const Vec3 x(1, 0, 0), almost_x(1.0f, 1e-38f, -1e-38f), aslant(1.0f, 0.5f, 0.0f), through(12.0f, 12e-3f, 12e-3f);
+  const Interval whole{0.0f, 210.0f}, part{0.0f, 7.0f};
+  const float way = glm::length(through);
   return {
-      {"a spike of one voxel", make_medium(box, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, {}, 2.0},
-      {"the same, interpolated", make_medium(tent, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, {}, 2.0},
-      {"aslant through a spike",
-       make_medium(box, Rgb(5e-7f)),
-       {Vec3(100, 0, 0), glm::normalize(Vec3(0.1f, 1, 1))},
-       {},
-       1.25 * std::sqrt(2.01)},
-      {"along an edge", make_medium(field, Rgb(0.004f)), {Vec3(2, 8, 8), x}, {0.0f, 7.0f}, 0.004 * 7.0 * 46.5},
-      {"next to a face",
-       make_medium(field, Rgb(0.004f)),
-       {Vec3(2, 8, 8.5f), almost_x},
-       {0.0f, 7.0f},
-       0.004 * 7.0 * 48.0},
-      {"along needles", make_medium(needles, Rgb(4.0f)), {Vec3(2e-3f, 8, 8), x}, {0.0f, 7e-3f}, 4.0 * 7e-3 * 46.5},
+      {"a spike of one voxel", make_medium(box, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, whole, 2.0},
+      {"the same, interpolated", make_medium(tent, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, whole, 2.0},
+      {"a spike aslant",
+       make_medium(box, Rgb(1e-6f)),
+       {Vec3(60, -5, 1), glm::normalize(aslant)},
+       {0.0f, 90.0f},
+       std::sqrt(1.25)},
+      {"along an edge", make_medium(field, Rgb(0.004f)), {Vec3(2, 8, 8), x}, part, 0.004 * 7.0 * 46.5},
+      {"next to a face", make_medium(field, Rgb(0.004f)), {Vec3(2, 8, 8.5f), almost_x}, part, 0.004 * 7.0 * 48.0},
+      {"along needles", make_medium(needles, Rgb(0.004f)), {Vec3(2, 8e-3f, 8e-3f), x}, part, 0.004 * 7.0 * 46.5},
       {"across needles",
-       make_medium(needles, Rgb(0.002f)),
-       {Vec3(4e-3f, 4, 4), across},
+       make_medium(needles, Rgb(0.003f)),
+       {Vec3(4, 4e-3f, 4e-3f), glm::normalize(through)},
        {0.0f, way},
-       0.002 * way * 61.0},
+       0.003 * way * 61.0},
+      {"across plates", make_medium(plates, Rgb(4.0f)), {Vec3(2e-3f, 8, 8), x}, {0.0f, 7e-3f}, 4.0 * 7e-3 * 46.5},
       {"denormal densities", make_medium(denormal, Rgb(0x1p126f)), {Vec3(2, 8, 8), x}, {0.0f, 16.0f}, 1.0},
   };
 }
 
+/// The mean of draws against what gets through: exact where all are one value, not determined where they have heavy
+/// tails.
+template <class Draw>
+Check check_draws(const std::string& name, double through, const Draw& draw) {
+  constexpr uint64_t kDraws = 20000;
+  Moments draws;
+  for (uint64_t i = 0; i < kDraws; ++i) {
+    Rng rng(std::hash<std::string>{}(name), rng_stream(RngUse::test, 1), i);
+    draws.add(draw(rng));
+  }
+  EXPECT_TRUE(std::isfinite(draws.variance()) && draws.mean() > 0.0) << name;
+  if (std::sqrt(draws.variance()) < 1e-6 * draws.mean())
+    return check_bound(name, draws.mean(), through, 1e-6 * through);
+  return check_weighted_mean(name, draws, through);
+}
+
 TEST(StrategiesExtremes, HardRaysAreCrossedByAllThatHaveNoBias) {
-  constexpr int kFlights = 20000;
   std::vector<Check> checks;
   for (const HardRay& hard : hard_rays()) {
     const double through = std::exp(-hard.thickness);
-    const auto mean_of_draws = [&](const std::string& name, const auto& draw) {
-      Moments draws;
-      for (uint64_t i = 0; i < kFlights; ++i) {
-        Rng rng(1, rng_stream(RngUse::test, 1), i);
-        draws.add(draw(rng));
-      }
-      EXPECT_TRUE(std::isfinite(draws.variance())) << name;
-      const bool one_value = draws.variance() <= 1e-12 * draws.mean() * draws.mean();
-      checks.push_back(one_value ? check_bound(name, draws.mean(), through, 1e-6 * through)
-                                 : check_mean(name, draws, through));
-      return effective_sample_size(draws);
-    };
     for (const StrategyInfo& info : distance_strategies()) {
+      // progressive-null has no bias with the majorant that careful_settings() gives it.
       if (!info.heterogeneous || info.marches) continue;
       const auto strategy = make_distance_strategy(careful_settings(info.name));
-      const double size = mean_of_draws(fmt::format("{}: {}", hard.name, info.name), [&](Rng& rng) {
+      checks.push_back(check_draws(fmt::format("{}: {}", hard.name, info.name), through, [&](Rng& rng) {
         const Flight flight = strategy->sample(hard.medium, hard.ray, hard.interval, Rgb(1.0f), rng);
         EXPECT_TRUE(std::isfinite(flight.weight.r));
         return flight.collided ? 0.0 : double(flight.weight.r);
-      });
-      if (size < kLeastSampleSize) checks.pop_back();  // of heavy tails nothing can be said
-      EXPECT_TRUE(size >= kLeastSampleSize || !info.bounded_weight) << checks.back().name;
+      }));
+      EXPECT_TRUE(checks.back().kind != CheckKind::undetermined || !info.bounded_weight) << checks.back().name;
     }
     for (const EstimatorInfo& info : transmittance_estimators()) {
       if (!info.unbiased) continue;
       const auto estimator = make_transmittance_estimator({.estimator = std::string(info.name)});
-      mean_of_draws(fmt::format("{}: {}", hard.name, info.name), [&](Rng& rng) {
+      checks.push_back(check_draws(fmt::format("{}: {}", hard.name, info.name), through, [&](Rng& rng) {
         return double(estimator->estimate(hard.medium, hard.ray, hard.interval, rng).value.r);
-      });
+      }));
     }
   }
   judge(checks, kFalseAlarms);
-  int failed = 0;
+  int passed = 0;
   for (const Check& check : checks) {
-    failed += check.verdict == Verdict::fail;
+    passed += check.verdict == Verdict::pass;
     EXPECT_NE(check.verdict, Verdict::fail)
         << check.name << ": " << check.value << ", exact " << check.exact << " +- " << check.error;
+    if (check.verdict == Verdict::undetermined) std::printf("%s: %s\n", check.name.c_str(), check.note.c_str());
   }
-  std::printf("hard rays: %d of %d passed\n", int(checks.size()) - failed, int(checks.size()));
+  std::printf("hard rays: %d of %d passed\n", passed, int(checks.size()));
 }
 
 TEST(StrategiesExtremes, ASpikeOfOneVoxelIsSeenByAllButTheMarch) {

@@ -131,7 +131,7 @@ TEST(SceneFile, NotesAPlaceThatPositionsDoNotResolve) {
   };
   EXPECT_TRUE(notes("1e3").empty());
   ASSERT_EQ(notes("1e6").size(), 1u);
-  EXPECT_NE(notes("1e6")[0].find("1e+06 m from the origin, where positions are 0.12 m apart"), std::string::npos);
+  EXPECT_NE(notes("1e6")[0].find("1e+06 m from the origin, where positions are 0.062 m apart"), std::string::npos);
 }
 
 }  // namespace

@@ -210,7 +210,7 @@ std::vector<Check> combinations(const Effort& effort) {
       settings.transmittance.estimator = estimator.name;
       settings.transmittance.step = settings.distance.step;
       const std::string name = fmt::format("paths by {}, shadow rays by {}", strategy.name, estimator.name);
-      settings.seed = effort.seed_of(name);
+      settings.seed = effort.seed_of("combinations " + name);
       compare(checks, name, by_referee(scene, settings, effort.count(10'000, 80'000)), reference, scene.grey);
     }
   }
