@@ -1,8 +1,7 @@
-// A look at a scene file's text before toml++ gets it, which three things in it could harm.
+// A look at a scene file's text before toml++ gets it.
 //
 // toml++ limits how deep values nest, but not the parts of a key: each is a table in the last one, and tables are taken
-// apart by recursion, for which the stack may not suffice. And where it looks for white space and finds a character
-// beyond ASCII, it reaches code that it calls unreachable: between values, where TOML has none, and behind a backslash.
+// apart by recursion, for which the stack may not suffice.
 #include <algorithm>
 #include <string_view>
 
@@ -49,29 +48,15 @@ class TomlChecker {
     advance(quotes.size());
     while (!rest_.empty() && !rest_.starts_with(quotes)) {
       if (rest_[0] == '\n' && quotes.size() == 1) return;
-      if (rest_[0] == '\\' && quotes[0] == '"') check_escape();
-      advance(1);
+      advance(rest_[0] == '\\' && quotes[0] == '"' ? 2 : 1);
     }
     advance(quotes.size());
     while (quotes.size() == 3 && rest_.starts_with(quotes[0])) advance(1);  // the string may end with quotes
   }
 
-  static bool beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
-
-  /// Goes on to the character that a backslash escapes, or to the last of the white space that it joins lines by.
-  void check_escape() {
-    const size_t next = rest_.find_first_not_of(" \t\r\n", 1);
-    if (next == std::string_view::npos) return;
-    if (beyond_ascii(rest_[next]))
-      fail_at(place_, "a backslash before a character beyond ASCII", "write the string on one line, without it");
-    advance(next > 1 ? next - 1 : 1);
-  }
-
   void check_character(char c) {
     constexpr int kMostDots = 32;
     constexpr std::string_view kEndOfKeys = "=,[{\n";
-    if (beyond_ascii(c))
-      fail_at(place_, "not valid TOML: a character beyond ASCII, outside of strings and comments", "put it in quotes");
     if (kEndOfKeys.find(c) != std::string_view::npos) dots_ = 0;
     if (c == '.' && ++dots_ > kMostDots)
       fail_at(place_, "a key of more than " + std::to_string(kMostDots) + " parts",
