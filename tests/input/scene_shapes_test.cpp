@@ -47,7 +47,7 @@ TEST(SceneFile, CountsTrianglesThatTheTransformFlattens) {
   const LoadedScene loaded = load_with(
       "[[shapes]]\ntype = 'mesh'\nmaterial = { type = 'mirror' }\npath = 'two.obj'\nemission = 1\n"
       "transform = [{ translate = [1e8, 1e8, 0] }]\n");  // where floats are 8 m apart
-  ASSERT_EQ(loaded.notes.size(), 2u);  // the other one tells of the place
+  ASSERT_EQ(loaded.notes.size(), 2u);                    // the other one tells of the place
   EXPECT_EQ(loaded.notes[0], "shape 'shape 0': 1 triangles without area dropped");
   EXPECT_EQ(loaded.scene.geometry.triangle_count(0), 1u);
 }
