@@ -7,12 +7,9 @@ find_package(PNG REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(glm CONFIG REQUIRED)
-find_package(tomlplusplus CONFIG REQUIRED)
+find_package(tomlplusplus CONFIG REQUIRED)  # only its headers: input/toml_reader.cpp says why
 find_package(CLI11 CONFIG REQUIRED)
 find_package(Eigen3 3.4 CONFIG REQUIRED)
-if(VPM_SANITIZE MATCHES "fuzzer")  # toml++ compiled from its headers, for its branches to be seen; as Debian's without assertions
-  set_property(TARGET tomlplusplus::tomlplusplus PROPERTY INTERFACE_COMPILE_OPTIONS "-DTOML_ASSERT(expr)=static_assert(true)")
-endif()
 
 # OpenVDB ships a find module only, in a folder that also shadows the good FindTBB: it is on the path for this one call, and after
 # TBB, whose targets it would otherwise make by halves.

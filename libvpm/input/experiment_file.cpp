@@ -90,6 +90,7 @@ std::string short_text(const Node& node) {
 
 /// Every combination of the values that [product] lists, the last key's changing fastest.
 std::vector<Method> read_product(TableReader& root) {
+  constexpr size_t kMostMethods = 1000;  // more than any machine compares, and soon more than it remembers
   std::vector<Method> methods{Method{}};
   const std::vector<Setting> settings = settings_in(root, "product");
   for (const Setting& setting : settings) {
@@ -97,6 +98,9 @@ std::vector<Method> read_product(TableReader& root) {
     if (!values || values->empty())
       fail_at(setting.value->place, "'" + setting.key + "' of [product] must be an array of values",
               "write " + setting.key + " = [..., ...]");
+    if (methods.size() * values->size() > kMostMethods)
+      fail_at(setting.value->place, fmt::format("[product] makes more than {} methods", kMostMethods),
+              "list fewer values, or fewer keys");
     std::vector<Method> combined;
     for (const Method& method : methods)
       for (const Node& value : *values) {

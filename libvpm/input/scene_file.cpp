@@ -222,7 +222,7 @@ void note_unresolved_place(LoadedScene& loaded) {
     loaded.notes.push_back(fmt::format(
         "the scene, {:.2g} m across, is {:.2g} m from the origin, where positions are {:.2g} m apart: its shapes are "
         "rounded to that; move it to the origin",
-        bounds.diagonal(), far, spacing));
+        bounds.diagonal(), glm::length(bounds.centre()), spacing));
 }
 
 /// Tells of media whose free paths are shorter than floats resolve positions: what enters these does not come out

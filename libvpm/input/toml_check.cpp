@@ -1,7 +1,8 @@
 // A look at a scene file's text before toml++ gets it.
 //
 // toml++ limits how deep values nest, but not the parts of a key: each is a table in the last one, and tables are taken
-// apart by recursion, for which the stack may not suffice.
+// apart by recursion, for which the stack may not suffice. And of letters that only strings may hold it does not tell
+// what to do about them.
 #include <algorithm>
 #include <string_view>
 
@@ -57,6 +58,8 @@ class TomlChecker {
   void check_character(char c) {
     constexpr int kMostDots = 32;
     constexpr std::string_view kEndOfKeys = "=,[{\n";
+    if (static_cast<unsigned char>(c) >= 0x80u)
+      fail_at(place_, "not valid TOML: a character beyond ASCII, outside of strings and comments", "put it in quotes");
     if (kEndOfKeys.find(c) != std::string_view::npos) dots_ = 0;
     if (c == '.' && ++dots_ > kMostDots)
       fail_at(place_, "a key of more than " + std::to_string(kMostDots) + " parts",

@@ -46,7 +46,8 @@ struct Document {
   Node root;
 };
 
-/// Throws InputError for text that toml++ should not get: a key of more than 32 parts.
+/// Throws InputError for text that toml++ should not get: a key of more than 32 parts, letters that only strings may
+/// hold.
 void check_toml(const std::string& text, const Source* source);
 
 /// Parses a TOML file. Throws InputError with file:line:column where it is not TOML.

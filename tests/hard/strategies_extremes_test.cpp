@@ -1,6 +1,7 @@
 // Strategies and estimators where they are known to fail, and along rays that are hard for all.
 #include <fmt/format.h>
 
+#include "base/fnv.h"
 #include "hard/hard_scenes.h"
 #include "medium/transmittance/estimator.h"
 #include "study/careful_settings.h"
@@ -79,6 +80,7 @@ struct HardRay {
   Ray ray;
   Interval interval;
   double thickness = 0.0;
+  bool spike = false;  // so heavy a tail that estimators which look at few places are not determined
 };
 
 /// A grid of that many cells along each axis, voxels of that size, densities by the lattice point.
@@ -108,13 +110,14 @@ std::vector<HardRay> hard_rays() {
   const Interval whole{0.0f, 210.0f}, part{0.0f, 7.0f};
   const float way = glm::length(through);
   return {
-      {"a spike of one voxel", make_medium(box, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, whole, 2.0},
-      {"the same, interpolated", make_medium(tent, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, whole, 2.0},
+      {"a spike of one voxel", make_medium(box, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, whole, 2.0, true},
+      {"the same, interpolated", make_medium(tent, Rgb(2e-6f)), {Vec3(-5, 1, 1), x}, whole, 2.0, true},
       {"a spike aslant",
        make_medium(box, Rgb(1e-6f)),
        {Vec3(60, -5, 1), glm::normalize(aslant)},
        {0.0f, 90.0f},
-       std::sqrt(1.25)},
+       std::sqrt(1.25),
+       true},
       {"along an edge", make_medium(field, Rgb(0.004f)), {Vec3(2, 8, 8), x}, part, 0.004 * 7.0 * 46.5},
       {"next to a face", make_medium(field, Rgb(0.004f)), {Vec3(2, 8, 8.5f), almost_x}, part, 0.004 * 7.0 * 48.0},
       {"along needles", make_medium(needles, Rgb(0.004f)), {Vec3(2, 8e-3f, 8e-3f), x}, part, 0.004 * 7.0 * 46.5},
@@ -133,9 +136,11 @@ std::vector<HardRay> hard_rays() {
 template <class Draw>
 Check check_draws(const std::string& name, double through, const Draw& draw) {
   constexpr uint64_t kDraws = 20000;
+  Fnv1a seed;
+  seed.add(name);
   Moments draws;
   for (uint64_t i = 0; i < kDraws; ++i) {
-    Rng rng(std::hash<std::string>{}(name), rng_stream(RngUse::test, 1), i);
+    Rng rng(seed.value(), rng_stream(RngUse::test, 1), i);
     draws.add(draw(rng));
   }
   EXPECT_TRUE(std::isfinite(draws.variance())) << name;
@@ -166,6 +171,9 @@ TEST(StrategiesExtremes, HardRaysAreCrossedByAllThatHaveNoBias) {
       checks.push_back(check_draws(fmt::format("{}: {}", hard.name, info.name), through, [&](Rng& rng) {
         return double(estimator->estimate(hard.medium, hard.ray, hard.interval, rng).value.r);
       }));
+      if (hard.spike && (info.name == "residual-ratio" || info.name == "unbiased-ray-march")) continue;
+      EXPECT_GT(checks.back().value, 0.0) << checks.back().name;
+      EXPECT_NE(checks.back().kind, CheckKind::undetermined) << checks.back().name;
     }
   }
   judge(checks, kFalseAlarms);

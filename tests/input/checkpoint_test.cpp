@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/fnv.h"
+#include "fuzz/whole_checkpoint.h"
 
 namespace vpm {
 namespace {
@@ -148,6 +149,17 @@ TEST_F(Checkpoint, WithARightChecksumOfNumbersThatCannotBeIsRefused) {
   content = bytes();
   content.resize(content.size() - 16);
   refuses_with(with(56, 5));  // a pixel without a radius among others that have one
+}
+
+TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAccepted) {
+  int seeds = 0;
+  for (const auto& entry : fs::directory_iterator(VPM_SOURCE_DIR "/tests/fuzz/corpus/checkpoint")) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    put(whole_checkpoint(std::string(std::istreambuf_iterator<char>(file), {})));
+    EXPECT_NO_THROW(read_checkpoint(path_, kFuzzIdentity)) << entry.path() << ": write it anew";
+    ++seeds;
+  }
+  EXPECT_EQ(seeds, 3);
 }
 
 }  // namespace

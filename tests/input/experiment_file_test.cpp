@@ -131,5 +131,12 @@ TEST(ExperimentFile, RefusesWhatIsWrong) {
   }
 }
 
+TEST(ExperimentFile, RefusesProductsOfAbsurdSize) {
+  std::string keys;
+  for (int key = 10; key < 50; ++key) keys += "k" + std::to_string(key) + " = [1, 2]\n";
+  const std::string found = message(kHead + "[product]\n" + keys + kScene);
+  EXPECT_NE(found.find(":13:7: [product] makes more than 1000 methods"), std::string::npos) << found;
+}
+
 }  // namespace
 }  // namespace vpm

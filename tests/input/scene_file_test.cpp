@@ -50,15 +50,14 @@ TEST(SceneFile, PlacesTheCaretUnderWideCharactersAndTabs) {
       << message_in_line;
 }
 
-/// Guessing at what was meant would take minutes here, by the square of the length.
 TEST(SceneFile, ReadsLettersBeyondAsciiBehindJoinedLines) {
   const LoadedScene loaded = load_with(
       "[[shapes]]\nname = \"\"\"la \\\n  \u00e9toile\"\"\"\ntype = 'sphere'\nmaterial = { type = 'lambertian', "
-      "reflectance = "
-      "0.5 }\ncenter = [0, 0, 0]\nradius = 1\n");
+      "reflectance = 0.5 }\ncenter = [0, 0, 0]\nradius = 1\n");
   EXPECT_EQ(loaded.scene.shapes.back().name, "la \u00e9toile");
 }
 
+/// Guessing at what was meant would take minutes here, by the square of the length.
 TEST(SceneFile, GuessesAtNoNamesOfAbsurdLength) {
   const std::string name(300'000, 'a');
   const std::string ball = "[[shapes]]\ntype = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nmaterial = '" + name + "b'\n";

@@ -101,21 +101,31 @@ RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
   return settings;
 }
 
-/// The forms of gathering: in media by both forms and both ways to single scattering, in both modes; from photons that
-/// are guided; on surfaces from the map, corrected at borders or not, and by final gathering, whose rays are guided or
-/// not.
-std::vector<std::pair<std::string, RenderSettings>> gatherings(const RenderSettings& base, bool media, bool surfaces) {
-  std::vector<std::pair<std::string, RenderSettings>> all;
-  for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
-    const std::string by = direct == DirectLight::photons ? "photons" : "shadow rays";
-    RenderSettings settings = base;
-    settings.volume_direct = settings.surface_direct = direct;
-    all.emplace_back(fmt::format("{}, direct light by {}", media ? "density at the query" : "surface map", by),
-                     settings);
-    if (!media) continue;
-    settings.volume_form = VolumeForm::density_at_photon;
-    all.emplace_back(fmt::format("density at the photon, direct light by {}", by), settings);
-  }
+using NamedSettings = std::vector<std::pair<std::string, RenderSettings>>;
+
+/// How a map can be asked: of media in both forms; with direct light by photons and by shadow rays.
+NamedSettings forms(const RenderSettings& base, bool media) {
+  NamedSettings all;
+  for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
+    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+      if (!media && form == VolumeForm::density_at_photon) continue;
+      RenderSettings settings = base;
+      settings.volume_direct = settings.surface_direct = direct;
+      settings.volume_form = form;
+      const char* name = !media                                 ? "surface map"
+                         : form == VolumeForm::density_at_query ? "density at the query"
+                                                                : "density at the photon";
+      all.emplace_back(
+          fmt::format("{}, direct light by {}", name, direct == DirectLight::photons ? "photons" : "shadow rays"),
+          settings);
+    }
+  return all;
+}
+
+/// The ways of gathering: in all forms; with k nearest; from photons that are guided; on surfaces corrected at borders,
+/// and by final gathering, whose rays are guided or not.
+NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) {
+  NamedSettings all = forms(base, media);
   RenderSettings nearest = base;
   for (GatherSettings* gather : {&nearest.volume, &nearest.surface}) {
     gather->mode = GatherMode::nearest;
@@ -194,24 +204,31 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
   return checks;
 }
 
-/// The referee with every strategy of bounded weights together with every estimator.
+/// Every strategy with every estimator of transmittance, by the referee, and in every form of the photon map.
 std::vector<Check> combinations(const Effort& effort) {
-  const Scene scene = puff(Viewpoint::outside, 2.0f);
-  RenderSettings base;
+  const Scene scene = puff(Viewpoint::outside, Rgb(0.8f, 1.0f, 1.3f));
+  RenderSettings base = photon_settings({"", {}, BiasOrder::smooth, 0.3f}, effort.count(3'000, 8'000));
   base.seed = effort.seed_of("combinations reference");
   const Measured reference = by_referee(scene, base, effort.count(80'000, 600'000));
   std::vector<Check> checks;
   for (const StrategyInfo& strategy : distance_strategies()) {
-    if (!strategy.heterogeneous || !strategy.bounded_weight) continue;  // unbounded: too few would count
+    if (!strategy.heterogeneous) continue;
+    base.distance = careful_settings(strategy.name);
+    base.distance.extinction_floor = 1.0f;
+    const uint64_t rays = effort.count(10'000, 80'000) * (strategy.bounded_weight ? 1 : 4);
     for (const EstimatorInfo& estimator : transmittance_estimators()) {
       RenderSettings settings = base;
-      settings.distance = careful_settings(strategy.name);
-      settings.distance.extinction_floor = 1.0f;
       settings.transmittance.estimator = estimator.name;
       settings.transmittance.step = settings.distance.step;
       const std::string name = fmt::format("paths by {}, shadow rays by {}", strategy.name, estimator.name);
       settings.seed = effort.seed_of("combinations " + name);
-      compare(checks, name, by_referee(scene, settings, effort.count(10'000, 80'000)), reference, scene.grey);
+      compare(checks, name, by_referee(scene, settings, rays), reference, scene.grey);
+    }
+    for (auto& [form, settings] : forms(base, true)) {
+      const std::string name = fmt::format("photons by {}, {}", strategy.name, form);
+      settings.seed = effort.seed_of("combinations " + name);
+      const int passes = static_cast<int>(effort.count(10, 32));
+      compare(checks, name, by_photons(scene, settings, BiasOrder::smooth, passes), reference, scene.grey);
     }
   }
   return checks;
@@ -238,7 +255,7 @@ std::vector<Check> constant_grid(const Effort& effort) {
 }  // namespace
 
 std::vector<Experiment> agreement_experiments() {
-  const auto seen_from = [](Viewpoint viewpoint) { return [=] { return puff(viewpoint, 2.0f); }; };
+  const auto seen_from = [](Viewpoint viewpoint) { return [=] { return puff(viewpoint, Rgb(2.0f)); }; };
   const std::vector<Subject> by_gathering{
       {"a lamp in chromatic fog, seen from inside", foggy_lamp, BiasOrder::smooth, 0.25f, 4},
       {"a puff from outside", seen_from(Viewpoint::outside), BiasOrder::smooth, 0.3f},
@@ -252,14 +269,14 @@ std::vector<Experiment> agreement_experiments() {
       {"a floor in fog", foggy_floor, BiasOrder::edges, 0.06f},
       {"a hollow cube", hollow_cube, BiasOrder::edges, 0.1f}};
   const std::vector<Subject> by_strategy{
-      {"strategies in a puff", [] { return puff(Viewpoint::outside, 1.0f); }, BiasOrder::smooth, 0.3f},
+      {"strategies in a puff", [] { return puff(Viewpoint::outside, Rgb(1.0f)); }, BiasOrder::smooth, 0.3f},
       {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.25f, 4}};
   std::vector<Experiment> all;
   for (const Subject& s : by_gathering)
     all.push_back({3, s.name, [s](const Effort& effort) { return compare_gatherings(s, effort); }});
   for (const Subject& s : by_strategy)
     all.push_back({3, s.name, [s](const Effort& effort) { return compare_strategies(s, effort); }});
-  all.push_back({3, "every strategy with every estimator", combinations});
+  all.push_back({3, "every strategy with every estimator and form", combinations});
   all.push_back({3, "a constant grid is a homogeneous medium", constant_grid});
   for (const Experiment& e : light_map_experiments()) all.push_back(e);
   return all;

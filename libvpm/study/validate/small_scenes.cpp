@@ -76,7 +76,7 @@ Scene foggy_lamp() {
   return finished(std::move(scene));
 }
 
-Scene puff(Viewpoint viewpoint, float contrast) {
+Scene puff(Viewpoint viewpoint, const Rgb& thickness) {
   constexpr int kVoxels = 17;
   Scene scene;
   const auto density = [](int x, int y, int z) {
@@ -84,8 +84,8 @@ Scene puff(Viewpoint viewpoint, float contrast) {
     const Vec3d hat = 1.0 - p * p;
     return hat.x * hat.y * hat.z * (1.0 + 0.6 * std::sin(4.0 * p.x + 2.0 * p.y) * std::cos(3.0 * p.z));
   };
-  // Across the middle the density's integral is close to 4/3 m.
-  Medium medium = make_medium(make_grid(unit_frame(kVoxels), density), Rgb(0.75f * contrast), 0.9f);
+  // Across the middle the density's integral is close to 4/3 m: this is the optical thickness there.
+  Medium medium = make_medium(make_grid(unit_frame(kVoxels), density), 0.75f * thickness, 0.9f);
   medium.phase = HenyeyGreenstein{-0.3f};
   add_medium_box(scene, medium);
   const Vec3 lamp(1.5f, 2.5f, 1.0f);

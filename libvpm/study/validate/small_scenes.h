@@ -13,9 +13,9 @@ Scene foggy_lamp();
 
 /// Where the puff is seen from.
 enum class Viewpoint { outside, border, inside };
-/// A grid whose density falls smoothly to 0 at the faces of [-1, 1]^3, lit by a spot light from outside. `contrast`:
-/// the largest optical thickness across it.
-Scene puff(Viewpoint viewpoint, float contrast);
+/// A grid whose density falls smoothly to 0 at the faces of [-1, 1]^3, lit by a spot light from outside.
+/// `thickness`: the largest optical thickness across it.
+Scene puff(Viewpoint viewpoint, const Rgb& thickness);
 
 /// The box [-1, 1]^3 of one density, as a homogeneous medium or as a constant grid, under a lamp.
 Scene filled_box(bool grid);

@@ -1,0 +1,21 @@
+// What stands in a checkpoint between its first lines and its checksum, made a checkpoint again.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/fnv.h"
+
+namespace vpm {
+
+constexpr const char* kFuzzIdentity = "fuzz";  // of the render
+
+inline std::string whole_checkpoint(std::string_view body) {
+  std::string whole = std::string("vpm checkpoint of a render\n") + kFuzzIdentity + "\n";
+  whole.append(body);
+  Fnv1a hash;
+  hash.add(std::string_view(whole));
+  return whole + hash.digits();
+}
+
+}  // namespace vpm
