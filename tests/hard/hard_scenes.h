@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "photon/trace.h"
+#include "render/path_tracer.h"
 #include "render/photon_pass.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
@@ -22,9 +23,18 @@ inline RenderSettings settings_of(uint64_t photons, float radius) {
   return settings;
 }
 
+/// The referee's pass over the same scene: every pixel is finite, and no path was dropped.
+inline void expect_finite_paths(const Scene& scene, const RenderSettings& settings, int pass) {
+  static const std::atomic<bool> kGoOn{false};
+  const Pass done = render_path_pass(scene, settings, pass, kGoOn);
+  EXPECT_EQ(done.statistics.eye.non_finite, 0u);
+  for (const Rgb& p : done.image.pixels) EXPECT_TRUE(is_finite(p));
+}
+
 /// Renders pass number `pass`: every pixel is finite, and no sample, photon or path was dropped or cut.
 inline Image clean_image(const Scene& scene, const RenderSettings& settings, int pass = 0) {
   static const std::atomic<bool> kGoOn{false};
+  expect_finite_paths(scene, settings, pass);
   const Pass done = render_photon_pass(scene, settings, pass, kGoOn);
   int bad = 0;
   for (const Rgb& p : done.image.pixels) bad += !is_finite(p);

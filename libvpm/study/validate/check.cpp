@@ -42,6 +42,16 @@ Check check_mean(std::string name, const Moments& samples, double exact, double 
   return statistical(std::move(name), samples.mean(), exact, error, p);
 }
 
+Check check_within(std::string name, const Moments& samples, double exact, double bound) {
+  assert(samples.count() >= 2);
+  const double error = std::sqrt(samples.variance_of_mean());
+  const double beyond = std::max(0.0, std::abs(samples.mean() - exact) - bound);
+  const double p = tail_of(beyond, error, static_cast<double>(samples.count() - 1));
+  Check check = statistical(std::move(name), samples.mean(), exact, error, p);
+  check.note = fmt::format("p is of what exceeds {:.2g}, to which the exact value is known", bound);
+  return check;
+}
+
 Check check_probability(std::string name, const Moments& zeros_and_ones, double probability) {
   constexpr double kFew = 1000.0;
   const auto trials = static_cast<double>(zeros_and_ones.count());

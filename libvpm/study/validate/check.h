@@ -36,6 +36,10 @@ struct Check {
 /// samples' own). Student's t-test.
 Check check_mean(std::string name, const Moments& samples, double exact, double exact_error = 0.0);
 
+/// The mean of independent samples must be `exact`, known to lie within `bound` of it: what is beyond the bound is
+/// judged by Student's t-test.
+Check check_within(std::string name, const Moments& samples, double exact, double bound);
+
 /// The share of successes among independent trials (samples that are 1 or 0) must be `probability`. The error is that
 /// of the binomial distribution; where fewer than 1000 successes or failures are expected, the p-value is the Poisson
 /// distribution's, so that rare events are judged rightly, too.

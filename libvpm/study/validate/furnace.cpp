@@ -152,10 +152,10 @@ std::vector<Check> check_radiances(const Effort& effort) {
 }
 
 /// Photon maps of few photons each, many times: their means are those of one large map, and their errors known.
-std::vector<Check> check_map(const LitBody& body, const Vec3& inside, const char* strategy_name, VolumeForm form,
+std::vector<Check> check_map(const LitBody& body, const Vec3& inside, std::string_view strategy_name, VolumeForm form,
                              const Effort& effort) {
   const Medium& medium = body.scene.media[0];
-  const auto strategy = make_distance_strategy({.strategy = strategy_name});
+  const auto strategy = make_distance_strategy(careful_settings(strategy_name));
   const std::string name = fmt::format("{}, {}", body.name, strategy_name);
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   const auto samples =
@@ -186,9 +186,10 @@ std::vector<Check> check_maps(const Effort& effort) {
   const LitBody mesh{"a glowing mesh", glowing_mesh(white_medium(nullptr, sigma_t, phase))};
   append(checks, check_map(mesh, Vec3(0.85f, 0.2f, 0.0f), "homogeneous", VolumeForm::density_at_query, effort));
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
-    for (const char* strategy : {"regular", "mean-extinction"})
-      append(checks, check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)),
-                               field_point({0.5, 0.2, 0.5}), strategy, VolumeForm::density_at_query, effort));
+    for (const StrategyInfo& strategy : distance_strategies())
+      if (strategy.heterogeneous)
+        append(checks, check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)),
+                                 field_point({0.5, 0.2, 0.5}), strategy.name, VolumeForm::density_at_query, effort));
   return checks;
 }
 
@@ -211,8 +212,8 @@ std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point
         out[1] = volume_sum(medium.phase, point, uniform_sphere(rng.uniform2()), bounded).g / medium.majorant().g;
       });
   const double fluence = 4.0 * kPiD * body.radiance;
-  return {check_mean(body.name + ", fluence", samples[0], fluence, kShareError * fluence),
-          check_mean(body.name + ", radiance scattered", samples[1], body.radiance, kShareError * body.radiance)};
+  return {check_within(body.name + ", fluence", samples[0], fluence, kShareError * fluence),
+          check_within(body.name + ", radiance scattered", samples[1], body.radiance, kShareError * body.radiance)};
 }
 
 /// What a white sheet sends out by its map, in its middle, at its edge and at its corner, corrected.
@@ -238,7 +239,8 @@ std::vector<Check> check_sheet(const Effort& effort) {
           GatherCounters counters;
           out[0] = scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, counters}).g;
         });
-    checks.push_back(check_mean(name, samples[0], 1.0, kShareError));
+    checks.push_back(region.share(gather.radius).inside < 1.0f ? check_within(name, samples[0], 1.0, kShareError)
+                                                               : check_mean(name, samples[0], 1.0));
   }
   return checks;
 }

@@ -122,6 +122,7 @@ Check check_furnace_of_phong(const Effort& effort) {
 std::vector<Check> check_furnaces(const Effort& effort) {
   std::vector<std::pair<std::string, Material>> materials{{"diffuse", Lambertian{Rgb(1.0f)}},
                                                           {"mirror", Mirror{}},
+                                                          {"perfect metal, smooth", Conductor{Rgb(1.0f), Rgb(1e6f)}},
                                                           {"glass", Dielectric{1.5f}},
                                                           {"pane of glass", ThinDielectric{1.5f}}};
   for (const float roughness : {0.05f, 0.3f, 0.6f, 1.0f}) {

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/error.h"
 #include "base/vec.h"
 #include "study/validate/check.h"
 #include "study/validate/ladder.h"
@@ -93,12 +94,23 @@ std::vector<CaseResult> run_density_estimates(const OracleList&, const Effort&);
 std::vector<CaseResult> run_irradiances(const OracleList&, const Effort&);        // S7
 std::vector<CaseResult> run_cavities(const OracleList&, const Effort&);           // S7
 
+/// What `run` makes of a case. One that it refuses, for a field that is missing or of a value that the framework does not
+/// know, stays unchecked.
+template <class Run>
+CaseResult run_case(Run&& run) {
+  try {
+    return run();
+  } catch (const InputError& error) {
+    return {{}, {}, error.what()};
+  }
+}
+
 /// Runs each case of a list by itself.
 template <class Run>
 std::vector<CaseResult> run_each(const OracleList& list, Run&& run) {
   std::vector<CaseResult> results;
   results.reserve(list.cases.size());
-  for (const OracleCase& c : list.cases) results.push_back(run(c));
+  for (const OracleCase& c : list.cases) results.push_back(run_case([&] { return run(c); }));
   return results;
 }
 

@@ -140,12 +140,8 @@ CaseResult run_slab(const OracleCase& c, const Effort& effort) {
     result.unchecked = "it has neither R, nor flux_in_bin_reflected, nor fluence_total";
     return result;
   }
-  try {
-    check_photons(result.checks, c, slab, effort);
-    check_paths(result.checks, c, slab, effort);
-  } catch (const InputError& error) {
-    c.refuse(error.what());
-  }
+  check_photons(result.checks, c, slab, effort);
+  check_paths(result.checks, c, slab, effort);
   return result;
 }
 

@@ -33,18 +33,11 @@ QuadLight facing_quad(const OracleCase& c, const Vec3d& receiver) {
   return {Vec3(centre - 0.5 * (u + v)), Vec3(u), Vec3(v), Rgb(as_float(c.number("radiance")))};
 }
 
-/// A disc that faces down, as the mean of strips across it.
+/// A disc that faces down. Irradiance below it varies over its height at the rim, and over the distance beyond.
 OracleLight disc(const OracleCase& c) {
   const auto radius = as_float(c.number("radius")), height = as_float(c.number("height"));
-  const auto radiance = as_float(c.number("radiance"));
-  const float width = 1e-4f * radius;
-  return {[=](Rng& rng) {
-            const float y = radius * (2.0f * rng.uniform() - 1.0f), half = std::sqrt(radius * radius - y * y);
-            return QuadLight{Vec3(-half, y - 0.5f * width, height), Vec3(0.0f, width, 0.0f),
-                             Vec3(2.0f * std::max(half, 1e-6f * radius), 0.0f, 0.0f),
-                             Rgb(radiance * 2.0f * radius / width)};
-          },
-          true, 0.0};
+  const DiscLight light{Vec3(0.0f, 0.0f, height), Vec3(0.0f, 0.0f, -1.0f), radius, Rgb(as_float(c.number("radiance")))};
+  return one(light, std::hypot(height, std::max(0.0, c.number("lateral_offset") - radius)));
 }
 
 /// I = (n + 1) P/(2 pi) cos^n: the mean of cones of full intensity whose cosines are distributed as u^(1/n).
