@@ -74,7 +74,7 @@ std::vector<Moments> measure(const Change& change, const Effort& effort) {
   const auto strategy = make_distance_strategy({});
   const GatherSettings gather{GatherMode::radius, static_cast<float>(0.5 * change.scale), 0, KernelKind::epanechnikov};
   return sample_moments(
-      quantities, effort.count(1'000, 15'000), effort.seed_of("change: " + change.name), [&](Rng& rng, double* out) {
+      quantities, effort.count(1'000, 24'000), effort.seed_of("change: " + change.name), [&](Rng& rng, double* out) {
         TracedPhotons photons = small_pass(scene, *strategy, rng, change.photons);
         const Ledger& ledger = photons.ledger;
         const auto emitted = static_cast<double>(ledger.emitted_count);
