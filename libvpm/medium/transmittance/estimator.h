@@ -36,6 +36,8 @@ struct TransmittanceSettings {
 struct EstimatorInfo {
   std::string_view name;
   std::string_view summary;
+  std::string_view failure;  // where it costs much or errs
+  std::string_view source;   // key of papers/references.bib
   bool unbiased = true;
 };
 std::span<const EstimatorInfo> transmittance_estimators();

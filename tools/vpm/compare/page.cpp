@@ -62,11 +62,17 @@ std::string about_json() {
   for (const StrategyInfo& info : distance_strategies())
     distance.push_back({{"name", info.name},
                         {"summary", info.summary},
+                        {"failure", info.failure},
+                        {"source", info.source},
                         {"heterogeneous", info.heterogeneous},
                         {"unbiased", info.unbiased},
                         {"bounded_weight", info.bounded_weight}});
   for (const EstimatorInfo& info : transmittance_estimators())
-    transmittance.push_back({{"name", info.name}, {"summary", info.summary}, {"unbiased", info.unbiased}});
+    transmittance.push_back({{"name", info.name},
+                             {"summary", info.summary},
+                             {"failure", info.failure},
+                             {"source", info.source},
+                             {"unbiased", info.unbiased}});
   return Json{{"distance", std::move(distance)}, {"transmittance", std::move(transmittance)}}.dump();
 }
 

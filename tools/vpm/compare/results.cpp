@@ -194,7 +194,8 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
 std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
   std::string csv = "scene,method,repetition,seed,budget,";
   each_number(RunCost{}, [&](const char* name, const auto&) { csv += fmt::format("{},", name); });
-  csv += "mse,relative_mse,relative_mse_of_pbrt,mean_ratio\n";
+  csv += "mse,relative_mse,relative_mse_of_pbrt,mean_ratio,vpm,scene_hash,settings,processor,threads\n";
+  const std::string made_by = fmt::format("{},{}", csv_text(processor()), thread_count());
   for (size_t s = 0; s < scenes.size(); ++s)
     for (size_t m = 0; m < plan.methods.size(); ++m)
       for (size_t b = 0; b < plan.budgets.size(); ++b)
@@ -204,7 +205,9 @@ std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResul
           each_number(scenes[s].budgets[m][b].costs[r],
                       [&](const char*, const auto& number) { csv += fmt::format("{},", number); });
           const PictureErrors& e = scenes[s].budgets[m][b].each[r];
-          csv += fmt::format("{},{},{},{}\n", e.mse, e.relative_mse, e.relative_mse_of_pbrt, e.mean_ratio);
+          csv += fmt::format("{},{},{},{},{},{},{},{}\n", e.mse, e.relative_mse, e.relative_mse_of_pbrt, e.mean_ratio,
+                             csv_text(std::string(version())), scenes[s].hashes[m], csv_text(scenes[s].settings[m]),
+                             made_by);
         }
   return csv;
 }

@@ -23,6 +23,7 @@ RunCost counted(const RenderStatistics& s) {
   WalkCounters walk = s.ledger.walk;
   walk.merge(s.eye.walk);
   cost.lookups = walk.lookups;
+  cost.photon_lookups = s.ledger.walk.lookups;
   cost.null_collisions = walk.null_collisions;
   cost.majorant_violations = walk.majorant_violations;
   cost.searches = s.eye.gather.searches;

@@ -70,7 +70,7 @@ function countersTable(scene, b) {
     numberColumn('passes', 'mean over repetitions', row => meanOf(row, 'passes'), plain),
     numberColumn(
         'look-ups per photon', 'look-ups of density, by photons and eye paths, per photon emitted',
-        row => per(row, 'lookups', 'photons')),
+        row => per(row, 'photon_lookups', 'photons')),
     numberColumn(
         'error × look-ups', 'relative MSE times look-ups of density: small where each look-up tells much',
         row => positive(row.relative_mse.value * meanOf(row, 'lookups'))),
@@ -151,7 +151,10 @@ function pairsText(scene) {
 function aboutTable(caption, entries) {
   const said = (flag, yes, no) => (flag === undefined ? kNothing : flag ? yes : no);
   const word = (title, of) => ({title, words: true, key: of, cell: of});
-  const columns = [word('name', s => s.name), word('what it is, and how it fails', s => s.summary)];
+  const columns = [
+    word('name', s => s.name), word('what it is', s => s.summary), word('how it fails', s => s.failure),
+    word('source', s => s.source)
+  ];
   const tell = (flag, title, yes, no) => {
     if (entries.some(s => s[flag] !== undefined)) columns.push(word(title, s => said(s[flag], yes, no)));
   };
