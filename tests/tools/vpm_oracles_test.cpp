@@ -101,7 +101,8 @@ TEST_F(VpmOracles, WhatACaseRefusesLeavesItAloneUnchecked) {
     EXPECT_NE(result.out.find(words), std::string::npos) << result.out;
     EXPECT_NE(result.out.find("2 cases, 1 unchecked;"), std::string::npos) << result.out;
   }
-  oracle("s2_source.json", R"({"cases": [{"id": "narrow", "albedo": 0.9, "g": 0.9999, "r_optical": 1, "fluence": 1}]})");
+  oracle("s2_source.json",
+         R"({"cases": [{"id": "narrow", "albedo": 0.9, "g": 0.9999, "r_optical": 1, "fluence": 1}]})");
   std::filesystem::remove(folder_ / "oracles" / "s4_slab.json");
   const ProcessResult result = check();
   EXPECT_EQ(result.status, 1);

@@ -53,8 +53,8 @@ struct FlightUse {
 struct StrategyInfo {
   std::string_view name;
   std::string_view summary;
-  std::string_view failure;  // where it costs much or errs
-  std::string_view source;   // key of papers/references.bib
+  std::string_view failure;   // where it costs much or errs
+  std::string_view source;    // key of papers/references.bib
   bool heterogeneous = true;  // false: refused in grids
   bool unbiased = true;
   bool marches = false;  // in steps, whose length is its bias

@@ -94,8 +94,8 @@ std::vector<CaseResult> run_density_estimates(const OracleList&, const Effort&);
 std::vector<CaseResult> run_irradiances(const OracleList&, const Effort&);        // S7
 std::vector<CaseResult> run_cavities(const OracleList&, const Effort&);           // S7
 
-/// What `run` makes of a case. One that it refuses, for a field that is missing or of a value that the framework does not
-/// know, stays unchecked.
+/// What `run` makes of a case. One that it refuses, for a field that is missing or of a value that the framework does
+/// not know, stays unchecked.
 template <class Run>
 CaseResult run_case(Run&& run) {
   try {
