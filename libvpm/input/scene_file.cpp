@@ -210,6 +210,16 @@ void check_media(const Scene& scene, const ScenePlan& plan) {
           "overlap in part");
 }
 
+void check_faces(const Scene& scene, const ScenePlan& plan) {
+  const std::optional<CommonFace> found = find_common_face(scene);
+  if (!found) return;
+  fail_at(plan.shapes[found->shape].place,
+          "shape '" + scene.shapes[found->shape].name + "' has a face in common with shape '" +
+              scene.shapes[found->other].name + "': light that must meet both there would meet but one of them",
+          "let one reach a little into the other, leave a gap between them, or give the common face once: as a "
+          "dielectric with the ratio of the two indices, and the media on its two sides");
+}
+
 /// Tells of a scene so far from the origin that the spacing of floats there shows in its shapes.
 void note_unresolved_place(LoadedScene& loaded) {
   const Box& bounds = loaded.scene.bounds;
@@ -272,6 +282,7 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
     fail_at(plan.lights_place, error.what());
   }
   check_media(scene, plan);
+  check_faces(scene, plan);
   note_unresolved_place(loaded);
   note_unresolved_media(loaded);
   return loaded;

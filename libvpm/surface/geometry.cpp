@@ -268,9 +268,15 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
 Encounter Geometry::division(const Ray& ray) const {
   constexpr uint32_t kBetweenMedia =
       static_cast<uint32_t>(Layer::dividing_surface) | static_cast<uint32_t>(Layer::boundary);
+  return faces(ray, kBetweenMedia);
+}
+
+Encounter Geometry::faces(const Ray& ray) const { return faces(ray, kAllLayers); }
+
+Encounter Geometry::faces(const Ray& ray, uint32_t layers) const {
   Encounter found;
   float beyond = kInfinity;
-  while (const std::optional<Hit> hit = intersect(ray, beyond, kBetweenMedia, found)) {
+  while (const std::optional<Hit> hit = intersect(ray, beyond, layers, found)) {
     const float reach = hit->t + coincidence(*hit, ray.direction);
     beyond = found ? std::max(beyond, reach) : reach;
     found.hits[found.count++] = *hit;

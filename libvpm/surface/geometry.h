@@ -90,6 +90,8 @@ class Geometry {
   Encounter encounter(const Ray& ray, float t_max = kInfinity) const;
   /// The same of the shapes between media alone, none of which stops the ray: for finding out which medium is where.
   Encounter division(const Ray& ray) const;
+  /// The same of all shapes, none of which stops the ray: for finding out which of them coincide.
+  Encounter faces(const Ray& ray) const;
 
   /// The box around all shapes; empty without any.
   Box bounds() const;
@@ -113,6 +115,7 @@ class Geometry {
  private:
   struct Impl;
   std::optional<Hit> intersect(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const;
+  Encounter faces(const Ray& ray, uint32_t layers) const;
 
   std::unique_ptr<Impl> impl_;
 };

@@ -64,6 +64,11 @@ using Material = std::variant<Lambertian, Phong, Mirror, Conductor, RoughConduct
 
 /// Is the material a border that does not scatter?
 inline bool is_boundary(const Material& m) { return std::holds_alternative<Boundary>(m); }
+/// Does the material both reflect light and let it through?
+inline bool is_dielectric(const Material& m) {
+  return std::holds_alternative<Dielectric>(m) || std::holds_alternative<ThinDielectric>(m) ||
+         std::holds_alternative<RoughDielectric>(m);
+}
 /// Does the material scatter light into a spread of directions? Then photons on it are worth storing, and shadow rays
 /// find its scatter_value().
 bool is_rough(const Material& m);

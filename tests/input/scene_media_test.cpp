@@ -1,6 +1,7 @@
 // Scene files: media, on both sides of shapes and in grids.
 #include "input/scene_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -108,6 +109,67 @@ TEST(SceneFile, ShapesBoundAGrid) {
                       {"media.smoke.boundary=box", "media.smoke.path=" + empty_outside})
                 .scene.shapes.size(),
             2u);
+}
+
+/// A box between planes across the x axis, `more` of keys beside.
+std::string box_between(const std::string& name, double from, double to, const std::string& more) {
+  return fmt::format("[[shapes]]\nname = '{}'\ntype = 'box'\nmin = [{}, -1, -1]\nmax = [{}, 1, 1]\n{}\n", name, from,
+                     to, more);
+}
+
+bool has_common_face(const std::string& text) {
+  return message_of([&] { load_with(text); }).find("has a face in common with") != std::string::npos;
+}
+
+const std::string kOil = "[media.oil]\ntype = 'homogeneous'\nsigma_s = 0\nsigma_a = 1\n";
+const std::string kGlass = "material = { type = 'dielectric', ior = 1.5 }";
+const std::string kWater = "material = { type = 'dielectric', ior = 1.33 }";
+const std::string kFrosted = "material = { type = 'rough-dielectric', ior = 1.5, roughness = 0.1 }";
+const std::string kPane = "material = { type = 'thin-dielectric', ior = 1.5 }";
+const std::string kBorder = "material = { type = 'boundary' }";
+const std::string kWall = "material = { type = 'lambertian', reflectance = 0.5 }";
+const std::string kFilled = "\ninside = 'oil'";
+
+TEST(SceneFile, RefusesDielectricsFlushAgainstEachOther) {
+  for (const std::string& other : {kWater, kFrosted, kPane, kWater + kFilled, kBorder + kFilled}) {
+    SCOPED_TRACE(other);
+    const auto beside_glass = [&](double from) {
+      return has_common_face(kOil + box_between("glass", -1, 0.3, kGlass) + box_between("other", from, 2, other));
+    };
+    EXPECT_TRUE(beside_glass(0.3));
+    EXPECT_TRUE(beside_glass(0.3 + 3e-8));  // the next float
+    EXPECT_FALSE(beside_glass(0.299));
+    EXPECT_FALSE(beside_glass(0.301));
+  }
+}
+
+TEST(SceneFile, AcceptsFacesThatCoincideWhereOneCounts) {
+  const auto beside = [](const std::string& a, const std::string& b) {
+    return has_common_face(kOil + box_between("a", -1, 0.3, a) + box_between("b", 0.3, 2, b));
+  };
+  EXPECT_FALSE(beside(kWall, kWater));
+  EXPECT_FALSE(beside(kWall, kWater + kFilled));
+  EXPECT_FALSE(beside(kPane, kWall));
+  EXPECT_FALSE(beside(kWall, kWall));
+  EXPECT_FALSE(beside(kBorder + kFilled, kBorder + kFilled));
+  EXPECT_FALSE(beside(kWall, kBorder + kFilled));
+}
+
+TEST(SceneFile, RefusesOneBallOfGlassInItsOwnPlace) {
+  const auto ball = [](double x, double radius) {
+    return fmt::format("[[shapes]]\ntype = 'sphere'\ncenter = [{}, 0, 0]\nradius = {}\n{}\n", x, radius, kGlass);
+  };
+  EXPECT_TRUE(has_common_face(ball(0, 1) + ball(0, 1)));
+  EXPECT_FALSE(has_common_face(ball(0, 1) + ball(0, 0.999)));
+  EXPECT_FALSE(has_common_face(ball(0, 1) + ball(2, 1)));      // touches outside
+  EXPECT_FALSE(has_common_face(ball(0, 1) + ball(0.5, 0.5)));  // touches inside
+  EXPECT_FALSE(has_common_face(ball(0, 1) + box_between("block", 1, 2, kGlass)));
+}
+
+TEST(SceneFile, FindsACommonFaceOfASmallPartOfTheSurface) {
+  // A knob of a hundredth of the block's side: rays through the knob find it.
+  const std::string knob = "[[shapes]]\ntype = 'box'\nmin = [0.3, 0.1, 0.1]\nmax = [0.5, 0.3, 0.3]\n" + kWater + "\n";
+  EXPECT_TRUE(has_common_face(box_between("block", -1, 0.3, kGlass) + knob));
 }
 
 TEST(SceneFile, NotesMediaThatPositionsDoNotResolve) {
