@@ -143,7 +143,7 @@ TEST(SceneFile, RefusesDielectricsFlushAgainstEachOther) {
   }
 }
 
-TEST(SceneFile, AcceptsFacesThatCoincideWhereOneCounts) {
+TEST(SceneFile, AcceptsOtherFacesThatCoincide) {
   const auto beside = [](const std::string& a, const std::string& b) {
     return has_common_face(kOil + box_between("a", -1, 0.3, a) + box_between("b", 0.3, 2, b));
   };
