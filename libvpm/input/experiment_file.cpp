@@ -90,7 +90,7 @@ std::string short_text(const Node& node) {
 
 /// Every combination of the values that [product] lists, the last key's changing fastest.
 std::vector<Method> read_product(TableReader& root) {
-  constexpr size_t kMostMethods = 1000;  // more than any machine compares, and soon more than it remembers
+  constexpr size_t kMostMethods = 1000;  // products grow soon beyond all memory
   std::vector<Method> methods{Method{}};
   const std::vector<Setting> settings = settings_in(root, "product");
   for (const Setting& setting : settings) {

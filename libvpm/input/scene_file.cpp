@@ -216,7 +216,8 @@ void check_faces(const Scene& scene, const ScenePlan& plan) {
   fail_at(plan.shapes[found->shape].place,
           "shape '" + scene.shapes[found->shape].name + "' has a face in common with shape '" +
               scene.shapes[found->other].name + "': light that must meet both there would meet but one of them",
-          "let one reach a little into the other, leave a gap between them, or give the common face once: as a "
+          "let one reach a little into the other (where not both name media), leave a gap between them, or give the "
+          "common face once: as a "
           "dielectric with the ratio of the two indices, and the media on its two sides");
 }
 

@@ -8,7 +8,7 @@
 
 namespace vpm {
 
-constexpr const char* kFuzzIdentity = "fuzz";  // of the render
+inline constexpr const char* kFuzzIdentity = "fuzz";  // of the render
 
 inline std::string whole_checkpoint(std::string_view body) {
   std::string whole = std::string("vpm checkpoint of a render\n") + kFuzzIdentity + "\n";

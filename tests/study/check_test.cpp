@@ -191,13 +191,26 @@ TEST(Check, BoundsHoldAlways) {
   EXPECT_EQ(checks[3].deviation(), 0.0);
 }
 
+TEST(Check, WithinABoundOnlyWhatIsBeyondItCounts) {
+  const Moments samples = moments_of({1.9, 2.0, 2.1, 2.0}), even = moments_of({2.0, 2.0, 2.0});
+  const auto checks = judged({check_within("", samples, 1.0, 1.0), check_within("", samples, 3.0, 1.01),
+                              check_within("", samples, 1.0, 0.5), check_within("", even, 1.0, 1.0),
+                              check_within("", even, 1.0, 0.999)});
+  EXPECT_EQ(checks[0].p, 1.0);
+  EXPECT_EQ(checks[1].p, 1.0);
+  EXPECT_NEAR(checks[2].p, check_mean("", samples, 1.5).p, 1e-12);
+  EXPECT_EQ(checks[3].verdict, Verdict::pass);
+  EXPECT_EQ(checks[4].verdict, Verdict::fail);
+}
+
 TEST(Check, WhatIsNotANumberFails) {
   const auto checks =
       judged({check_mean("", moments_of({1.0, kNaN, 2.0}), 1.0), check_value("", kNaN, 1.0, 0.0),
               check_value("", 0.0, kNaN, 0.0), check_same("", moments_of({1.0, 2.0}), moments_of({1.0, kNaN})),
               check_distribution("", {kNaN, 50.0}, {0.5, 0.5}),
               check_weights("", {moments_of({1, kNaN}), moments_of({0, 0})}, {0.5, 0.5}),
-              check_weighted_mean("", moments_of({1.0, kNaN}), 1.0)});
+              check_weighted_mean("", moments_of({1.0, kNaN}), 1.0),
+              check_within("", moments_of({1.0, kNaN, 2.0}), 1.0, 0.5)});
   for (size_t i = 0; i < checks.size(); ++i) EXPECT_EQ(checks[i].verdict, Verdict::fail) << i;
 }
 

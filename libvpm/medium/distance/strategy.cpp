@@ -38,7 +38,8 @@ std::span<const StrategyInfo> distance_strategies() {
        .marches = true},
       {.name = "ray-march-adaptive",
        .summary = "the same in steps of an optical thickness, by local majorants; bias falls as step^2",
-       .failure = "spikes thinner than a sixteenth of the longest step are missed",
+       .failure = "spikes thinner than a step, which a spike in the same brick shortens to a sixteenth at the least, "
+                  "are missed",
        .source = "Danskin1992",
        .unbiased = false,
        .marches = true},

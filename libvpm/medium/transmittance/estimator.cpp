@@ -15,8 +15,8 @@ std::span<const EstimatorInfo> transmittance_estimators() {
        .source = "Novak2018"},
       {.name = "ratio",
        .summary = "product of the shares that look-ups at the rate of the largest density leave",
-       .failure = "one dense voxel asks for its rate of look-ups everywhere; noise where the density varies under the "
-                  "majorant",
+       .failure = "one dense voxel asks for its rate of look-ups everywhere; as noisy as a yes or no where the density "
+                  "is its majorant",
        .source = "Novak2014"},
       {.name = "ratio-local",
        .summary = "the same at the rate of the largest density of each brick",
@@ -24,7 +24,7 @@ std::span<const EstimatorInfo> transmittance_estimators() {
        .source = "Novak2014"},
       {.name = "residual-ratio",
        .summary = "the same for what the density is off the middle of each brick's bounds",
-       .failure = "spikes: factors of either sign, and heavy tails",
+       .failure = "bricks that are empty but for a small part: values above 1, heavy tails",
        .source = "Novak2014"},
       {.name = "unbiased-ray-march",
        .summary = "power series of the columns of a few marches, mostly of one",
@@ -37,7 +37,7 @@ std::span<const EstimatorInfo> transmittance_estimators() {
        .unbiased = false},
       {.name = "jackknife",
        .summary = "two marches with a random offset in each step, joined; bias falls faster than one's",
-       .failure = "spikes thinner than a step; noisier than one march",
+       .failure = "few steps in a dense medium: errors far from normal, values below 0",
        .source = "Peters2025",
        .unbiased = false},
   }};

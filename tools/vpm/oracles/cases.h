@@ -67,7 +67,7 @@ class OracleCase {
   std::string place_;
 };
 
-/// What became of a case: its checks; or the reason why there are none.
+/// What became of a case: its checks; or why there are none, or none that tells anything.
 struct CaseResult {
   std::string id;
   std::vector<Check> checks;

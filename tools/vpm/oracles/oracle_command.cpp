@@ -43,7 +43,7 @@ std::vector<CaseResult> run_list(const OracleList& list, const Effort& effort) {
     r.id = list.cases[i].id();
     const auto determined = [](const Check& check) { return check.kind != CheckKind::undetermined; };
     if (r.checks.empty() && r.unchecked.empty()) r.unchecked = "it has no quantity that is known";
-    if (!r.checks.empty() && std::none_of(r.checks.begin(), r.checks.end(), determined))
+    if (r.unchecked.empty() && std::none_of(r.checks.begin(), r.checks.end(), determined))
       r.unchecked = "none of its quantities is determined";
   }
   return results;

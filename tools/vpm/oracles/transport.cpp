@@ -67,12 +67,13 @@ void check_point_source(CaseResult& result, const OracleCase& c, const MediumRes
 std::vector<CaseResult> run_point_sources(const OracleList& list, const Effort& effort) {
   // Cases of one medium share photons.
   std::map<std::pair<double, double>, std::vector<size_t>> media;
-  std::vector<CaseResult> results = run_each(list, [&](const OracleCase& c) {
-    c.number_in("r_optical", 1e-3, 1e3);
-    media[{c.number_in("albedo", 0.0, 1.0), c.number_in("g", -0.999, 0.999)}].push_back(
-        static_cast<size_t>(&c - list.cases.data()));
-    return CaseResult{};
-  });
+  std::vector<CaseResult> results(list.cases.size());
+  for (size_t i = 0; i < list.cases.size(); ++i)
+    results[i] = run_case([&, &c = list.cases[i]] {
+      c.number_in("r_optical", 1e-3, 1e3);
+      media[{c.number_in("albedo", 0.0, 1.0), c.number_in("g", -0.999, 0.999)}].push_back(i);
+      return CaseResult{};
+    });
   for (const auto& [medium, cases] : media) {
     std::vector<double> radii;
     for (const size_t i : cases) radii.push_back(list.cases[i].number("r_optical"));

@@ -54,9 +54,9 @@ function equalCostTable(scene, b) {
 
 /** Counters that have a column of their own below; others are shown by their name. */
 const kRunFields = [
-  'cpu_seconds', 'wall_seconds', 'passes', 'photons', 'stored', 'lookups', 'searches', 'photons_visited',
-  'photons_used', 'bytes', 'largest_weight', 'effective_sample_size', 'mse', 'relative_mse', 'relative_mse_of_pbrt',
-  'mean_ratio'
+  'cpu_seconds', 'wall_seconds', 'passes', 'photons', 'stored', 'lookups', 'photon_lookups', 'searches',
+  'photons_visited', 'photons_used', 'bytes', 'largest_weight', 'effective_sample_size', 'mse', 'relative_mse',
+  'relative_mse_of_pbrt', 'mean_ratio'
 ];
 
 function countersTable(scene, b) {
@@ -69,7 +69,7 @@ function countersTable(scene, b) {
     numberColumn('wall, s', 'mean over repetitions', row => meanOf(row, 'wall_seconds')),
     numberColumn('passes', 'mean over repetitions', row => meanOf(row, 'passes'), plain),
     numberColumn(
-        'look-ups per photon', 'look-ups of density, by photons and eye paths, per photon emitted',
+        'look-ups per photon', 'look-ups of density by photons, per photon emitted',
         row => per(row, 'photon_lookups', 'photons')),
     numberColumn(
         'error × look-ups', 'relative MSE times look-ups of density: small where each look-up tells much',
@@ -153,7 +153,7 @@ function aboutTable(caption, entries) {
   const word = (title, of) => ({title, words: true, key: of, cell: of});
   const columns = [
     word('name', s => s.name), word('what it is', s => s.summary), word('how it fails', s => s.failure),
-    word('source', s => s.source)
+    word('source, in papers/references.bib', s => s.source)
   ];
   const tell = (flag, title, yes, no) => {
     if (entries.some(s => s[flag] !== undefined)) columns.push(word(title, s => said(s[flag], yes, no)));
