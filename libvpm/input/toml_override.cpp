@@ -6,14 +6,16 @@
 namespace vpm {
 namespace {
 
+/// The keys between points, without the spaces around them: names may have some inside.
 std::vector<std::string> split_path(const std::string& path, const Place& place) {
   std::vector<std::string> keys(1);
   for (const char c : path) {
     if (c == '.')
       keys.emplace_back();
-    else if (c != ' ')
+    else if (c != ' ' || !keys.back().empty())
       keys.back() += c;
   }
+  for (std::string& key : keys) key.erase(key.find_last_not_of(' ') + 1);
   for (const std::string& key : keys)
     if (key.empty())
       fail_at(place, "the path '" + path + "' has an empty key", "write it like render.passes=4 or shapes.0.radius=2");
@@ -27,7 +29,7 @@ std::string name_of(const Node& element) {
   return text ? *text : "";
 }
 
-/// The element of an array that `key` names, by name or by number.
+/// The element of an array that `key` names, by name or by number; the number after the last one makes an element.
 Node& element_of(Node::Array& array, const std::string& key, const std::string& owner, const Place& place) {
   std::vector<std::string> names;
   for (Node& element : array) {
@@ -37,8 +39,12 @@ Node& element_of(Node::Array& array, const std::string& key, const std::string& 
   }
   size_t index = 0;
   const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-  if (error == std::errc() && end == key.data() + key.size() && index < array.size()) return array[index];
-  const std::string range = array.empty() ? "it is empty" : "its elements are 0 to " + std::to_string(array.size() - 1);
+  const bool is_number = error == std::errc() && end == key.data() + key.size();
+  if (is_number && index == array.size()) array.push_back(Node{place, Node::Table{}});
+  if (is_number && index < array.size()) return array[index];
+  const std::string next = std::to_string(array.size()) + " would be a new one";
+  const std::string range = array.empty() ? "it is empty, " + next
+                                          : "its elements are 0 to " + std::to_string(array.size() - 1) + ", " + next;
   fail_at(place, "'" + owner + "' has no element '" + key + "'", range + "; " + suggest(key, names, "named"));
 }
 

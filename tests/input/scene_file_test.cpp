@@ -88,6 +88,17 @@ TEST(SceneFile, OptionsChangeKeys) {
   EXPECT_EQ(plain.hash, load_with(kGrey + ball).hash);
 }
 
+TEST(SceneFile, OptionsAddElements) {
+  const std::string ball =
+      "[[shapes]]\nname = 'a ball'\ntype = 'sphere'\nmaterial = 'grey'\ncenter = [0, 0, 0]\nradius = 1\n";
+  const LoadedScene added = load_with(
+      kGrey + ball, {" shapes.1 = {type='sphere', material='grey', center=[0, 0, 3]}", "shapes.1.radius=2",
+                     "shapes. a ball .center=[0, 0, -1]", "lights.1={type='point', position=[0, 4, 0], power=1}"});
+  EXPECT_EQ(added.scene.geometry.bounds().lo, Vec3(-2, -2, -2));
+  EXPECT_EQ(added.scene.geometry.bounds().hi, Vec3(2, 2, 5));
+  EXPECT_EQ(added.scene.lights.size(), 2u);
+}
+
 TEST(SceneFile, HashesTheBytesOfTheFilesItNames) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(test_file("scene.toml")).parent_path();
@@ -132,10 +143,13 @@ TEST(SceneFile, RefusesBadOptions) {
       {"rendr.passes=3", "--set rendr.passes=3: unknown key 'rendr' in the scene file\ndid you mean 'render'?"},
       {"render.passes=many", "--set render.passes=many: 'passes' of [render] must be an integer, not a string"},
       {"render.passes=0", "--set render.passes=0: 'passes' of [render] must be from 1"},
-      {"shapes.1.radius=3",
-       "--set shapes.1.radius=3: 'shapes' has no element '1'\nits elements are 0 to 0; named: ball"},
+      {"shapes.2.radius=3",
+       "--set shapes.2.radius=3: 'shapes' has no element '2'\nits elements are 0 to 0, 1 would be a new one; named: "
+       "ball"},
+      {"shapes.1.radius=3", "--set shapes.1.radius=3: [[shapes]] number 1 lacks the key 'type'"},
       {"shapes.bal.radius=3",
-       "'shapes' has no element 'bal'\nits elements are 0 to 0; did you mean 'ball'? named: ball"},
+       "'shapes' has no element 'bal'\nits elements are 0 to 0, 1 would be a new one; did you mean 'ball'? named: "
+       "ball"},
       {"media.fgo.sigma_s=3", "'media' has no 'fgo'\ndid you mean 'fog'? there are: fog"},
       {"media.fog.phase.g=0.5", "'media.fog' has no 'phase'\nthere are: type, sigma_s, sigma_a"},
       {"shapes.0.radius.x=3", "'shapes.0.radius' is an integer and has no 'x'"},
