@@ -131,6 +131,18 @@ std::vector<Method> read_methods(TableReader& root) {
   return methods;
 }
 
+/// The method that `baseline` names.
+std::optional<size_t> read_baseline(TableReader& root, const std::vector<Method>& methods) {
+  if (!root.has("baseline")) return std::nullopt;
+  const std::string name = root.string("baseline");
+  std::vector<std::string> names;
+  for (const Method& method : methods) names.push_back(method.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    root.fail("baseline", "there is no method '" + name + "'", suggest(name, names, "there are"));
+  return static_cast<size_t>(found - names.begin());
+}
+
 void read_budgets(TableReader& root, ComparisonPlan& plan) {
   plan.unit = root.choice<CostUnit>("unit",
                                     {{"seconds", CostUnit::seconds},
@@ -172,6 +184,7 @@ ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<s
   plan.scenes = read_scenes(root);
   read_reference(root, plan);
   plan.methods = read_methods(root);
+  plan.baseline = read_baseline(root, plan.methods);
   root.finish();
   return plan;
 }

@@ -3,6 +3,7 @@
 
 #include "base/rng.h"
 #include "study/compare/summary.h"
+#include "study/compare/verdict.h"
 #include "support/statistics.h"
 
 namespace vpm {
@@ -106,6 +107,27 @@ TEST(Resampling, CorrectsForManyAsHolmDoes) {
   EXPECT_DOUBLE_EQ(comparisons[0].p_holm, 0.06);  // never below that of a smaller p
 }
 
+// Means of samples of unlike sizes and spreads: the interval holds the truth as often as it says.
+TEST(Resampling, RelativeDifferencesHoldTheTruth) {
+  int covered = 0, seen = 0;
+  constexpr int kTrials = 400;
+  for (uint64_t trial = 0; trial < kTrials; ++trial) {
+    Rng rng(1, rng_stream(RngUse::test, 4), trial);
+    std::vector<double> a, b;
+    for (int i = 0; i < 5; ++i) a.push_back(2.2 + 0.1 * normal(rng));
+    for (int i = 0; i < 9; ++i) b.push_back(2.0 + 0.02 * normal(rng));
+    const Tested difference = relative_difference(a, b);
+    covered += difference.value.lo <= 0.1 && 0.1 <= difference.value.hi;
+    seen += difference.p < 0.05;
+    EXPECT_EQ(difference.p < 0.05, !(difference.value.lo <= 0.0 && 0.0 <= difference.value.hi));
+  }
+  EXPECT_GT(covered, 365);  // of 95 %: 365 or fewer with probability 0.001
+  EXPECT_GT(seen, 350);
+  EXPECT_EQ(relative_difference({2.0, 2.0}, {1.0, 1.0}).value.value, 1.0);
+  EXPECT_EQ(relative_difference({2.0, 2.0}, {1.0, 1.0}).p, 0.0);
+  EXPECT_EQ(relative_difference({2.0, 2.0}, {2.0, 2.0}).p, 1.0);
+}
+
 TEST(Resampling, SlopesOfPowersAreExact) {
   std::vector<Repetitions> budgets;
   for (const double cost : {1.0, 2.0, 5.0, 11.0}) {
@@ -144,8 +166,8 @@ TEST(PictureErrors, AreLessTheReferencesOwnNoise) {
 TEST(PictureErrors, TellBiasFromVariance) {
   const Image exact = truth();
   const Reference reference{exact, Image(3, 2)};
-  Moments bias, squared, variances;
-  int covered = 0;
+  Moments bias, squared, variances, deviations;
+  int covered = 0, doubted = 0;
   constexpr int kTrials = 400;
   for (uint64_t trial = 0; trial < kTrials; ++trial) {
     Rng rng(1, rng_stream(RngUse::test, 3), trial);
@@ -157,12 +179,16 @@ TEST(PictureErrors, TellBiasFromVariance) {
     bias.add(errors.bias.value);
     squared.add(errors.squared_bias.value);
     variances.add(errors.variance);
+    for (const double deviation : errors.deviations) deviations.add(deviation);
     covered += errors.bias.lo <= 0.05 && 0.05 <= errors.bias.hi;
+    doubted += errors.bias_p < 0.05;
   }
   const double share = (0.25 / 0.26 + 1.0 / 1.01 + 2.25 / 2.26) / 3.0;
   expect_mean(bias, 0.05, 1e-6, "bias");
   expect_mean(squared, 0.05 * 0.05 * share, 1e-6, "squared bias");
   expect_mean(variances, 0.1 * 0.1 * share, 1e-6, "variance");
+  EXPECT_NEAR(deviations.mean(), 0.1 * 0.1 * share, 3.3e-4);  // 4.5 standard errors
+  EXPECT_GT(doubted, 350);  // a bias of more than four standard errors: seen in nine of ten
   EXPECT_GT(covered, 365);  // of 95 %: 365 or fewer with probability 0.001
 }
 
@@ -173,13 +199,14 @@ TEST(SceneSummary, FindsTheBestMethodAndCostsOfEqualErrors) {
       RunCost run;
       run.cpu_seconds = cost;
       summary.costs.push_back(run);
-      summary.each.push_back({2.0 * spread * error, spread * error, 1.0});
+      summary.each.push_back({2.0 * spread * error, spread * error, 1.0, cost * spread});
+      summary.errors.deviations.push_back(0.5 * spread * error);
     }
     return summary;
   };
   // The second method has the same error at a quarter of the cost.
   const SceneSummary summary = summarise_scene(
-      {{budget(1.0, 0.4), budget(4.0, 0.1)}, {budget(1.0, 0.1), budget(4.0, 0.025)}}, CostUnit::seconds);
+      {{budget(1.0, 0.4), budget(4.0, 0.1)}, {budget(1.0, 0.1), budget(4.0, 0.025)}}, CostUnit::seconds, size_t{1});
   EXPECT_EQ(summary.best_by_relative_mse, (std::vector<size_t>{1, 1}));
   EXPECT_NEAR(summary.methods[0].by_relative_mse[1].ratio.value, 0.25, 1e-12);
   EXPECT_EQ(summary.methods[1].by_mse[1].ratio.value, 1.0);
@@ -191,6 +218,30 @@ TEST(SceneSummary, FindsTheBestMethodAndCostsOfEqualErrors) {
   ASSERT_EQ(summary.pairs.size(), 1u);
   EXPECT_NEAR(summary.pairs[0].comparison.ratio.value, 0.25, 1e-12);
   EXPECT_NEAR(summary.methods[0].slope.value, -1.0, 1e-12);
+  EXPECT_EQ(summary.best_by_variance, (std::vector<size_t>{1, 1}));
+  EXPECT_NEAR(summary.methods[0].by_variance[0].ratio.value, 0.25, 1e-12);
+  ASSERT_TRUE(summary.methods[0].own_bias[1]);
+  EXPECT_NEAR(summary.methods[0].own_bias[1]->value.value, 0.0, 1e-12);
+  EXPECT_FALSE(summary.methods[1].own_bias[1]);
+}
+
+TEST(BiasVerdicts, JudgeAllBiasesTogether) {
+  std::vector<BiasEvidence> evidence{{BiasVerdict::none_seen, 0.004},
+                                     {BiasVerdict::none_seen, 0.0031},
+                                     {BiasVerdict::baseline, 0.0},
+                                     {BiasVerdict::undetermined, 0.0},
+                                     {BiasVerdict::none_seen, 0.5}};
+  std::vector<BiasEvidence*> all;
+  for (BiasEvidence& one : evidence) all.push_back(&one);
+  judge(all);
+  const BiasVerdict expected[] = {BiasVerdict::biased, BiasVerdict::biased, BiasVerdict::baseline,
+                                  BiasVerdict::undetermined, BiasVerdict::none_seen};
+  for (size_t i = 0; i < evidence.size(); ++i) EXPECT_EQ(evidence[i].verdict, expected[i]) << i;
+  EXPECT_DOUBLE_EQ(evidence[1].p_holm, 0.0093);
+  EXPECT_DOUBLE_EQ(evidence[0].p_holm, 0.0093);  // twice 0.004 is less than three times 0.0031
+  evidence = {{BiasVerdict::none_seen, 0.004}, {BiasVerdict::none_seen, 0.0035}, {BiasVerdict::none_seen, 0.5}};
+  judge({&evidence[0], &evidence[1], &evidence[2]});
+  EXPECT_EQ(evidence[1].verdict, BiasVerdict::none_seen);
 }
 
 }  // namespace

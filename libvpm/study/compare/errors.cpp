@@ -54,6 +54,38 @@ Bounded widened(const Bounded& bound, double error) {
   return {bound.value, bound.value - reach(bound.value - bound.lo), bound.value + reach(bound.hi - bound.value)};
 }
 
+/// The same for the p-value: of the mean of samples over its error and the reference's.
+double tested(const std::vector<double>& samples, double error) {
+  Moments moments;
+  for (const double sample : samples) moments.add(sample);
+  if (moments.mean() == 0.0) return 1.0;
+  return student_tail(moments.mean() / std::hypot(std::sqrt(moments.variance_of_mean()), error),
+                      static_cast<double>(samples.size() - 1));
+}
+
+Image mean_of(const std::vector<Image>& images) {
+  Image mean(images.front().width, images.front().height);
+  for (size_t i = 0; i < mean.pixels.size(); ++i) {
+    Rgbd sum(0.0);
+    for (const Image& image : images) sum += Rgbd(image.pixels[i]);
+    mean.pixels[i] = Rgb(sum / static_cast<double>(images.size()));
+  }
+  return mean;
+}
+
+/// RepeatedErrors::deviations.
+std::vector<double> deviations_of(const std::vector<Image>& images, const Scales& scales) {
+  const Image mean = mean_of(images);
+  const auto n = static_cast<double>(images.size());
+  std::vector<double> deviations;
+  for (const Image& image : images)
+    deviations.push_back(n / (n - 1.0) * mean_over(image, [&](size_t i, int c) {
+                           const double off = double{image.pixels[i][c]} - mean.pixels[i][c];
+                           return over(off * off, scales.at(i, c));
+                         }));
+  return deviations;
+}
+
 }  // namespace
 
 double reference_noise(const Reference& reference) {
@@ -94,9 +126,12 @@ RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference
   RepeatedErrors result;
   result.mse = mean_with_interval(mses);
   result.relative_mse = mean_with_interval(relatives);
-  result.bias = widened(mean_with_interval(biases), relative_error_of_brightness(reference));
+  const double reference_error = relative_error_of_brightness(reference);
+  result.bias = widened(mean_with_interval(biases), reference_error);
+  result.bias_p = tested(biases, reference_error);
   result.squared_bias = jackknife(images.size(), squared_bias);
   result.variance = result.relative_mse.value - result.squared_bias.value;
+  result.deviations = deviations_of(images, scales);
   return result;
 }
 

@@ -36,10 +36,14 @@ struct RepeatedErrors {
   /// Of the mean over pixels and channels, relative to the reference's. The reference's own noise is part of the
   /// interval as far as its pixels are independent: those of paths are, those of photon maps hang together.
   Bounded bias;
+  double bias_p = 1.0;  // of a bias so far from 0, were there none
   /// The relative MSE that is left when repetitions without end are averaged, and what goes away. Estimated without
   /// bias: the first may come out below 0.
   Bounded squared_bias;
   double variance = 0.0;
+  /// By repetition: the relative mean square of its difference from the mean of all, times n/(n - 1). Their mean is an
+  /// unbiased estimate of the variance, too, and no noise of the reference is in it but in its scale.
+  std::vector<double> deviations;
 };
 RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference& reference);
 

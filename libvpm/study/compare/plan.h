@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct ComparisonPlan {
   std::string text;  // of its file
   std::vector<ComparedScene> scenes;
   std::vector<Method> methods;
+  std::optional<size_t> baseline;  // the method whose bias all methods have in common, as that of a kernel
   CostUnit unit = CostUnit::seconds;
   std::vector<double>
       budgets;           // in that unit, > 0, rising: a run goes on to the last and is looked at as it passes each

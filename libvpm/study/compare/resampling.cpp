@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "base/line_fit.h"
 #include "base/rng.h"
@@ -95,6 +96,20 @@ Bounded mean_with_interval(const std::vector<double>& samples) {
                        static_cast<double>(samples.size() - 1));
 }
 
+Tested relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  Moments of_a, of_b;
+  for (const double sample : a) of_a.add(sample);
+  for (const double sample : b) of_b.add(sample);
+  const double ratio = of_a.mean() / of_b.mean(), scale = of_b.mean() * of_b.mean();
+  const double part_a = of_a.variance_of_mean() / scale, part_b = ratio * ratio * of_b.variance_of_mean() / scale;
+  const double error = std::sqrt(part_a + part_b);
+  if (error == 0.0) return {{ratio - 1.0, ratio - 1.0, ratio - 1.0}, ratio == 1.0 ? 1.0 : 0.0};
+  const auto freedom = [](const std::vector<double>& samples) { return static_cast<double>(samples.size() - 1); };
+  const double dof =
+      (part_a + part_b) * (part_a + part_b) / (part_a * part_a / freedom(a) + part_b * part_b / freedom(b));
+  return {with_interval({ratio - 1.0, error}, dof), student_tail((ratio - 1.0) / error, dof)};
+}
+
 Bounded jackknife(size_t count, const Statistic& statistic) {
   assert(count >= 3);
   return with_interval(jackknifed(std::vector<double>(count, 1.0), statistic), static_cast<double>(count - 1));
@@ -128,16 +143,27 @@ Comparison compare_efficiency(const Repetitions& a, const Repetitions& b) {
   return result;
 }
 
+std::vector<double> corrected_for_many(const std::vector<double>& p) {
+  std::vector<size_t> order(p.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return p[a] < p[b]; });
+  std::vector<double> corrected(p.size());
+  double largest = 0.0;
+  for (size_t i = 0; i < order.size(); ++i) {
+    largest = std::max(largest, std::min(1.0, p[order[i]] * static_cast<double>(order.size() - i)));
+    corrected[order[i]] = largest;
+  }
+  return corrected;
+}
+
 void correct_for_many(std::vector<Comparison>& comparisons) {
   std::vector<Comparison*> known;
   for (Comparison& comparison : comparisons)
     if (comparison.known) known.push_back(&comparison);
-  std::sort(known.begin(), known.end(), [](const Comparison* a, const Comparison* b) { return a->p < b->p; });
-  double largest = 0.0;
-  for (size_t i = 0; i < known.size(); ++i) {
-    largest = std::max(largest, std::min(1.0, known[i]->p * static_cast<double>(known.size() - i)));
-    known[i]->p_holm = largest;
-  }
+  std::vector<double> p;
+  for (const Comparison* comparison : known) p.push_back(comparison->p);
+  const std::vector<double> corrected = corrected_for_many(p);
+  for (size_t i = 0; i < known.size(); ++i) known[i]->p_holm = corrected[i];
 }
 
 Bounded convergence_slope(const std::vector<Repetitions>& budgets) {

@@ -12,6 +12,15 @@ namespace vpm {
 /// The mean of independent samples (at least 2) with its interval [Student1908].
 Bounded mean_with_interval(const std::vector<double>& samples);
 
+/// An estimate with the probability of one so far from 0, were the truth 0.
+struct Tested {
+  Bounded value;
+  double p = 1.0;
+};
+/// The mean of `a` over that of `b`, less 1, from independent samples of each (at least 2) whose means are not near 0:
+/// to first order in their errors, by Welch's t [Welch1947].
+Tested relative_difference(const std::vector<double>& a, const std::vector<double>& b);
+
 /// A statistic of `count` >= 3 repetitions, computed from weights of these (how often each is taken), with its interval
 /// by the delete-one jackknife [Tukey1958].
 using Statistic = std::function<double(const std::vector<double>& weights)>;
@@ -34,6 +43,9 @@ struct Repetitions {
 /// logarithm [Efron1993, sec. 12.5], p is the jackknife's by Student's t. A pure function of its arguments.
 Comparison compare_efficiency(const Repetitions& a, const Repetitions& b);
 
+/// p-values corrected for being tested together: that any of them falls below a rate by chance has no more than that
+/// probability [Holm1979].
+std::vector<double> corrected_for_many(const std::vector<double>& p);
 /// Fills in p_holm of those that are known.
 void correct_for_many(std::vector<Comparison>& comparisons);
 

@@ -8,11 +8,15 @@
 namespace vpm {
 namespace {
 
-using Metric = double PictureErrors::*;
+std::vector<double> values_of(const BudgetSummary& budget, double PictureErrors::*metric) {
+  std::vector<double> values;
+  for (const PictureErrors& errors : budget.each) values.push_back(errors.*metric);
+  return values;
+}
 
-Repetitions repetitions_of(const BudgetSummary& budget, Metric metric, CostUnit unit) {
-  Repetitions all;
-  for (const PictureErrors& errors : budget.each) all.errors.push_back(errors.*metric);
+/// Errors by repetition, with what these cost.
+Repetitions with_costs(std::vector<double> errors, const BudgetSummary& budget, CostUnit unit) {
+  Repetitions all{std::move(errors), {}};
   for (const RunCost& cost : budget.costs) all.costs.push_back(cost_in(unit, cost));
   return all;
 }
@@ -42,6 +46,14 @@ std::optional<double> cost_of(double target, const std::vector<Repetitions>& bud
   return std::nullopt;
 }
 
+/// MethodSummary::own_bias of method `m` at budget `b`.
+std::optional<Tested> beside(std::optional<size_t> baseline, size_t m, size_t b,
+                             const std::vector<std::vector<BudgetSummary>>& budgets) {
+  if (!baseline || *baseline == m) return std::nullopt;
+  return relative_difference(values_of(budgets[m][b], &PictureErrors::mean_ratio),
+                             values_of(budgets[*baseline][b], &PictureErrors::mean_ratio));
+}
+
 }  // namespace
 
 BudgetSummary summarise_budget(const std::vector<RunCost>& costs, const std::vector<Image>& images,
@@ -52,24 +64,30 @@ BudgetSummary summarise_budget(const std::vector<RunCost>& costs, const std::vec
   return summary;
 }
 
-SceneSummary summarise_scene(const std::vector<std::vector<BudgetSummary>>& budgets, CostUnit unit) {
+SceneSummary summarise_scene(const std::vector<std::vector<BudgetSummary>>& budgets, CostUnit unit,
+                             std::optional<size_t> baseline) {
   SceneSummary summary;
   summary.methods.resize(budgets.size());
   const size_t budget_count = budgets.front().size();
   std::vector<std::vector<Repetitions>> curves(budgets.size());  // of relative MSE, by method, then budget
   for (size_t b = 0; b < budget_count; ++b) {
-    std::vector<Repetitions> absolute, relative;
+    std::vector<Repetitions> absolute, relative, variance;
     for (const std::vector<BudgetSummary>& method : budgets) {
-      absolute.push_back(repetitions_of(method[b], &PictureErrors::mse, unit));
-      relative.push_back(repetitions_of(method[b], &PictureErrors::relative_mse, unit));
+      absolute.push_back(with_costs(values_of(method[b], &PictureErrors::mse), method[b], unit));
+      relative.push_back(with_costs(values_of(method[b], &PictureErrors::relative_mse), method[b], unit));
+      variance.push_back(with_costs(method[b].errors.deviations, method[b], unit));
     }
     summary.best_by_mse.push_back(best_of(absolute));
     summary.best_by_relative_mse.push_back(best_of(relative));
+    summary.best_by_variance.push_back(best_of(variance));
     const Repetitions& best = relative[summary.best_by_relative_mse.back()];
     summary.targets.push_back(mean(best.errors));
     for (size_t m = 0; m < budgets.size(); ++m) {
-      summary.methods[m].by_mse.push_back(compare_efficiency(absolute[m], absolute[summary.best_by_mse.back()]));
-      summary.methods[m].by_relative_mse.push_back(compare_efficiency(relative[m], best));
+      MethodSummary& method = summary.methods[m];
+      method.by_mse.push_back(compare_efficiency(absolute[m], absolute[summary.best_by_mse.back()]));
+      method.by_relative_mse.push_back(compare_efficiency(relative[m], best));
+      method.by_variance.push_back(compare_efficiency(variance[m], variance[summary.best_by_variance.back()]));
+      method.own_bias.push_back(beside(baseline, m, b, budgets));
       curves[m].push_back(relative[m]);
     }
   }

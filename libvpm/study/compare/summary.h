@@ -28,18 +28,21 @@ struct PairSummary {
 };
 
 struct MethodSummary {
-  std::vector<Comparison> by_mse, by_relative_mse;  // by budget: efficiency over that of the best method
-  Bounded slope;                                    // of relative MSE over cost; NaN at a single budget
-  std::vector<std::optional<double>> equal_error;   // by target: the cost at which it is reached
+  std::vector<Comparison> by_mse, by_relative_mse, by_variance;  // by budget: efficiency over that of the best method
+  std::vector<std::optional<Tested>> own_bias;  // by budget: of the mean, beside that of the baseline; of others only
+  Bounded slope;                                // of relative MSE over cost; NaN at a single budget
+  std::vector<std::optional<double>> equal_error;  // by target: the cost at which it is reached
 };
 
 struct SceneSummary {
-  std::vector<size_t> best_by_mse, best_by_relative_mse;  // by budget: the method of the largest efficiency
-  std::vector<double> targets;                            // relative MSEs that the best one had at the budgets
+  std::vector<size_t> best_by_mse, best_by_relative_mse, best_by_variance;  // by budget: that of the largest efficiency
+  std::vector<double> targets;  // relative MSEs that the best one had at the budgets
   std::vector<MethodSummary> methods;
   std::vector<PairSummary> pairs;  // of all methods, corrected for being so many
 };
-/// `budgets` by method, then budget. Efficiency is 1/(error cost), cost in that unit.
-SceneSummary summarise_scene(const std::vector<std::vector<BudgetSummary>>& budgets, CostUnit unit);
+/// `budgets` by method, then budget. Efficiency is 1/(error cost), cost in that unit. `baseline`: the method whose bias
+/// all have in common.
+SceneSummary summarise_scene(const std::vector<std::vector<BudgetSummary>>& budgets, CostUnit unit,
+                             std::optional<size_t> baseline);
 
 }  // namespace vpm

@@ -187,6 +187,21 @@ std::string reference_text(const Contest& contest, double error) {
   return fmt::format("{}, relative MSE {:.2g}", paths ? "the path tracer" : "photon mapping", error);
 }
 
+BiasEvidence evidence_of(const BudgetSummary& budget, const MethodSummary& method, bool is_baseline) {
+  if (is_baseline) return {BiasVerdict::baseline};
+  if (!budget.why_bias_unknown.empty()) return {BiasVerdict::undetermined};
+  const std::optional<Tested>& own = method.own_bias.back();
+  return {BiasVerdict::none_seen, own ? own->p : budget.errors.bias_p};
+}
+
+/// Of all scenes together.
+void judge_biases(std::vector<SceneResults>& scenes) {
+  std::vector<BiasEvidence*> all;
+  for (SceneResults& scene : scenes)
+    for (BiasEvidence& evidence : scene.verdicts) all.push_back(&evidence);
+  judge(all);
+}
+
 SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {
   SceneResults results;
   results.scene_text = read_whole_file(contest.compared->file);
@@ -202,7 +217,9 @@ SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, cons
       budgets.push_back(summarise(*entrant, contest.reference, plan, store, b));
     results.budgets.push_back(std::move(budgets));
   }
-  results.summary = summarise_scene(results.budgets, plan.unit);
+  results.summary = summarise_scene(results.budgets, plan.unit, plan.baseline);
+  for (size_t m = 0; m < plan.methods.size(); ++m)
+    results.verdicts.push_back(evidence_of(results.budgets[m].back(), results.summary.methods[m], plan.baseline == m));
   return results;
 }
 
@@ -239,6 +256,7 @@ int compare_command(const CompareOptions& options) {
     scenes.push_back(results_of(contest, plan, store));
     images.push_back(images_of(contest, plan, store));
   }
+  judge_biases(scenes);
   const std::filesystem::path folder = options.output;
   const std::string results = results_json(plan, scenes);
   write_text(folder / "results.json", results);

@@ -46,7 +46,7 @@ Json machine_json() {
           {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)}};
 }
 
-Json budget_json(const BudgetSummary& budget, const Comparison& by_mse, const Comparison& by_relative_mse) {
+Json budget_json(const BudgetSummary& budget, const MethodSummary& method, size_t b) {
   Json runs = Json::array();
   for (size_t i = 0; i < budget.each.size(); ++i) {
     Json run = Json::parse(cost_json(budget.costs[i]));
@@ -54,30 +54,44 @@ Json budget_json(const BudgetSummary& budget, const Comparison& by_mse, const Co
     run["relative_mse"] = number(budget.each[i].relative_mse);
     run["relative_mse_of_pbrt"] = number(budget.each[i].relative_mse_of_pbrt);
     run["mean_ratio"] = number(budget.each[i].mean_ratio);
+    run["variance"] = number(budget.errors.deviations[i]);
     runs.push_back(std::move(run));
   }
   const RepeatedErrors& errors = budget.errors;
   return {{"mse", bounded(errors.mse)},
           {"relative_mse", bounded(errors.relative_mse)},
           {"bias", bounded(errors.bias)},
+          {"own_bias", method.own_bias[b] ? bounded(method.own_bias[b]->value) : Json(nullptr)},
           {"why_bias_unknown", budget.why_bias_unknown},
           {"squared_bias", bounded(errors.squared_bias)},
           {"variance", number(errors.variance)},
-          {"efficiency_by_mse", comparison_json(by_mse)},
-          {"efficiency", comparison_json(by_relative_mse)},
+          {"efficiency_by_mse", comparison_json(method.by_mse[b])},
+          {"efficiency_by_variance", comparison_json(method.by_variance[b])},
+          {"efficiency", comparison_json(method.by_relative_mse[b])},
           {"runs", std::move(runs)}};
+}
+
+Json verdict_json(const BiasEvidence& evidence, const std::string& why_unknown) {
+  const bool judged = evidence.verdict == BiasVerdict::none_seen || evidence.verdict == BiasVerdict::biased;
+  return {{"says", verdict_name(evidence.verdict)},
+          {"p", judged ? number(evidence.p) : Json(nullptr)},
+          {"p_holm", judged ? number(evidence.p_holm) : Json(nullptr)},
+          {"why", why_unknown}};
 }
 
 Json method_json(const ComparisonPlan& plan, const SceneResults& scene, size_t m) {
   const MethodSummary& summary = scene.summary.methods[m];
   Json budgets = Json::array(), equal_error = Json::array();
-  for (size_t b = 0; b < plan.budgets.size(); ++b)
-    budgets.push_back(budget_json(scene.budgets[m][b], summary.by_mse[b], summary.by_relative_mse[b]));
+  for (size_t b = 0; b < plan.budgets.size(); ++b) budgets.push_back(budget_json(scene.budgets[m][b], summary, b));
   for (const std::optional<double>& cost : summary.equal_error)
     equal_error.push_back(cost ? Json(*cost) : Json(nullptr));
-  return {{"name", plan.methods[m].name},    {"overrides", plan.methods[m].settings},
-          {"settings", scene.settings[m]},   {"scene_hash", scene.hashes[m]},
-          {"slope", bounded(summary.slope)}, {"equal_error", std::move(equal_error)},
+  return {{"name", plan.methods[m].name},
+          {"overrides", plan.methods[m].settings},
+          {"settings", scene.settings[m]},
+          {"scene_hash", scene.hashes[m]},
+          {"slope", bounded(summary.slope)},
+          {"equal_error", std::move(equal_error)},
+          {"verdict", verdict_json(scene.verdicts[m], scene.budgets[m].back().why_bias_unknown)},
           {"budgets", std::move(budgets)}};
 }
 
@@ -98,9 +112,18 @@ Json scene_json(const ComparisonPlan& plan, const ComparedScene& compared, const
           {"reference", {{"source", scene.reference}, {"relative_mse", scene.reference_error}}},
           {"best", scene.summary.best_by_relative_mse},
           {"best_by_mse", scene.summary.best_by_mse},
+          {"best_by_variance", scene.summary.best_by_variance},
           {"targets", scene.summary.targets},
           {"methods", std::move(methods)},
           {"pairs", std::move(pairs)}};
+}
+
+size_t judged_count(const std::vector<SceneResults>& scenes) {
+  size_t count = 0;
+  for (const SceneResults& scene : scenes)
+    for (const BiasEvidence& evidence : scene.verdicts)
+      count += evidence.verdict == BiasVerdict::none_seen || evidence.verdict == BiasVerdict::biased;
+  return count;
 }
 
 /// Text in quotes, those in it doubled.
@@ -112,19 +135,44 @@ std::string csv_text(const std::string& text) {
 
 std::string with_interval(const Bounded& b) { return fmt::format("{:.3g} [{:.3g}, {:.3g}]", b.value, b.lo, b.hi); }
 
+std::string percent_with_interval(const Bounded& b) {
+  return with_interval({100.0 * b.value, 100.0 * b.lo, 100.0 * b.hi});
+}
+
+std::string efficiency_text(size_t m, size_t best, const Comparison& comparison) {
+  return m == best ? "best" : with_interval(comparison.ratio);
+}
+
 /// The methods at one budget.
 std::string equal_cost_table(const ComparisonPlan& plan, const SceneResults& scene, size_t b) {
-  std::string text = fmt::format("  at {:g} {}:\n    {:32} {:>28} {:>26} {:>24}\n", plan.budgets[b],
-                                 unit_name(plan.unit), "", "relative MSE", "bias, %", "efficiency over best");
+  constexpr const char* kRow = "    {:32} {:>28} {:>26} {:>24} {:>24}\n";
+  std::string text = fmt::format("  at {:g} {}:\n", plan.budgets[b], unit_name(plan.unit)) +
+                     fmt::format(kRow, "", "relative MSE", "bias, %", "efficiency over best", "by variance alone");
   for (size_t m = 0; m < plan.methods.size(); ++m) {
-    const RepeatedErrors& errors = scene.budgets[m][b].errors;
-    const Bounded percent{100.0 * errors.bias.value, 100.0 * errors.bias.lo, 100.0 * errors.bias.hi};
-    const bool known = scene.budgets[m][b].why_bias_unknown.empty();
-    text += fmt::format("    {:32} {:>28} {:>26} {:>24}\n", plan.methods[m].name, with_interval(errors.relative_mse),
-                        known ? with_interval(percent) : "not determined",
-                        m == scene.summary.best_by_relative_mse[b]
-                            ? "best"
-                            : with_interval(scene.summary.methods[m].by_relative_mse[b].ratio));
+    const BudgetSummary& budget = scene.budgets[m][b];
+    const MethodSummary& method = scene.summary.methods[m];
+    text += fmt::format(kRow, plan.methods[m].name, with_interval(budget.errors.relative_mse),
+                        budget.why_bias_unknown.empty() ? percent_with_interval(budget.errors.bias) : "not determined",
+                        efficiency_text(m, scene.summary.best_by_relative_mse[b], method.by_relative_mse[b]),
+                        efficiency_text(m, scene.summary.best_by_variance[b], method.by_variance[b]));
+  }
+  return text;
+}
+
+/// What is known of each method's bias at the last budget.
+std::string verdicts_text(const ComparisonPlan& plan, const SceneResults& scene, size_t judged) {
+  std::string text =
+      fmt::format("  bias at the last budget{} ({} verdicts, family-wise {:g} %):\n",
+                  plan.baseline ? " beside " + plan.methods[*plan.baseline].name : "", judged, 100.0 * kFalseVerdicts);
+  for (size_t m = 0; m < plan.methods.size(); ++m) {
+    const BiasEvidence& evidence = scene.verdicts[m];
+    if (evidence.verdict == BiasVerdict::baseline) continue;
+    const bool judged_here = evidence.verdict != BiasVerdict::undetermined;
+    const std::optional<Tested>& own = scene.summary.methods[m].own_bias.back();
+    const std::string bias = percent_with_interval(own ? own->value : scene.budgets[m].back().errors.bias);
+    text += fmt::format(
+        "    {:32} {:15} {}\n", plan.methods[m].name, verdict_name(evidence.verdict),
+        judged_here ? fmt::format("{} %, p {:.2g}", bias, evidence.p_holm) : scene.budgets[m].back().why_bias_unknown);
   }
   return text;
 }
@@ -177,12 +225,19 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
       {"repetitions", plan.repetitions},
       {"unit", unit_name(plan.unit)},
       {"budgets", plan.budgets},
+      {"baseline", plan.baseline ? Json(plan.methods[*plan.baseline].name) : Json(nullptr)},
+      {"verdicts", {{"rate", kFalseVerdicts}, {"count", judged_count(scenes)}}},
       {"formulas",
        {{"mse", "mean over pixels and channels of (I - R)^2, less the reference's own variance"},
         {"relative_mse", "mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) by channel, less the reference's own"},
         {"relative_mse_of_pbrt", "mean of (I - R)^2 / (R + 0.01)^2, less the reference's own"},
         {"bias",
          "mean over pixels and channels of I over that of R, less 1; the interval has the reference's noise in it"},
+        {"own_bias", "the mean over that of the baseline, less 1: what is left of bias that all methods share"},
+        {"verdict",
+         "of the bias at the last budget (of the own bias, where there is a baseline): p_holm is corrected for all "
+         "verdicts of the experiment"},
+        {"efficiency_by_variance", "1 / (variance x cost), over that of the best method"},
         {"squared_bias", "relative MSE of the mean of repetitions, less its variance"},
         {"efficiency", "1 / (relative MSE x cost), over that of the best method; whether two differ, pairs tell"},
         {"intervals", "95 %: Student's t over repetitions; ratios: studentised bootstrap of repetitions in pairs"},
@@ -194,7 +249,7 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
 std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
   std::string csv = "scene,method,repetition,seed,budget,";
   each_number(RunCost{}, [&](const char* name, const auto&) { csv += fmt::format("{},", name); });
-  csv += "mse,relative_mse,relative_mse_of_pbrt,mean_ratio,vpm,scene_hash,settings,processor,threads\n";
+  csv += "mse,relative_mse,relative_mse_of_pbrt,mean_ratio,variance,vpm,scene_hash,settings,processor,threads\n";
   const std::string made_by = fmt::format("{},{}", csv_text(processor()), thread_count());
   for (size_t s = 0; s < scenes.size(); ++s)
     for (size_t m = 0; m < plan.methods.size(); ++m)
@@ -205,9 +260,10 @@ std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResul
           each_number(scenes[s].budgets[m][b].costs[r],
                       [&](const char*, const auto& number) { csv += fmt::format("{},", number); });
           const PictureErrors& e = scenes[s].budgets[m][b].each[r];
-          csv += fmt::format("{},{},{},{},{},{},{},{}\n", e.mse, e.relative_mse, e.relative_mse_of_pbrt, e.mean_ratio,
-                             csv_text(std::string(version())), scenes[s].hashes[m], csv_text(scenes[s].settings[m]),
-                             made_by);
+          csv +=
+              fmt::format("{},{},{},{},{},{},{},{},{}\n", e.mse, e.relative_mse, e.relative_mse_of_pbrt, e.mean_ratio,
+                          scenes[s].budgets[m][b].errors.deviations[r], csv_text(std::string(version())),
+                          scenes[s].hashes[m], csv_text(scenes[s].settings[m]), made_by);
         }
   return csv;
 }
@@ -217,6 +273,7 @@ std::string results_text(const ComparisonPlan& plan, const std::vector<SceneResu
   for (size_t i = 0; i < scenes.size(); ++i) {
     text += fmt::format("{} (reference: {})\n", plan.scenes[i].name, scenes[i].reference);
     for (size_t b = 0; b < plan.budgets.size(); ++b) text += equal_cost_table(plan, scenes[i], b);
+    text += verdicts_text(plan, scenes[i], judged_count(scenes));
     text += pairs_text(plan, scenes[i]);
   }
   return text;

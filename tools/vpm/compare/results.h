@@ -6,6 +6,7 @@
 
 #include "input/scene_file.h"
 #include "study/compare/summary.h"
+#include "study/compare/verdict.h"
 
 namespace vpm::tools {
 
@@ -18,6 +19,7 @@ struct SceneResults {
   int width = 0, height = 0;                        // pixels
   std::vector<std::vector<BudgetSummary>> budgets;  // by method, then budget
   SceneSummary summary;
+  std::vector<BiasEvidence> verdicts;  // by method, at the last budget
 };
 
 /// Everything as JSON text: provenance, formulas, runs, summaries. The format is described in
