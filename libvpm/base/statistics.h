@@ -1,10 +1,13 @@
 // Sums that keep their digits, running moments, and the tails of the distributions that tests need.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "base/count.h"
 
 namespace vpm {
 
@@ -60,6 +63,26 @@ class Moments {
   uint64_t count_ = 0;
   double mean_ = 0.0;
   double m2_ = 0.0;  // sum of squared deviations from the mean
+};
+
+/// Weights of samples that stand for unequal shares of a mean.
+struct WeightMoments {
+  double sum = 0.0, squares = 0.0, largest = 0.0;
+
+  void add(double weight) {
+    count(sum, weight);
+    count(squares, weight * weight);
+    at_least(weight);
+  }
+  /// Looks at a weight for the largest one only.
+  void at_least(double weight) { count_largest(largest, weight); }
+  void merge(const WeightMoments& other) {
+    sum += other.sum;
+    squares += other.squares;
+    largest = std::max(largest, other.largest);
+  }
+  /// How many samples of equal weights would tell as much: (sum w)^2 / sum w^2.
+  double effective_sample_size() const { return squares > 0.0 ? sum * sum / squares : 0.0; }
 };
 
 /// Probability that a standard normal variable lies further from 0 than `z` (either side): the p-value of a z-test.

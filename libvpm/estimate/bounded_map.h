@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "base/count.h"
 #include "estimate/kernel_sum.h"
 #include "estimate/region_share.h"
 
@@ -31,8 +32,8 @@ const GatherSettings& settings_of(const BoundedMap<Region>& bounded) {
 
 /// A sum over what a region has of a kernel, over its share.
 inline Rgb over_share(const Rgb& sum, const RegionShare& share, GatherCounters& counters) {
-  ++counters.corrected;
-  if (share.inside < kLeastShare) ++counters.least_shares;
+  count(counters.corrected);
+  if (share.inside < kLeastShare) count(counters.least_shares);
   return sum / static_cast<float>(std::max(share.inside, kLeastShare));
 }
 

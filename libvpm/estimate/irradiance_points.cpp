@@ -1,6 +1,7 @@
 // Computing the points, and finding the nearest.
 #include "estimate/irradiance_points.h"
 
+#include "base/count.h"
 #include "base/parallel.h"
 #include "estimate/surface_estimate.h"
 
@@ -45,7 +46,7 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
   };
   const Neighbours& near = nearest(Gathering{points_, gather_, counters}, hit.position, agrees);
   if (near.entries().empty()) return std::nullopt;
-  ++counters.used;
+  count(counters.used);
   return points_.photon(near.entries().front().photon).power;
 }
 

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <vector>
 
+#include "base/count.h"
 #include "estimate/photon_map.h"
 
 namespace vpm {
@@ -66,11 +67,11 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
       const Vec3 travel = p.travel.unpack();
       if (!accept(travel, offset)) return;
       sum += value(travel, p.power) * profile(d2 * inverse);
-      ++used;
+      count(used);
     };
-    ++map.counters.searches;
-    map.counters.visited += map.index.for_each_near(point, r, visit);
-    map.counters.used += used;
+    count(map.counters.searches);
+    count(map.counters.visited, map.index.for_each_near(point, r, visit));
+    count(map.counters.used, used);
     return sum * kernel_norm<Dimension>(map.settings.kernel, r);
   });
 }
@@ -81,10 +82,11 @@ template <class Accept>
 const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept) {
   static thread_local Neighbours neighbours(0);
   neighbours.reserve(map.settings.count);
-  ++map.counters.searches;
-  map.counters.visited +=
+  count(map.counters.searches);
+  const uint32_t visited =
       map.index.find(point, map.settings.radius, neighbours,
                      [&](const Photon& p, const Vec3& offset) { return accept(p.travel.unpack(), offset); });
+  count(map.counters.visited, visited);
   return neighbours;
 }
 
@@ -95,7 +97,7 @@ template <int Dimension, class Value>
 Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
   const size_t first = neighbours.full() ? 1 : 0;  // the heap's first is the farthest
-  map.counters.used += neighbours.entries().size() - first;
+  count(map.counters.used, neighbours.entries().size() - first);
   return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgb sum(0.0f);
     for (size_t i = first; i < neighbours.entries().size(); ++i) {

@@ -19,22 +19,28 @@ constexpr size_t kChecksum = 16;  // characters at the end
 // Each number of a structure by itself: between them may stand bytes of no meaning. A structure that gains a number
 // does not compile here until that is named.
 void each_number(WalkCounters& counters, auto&& use) {
-  auto& [lookups, nulls, violations, crossings, mismatches] = counters;
-  use(lookups, nulls, violations, crossings, mismatches);
+  auto& [lookups, bricks, nulls, violations, crossings, mismatches] = counters;
+  use(lookups, bricks, nulls, violations, crossings, mismatches);
+}
+void each_number(WeightMoments& weights, auto&& use) {
+  auto& [sum, squares, largest] = weights;
+  use(sum, squares, largest);
 }
 void each_number(Ledger& ledger, auto&& use) {
-  auto& [emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, weight_sum, weight_squares,
-         largest_weight, collisions, surface_hits, floored, non_finite, walk] = ledger;
-  use(emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, weight_sum, weight_squares,
-      largest_weight, collisions, surface_hits, floored, non_finite);
+  auto& [emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, weights, collisions,
+         surface_hits, floored, non_finite, walk] = ledger;
+  use(emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, collisions, surface_hits,
+      floored, non_finite);
+  each_number(weights, use);
   each_number(walk, use);
 }
 void each_number(EyeCounters& eye, auto&& use) {
   auto& [rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
-         gather, walk] = eye;
+         weights, gather, walk] = eye;
   auto& [searches, visited, used, corrected, least_shares] = gather;
   use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
       searches, visited, used, corrected, least_shares);
+  each_number(weights, use);
   each_number(walk, use);
 }
 void each_number(RenderStatistics& statistics, auto&& use) {

@@ -164,6 +164,22 @@ void read_distance(TableReader& table, DistanceSettings& distance, bool has_grid
                suggest(distance.strategy, others, "right in grids"));
 }
 
+/// Does anything ask for the transmittance towards lights?
+bool casts_shadow_rays(const RenderSettings& s, const SceneContents& contents) {
+  return s.integrator == Integrator::path || s.volume_direct == DirectLight::shadow_rays ||
+         (contents.rough_surfaces && s.surface_direct == DirectLight::shadow_rays);
+}
+
+void read_transmittance(TableReader& table, TransmittanceSettings& transmittance, bool used) {
+  const std::string exact = transmittance.estimator;
+  transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), exact);
+  transmittance.step = table.number("step", kVoxels, transmittance.step);
+  transmittance.samples = table.number("samples", kSamples, transmittance.samples);
+  if (!used && transmittance.estimator != exact)
+    table.fail("estimator", "nothing asks '" + transmittance.estimator + "': shadow rays do, and none are cast",
+               "write direct = \"shadow-rays\" in [volume], or leave out 'estimator'");
+}
+
 /// Reads a section if the file has it.
 template <class Read>
 void read_section(TableReader& root, const std::string& key, Read read) {
@@ -196,7 +212,7 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
   return make_camera(position, target, up, fov, width, height, filter);
 }
 
-RenderSettings read_settings(TableReader& root, bool has_grid) {
+RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
   RenderSettings s;
   read_section(root, "render", [&](TableReader& table) { read_render(table, s); });
   read_section(root, "photons", [&](TableReader& table) { read_photons(table, s); });
@@ -209,12 +225,7 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
       table.fail("scatter", "nothing tells photons where to scatter: 'importons' of [importance] is 0",
                  "make 'importons' positive, or leave out 'scatter'");
   });
-  read_section(root, "distance", [&](TableReader& table) { read_distance(table, s.distance, has_grid); });
-  read_section(root, "transmittance", [&](TableReader& table) {
-    s.transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), s.transmittance.estimator);
-    s.transmittance.step = table.number("step", kVoxels, s.transmittance.step);
-    s.transmittance.samples = table.number("samples", kSamples, s.transmittance.samples);
-  });
+  read_section(root, "distance", [&](TableReader& table) { read_distance(table, s.distance, contents.grids); });
   read_section(root, "volume", [&](TableReader& table) {
     read_gather(table, s.volume);
     s.volume_form = table.choice<VolumeForm>(
@@ -241,6 +252,8 @@ RenderSettings read_settings(TableReader& root, bool has_grid) {
     read_gather(table, s.caustics);
     s.caustics_emitted = table.integer("emitted", 0, kMaxInteger, s.caustics_emitted);
   });
+  read_section(root, "transmittance",
+               [&](TableReader& table) { read_transmittance(table, s.transmittance, casts_shadow_rays(s, contents)); });
   return s;
 }
 

@@ -84,6 +84,14 @@ void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan)
   camera.finish();
 }
 
+SceneContents contents_of(const ScenePlan& plan) {
+  SceneContents contents;
+  for (const MediumPlan& medium : plan.media) contents.grids |= medium.grid.has_value();
+  for (const ShapePlan& shape : plan.shapes)
+    contents.rough_surfaces |= is_rough(plan.materials[shape.shape.material].material);
+  return contents;
+}
+
 ScenePlan read_plan(TableReader& root, RenderSettings& settings) {
   ScenePlan plan;
   Names media;
@@ -94,9 +102,7 @@ ScenePlan read_plan(TableReader& root, RenderSettings& settings) {
   plan.shapes = read_shapes(shapes, media, keys_of(materials ? &*materials : nullptr), plan.world, plan.materials);
   read_all_lights(root, plan);
   read_camera_section(root, media, plan);
-  bool has_grid = false;
-  for (const MediumPlan& medium : plan.media) has_grid = has_grid || medium.grid;
-  settings = read_settings(root, has_grid);
+  settings = read_settings(root, contents_of(plan));
   root.finish();
   return plan;
 }

@@ -80,8 +80,12 @@ std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);
 /// Reads [camera] and [film].
 Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
 
-/// Reads [render], [photons], [distance], [transmittance], [volume], [surface] and [caustics]. `has_grid`: does the
-/// scene hold a grid medium?
-RenderSettings read_settings(TableReader& root, bool has_grid);
+/// What settings have to suit.
+struct SceneContents {
+  bool grids = false;           // media of grids
+  bool rough_surfaces = false;  // that direct light reaches
+};
+/// Reads [render], [photons], [distance], [transmittance], [volume], [surface] and [caustics].
+RenderSettings read_settings(TableReader& root, const SceneContents& contents);
 
 }  // namespace vpm

@@ -50,9 +50,9 @@ class DensityGrid {
   template <class Visit>
   uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const;
   /// Calls visit(const DensityStretch&) for the ray's part in each brick, in order, until it returns false. Bricks of
-  /// zero density are left out.
+  /// zero density are left out. Returns the number of bricks whose bounds were read, those left out among them.
   template <class Visit>
-  void visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  uint32_t visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const;
 
   /// The part of the interval in which the density may differ from zero: all of it where the background does.
   Interval clip(const Ray& ray, const Interval& interval) const;

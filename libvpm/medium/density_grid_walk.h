@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "base/count.h"
+
 namespace vpm {
 
 /// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at
@@ -63,7 +65,7 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
   const Brick& brick_here = brick(b - brick_lo_);
   if (brick_here.max == 0.0f) return true;
   if (brick_here.uniform()) {
-    ++read;
+    count(read);
     return visit(DensityPiece{t0, t1, brick_here.min, 0.0, 0.0, 0.0});
   }
   const float* values = values_of(brick_here);
@@ -78,7 +80,7 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
       piece.t1 = end;
       const Vec3i& cell = walk.cell();
       cell_piece(values, cell, Vec3(inside + t * ray.direction - Vec3d(cell)), step, piece);
-      ++read;
+      count(read);
       if (!visit(piece)) return false;
       t = end;
     }
@@ -127,10 +129,12 @@ uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Vis
 }
 
 template <class Visit>
-void DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
+uint32_t DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
   DensityStretch stretch;
   stretch.nearest = frame_.interpolation == Interpolation::nearest;
+  uint32_t bricks = 0;
   const auto inside = [&](const Vec3i& b, const IndexRay& in, double t0, double t1) {
+    count(bricks);
     const Brick& here = brick(b - brick_lo_);
     if (here.max == 0.0f) return true;
     stretch.t0 = t0;
@@ -146,6 +150,7 @@ void DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, Visi
     return static_cast<bool>(visit(DensityStretch{t0, t1, frame_.background, frame_.background}));
   };
   visit_bricks(ray, interval, inside, outside);
+  return bricks;
 }
 
 }  // namespace vpm

@@ -45,11 +45,13 @@ struct Medium {
     visit(DensityPiece{interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
     return 0;
   }
-  /// Calls visit(const DensityStretch&) along the ray until it returns false.
+  /// Calls visit(const DensityStretch&) along the ray until it returns false; returns the bricks whose bounds were
+  /// read.
   template <class Visit>
-  void visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  uint32_t visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
     if (grid) return grid->visit_majorants(ray, interval, visit);
     visit(DensityStretch{interval.t0, interval.t1, 1.0f, 1.0f});
+    return 0;
   }
 };
 

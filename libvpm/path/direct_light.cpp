@@ -1,5 +1,6 @@
 // Shadow rays.
 #include "path/direct_light.h"
+#include "base/count.h"
 
 #include <cassert>
 
@@ -38,7 +39,8 @@ Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, Mediu
     const float reach = met ? met.hits[0].t : distance;
     if (medium != kVacuum) {
       const TransmittanceEstimate t = rays.transmittance.estimate(scene.media[medium], ray, {0.0f, reach}, rays.rng);
-      rays.counters.lookups += t.lookups;
+      count(rays.counters.lookups, t.lookups);
+      count(rays.counters.bricks, t.bricks);
       result *= t.value;
     }
     if (!met) return result;

@@ -1,6 +1,7 @@
 // Flights between events and what happens at them.
 #include "path/walk.h"
 
+#include "base/count.h"
 #include "medium/distance/mixture.h"
 #include "surface/shading.h"
 
@@ -10,13 +11,13 @@ Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium
   Encounter met = scene.geometry.encounter(ray, t_max);
   if (!met && t_max < kInfinity) return met;
   const MediumId known = met ? medium_before(scene, met, ray.direction, medium) : scene.world_medium;
-  if (known != medium) ++counters.medium_mismatches;
+  if (known != medium) count(counters.medium_mismatches);
   medium = known;
   return met;
 }
 
 void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, MediumId& medium, WalkCounters& counters) {
-  counters.crossings += static_cast<uint64_t>(met.count);
+  count(counters.crossings, static_cast<uint64_t>(met.count));
   medium = medium_after(scene, met, ray.direction, medium);
   ray.origin = leave_surfaces(met, ray.direction);
 }
@@ -29,9 +30,10 @@ Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState
       const Medium& medium = scene.media[state.medium];
       const Interval free{0.0f, met ? met.hits[0].t : limit};
       const Flight flight = strategy.sample(medium, state.ray, free, state.power, rng);
-      counters.lookups += flight.lookups;
-      counters.null_collisions += flight.null_collisions;
-      counters.majorant_violations += flight.majorant_violations;
+      count(counters.lookups, flight.lookups);
+      count(counters.bricks, flight.bricks);
+      count(counters.null_collisions, flight.null_collisions);
+      count(counters.majorant_violations, flight.majorant_violations);
       state.power *= flight.weight;
       if (flight.collided) {
         state.ray.origin = state.ray.at(flight.t);

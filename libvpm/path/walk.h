@@ -27,6 +27,7 @@ struct Event {
 /// What a walk counts.
 struct WalkCounters {
   uint64_t lookups = 0;              // of density
+  uint64_t bricks = 0;               // of grids, whose bounds were looked up
   uint64_t null_collisions = 0;      // of flights
   uint64_t majorant_violations = 0;  // Flight::majorant_violations
   uint64_t crossings = 0;            // of boundaries between media
@@ -34,6 +35,7 @@ struct WalkCounters {
 
   void merge(const WalkCounters& other) {
     lookups += other.lookups;
+    bricks += other.bricks;
     null_collisions += other.null_collisions;
     majorant_violations += other.majorant_violations;
     crossings += other.crossings;

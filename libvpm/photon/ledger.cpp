@@ -1,8 +1,6 @@
 // Merging of ledgers.
 #include "photon/ledger.h"
 
-#include <algorithm>
-
 namespace vpm {
 
 void Ledger::merge(const Ledger& other) {
@@ -14,9 +12,7 @@ void Ledger::merge(const Ledger& other) {
   cut += other.cut;
   cut_count += other.cut_count;
   imbalance.merge(other.imbalance);
-  weight_sum += other.weight_sum;
-  weight_squares += other.weight_squares;
-  largest_weight = std::max(largest_weight, other.largest_weight);
+  weights.merge(other.weights);
   collisions += other.collisions;
   surface_hits += other.surface_hits;
   floored += other.floored;

@@ -18,18 +18,14 @@ struct Ledger {
   Rgbd escaped{0.0};
   Rgbd cut{0.0};  // carried by photons that reached the limit of events
   uint64_t cut_count = 0;
-  Moments imbalance;        // of each photon: (absorbed + escaped + cut - emitted) over channels, W; its mean is zero
-  double weight_sum = 0.0;  // of collisions, power over emitted power
-  double weight_squares = 0.0;
-  double largest_weight = 0.0;  // power over emitted power that any photon carried
+  Moments imbalance;      // of each photon: (absorbed + escaped + cut - emitted) over channels, W; its mean is zero
+  WeightMoments weights;  // of collisions, power over emitted power; the largest one also of surface hits
   uint64_t collisions = 0;
   uint64_t surface_hits = 0;
   uint64_t floored = 0;     // stored photons whose density was below TraceSettings::density_floor
   uint64_t non_finite = 0;  // photons dropped because their power was not finite
   WalkCounters walk;
 
-  /// (sum w)^2 / sum w^2 over collisions.
-  double effective_sample_size() const { return weight_squares > 0.0 ? weight_sum * weight_sum / weight_squares : 0.0; }
   void merge(const Ledger& other);
 };
 

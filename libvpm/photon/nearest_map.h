@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/count.h"
 #include "base/vec.h"
 #include "photon/photon.h"
 
@@ -80,7 +81,7 @@ uint32_t NearestMap::find(const Vec3& point, float max_radius, Neighbours& neigh
   uint32_t visited = 0;
   size_t node = 0;
   for (;;) {
-    for (; node < tree_.size(); ++visited) {
+    for (; node < tree_.size(); count(visited)) {
       const Photon& p = tree_[node];
       const Vec3 offset = p.position - point;
       const float d2 = glm::dot(offset, offset);

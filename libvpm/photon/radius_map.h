@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/count.h"
 #include "base/vec.h"
 #include "photon/photon.h"
 
@@ -98,7 +99,7 @@ uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit
       const uint32_t begin = first_[row + cell_along(0, point.x - reach_x)];
       const uint32_t end = first_[row + cell_along(0, point.x + reach_x) + 1];
       scan(begin, end, point, radius, visit);
-      visited += end - begin;
+      count(visited, end - begin);
     }
   }
   return visited;

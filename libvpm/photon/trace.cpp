@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "base/count.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "photon/emission.h"
@@ -114,10 +115,8 @@ class PhotonPath {
 
   void collide(Rng& rng) {
     const double weight = sum_channels(at_.state.power) / emitted_power_;
-    ++out_.ledger.collisions;
-    out_.ledger.weight_sum += weight;
-    out_.ledger.weight_squares += weight * weight;
-    out_.ledger.largest_weight = std::max(out_.ledger.largest_weight, weight);
+    count(out_.ledger.collisions);
+    out_.ledger.weights.add(weight);
     alive_ = weight > 0.0 && survive_roulette(worth(), at_.state, rng);
     if (!alive_) return;
     const Medium& medium = scene_.media[at_.state.medium];
@@ -136,14 +135,13 @@ class PhotonPath {
   float divisor(const Medium& medium, float density) {
     const float relative = density / medium.max_density();
     if (relative >= settings_.density_floor) return relative;
-    ++out_.ledger.floored;
+    count(out_.ledger.floored);
     return settings_.density_floor;
   }
 
   void meet_surface() {
-    ++out_.ledger.surface_hits;
-    out_.ledger.largest_weight =
-        std::max<double>(out_.ledger.largest_weight, sum_channels(at_.state.power) / emitted_power_);
+    count(out_.ledger.surface_hits);
+    out_.ledger.weights.at_least(sum_channels(at_.state.power) / emitted_power_);
     alive_ = max_channel(at_.state.power) > 0.0f;
     if (!alive_) return;
     const bool rough = is_rough(scene_.material_of(at_.event.hit));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/count.h"
 #include "estimate/irradiance_points.h"
 #include "estimate/photon_map.h"
 #include "render/photon_pass.h"
@@ -26,7 +27,7 @@ struct EyeContext {
 /// The column of the medium over an interval of a ray, m.
 inline double counted_column(const Medium& medium, const Ray& ray, const Interval& interval, WalkCounters& counters) {
   const Column crossed = column(medium, ray, interval);
-  counters.lookups += crossed.lookups;
+  count(counters.lookups, crossed.lookups);
   return crossed.value;
 }
 

@@ -1,6 +1,7 @@
 // Radiance along camera rays.
 #include "render/eye_path.h"
 
+#include "base/count.h"
 #include "estimate/volume_estimate.h"
 #include "estimate/volume_region.h"
 #include "path/direct_light.h"
@@ -92,20 +93,20 @@ class EyePath {
     const Marched marched =
         marcher_.march(medium, ray_, interval, limits, matters, rng_, [&](const Vec3& point, const Rgb& weight) {
           if (map) {
-            ++counters_.volume_queries;
+            count(counters_.volume_queries);
             radiance_ += throughput_ * (weight / densest) * medium.albedo() * sum_at_query(medium, point, *map);
           }
           if (c_.stages.volume_shadow_rays)
             radiance_ += throughput_ * (weight * medium.sigma_s) * single_scattering(medium, point);
         });
-    counters_.steps += marched.steps;
-    counters_.walk.lookups += marched.lookups;
+    count(counters_.steps, marched.steps);
+    count(counters_.walk.lookups, marched.lookups);
     throughput_ *= transmittance(medium, marched.column);
   }
 
   /// Radiance scattered once at a point, over sigma_s: phase function times what the lights send there.
   Rgb single_scattering(const Medium& medium, const Vec3& point) {
-    ++counters_.shadow_rays;
+    count(counters_.shadow_rays);
     const PickedLight picked = pick_light(c_.scene, rng_.uniform_double());
     const DirectSample light =
         sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked.number, {point, medium_});
@@ -123,12 +124,13 @@ class EyePath {
       if (map.size() == 0 || near.empty()) continue;
       const double before = around ? counted_column(*around, ray_, {segment.t0, near.t0}, counters_.walk) : 0.0;
       const Medium& medium = c_.scene.media[m];
-      counters_.walk.lookups += march_evenly(
+      const uint32_t lookups = march_evenly(
           around, ray_, near, before, step_among(map, near), rng_, [&](const Vec3& point, const Rgb& weight) {
-            ++counters_.volume_queries;
+            count(counters_.volume_queries);
             radiance_ += throughput_ * weight * medium.albedo() *
                          volume_sum(medium.phase, point, -ray_.direction, CountedMap{map, counters_.gather});
           });
+      count(counters_.walk.lookups, lookups);
     }
   }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/count.h"
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
@@ -40,7 +41,7 @@ Rgb mean_of_samples(int samples, EyeCounters& counters, Sample&& sample) {
   Rgbd sum(0.0);
   for (int s = 0; s < samples; ++s) {
     const Rgb value = sample(s);
-    ++counters.rays;
+    count(counters.rays);
     if (is_finite(value))
       sum += Rgbd(value);
     else

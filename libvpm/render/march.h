@@ -10,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/count.h"
 #include "base/rng.h"
 #include "medium/medium.h"
 
@@ -138,7 +139,7 @@ Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& int
       const double c = draw_attenuated(thickest, column_, rng.uniform_double());
       const double per_density = attenuated_column(thickest, column_) * scale;
       add(ray.at(static_cast<float>(locate(c))), Rgb(glm::exp(-sigma_t * (crossed + c) + thickest * c) * per_density));
-      ++result.steps;
+      count(result.steps);
       crossed += column_;
     }
     parts_.clear();

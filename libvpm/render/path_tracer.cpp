@@ -1,6 +1,7 @@
 // Paths from the eye, event by event.
 #include "render/path_tracer.h"
 
+#include "base/count.h"
 #include "path/direct_light.h"
 #include "surface/shading.h"
 
@@ -30,6 +31,7 @@ class TracedPath {
 
  private:
   bool collide() {
+    counters_.weights.add(sum_channels(state_.power) / 3.0);
     if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
     const Medium& medium = c_.scene.media[state_.medium];
     const Vec3 travel = state_.ray.direction;
@@ -87,7 +89,7 @@ class TracedPath {
   /// One light, picked by power: its irradiance over that probability, its pdf times it.
   DirectSample sample_light(const Receiver& receiver) {
     const PickedLight picked = pick_light(c_.scene, rng_.uniform_double());
-    ++counters_.shadow_rays;
+    count(counters_.shadow_rays);
     DirectSample sample = sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked.number, receiver);
     sample.irradiance /= picked.probability;
     sample.pdf *= picked.probability;

@@ -16,6 +16,7 @@ void EyeCounters::merge(const EyeCounters& other) {
   irradiance_misses += other.irradiance_misses;
   cut_paths += other.cut_paths;
   non_finite += other.non_finite;
+  weights.merge(other.weights);
   gather.merge(other.gather);
   walk.merge(other.walk);
 }

@@ -1,6 +1,7 @@
 // Direct light, photon maps, and rays that gather.
 #include "render/surface_light.h"
 
+#include "base/count.h"
 #include "estimate/surface_region.h"
 #include "path/direct_light.h"
 #include "render/gather_guide.h"
@@ -33,7 +34,7 @@ class SurfaceLight {
   Rgb direct_light(const SurfaceView& view, const Receiver& side) {
     Rgb result(0.0f);
     for (int i = 0; i < static_cast<int>(c_.scene.lights.size()); ++i) {
-      ++counters_.shadow_rays;
+      count(counters_.shadow_rays);
       const DirectSample light = sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, i, side);
       if (is_black(light.irradiance)) continue;
       const ScatterValue scattered = scatter_value(view.material, view.hit, view.travel, light.direction);
@@ -43,7 +44,7 @@ class SurfaceLight {
   }
 
   Rgb of_map(const SurfaceView& view, const PhotonMap& map) {
-    ++counters_.surface_queries;
+    count(counters_.surface_queries);
     if (map.settings.boundary == BoundaryRule::none)
       return scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map, counters_.gather});
     const SurfaceRegion region(c_.scene, view.hit, -view.travel, map.settings);
@@ -52,7 +53,7 @@ class SurfaceLight {
 
   /// The surface map's light by a pixel's own radius.
   Rgb of_disc(const SurfaceView& view, const PixelGather& own) {
-    ++counters_.surface_queries;
+    count(counters_.surface_queries);
     const uint64_t before = counters_.gather.used;
     const CountedMap disc{c_.surface, counters_.gather, own.settings};
     const Rgb radiance = scattered_radiance(view.material, view.hit, -view.travel, disc);
@@ -82,7 +83,7 @@ class SurfaceLight {
 
   GatherGuide make_guide(const SurfaceView& view) {
     if (!c_.stages.guided_gather) return GatherGuide(view);
-    ++counters_.surface_queries;
+    count(counters_.surface_queries);
     return {view, c_.from_rough, counters_.gather};
   }
 
@@ -95,7 +96,7 @@ class SurfaceLight {
     Rgb result(0.0f);
     float length = 0.0f;  // of the present ray so far, m
     for (int events = 0; events < c_.settings.max_events;) {
-      if (length == 0.0f) ++counters_.gather_rays;
+      if (length == 0.0f) count(counters_.gather_rays);
       const Encounter met = meet(c_.scene, path.ray, kInfinity, path.medium, counters_.walk);
       if (!met) return result;
       const Hit& hit = met.hits[0];
@@ -132,10 +133,10 @@ class SurfaceLight {
     if (!c_.stages.irradiance_points || !diffuse) return of_map(view, c_.surface);
     const std::optional<Rgb> irradiance = c_.irradiance.irradiance(view.hit, -view.travel, counters_.gather);
     if (irradiance) {
-      ++counters_.irradiance_lookups;
+      count(counters_.irradiance_lookups);
       return diffuse->reflectance / kPi * *irradiance;
     }
-    ++counters_.irradiance_misses;
+    count(counters_.irradiance_misses);
     return of_map(view, c_.surface);
   }
 

@@ -61,16 +61,16 @@ TEST(StrategiesExtremes, TheLedgerReportsHeavyTails) {
   scene.geometry.commit();
   finish(scene);
   const Ledger analog = clean_ledger(scene, "regular", 20000);
-  EXPECT_FLOAT_EQ(static_cast<float>(analog.largest_weight), 1.0f);
-  EXPECT_NEAR(analog.effective_sample_size() / static_cast<double>(analog.collisions), 1.0, 1e-6);
+  EXPECT_FLOAT_EQ(static_cast<float>(analog.weights.largest), 1.0f);
+  EXPECT_NEAR(analog.weights.effective_sample_size() / static_cast<double>(analog.collisions), 1.0, 1e-6);
   TraceSettings settings;
   settings.emitted = 20000;
   const Ledger weighted = trace_with(scene, "mean-extinction", settings).ledger;
   EXPECT_EQ(weighted.non_finite, 0u);
   std::printf("mean-extinction: largest weight %.3g, effective sample size %.0f of %.0f collisions\n",
-              weighted.largest_weight, weighted.effective_sample_size(), double(weighted.collisions));
-  EXPECT_GT(weighted.largest_weight, 5.0);
-  EXPECT_LT(weighted.effective_sample_size(), 0.5 * static_cast<double>(weighted.collisions));
+              weighted.weights.largest, weighted.weights.effective_sample_size(), double(weighted.collisions));
+  EXPECT_GT(weighted.weights.largest, 5.0);
+  EXPECT_LT(weighted.weights.effective_sample_size(), 0.5 * static_cast<double>(weighted.collisions));
 }
 
 /// A ray through a medium along which the optical thickness is known.

@@ -51,7 +51,7 @@ Tally tally(const Scene& scene, const std::string& strategy, uint64_t seed) {
     for (size_t i = 0; i < sums.size(); ++i) result.values[i].add(sums[i] / 1000.0);
     all.merge(photons.ledger);
   }
-  result.effective_sample_size = all.effective_sample_size();
+  result.effective_sample_size = all.weights.effective_sample_size();
   return result;
 }
 
@@ -296,8 +296,8 @@ TEST(PhotonTracing, PowerStaysEvenInColour) {
   settings.emitted = 20000;
   for (const char* strategy : {"regular", "ray-march", "ray-march-adaptive", "delta", "delta-local", "decomposition"}) {
     const Ledger ledger = trace(scene, strategy, settings).ledger;
-    EXPECT_NEAR(ledger.largest_weight, 1.0, 1e-4) << strategy;
-    EXPECT_NEAR(ledger.effective_sample_size() / static_cast<double>(ledger.collisions), 1.0, 1e-4) << strategy;
+    EXPECT_NEAR(ledger.weights.largest, 1.0, 1e-4) << strategy;
+    EXPECT_NEAR(ledger.weights.effective_sample_size() / static_cast<double>(ledger.collisions), 1.0, 1e-4) << strategy;
   }
 }
 

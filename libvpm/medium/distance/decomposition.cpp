@@ -15,7 +15,7 @@ namespace vpm {
 Flight Decomposition::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                              Rng& rng) const {
   NullCollisionFlight flight(medium, interval, power, rng);
-  medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
+  const uint32_t bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
     const double control = static_cast<double>(stretch.min) / static_cast<double>(stretch.max);
     for (double t = stretch.t0; flight.advance(t, stretch.t1, stretch.max);) {
       if (flight.is_real(control)) {
@@ -27,6 +27,7 @@ Flight Decomposition::sample(const Medium& medium, const Ray& ray, const Interva
     }
     return true;
   });
+  flight.count_bricks(bricks);
   return flight.result();
 }
 

@@ -2,6 +2,7 @@
 // sec. 7.4.1].
 //
 // Known failure: a dense start followed by thin voxels makes weights exp(s D - tau), which no floor of the rate helps.
+#include "base/count.h"
 #include "medium/distance/mixture.h"
 #include "medium/distance/strategies.h"
 
@@ -12,7 +13,7 @@ Flight LocalExtinction::sample(const Medium& medium, const Ray& ray, const Inter
   const double floor = extinction_floor_ * medium.mean_density();
   const double density = std::max<double>(medium.density(ray.at(interval.t0)), floor);
   Flight flight = exponential_flight(medium, ray, interval, medium.sigma_t * static_cast<float>(density), power, rng);
-  ++flight.lookups;
+  count(flight.lookups);
   return flight;
 }
 

@@ -1,5 +1,6 @@
 // Weights of flights under the channel mixture.
 #include "medium/distance/mixture.h"
+#include "base/count.h"
 
 namespace vpm {
 namespace {
@@ -40,7 +41,7 @@ Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& 
   Rgbd factor(1.0);
   if (flight.collided) {
     flight.density = medium.density(ray.at(flight.t));
-    ++flight.lookups;
+    count(flight.lookups);
     numerator = sigma_t * static_cast<double>(flight.density);
     factor = rates;
   }

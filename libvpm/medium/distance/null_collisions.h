@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+#include "base/count.h"
 #include "medium/distance/mixture.h"
 
 namespace vpm {
@@ -48,22 +49,23 @@ class NullCollisionFlight {
   /// Meets the tentative collision at t with the density that a look-up found there; true where it is real. A majorant
   /// that does not bound is counted, and cuts the density to itself.
   bool meet(double t, float density, double majorant) {
-    ++flight_.lookups;
+    count(flight_.lookups);
     double share = density / majorant;
     if (share > 1.0) {
-      ++flight_.majorant_violations;
+      count(flight_.majorant_violations);
       share = 1.0;
     }
     if (is_real(share)) {
       collide(t, share * majorant);
       return true;
     }
-    ++flight_.null_collisions;
+    count(flight_.null_collisions);
     if (!grey_) weigh_null(share);
     return false;
   }
 
-  void count_lookup() { ++flight_.lookups; }
+  void count_bricks(uint32_t crossed) { flight_.bricks = crossed; }
+  void count_lookup() { count(flight_.lookups); }
 
   /// The flight that ended by a real collision, or reached the interval's end.
   Flight result() const;

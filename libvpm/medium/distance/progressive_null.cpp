@@ -18,12 +18,13 @@ Flight ProgressiveNull::sample(const Medium& medium, const Ray& ray, const Inter
                                Rng& rng) const {
   const double most = share_ * static_cast<double>(medium.max_density());
   NullCollisionFlight flight(medium, interval, power, rng);
-  medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
+  const uint32_t bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
     const double majorant = std::min<double>(stretch.max, most);
     for (double t = stretch.t0; flight.advance(t, stretch.t1, majorant);)
       if (flight.meet(t, stretch.density(t), majorant)) return false;
     return true;
   });
+  flight.count_bricks(bricks);
   return flight.result();
 }
 

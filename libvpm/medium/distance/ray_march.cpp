@@ -3,6 +3,7 @@
 // Each step takes the density at its middle and the flight's end is solved for inside the step, so the bias is
 // O(step^2); taking the first sample beyond the random number, as printed, would leave O(step). Known failure: spikes
 // thinner than a step are missed.
+#include "base/count.h"
 #include "medium/distance/mixture.h"
 #include "medium/distance/strategies.h"
 
@@ -21,7 +22,7 @@ Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& in
   for (double t = inside.t0; t < inside.t1 && sigma_t > 0.0; t += length) {
     const double end = std::min(t + length, static_cast<double>(inside.t1));
     const double density = medium.density(ray.at(static_cast<float>(std::isinf(end) ? t : 0.5 * (t + end))));
-    ++flight.lookups;
+    count(flight.lookups);
     if (crossed + density * (end - t) > target) {
       flight.collided = true;
       flight.density = static_cast<float>(density);
@@ -34,7 +35,7 @@ Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& in
   if (sigma_t == 0.0) {  // nothing ends the march of a channel without extinction: only the others' weights ask for it
     const Column through = column(medium, ray, interval);
     crossed = through.value;
-    flight.lookups += through.lookups;
+    count(flight.lookups, through.lookups);
   }
   flight.weight = analog_weight(medium, shares, crossed, flight.collided);
   return flight;

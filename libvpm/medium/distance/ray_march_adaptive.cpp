@@ -8,6 +8,7 @@
 // thinner than a step are missed.
 #include <algorithm>
 
+#include "base/count.h"
 #include "medium/distance/mixture.h"
 #include "medium/distance/strategies.h"
 
@@ -28,14 +29,14 @@ Flight RayMarchAdaptive::sample(const Medium& medium, const Ray& ray, const Inte
   Flight flight;
   flight.t = interval.t1;
   double crossed = 0.0;
-  medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
+  flight.bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
     const double wanted = std::clamp(column_of_step / stretch.max, kShortest * longest, longest);
     const double steps = stretch.uniform() ? 1.0 : std::ceil((stretch.t1 - stretch.t0) / wanted);
     const double length = (stretch.t1 - stretch.t0) / steps;
     double t = stretch.t0;
     for (double i = 0.0; i < steps; ++i, t += length) {
       const double density = stretch.density(t + 0.5 * length);
-      ++flight.lookups;
+      count(flight.lookups);
       if (crossed + density * length > target) {
         flight.collided = true;
         flight.density = static_cast<float>(density);

@@ -20,6 +20,7 @@ struct Flight {
                          // weight is black
   Rgb weight{1.0f};      // the photon's power is multiplied by it
   uint32_t lookups = 0;  // of density
+  uint32_t bricks = 0;   // of a grid, whose bounds were looked up
   uint32_t null_collisions = 0;
   uint32_t majorant_violations = 0;  // look-ups that found more than a majorant, which cut the density to itself
 };

@@ -1,6 +1,7 @@
 // Ratio tracking from brick to brick of a grid.
 #pragma once
 
+#include "base/count.h"
 #include "medium/transmittance/estimators.h"
 #include "medium/transmittance/marched_columns.h"
 #include "medium/transmittance/poisson_points.h"
@@ -24,17 +25,17 @@ TransmittanceEstimate track_bricks(const Medium& medium, const Ray& ray, const I
   uint32_t lookups = 0;
   Rgbd product(1.0);
   PoissonPoints points(rng);
-  medium.visit_majorants(ray, inside, [&](const DensityStretch& stretch) {
+  const uint32_t bricks = medium.visit_majorants(ray, inside, [&](const DensityStretch& stretch) {
     const BrickSplit brick = split(stretch);
     const double rate = densest * brick.reach;  // 1/m
     if (brick.control > 0.0) product *= glm::exp(-sigma_t * (brick.control * (stretch.t1 - stretch.t0)));
     return points.visit(stretch.t0, stretch.t1, rate, [&](double t) {
-      ++lookups;
+      count(lookups);
       product *= 1.0 - sigma_t * (stretch.density(t) - brick.control) / rate;
       return survives(product, rng);
     });
   });
-  return {Rgb(product), lookups};
+  return {Rgb(product), lookups, bricks};
 }
 
 }  // namespace vpm

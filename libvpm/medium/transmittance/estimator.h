@@ -12,11 +12,12 @@
 
 namespace vpm {
 
-/// A transmittance per channel, with the look-ups of density it took. Values below 0 and above 1 are right where their
-/// mean is: whoever uses them must neither clamp nor drop them.
+/// A transmittance per channel, with the look-ups of density and of bounds it took. Values below 0 and above 1 are
+/// right where their mean is: whoever uses them must neither clamp nor drop them.
 struct TransmittanceEstimate {
   Rgb value{1.0f};
   uint32_t lookups = 0;
+  uint32_t bricks = 0;  // of a grid, whose bounds were looked up
 };
 
 class TransmittanceEstimator {

@@ -6,6 +6,7 @@
 // Known failure: it is as blind as delta tracking where the density is its majorant: in a constant medium the value is
 // 0 or 1. The relative variance is exp(int sigma_t^2 / majorant) - 1; look-ups are as many as the majorant's thickness,
 // which one dense voxel anywhere in the medium makes large.
+#include "base/count.h"
 #include "medium/majorant_of_lookups.h"
 #include "medium/transmittance/estimators.h"
 #include "medium/transmittance/marched_columns.h"
@@ -22,7 +23,7 @@ TransmittanceEstimate RatioTransmittance::estimate(const Medium& medium, const R
   uint32_t lookups = 0;
   Rgbd product(1.0);
   PoissonPoints(rng).visit(inside.t0, inside.t1, majorant, [&](double t) {
-    ++lookups;
+    count(lookups);
     product *= 1.0 - sigma_t * double{medium.density(ray.at(static_cast<float>(t)))} / majorant;
     return survives(product, rng);
   });

@@ -40,9 +40,9 @@ double series_weight(int k) { return k == 0 ? 1.0 : std::ldexp(1.0 / kHigherOrde
 
 /// The optical thickness by which the extinction may differ from a constant along a stretch: of its local majorants
 /// less the least of its local bounds. (The paper's control, whose minorant is 0, has more samples in even media.)
-double control_thickness(const Medium& medium, const Ray& ray, const Interval& inside) {
+double control_thickness(const Medium& medium, const Ray& ray, const Interval& inside, uint32_t& bricks) {
   double majorant = 0.0, covered = 0.0, least_bound = std::numeric_limits<double>::infinity();  // m, m, 1
-  medium.visit_majorants(ray, inside, [&](const DensityStretch& stretch) {
+  bricks = medium.visit_majorants(ray, inside, [&](const DensityStretch& stretch) {
     const double length = stretch.t1 - stretch.t0;
     majorant += length * stretch.max;
     covered += length;
@@ -94,7 +94,8 @@ TransmittanceEstimate UnbiasedRayMarchedTransmittance::estimate(const Medium& me
                                                                 const Interval& interval, Rng& rng) const {
   const Interval inside = medium.clip(ray, interval);
   if (const auto known = known_transmittance(medium, inside)) return *known;
-  const double count = comb_size(control_thickness(medium, ray, inside), samples_);
+  TransmittanceEstimate result;
+  const double count = comb_size(control_thickness(medium, ray, inside, result.bricks), samples_);
   const double rise = double{medium.density(ray.at(inside.t1))} - medium.density(ray.at(inside.t0));
   const double of_rise = rise * inside.length() / count;  // m: the error over a straight line is (offset - 1/2) of it
   const int order = draw_order(rng);
@@ -103,7 +104,6 @@ TransmittanceEstimate UnbiasedRayMarchedTransmittance::estimate(const Medium& me
     const double offset = rng.uniform_double();
     columns[i] = comb_column(medium, ray, inside, count, offset) - (offset - 0.5) * of_rise;
   }
-  TransmittanceEstimate result;
   for (int c = 0; c < 3; ++c) {
     for (int i = 0; i <= order; ++i) thicknesses[i] = medium.sigma_t[c] * columns[i];
     result.value[c] = static_cast<float>(power_series(thicknesses, order));

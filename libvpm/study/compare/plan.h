@@ -56,14 +56,15 @@ struct RunCost {
   uint64_t photons = 0;                      // emitted
   uint64_t stored = 0;                       // in all maps
   uint64_t lookups = 0, photon_lookups = 0;  // of density: by all, by photons
+  uint64_t bricks = 0;                       // of grids, whose bounds were looked up
   uint64_t null_collisions = 0;              // of flights
   uint64_t majorant_violations = 0;          // see WalkCounters
   uint64_t searches = 0;                     // of photon maps
   uint64_t photons_visited = 0;              // by these, see GatherCounters
   uint64_t photons_used = 0;
   uint64_t bytes = 0;                  // of photon maps and guides, of the largest pass
-  double largest_weight = 0.0;         // of a photon, see Ledger
-  double effective_sample_size = 0.0;  // of collisions, see Ledger
+  double largest_weight = 0.0;         // of photons, see Ledger; of paths, see EyeCounters
+  double effective_sample_size = 0.0;  // of collisions of these
 };
 
 /// Calls f(name, number) for each of a run's numbers, with the names they have in files.
@@ -75,6 +76,7 @@ void each_number(auto&& cost, auto&& f) {
   f("stored", cost.stored);
   f("lookups", cost.lookups);
   f("photon_lookups", cost.photon_lookups);
+  f("bricks", cost.bricks);
   f("null_collisions", cost.null_collisions);
   f("majorant_violations", cost.majorant_violations);
   f("searches", cost.searches);

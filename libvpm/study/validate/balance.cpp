@@ -93,7 +93,7 @@ Check check_ledger(const Scene& scene, std::string_view strategy_name, const Eff
   const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name)});
   Progress progress("", 0, false);
   const Ledger ledger = trace_photons(scene, *strategy, settings, progress).ledger;
-  const double size = ledger.effective_sample_size();
+  const double size = ledger.weights.effective_sample_size();
   const double emitted = sum_channels(Rgb(ledger.emitted)) / static_cast<double>(ledger.emitted_count);
   Check check = size < kLeastSampleSize ? not_determined(name, ledger.imbalance.mean(), 0.0, "")
                                         : check_mean(name, ledger.imbalance, 0.0);

@@ -159,8 +159,6 @@ bool has_bounded_weights(const LoadedScene& loaded) {
 /// all repetitions, and their intervals lie.
 std::string why_bias_unknown(const LoadedScene& loaded, const std::vector<RunCost>& costs) {
   if (loaded.scene.media.empty() || has_bounded_weights(loaded)) return "";
-  if (loaded.settings.integrator == Integrator::path)
-    return "weights without bound, and of paths no effective sample size is counted";
   double least = costs.front().effective_sample_size;
   for (const RunCost& cost : costs) least = std::min(least, cost.effective_sample_size);
   return least < kLeastSampleSize ? fmt::format("effective sample size {:.3g} < {:g}", least, kLeastSampleSize) : "";

@@ -24,14 +24,16 @@ RunCost counted(const RenderStatistics& s) {
   walk.merge(s.eye.walk);
   cost.lookups = walk.lookups;
   cost.photon_lookups = s.ledger.walk.lookups;
+  cost.bricks = walk.bricks;
   cost.null_collisions = walk.null_collisions;
   cost.majorant_violations = walk.majorant_violations;
   cost.searches = s.eye.gather.searches;
   cost.photons_visited = s.eye.gather.visited;
   cost.photons_used = s.eye.gather.used;
   cost.bytes = s.photon_map_bytes + s.guide_bytes;
-  cost.largest_weight = s.ledger.largest_weight;
-  cost.effective_sample_size = s.ledger.effective_sample_size();
+  const WeightMoments& weights = cost.photons > 0 ? s.ledger.weights : s.eye.weights;
+  cost.largest_weight = weights.largest;
+  cost.effective_sample_size = weights.effective_sample_size();
   return cost;
 }
 
