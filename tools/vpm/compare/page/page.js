@@ -129,6 +129,7 @@ function withLightColours(action) {
 function followColours() {
   const root = document.documentElement.classList;
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', recolour);
+  matchMedia('print').addEventListener('change', recolour);  // where the layout is already that of paper
   window.addEventListener('beforeprint', () => {
     root.add('light');
     recolour();
