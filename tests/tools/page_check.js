@@ -1,5 +1,6 @@
 // The page's examination: it is used as a reader would use it, and what it shows is compared with the data. The verdict
-// is left in an attribute. kPixel is a pixel of the reference with its value, from elsewhere than the page.
+// is left in an attribute. From elsewhere than the page: kPixel, a pixel of the reference with its value, and kDark,
+// whether the reader's system is dark.
 'use strict';
 
 const expect = (holds, text) => {
@@ -90,7 +91,27 @@ function checkEqualCost(root, scene) {
     expect(
         errors.length === shown.length && errors.every((error, i) => isValueOf(shown[i], error)),
         `errors ${shown}, not ${errors.map(error => error.value)}`);
+    const best = root.querySelector('.equal-cost td:nth-child(5) strong').closest('tr').cells[0].textContent;
+    expect(best === scene.methods[scene.best_by_variance[b]].name, `${best} is not the best by variance`);
   });
+}
+
+/** The verdicts are those of the data, at the last budget; those who are biased are marked and counted. */
+function checkVerdicts(root, scene) {
+  const rows = [...root.querySelectorAll('.verdicts tbody tr')];
+  expect(rows.length === scene.methods.length, `${rows.length} verdicts`);
+  for (const {cells} of rows) {
+    const {verdict, budgets} = scene.methods.find(method => method.name === cells[0].textContent);
+    const isBiased = verdict.says === 'biased', own = last(budgets).own_bias;
+    expect(cells[1].textContent.startsWith(verdict.says), `${cells[1].textContent}, not ${verdict.says}`);
+    expect(!own || isValueOf(readNumber(cells[2].textContent), timesHundred(own)), `own bias ${cells[2].textContent}`);
+    expect(isBiased === (cells[1].querySelector('strong.biased') !== null), `${verdict.says} is marked otherwise`);
+    expect(
+        verdict.p_holm === null || near(readNumber(cells[4].textContent), verdict.p_holm, 0.06),
+        `p ${cells[4].textContent}, not ${verdict.p_holm}`);
+  }
+  const biased = scene.methods.filter(method => method.verdict.says === 'biased').length;
+  expect(readNumber(root.querySelector('.verdicts-text').textContent) === biased, `not ${biased} biased`);
 }
 
 /** The picture of the first run has the error that vpm gave it, so it is that picture. */
@@ -160,6 +181,7 @@ function checkModes(comparer) {
 }
 
 function check() {
+  expect(matchMedia('(prefers-color-scheme: dark)').matches === kDark, `the page is not ${kDark ? 'dark' : 'light'}`);
   expect(
       document.title === results.title && find('title').textContent === results.title,
       'the title is not the experiment\'s');
@@ -171,12 +193,16 @@ function check() {
     checkPlot(root, scene);
     checkLegend(root, scene);
     checkEqualCost(root, scene);
+    checkVerdicts(root, scene);
     root.querySelectorAll('table.sortable').forEach(checkSorting);
     checkErrors(comparers[i], scene);
     checkPixel(comparers[i], scene);
     checkModes(comparers[i]);
   });
   expect(find('file-texts').textContent.includes(results.scenes[0].text), 'the scene\'s text is not in the page');
+  document.querySelectorAll('details').forEach(details => details.open = true);
+  checkContrast('on the screen', [...kTexts, 'nav a']);
+  checkPaper();
 }
 
 try {

@@ -19,11 +19,18 @@ const kIntervalPlots = [
 const kLongestName = 22;
 const shortName = name => (name.length > kLongestName ? `${name.slice(0, kLongestName - 1)}…` : name);
 
+/** Where a logarithmic axis ends: values, and ends of intervals no further than a factor of 10 beyond all of them. */
+function ratioRange(nothing, points) {
+  const values = [nothing, ...points.map(p => p.value).filter(x => x > 0)];
+  const least = Math.min(...values) / 10, greatest = 10 * Math.max(...values);
+  const ends = points.flatMap(p => [p.lo, p.hi]).filter(x => x >= least && x <= greatest);
+  return rangeOf([...values, ...ends], 1.3);
+}
+
 /** The axis from the least to the greatest end, with what there would be without a difference. */
 function intervalAxis({title, logarithmic, nothing}, points) {
-  const ends =
-      [nothing, ...points.flatMap(p => [p.value, p.lo, p.hi]).filter(x => x !== null && (!logarithmic || x > 0))];
-  if (logarithmic) return logarithmicAxis(title, rangeOf(ends, 1.3));
+  if (logarithmic) return logarithmicAxis(title, ratioRange(nothing, points));
+  const ends = [nothing, ...points.flatMap(p => [p.value, p.lo, p.hi]).filter(x => x !== null)];
   const [least, greatest] = [Math.min(...ends), Math.max(...ends)], room = 0.08 * (greatest - least) || 1;
   return {
     type: 'linear',
@@ -70,8 +77,8 @@ const intervalLines = {
     for (const {borderColor, data: [p]} of data.datasets) {
       if (p.value === null) writeUnknown(ctx, chartArea.left + 6, y.getPixelForValue(p.y));
       if (p.lo === null || p.hi === null) continue;
-      const from = p.lo > 0 || !options.isLogarithmic ? x.getPixelForValue(p.lo) : chartArea.left;
-      line(borderColor, 2, from, y.getPixelForValue(p.y), x.getPixelForValue(p.hi), y.getPixelForValue(p.y));
+      const [from, to] = [p.lo, p.hi].map(end => x.getPixelForValue(Math.min(x.max, Math.max(x.min, end))));
+      line(borderColor, 2, from, y.getPixelForValue(p.y), to, y.getPixelForValue(p.y));
     }
   },
 };
@@ -125,7 +132,6 @@ class IntervalPlot {
         maintainAspectRatio: false,
         devicePixelRatio: Math.max(2, window.devicePixelRatio),
         nothing: kind.nothing,
-        isLogarithmic: kind.logarithmic,
         scales: {x: intervalAxis(kind, points), y: methodAxis(scene)},
         plugins: {
           legend: {display: false},

@@ -11,6 +11,7 @@ function provenance() {
     ['Repetitions', `${results.repetitions}, seeds ${results.seed} to ${results.seed + results.repetitions - 1}`],
     ['Budgets', `${results.budgets.map(plain).join(', ')} ${results.unit}`],
     ['Methods', String(results.scenes[0].methods.length)],
+    ...(results.baseline === null ? [] : [['Baseline', `${results.baseline}, whose bias all methods share`]]),
   ];
 }
 
@@ -74,6 +75,8 @@ function buildScene(scene, index, encoded) {
   fillSelect(budget, results.budgets.map((_, b) => budgetText(b)), results.budgets.length - 1);
   budget.addEventListener('change', atBudget);
   atBudget();
+  part('.verdicts-text').textContent = verdictsText(scene);
+  part('.verdicts').append(verdictsTable(scene));
   part('.equal-error').append(equalErrorTable(scene));
   part('.pairs-text').textContent = pairsText(scene);
   part('.pairs').append(pairsTable(scene));
@@ -126,6 +129,7 @@ function withLightColours(action) {
 function followColours() {
   const root = document.documentElement.classList;
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', recolour);
+  matchMedia('print').addEventListener('change', recolour);  // where the layout is already that of paper
   window.addEventListener('beforeprint', () => {
     root.add('light');
     recolour();

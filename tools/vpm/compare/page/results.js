@@ -25,16 +25,16 @@ function magnitude({value, lo, hi}) {
   return {value: Math.abs(value), lo: lo < 0 && hi > 0 ? 0 : Math.min(...ends), hi: Math.max(...ends)};
 }
 
-
 const last = array => array[array.length - 1];
 const mean = numbers => numbers.reduce((sum, x) => sum + x, 0) / numbers.length;
 const meanOf = (budget, key) => mean(budget.runs.map(run => run[key]));
 const costOf = budget => meanOf(budget, budgetCost.key);
 const budgetText = index => `${plain(results.budgets[index])} ${results.unit}`;
 
-/** The smallest effective sample size among the repetitions; null where no photons were traced. */
+/** The smallest effective sample size among the repetitions; null where nothing collided. */
 function sampleSize(budget) {
-  return meanOf(budget, 'photons') > 0 ? Math.min(...budget.runs.map(run => run.effective_sample_size)) : null;
+  const least = Math.min(...budget.runs.map(run => run.effective_sample_size));
+  return least > 0 ? least : null;
 }
 
 /** Why the bias of a method at a budget is not determined; nothing where it is. */

@@ -19,8 +19,38 @@ const intervalColumn = (title, hint, of) =>
     ({title, hint, key: row => of(row).value, cell: row => intervalCell(of(row))});
 const numberColumn = (title, hint, of, text = number) => ({title, hint, key: of, cell: row => text(of(row))});
 
-const rowsAt = (scene, b) =>
-    scene.methods.map((method, index) => ({index, ...method.budgets[b], isBest: scene.best[b] === index}));
+/** An efficiency over that of the best method. */
+function efficiencyColumn(title, hint, of, isBest) {
+  const cell = row => (isBest(row) ? element('strong', {}, 'best') : intervalCell(of(row)));
+  return {title, hint, key: row => of(row).value, cell};
+}
+
+/** A bias in percent, or why it is not determined; null is that of the baseline beside itself. */
+function biasCell(row, bias) {
+  if (bias === null) return 'baseline';
+  if (biasUnknown(row)) return element('span', {title: biasUnknown(row)}, 'not determined');
+  return intervalCell(timesHundred(bias));
+}
+
+function columnOfBias(title, hint, of) {
+  const isKnown = row => of(row) !== null && !biasUnknown(row);
+  return {title, hint, key: row => (isKnown(row) ? of(row).value : null), cell: row => biasCell(row, of(row))};
+}
+
+const biasColumn = () => columnOfBias('bias, %', results.formulas.bias, row => row.bias);
+
+/** One, where there is a baseline. */
+function ownBiasColumns() {
+  if (results.baseline === null) return [];
+  const hint = `of the mean radiance beside that of ${results.baseline}, whose bias all methods share`;
+  return [columnOfBias('own bias, %', hint, row => row.own_bias)];
+}
+
+function rowsAt(scene, b) {
+  const best = scene.best[b], bestByVariance = scene.best_by_variance[b];
+  const marks = index => ({index, isBest: index === best, isBestByVariance: index === bestByVariance});
+  return scene.methods.map((method, index) => ({...marks(index), ...method.budgets[b]}));
+}
 
 function equalCostTable(scene, b) {
   const f = results.formulas;
@@ -28,20 +58,13 @@ function equalCostTable(scene, b) {
     methodColumn(scene),
     numberColumn('cost', `${budgetCost.title}: mean over repetitions`, costOf),
     intervalColumn('relative MSE', f.relative_mse, row => row.relative_mse),
-    {
-      title: 'efficiency',
-      hint: f.efficiency,
-      key: row => row.efficiency.value,
-      cell: row => (row.isBest ? element('strong', {}, 'best') : intervalCell(row.efficiency))
-    },
-    {
-      title: 'bias, %',
-      hint: f.bias,
-      key: row => (biasUnknown(row) ? null : row.bias.value),
-      cell: row =>
-          (biasUnknown(row) ? element('span', {title: biasUnknown(row)}, 'not determined') :
-                              intervalCell(timesHundred(row.bias)))
-    },
+    efficiencyColumn('efficiency', f.efficiency, row => row.efficiency, row => row.isBest),
+    efficiencyColumn(
+        'efficiency by variance',
+        `${f.efficiency_by_variance}: what sampling alone costs where all methods share a bias, as that of a kernel`,
+        row => row.efficiency_by_variance, row => row.isBestByVariance),
+    biasColumn(),
+    ...ownBiasColumns(),
     intervalColumn('squared bias', f.squared_bias, row => row.squared_bias),
     numberColumn('variance', 'relative MSE less squared bias', row => row.variance),
     intervalColumn('MSE', f.mse, row => row.mse),
@@ -56,7 +79,7 @@ function equalCostTable(scene, b) {
 const kRunFields = [
   'cpu_seconds', 'wall_seconds', 'passes', 'photons', 'stored', 'lookups', 'photon_lookups', 'searches',
   'photons_visited', 'photons_used', 'bytes', 'largest_weight', 'effective_sample_size', 'mse', 'relative_mse',
-  'relative_mse_of_pbrt', 'mean_ratio'
+  'relative_mse_of_pbrt', 'mean_ratio', 'variance'
 ];
 
 function countersTable(scene, b) {
@@ -132,14 +155,17 @@ function pairsTable(scene) {
     {
       title: 'difference',
       words: true,
-      key: verdict,
-      cell: pair => (isSignificant(pair) ? element('strong', {}, verdict(pair)) : verdict(pair))
+      key: difference,
+      cell: pair => (isSignificant(pair) ? element('strong', {}, difference(pair)) : difference(pair))
     },
   ];
   return sortableTable(`Efficiencies at ${budgetText(results.budgets.length - 1)}, all pairs`, columns, scene.pairs, 4);
 }
 
-const verdict = pair => (pair.p_holm === null ? 'not determined' : isSignificant(pair) ? 'significant' : 'none shown');
+function difference(pair) {
+  if (pair.p_holm === null) return 'not determined';
+  return isSignificant(pair) ? 'significant' : 'none shown';
+}
 
 function pairsText(scene) {
   const significant = scene.pairs.filter(isSignificant).length,
