@@ -145,23 +145,31 @@ void check_radii_of_pixels(TableReader& surface, const RenderSettings& s) {
                  "write \"none\", or other radii");
 }
 
-void read_distance(TableReader& table, DistanceSettings& distance, bool has_grid) {
+/// The strategies for which that is true.
+Names strategies_that(bool StrategyInfo::*is) {
+  Names names;
+  for (const StrategyInfo& info : distance_strategies())
+    if (info.*is) names.emplace_back(info.name);
+  return names;
+}
+
+void read_distance(TableReader& table, RenderSettings& s, bool has_grid) {
+  DistanceSettings& distance = s.distance;
   distance.strategy = read_listed(table, "strategy", distance_strategies(), distance.strategy);
   distance.step = table.number("step", kVoxels, distance.step);
   distance.optical_step = table.number("optical_step", kOpticalStep, distance.optical_step);
   distance.majorant = table.number("majorant", {1e-6, 1.0, false, false}, distance.majorant);
   distance.extinction_floor = table.number("extinction_floor", kPositive, distance.extinction_floor);
-  Names others;
-  bool refused = false;
-  for (const StrategyInfo& info : distance_strategies()) {
-    if (info.heterogeneous)
-      others.emplace_back(info.name);
-    else
-      refused = refused || (has_grid && info.name == distance.strategy);
-  }
-  if (refused)
+  const StrategyInfo& info = strategy_info(distance.strategy);
+  if (has_grid && !info.heterogeneous)
     table.fail("strategy", "the strategy '" + distance.strategy + "' is wrong in a grid medium, and the scene has one",
-               suggest(distance.strategy, others, "right in grids"));
+               suggest(distance.strategy, strategies_that(&StrategyInfo::heterogeneous), "right in grids"));
+  if (s.integrator == Integrator::photon && !info.positive)
+    table.fail(
+        "strategy",
+        "the strategy '" + distance.strategy + "' gives weights below 0, which the power of photons must not have",
+        "write integrator = \"path\" in [render], or use another strategy; " +
+            suggest(distance.strategy, strategies_that(&StrategyInfo::positive), "right for photons"));
 }
 
 /// Does anything ask for the transmittance towards lights?
@@ -225,7 +233,7 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
       table.fail("scatter", "nothing tells photons where to scatter: 'importons' of [importance] is 0",
                  "make 'importons' positive, or leave out 'scatter'");
   });
-  read_section(root, "distance", [&](TableReader& table) { read_distance(table, s.distance, contents.grids); });
+  read_section(root, "distance", [&](TableReader& table) { read_distance(table, s, contents.grids); });
   read_section(root, "volume", [&](TableReader& table) {
     read_gather(table, s.volume);
     s.volume_form = table.choice<VolumeForm>(

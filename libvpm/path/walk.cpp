@@ -74,7 +74,7 @@ bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng) {
 
 bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng) {
   const Rgb after = state.power * scatter.weight;
-  const float survival = std::min(1.0f, max_channel(after) / max_channel(state.power));
+  const float survival = std::min(1.0f, max_channel(glm::abs(after)) / max_channel(glm::abs(state.power)));
   if (!(rng.uniform() < survival)) return false;
   state.power = after / survival;
   if (scatter.transmitted)

@@ -58,18 +58,19 @@ Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState
 
 /// Ends paths whose weight (power over what they started with) weighted strategies have made small, before they cost
 /// as much as heavy ones: below 0.1 a path survives with probability weight / 0.1, and its power is divided by that.
+/// The weight is a magnitude, >= 0.
 /// False where it ends.
 bool survive_roulette(double weight, PathState& state, Rng& rng);
 
-/// The outcome of a collision: scatters with probability q = sum(albedo power) / sum(power), multiplying the power by
-/// albedo / q and choosing a new direction; returns false where the path is absorbed. Grey media: power unchanged
+/// The outcome of a collision: scatters with probability q = sum(albedo |power|) / sum(|power|), multiplying the power
+/// by albedo / q and choosing a new direction; returns false where the path is absorbed. Grey media: power unchanged
 /// [Jarosz2008, eq. 7.8].
 bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
 
 /// Follows a path as the sampled material says, from a surface: plays Russian roulette, surviving with the ratio of
-/// largest channels after and before, at most 1. The path goes on from just off the surface, in the medium there. False
-/// where absorbed. The power is not multiplied by Scatter::radiance_scale, which is for eye paths, nor by flux_scale,
-/// which is for photons.
+/// largest channels' magnitudes after and before, at most 1. The path goes on from just off the surface, in the medium
+/// there. False where absorbed. The power is not multiplied by Scatter::radiance_scale, which is for eye paths, nor by
+/// flux_scale, which is for photons.
 bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng);
 
 /// The outcome at a surface: samples the material and goes on from there.

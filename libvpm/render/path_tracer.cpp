@@ -31,8 +31,8 @@ class TracedPath {
 
  private:
   bool collide() {
-    counters_.weights.add(sum_channels(state_.power) / 3.0);
-    if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
+    counters_.weights.add(sum_channels(glm::abs(state_.power)) / 3.0);
+    if (!survive_roulette(max_channel(glm::abs(state_.power)), state_, rng_)) return false;
     const Medium& medium = c_.scene.media[state_.medium];
     const Vec3 travel = state_.ray.direction;
     const DirectSample light = sample_light({state_.ray.origin, state_.medium});
@@ -53,7 +53,7 @@ class TracedPath {
       radiance_ +=
           state_.power * emitted * share_of_path(light, from, {travel, glm::distance(from, hit.position), hit.normal});
     }
-    if (!survive_roulette(max_channel(state_.power), state_, rng_)) return false;
+    if (!survive_roulette(max_channel(glm::abs(state_.power)), state_, rng_)) return false;
     const Material material = material_at(c_.scene, hit);
     if (is_rough(material)) {
       add_direct_light(hit, material, near_side(hit, state_.ray.direction, state_.medium));

@@ -74,6 +74,16 @@ TEST(SlowDistanceStrategy, EveryUnbiasedOneFollowsTheExactTransmittance) {
     }
 }
 
+TEST(DistanceStrategy, WeightedFlightsUnderAQuarterOfTheDensityFollowTheExactTransmittance) {
+  const DistanceSettings quarter{.strategy = "weighted", .majorant = 0.25f};
+  for (const FlightField& field : flight_fields()) {
+    // So thin that no sample size is too small.
+    expect_exact(make_medium(field.grid, Rgb(0.3f)), quarter, Rgb(1.0f), field.name, true);
+    for (const Rgb& sigma_t : {Rgb(0.1f, 0.2f, 0.4f), Rgb(0.0f, 0.2f, 0.3f)})
+      expect_exact(make_medium(field.grid, sigma_t), quarter, Rgb(1.0f, -0.5f, 2.0f), field.name, true);
+  }
+}
+
 TEST(DistanceStrategy, AChannelWithoutExtinctionLeadsThroughAndWeighsTheOthers) {
   const Medium medium = make_medium(flight_fields()[4].grid, Rgb(0.0f, 1.5f, 3.0f));
   for (const StrategyInfo& info : distance_strategies())

@@ -113,6 +113,39 @@ TEST(Tracking, ProgressiveMajorantsCutTheDensityUntilTheyHaveGrown) {
     }
 }
 
+TEST(Tracking, WeightedFlightsUnderMajorantsThatBoundAreThoseOfDeltaTracking) {
+  for (const FlightField& field : flight_fields())
+    for (const Rgb& sigma_t : {Rgb(2.0f), Rgb(0.5f, 1.5f, 3.0f)}) {
+      const Medium medium = make_medium(field.grid, sigma_t);
+      const auto delta = make_distance_strategy({.strategy = "delta-local"});
+      const auto weighted = make_distance_strategy({.strategy = "weighted", .majorant = 1.0f});
+      for (uint64_t i = 0; i < 2000; ++i) {
+        const Flight flight = fly(*weighted, medium, i);
+        expect_same(flight, fly(*delta, medium, i));
+        EXPECT_EQ(flight.majorant_violations, 0u);
+      }
+    }
+}
+
+TEST(Tracking, BeyondMajorantsWeightsAreOfEitherSign) {
+  // Dense voxels have four times the majorant: each look-up there multiplies by 4 + |1 - 4| or, where it is null, by
+  // minus that. In the others the majorant bounds.
+  const GridFrame frame = centred_frame(7, 0.125, Interpolation::nearest);
+  const Medium medium =
+      make_medium(make_grid(frame, [](int x, int y, int z) { return (x + y + z) & 1 ? 1.5 : 0.3; }), Rgb(2.0f));
+  const auto weighted = make_distance_strategy({.strategy = "weighted", .majorant = 0.25f});
+  int negative = 0;
+  for (uint64_t i = 0; i < 2000; ++i) {
+    const Flight flight = fly(*weighted, medium, i);
+    const double growth = std::pow(7.0, flight.majorant_violations);
+    EXPECT_NEAR(std::abs(flight.weight.r), growth, 1e-5 * growth);
+    EXPECT_TRUE(flight.weight.r > 0.0f || flight.majorant_violations > 0);
+    EXPECT_TRUE(is_grey(flight.weight));
+    negative += flight.weight.r < 0.0f;
+  }
+  EXPECT_GT(negative, 200);
+}
+
 TEST(Tracking, TheSumOverChannelsStaysAsItWas) {
   const Rgb power(1.0f, 0.5f, 2.0f);
   for (const FlightField& field : flight_fields())

@@ -35,7 +35,7 @@ void print_notes(const LoadedScene& loaded) {
   for (const std::string& note : loaded.notes) fmt::print(stderr, "note: {}\n", note);
 }
 
-void print_warnings(const Stages& stages, const RenderStatistics& s) {
+void print_warnings(const Stages& stages, const RenderSettings& settings, const RenderStatistics& s) {
   const auto warn = [](uint64_t count, const char* what) {
     if (count > 0) fmt::print(stderr, "warning: {} {}\n", count, what);
   };
@@ -53,7 +53,9 @@ void print_warnings(const Stages& stages, const RenderStatistics& s) {
   WalkCounters walk = s.ledger.walk;
   walk.merge(s.eye.walk);
   warn(walk.majorant_violations,
-       "look-ups found more density than a majorant, which cut it: passes are biased until majorants have grown");
+       strategy_info(settings.distance.strategy).positive
+           ? "look-ups found more density than a majorant, which cut it: passes are biased until majorants have grown"
+           : "look-ups found more density than a majorant: weights grow there and change their signs");
   if (walk.medium_mismatches > 100 + walk.crossings / 1'000'000)
     warn(walk.medium_mismatches,
          "boundaries were met from a medium that is not the one before them: check that media do not overlap");

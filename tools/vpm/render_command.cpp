@@ -96,7 +96,7 @@ int render_command(const RenderOptions& options) {
         if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
         if (log) log->add(so_far);
       });
-  print_warnings(plan_stages(loaded.scene, loaded.settings), result.statistics);
+  print_warnings(plan_stages(loaded.scene, loaded.settings), loaded.settings, result.statistics);
   if (result.film.passes() == 0) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;

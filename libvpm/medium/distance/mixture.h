@@ -9,10 +9,12 @@
 
 namespace vpm {
 
-/// The shares of the channels in a power; equal ones where it is black.
+/// The shares of the channels in a power, by magnitude: those of a path's may differ in sign. Equal ones where it is
+/// black.
 inline Rgb channel_shares(const Rgb& power) {
-  const float sum = sum_channels(power);
-  return sum > 0.0f ? power / sum : Rgb(1.0f / 3.0f);
+  const Rgb magnitudes = glm::abs(power);
+  const float sum = sum_channels(magnitudes);
+  return sum > 0.0f ? magnitudes / sum : Rgb(1.0f / 3.0f);
 }
 
 /// The value of the channel that a uniform number picks by `shares`.

@@ -22,6 +22,29 @@ NullCollisionFlight::NullCollisionFlight(const Medium& medium, const Interval& i
   if (!grey_) drop_exhausted_channels();
 }
 
+// Of a channel x collides and 1 - x goes on, in majorants. What happens is drawn by the means of their magnitudes over
+// the channels, so that neither is left out where any channel has some of it.
+bool NullCollisionFlight::meet_beyond(double t, float density, double majorant) {
+  count(flight_.lookups);
+  count(flight_.majorant_violations);
+  const double share = density / majorant;
+  const Rgbd null = 1.0 - coefficients_ / sigma_t_ * share;
+  const double real = chance_ * share, rest = glm::dot(shares_ * glm::abs(weight_), glm::abs(null));
+  flight_.weight *= static_cast<float>(real + rest);
+  if (decision_ * (real + rest) < real) {
+    collide(t, density);
+    return true;
+  }
+  count(flight_.null_collisions);
+  if (grey_) {
+    flight_.weight *= Rgb(null / rest);
+  } else {
+    weight_ *= null / rest;
+    drop_exhausted_channels();
+  }
+  return false;
+}
+
 void NullCollisionFlight::weigh_null(double share) {
   weight_ *= (1.0 - coefficients_ / sigma_t_ * share) / (1.0 - chance_ * share);
   drop_exhausted_channels();
@@ -30,17 +53,17 @@ void NullCollisionFlight::weigh_null(double share) {
 void NullCollisionFlight::drop_exhausted_channels() {
   sigma_t_ = 0.0;
   for (int c = 0; c < 3; ++c)
-    if (shares_[c] * weight_[c] >= kNothing)
+    if (shares_[c] * std::abs(weight_[c]) >= kNothing)
       sigma_t_ = std::max(sigma_t_, coefficients_[c]);
     else
       weight_[c] = 0.0;
-  chance_ = sigma_t_ > 0.0 ? glm::dot(shares_ * weight_, coefficients_) / sigma_t_ : 0.0;
+  chance_ = sigma_t_ > 0.0 ? glm::dot(shares_ * glm::abs(weight_), coefficients_) / sigma_t_ : 0.0;
 }
 
 Flight NullCollisionFlight::result() const {
   Flight flight = flight_;
   if (grey_) return flight;
-  flight.weight = Rgb(flight.collided ? weight_ * coefficients_ / (chance_ * sigma_t_) : weight_);
+  flight.weight *= Rgb(flight.collided ? weight_ * coefficients_ / (chance_ * sigma_t_) : weight_);
   return flight;
 }
 

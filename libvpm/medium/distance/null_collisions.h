@@ -6,6 +6,10 @@
 // of the power that the photon carries by then, and the weights tell by how much a channel's own chance differs: the
 // mixture of [Wilkie2014] at every tentative collision, as [Kutz2017] has it where probabilities follow the path's
 // history. The sum over channels of power times weight does not change on the way.
+//
+// Where a majorant does not bound, channels of which more collides than the majorant's rate have null collisions of
+// negative weight [Galtier2013; Novak2018]. There the mixture is of the magnitudes of what collides and what goes on,
+// and their sum over channels grows by the same factor whichever is drawn.
 #pragma once
 
 #include <cmath>
@@ -64,6 +68,12 @@ class NullCollisionFlight {
     return false;
   }
 
+  /// The same, but a majorant that does not bound leaves the density whole: weights make up for it, and may be
+  /// negative.
+  bool meet_weighted(double t, float density, double majorant) {
+    return density > majorant ? meet_beyond(t, density, majorant) : meet(t, density, majorant);
+  }
+
   void count_bricks(uint32_t crossed) { flight_.bricks = crossed; }
   void count_lookup() { count(flight_.lookups); }
 
@@ -71,19 +81,20 @@ class NullCollisionFlight {
   Flight result() const;
 
  private:
+  bool meet_beyond(double t, float density, double majorant);
   void weigh_null(double share);
   void drop_exhausted_channels();
 
   Rng& rng_;
-  Flight flight_;
+  Flight flight_;          // its weight: what all channels share
   double left_ = 0.0;      // optical thickness under the majorant up to the next tentative collision; 0: not drawn yet
   double decision_ = 0.0;  // uniform: what a tentative collision is
   double sigma_t_;         // the largest extinction at density 1 of channels that still carry power, 1/m
-  double chance_ = 1.0;    // mean over the power carried of extinctions, over sigma_t_
+  double chance_ = 1.0;    // mean of extinctions over the magnitudes of the power carried, over sigma_t_
   bool grey_;
   Rgbd coefficients_;  // extinction of the channels at density 1, 1/m
   Rgbd shares_;        // of the power, when the flight began
-  Rgbd weight_{1.0};
+  Rgbd weight_{1.0};   // in chromatic media; the sum of shares_ times magnitudes stays as it was
 };
 
 }  // namespace vpm

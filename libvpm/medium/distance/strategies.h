@@ -68,6 +68,15 @@ class ProgressiveNull final : public DistanceStrategy {
   double share_;  // the most that a majorant may be of the medium's largest density
 };
 
+class Weighted final : public DistanceStrategy {
+ public:
+  explicit Weighted(float majorant) : majorant_(majorant) {}
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  float majorant_;  // the most that a majorant may be, as a share of the medium's largest density
+};
+
 class Decomposition final : public DistanceStrategy {
  public:
   explicit Decomposition(bool needs_density) : needs_density_(needs_density) {}

@@ -10,7 +10,7 @@
 namespace vpm {
 
 std::span<const StrategyInfo> distance_strategies() {
-  static constexpr std::array<StrategyInfo, 10> kStrategies{{
+  static constexpr std::array<StrategyInfo, 11> kStrategies{{
       {.name = "regular",
        .summary = "exact in any medium: cells walked, the quartic column inverted",
        .failure = "a step for every cell crossed, however thin the medium is there",
@@ -56,6 +56,13 @@ std::span<const StrategyInfo> distance_strategies() {
        .failure = "the first passes see a medium too thin, which leaves the mean only as 1/passes",
        .source = "Misso2023",
        .unbiased = false},
+      {.name = "weighted",
+       .summary = "exact: null collisions under majorants that need not bound, by weights of either sign; for paths",
+       .failure = "densities above the majorant: weights beyond 1 multiply along the path, and the variance grows "
+                  "exponentially with the collisions there",
+       .source = "Galtier2013",
+       .bounded_weight = false,
+       .positive = false},
       {.name = "decomposition",
        .summary = "exact: each brick's least density without look-ups, the rest by null collisions",
        .failure = "bricks whose least density is near 0: there it is delta-local",
@@ -82,6 +89,7 @@ std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings&
   if (settings.strategy == "delta") return std::make_unique<Delta>();
   if (settings.strategy == "delta-local") return std::make_unique<DeltaLocal>();
   if (settings.strategy == "progressive-null") return std::make_unique<ProgressiveNull>(settings.majorant, use.pass);
+  if (settings.strategy == "weighted") return std::make_unique<Weighted>(settings.majorant);
   if (settings.strategy == "decomposition") return std::make_unique<Decomposition>(use.density);
   return nullptr;
 }

@@ -22,13 +22,13 @@ struct Flight {
   uint32_t lookups = 0;  // of density
   uint32_t bricks = 0;   // of a grid, whose bounds were looked up
   uint32_t null_collisions = 0;
-  uint32_t majorant_violations = 0;  // look-ups that found more than a majorant, which cut the density to itself
+  uint32_t majorant_violations = 0;  // look-ups that found more than a majorant
 };
 
-/// Samples where a photon collides next. Its weight makes the photon's power the right one whatever the distances'
-/// density: at a collision at distance d sigma_t(x) Tr(d) / pdf(d), at the interval's end Tr(D) / P(d > D) [Jarosz2008,
-/// alg. 7.3, corrected]. Chromatic media are sampled by the mixture of the channels' densities, each with the share of
-/// the photon's power in it.
+/// Samples where a photon or a path from the eye collides next. Its weight makes the power the right one whatever the
+/// distances' density: at a collision at distance d sigma_t(x) Tr(d) / pdf(d), at the interval's end Tr(D) / P(d > D)
+/// [Jarosz2008, alg. 7.3, corrected]. Chromatic media are sampled by the mixture of the channels' densities, each with
+/// the share of the photon's power in it.
 class DistanceStrategy {
  public:
   virtual ~DistanceStrategy() = default;
@@ -40,7 +40,8 @@ struct DistanceSettings {
   std::string strategy = "regular";
   float step = 1.0f;              // ray-march: length of a step in voxels, > 0; ray-march-adaptive: of the longest
   float optical_step = 0.1f;      // ray-march-adaptive: optical thickness of a step, > 0
-  float majorant = 0.25f;         // progressive-null: of the first pass, as a share of the largest density, in (0, 1]
+  float majorant = 0.25f;         // weighted, and progressive-null in its first pass: the most that a majorant may be,
+                                  // as a share of the medium's largest density, in (0, 1]
   float extinction_floor = 0.1f;  // local-extinction: the least rate, as a fraction of the mean one, > 0
 };
 
@@ -60,6 +61,7 @@ struct StrategyInfo {
   bool unbiased = true;
   bool marches = false;  // in steps, whose length is its bias
   bool bounded_weight = true;
+  bool positive = true;  // false: weights of either sign; refused for photons, whose power must not be negative
 };
 std::span<const StrategyInfo> distance_strategies();
 /// Of the strategy of that name, which there is.

@@ -169,7 +169,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   return checks;
 }
 
-/// Every strategy, for photons and for the referee's paths, and every estimator of transmittance.
+/// Every strategy, for the referee's paths and for photons if it is for them, and every estimator of transmittance.
 std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
   RenderSettings base = photon_settings(subject, effort.count(3'000, 8'000));
@@ -183,12 +183,14 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
   std::vector<Check> checks;
   for (const StrategyInfo& strategy : distance_strategies()) {
     if (grids && !strategy.heterogeneous) continue;
+    if (!grids && !strategy.positive) continue;  // in an endless medium the variance has no bound
     RenderSettings settings = base;
-    settings.distance.strategy = strategy.name;
+    settings.distance = careful_settings(strategy.name);
     settings.distance.extinction_floor = 1.0f;
     settings.seed = effort.seed_of(fmt::format("{} {} paths", subject.name, strategy.name));
     compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
             scene.grey);
+    if (!strategy.positive) continue;
     settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
     const int passes = static_cast<int>(effort.count(20, 64));
     compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
@@ -224,6 +226,7 @@ std::vector<Check> combinations(const Effort& effort) {
       settings.seed = effort.seed_of("combinations " + name);
       compare(checks, name, by_referee(scene, settings, rays), reference, scene.grey);
     }
+    if (!strategy.positive) continue;
     for (auto& [form, settings] : forms(base, true)) {
       const std::string name = fmt::format("photons by {}, {}", strategy.name, form);
       settings.seed = effort.seed_of("combinations " + name);

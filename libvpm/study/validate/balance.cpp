@@ -106,9 +106,9 @@ std::vector<Check> check_flows(const Effort& effort) {
   std::vector<Check> checks;
   append(checks, check_box({"homogeneous", nullptr}, strategy_info("homogeneous"), effort));
   for (const StrategyInfo& info : distance_strategies())
-    if (info.heterogeneous) append(checks, check_box(fields[5], info, effort));
+    if (info.heterogeneous && info.positive) append(checks, check_box(fields[5], info, effort));
   for (const StrategyInfo& info : distance_strategies())
-    if (info.heterogeneous) checks.push_back(check_ledger(scene_with_everything(), info.name, effort));
+    if (info.heterogeneous && info.positive) checks.push_back(check_ledger(scene_with_everything(), info.name, effort));
   return checks;
 }
 

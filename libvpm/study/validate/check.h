@@ -55,13 +55,14 @@ Check check_same(std::string name, const Moments& a, const Moments& b);
 /// than 10 pooled. `value` is the statistic, `exact` its mean (the degrees of freedom).
 Check check_distribution(std::string name, const std::vector<double>& counts, const std::vector<double>& probabilities);
 
-/// (sum x)^2 / sum x^2 over the samples, which are at least 0: so many equal ones would know the sum as well.
+/// (sum x)^2 / sum x^2 over the samples: so many equal ones would know the sum as well. Samples of either sign, which
+/// partly cancel, count for less.
 double effective_sample_size(const Moments& samples);
 
 /// Below that effective sample size heavy tails may hide from a sample: nothing is said of its mean.
 inline constexpr double kLeastSampleSize = 1000.0;
 
-/// check_mean() of weights that are at least 0 and may have heavy tails: not determined below kLeastSampleSize.
+/// check_mean() of weights that may have heavy tails: not determined below kLeastSampleSize.
 Check check_weighted_mean(std::string name, const Moments& samples, double exact);
 
 /// Independent weighted draws, each of which adds its weight to one of the cells, must have the given mean weights in

@@ -80,7 +80,7 @@ std::vector<Check> check_bodies(const Effort& effort) {
   check_body(checks, lit_box("box, Rayleigh", white_medium(nullptr, grey, Rayleigh{})), "homogeneous", effort);
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
     for (const StrategyInfo& info : distance_strategies())
-      if (info.heterogeneous)
+      if (info.heterogeneous && info.positive)
         check_body(checks,
                    lit_box(fields[i].name, white_medium(fields[i].grid, tested_extinction(info, *fields[i].grid),
                                                         HenyeyGreenstein{-0.4f})),

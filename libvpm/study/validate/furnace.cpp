@@ -187,7 +187,7 @@ std::vector<Check> check_maps(const Effort& effort) {
   append(checks, check_map(mesh, Vec3(0.85f, 0.2f, 0.0f), "homogeneous", VolumeForm::density_at_query, effort));
   for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
     for (const StrategyInfo& strategy : distance_strategies())
-      if (strategy.heterogeneous)
+      if (strategy.heterogeneous && strategy.positive)
         append(checks, check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)),
                                  field_point({0.5, 0.2, 0.5}), strategy.name, VolumeForm::density_at_query, effort));
   return checks;

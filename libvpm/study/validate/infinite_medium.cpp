@@ -33,7 +33,7 @@ void walk(const Scene& scene, const DistanceStrategy& strategy, int events, Rng&
   follow_photon(scene, strategy, {{Vec3(0.0f), kStart}, 0, Rgb(1.0f)}, events, rng, counters, see);
 }
 
-/// Every strategy, in grey and in colour: 1/(1 - albedo) collisions on average.
+/// Every strategy for photons, in grey and in colour: 1/(1 - albedo) collisions on average.
 std::vector<Check> check_counts(const Effort& effort) {
   std::vector<Check> checks;
   for (const bool grey : {true, false}) {
@@ -42,6 +42,7 @@ std::vector<Check> check_counts(const Effort& effort) {
     medium.phase = HenyeyGreenstein{0.5f};
     const Scene scene = endless(medium);
     for (const StrategyInfo& info : distance_strategies()) {
+      if (!info.positive) continue;
       const auto strategy = make_distance_strategy(careful_settings(info.name));
       const std::string name = fmt::format("{}, {}", grey ? "grey" : "colour", info.name);
       const auto samples =

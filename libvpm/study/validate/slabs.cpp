@@ -121,13 +121,14 @@ std::vector<Check> strategies_in_slabs(const Effort& effort) {
   const exact::SlabSolution s = exact::solve_slab(exact_slab(p));
   std::vector<Check> checks;
   for (const StrategyInfo& info : distance_strategies())
-    check_strategy(checks, homogeneous_slab(p.tau, p.albedo, p.g, p.incidence), info, "homogeneous", s, effort);
+    if (info.positive)
+      check_strategy(checks, homogeneous_slab(p.tau, p.albedo, p.g, p.incidence), info, "homogeneous", s, effort);
   // Contrasts so mild that weighted strategies stay usable: of strong ones their tails hide.
   const std::pair<const char*, Layers> kProfiles[] = {{"two layers", {{0.0, 0.5, 0.5, 1.0}, {1.5, 1.5, 2.5, 2.5}}},
                                                       {"a ramp", {{0.0, 1.0}, {1.5, 2.5}}}};
   for (const auto& [name, layers] : kProfiles)
     for (const StrategyInfo& info : distance_strategies())
-      if (info.heterogeneous && info.unbiased)
+      if (info.heterogeneous && info.unbiased && info.positive)
         check_strategy(checks, {layers, p.albedo, p.g, p.incidence}, info, name, s, effort);
   return checks;
 }

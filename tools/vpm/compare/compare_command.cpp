@@ -152,7 +152,8 @@ void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan,
 bool has_bounded_weights(const LoadedScene& loaded) {
   bool grids = false;
   for (const Medium& medium : loaded.scene.media) grids |= !medium.homogeneous();
-  return !grids || strategy_info(loaded.settings.distance.strategy).bounded_weight;
+  const StrategyInfo& info = strategy_info(loaded.settings.distance.strategy);
+  return info.bounded_weight || (!grids && info.positive);
 }
 
 /// Why a bias cannot be told from repetitions; empty where it can. Means of heavy-tailed weights look biased in nearly
