@@ -42,7 +42,7 @@ LitBody lit_box(std::string name, const Medium& medium) {
 Rgb tested_extinction(const StrategyInfo& info, const DensityGrid& grid) {
   if (info.bounded_weight) return Rgb(1.5f);
   const float mild = static_cast<float>(grid.mean_density()) / grid.max_density();
-  return Rgb(info.positive ? mild : 0.25f * mild);  // the mean square of signed weights grows with every collision
+  return Rgb(info.positive ? mild : 0.25f * mild);
 }
 
 Medium white_medium(std::shared_ptr<const DensityGrid> grid, const Rgb& sigma_t, const Phase& phase) {
