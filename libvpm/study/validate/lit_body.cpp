@@ -40,7 +40,9 @@ LitBody lit_box(std::string name, const Medium& medium) {
 }
 
 Rgb tested_extinction(const StrategyInfo& info, const DensityGrid& grid) {
-  return Rgb(info.bounded_weight ? 1.5f : static_cast<float>(grid.mean_density()) / grid.max_density());
+  if (info.bounded_weight) return Rgb(1.5f);
+  const float mild = static_cast<float>(grid.mean_density()) / grid.max_density();
+  return Rgb(info.positive ? mild : 0.25f * mild);
 }
 
 Medium white_medium(std::shared_ptr<const DensityGrid> grid, const Rgb& sigma_t, const Phase& phase) {

@@ -28,7 +28,7 @@ LitBody lit_box(std::string name, const Medium& medium);
 
 /// The extinction coefficient (1/m) under which a strategy is tested in a grid. Weights without bound, up to the ratio
 /// of the largest density to the mean, multiply from event to event: that ratio and the events must not both be large,
-/// or their variance is infinite.
+/// or their variance is infinite. Signed weights multiply within flights, too, and need a thinner medium still.
 Rgb tested_extinction(const StrategyInfo& info, const DensityGrid& grid);
 
 /// A medium that absorbs nothing.
