@@ -66,7 +66,7 @@ Rgb bounded_sum(const Region& region, const Gathering<NearestMap>& map, const Ve
 template <int Dimension, class Region, class Accept, class Value>
 Rgb kernel_sum(const BoundedMap<Region>& bounded, const Vec3& point, Accept&& accept, Value&& value) {
   if (bounded.map.size() == 0) return Rgb(0.0f);
-  const auto within = [&](const Vec3& travel, const Vec3& offset) {
+  const auto within = [&](const PackedDirection& travel, const Vec3& offset) {
     return accept(travel, offset) && bounded.region.holds(offset);
   };
   const auto sum = [&](const auto& index) {

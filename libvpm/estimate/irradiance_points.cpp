@@ -31,7 +31,7 @@ IrradiancePoints::IrradiancePoints(const std::vector<SurfaceSite>& sites, const 
     for (size_t i = begin; i < end; ++i) points[i] = point_at(sites[i], here);
   });
   for (const GatherCounters& of_chunk : counted) counters.merge(of_chunk);
-  points_ = NearestMap(std::move(points), 1.0f);
+  points_ = NearestMap(points, 1.0f);
 }
 
 std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towards_eye,
@@ -41,13 +41,13 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
   const float side = geometric > 0.0f ? 1.0f : -1.0f;
   const Vec3 normal = side * hit.shading_normal;
   const Arrives in_plane{side * hit.normal, thickness_, true};
-  const auto agrees = [&](const Vec3& travel, const Vec3& offset) {
-    return -glm::dot(travel, normal) > kSameNormal && in_plane(travel, offset);
+  const auto agrees = [&](const PackedDirection& travel, const Vec3& offset) {
+    return -glm::dot(travel.unpack(), normal) > kSameNormal && in_plane(travel, offset);
   };
   const Neighbours& near = nearest(Gathering{points_, gather_, counters}, hit.position, agrees);
   if (near.entries().empty()) return std::nullopt;
   count(counters.used);
-  return points_.photon(near.entries().front().photon).power;
+  return points_.payload(near.entries().front().photon).power;
 }
 
 }  // namespace vpm

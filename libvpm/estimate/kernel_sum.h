@@ -64,9 +64,8 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
     Rgb sum(0.0f);
     uint32_t used = 0;
     const auto visit = [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
-      const Vec3 travel = p.travel.unpack();
-      if (!accept(travel, offset)) return;
-      sum += value(travel, p.power) * profile(d2 * inverse);
+      if (!accept(p.travel, offset)) return;
+      sum += value(p.travel.unpack(), p.power) * profile(d2 * inverse);
       count(used);
     };
     count(map.counters.searches);
@@ -80,12 +79,9 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
 /// thread's next call.
 template <class Accept>
 const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept) {
-  static thread_local Neighbours neighbours(0);
-  neighbours.reserve(map.settings.count);
+  static thread_local Neighbours neighbours;
   count(map.counters.searches);
-  const uint32_t visited =
-      map.index.find(point, map.settings.radius, neighbours,
-                     [&](const Photon& p, const Vec3& offset) { return accept(p.travel.unpack(), offset); });
+  const uint32_t visited = map.index.find(point, map.settings.count, map.settings.radius, neighbours, accept);
   count(map.counters.visited, visited);
   return neighbours;
 }
@@ -96,13 +92,13 @@ const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, A
 template <int Dimension, class Value>
 Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
-  const size_t first = neighbours.full() ? 1 : 0;  // the heap's first is the farthest
+  const size_t first = neighbours.full() ? 1 : 0;  // the farthest
   count(map.counters.used, neighbours.entries().size() - first);
   return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgb sum(0.0f);
     for (size_t i = first; i < neighbours.entries().size(); ++i) {
       const auto [d2, index] = neighbours.entries()[i];
-      const Photon& p = map.index.photon(index);
+      const NearestMap::Payload& p = map.index.payload(index);
       sum += value(p.travel.unpack(), p.power) * profile(d2 / r2);
     }
     return sum * kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2));
@@ -147,7 +143,7 @@ Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& setting
   for (const Photon& p : photons) {
     const Vec3 offset = p.position - point;
     const float d2 = glm::dot(offset, offset);
-    if (d2 < settings.radius * settings.radius && accept(p.travel.unpack(), offset)) near.emplace_back(d2, &p);
+    if (d2 < settings.radius * settings.radius && accept(p.travel, offset)) near.emplace_back(d2, &p);
   }
   float r2 = settings.radius * settings.radius;
   if (settings.mode == GatherMode::nearest && near.size() >= settings.count) {

@@ -16,7 +16,7 @@ size_t PhotonMap::memory_bytes() const {
 PhotonMap make_photon_map(std::vector<Photon> photons, const GatherSettings& settings, uint64_t emitted) {
   const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
   if (settings.mode == GatherMode::radius) return {settings, RadiusMap(photons, settings.radius, scale)};
-  return {settings, NearestMap(std::move(photons), scale)};
+  return {settings, NearestMap(photons, scale)};
 }
 
 }  // namespace vpm

@@ -28,8 +28,8 @@ struct Arrives {
   bool near_plane(const Vec3& offset) const {
     return std::abs(glm::dot(offset, normal)) <= thickness + kSlope * glm::length(offset);
   }
-  bool operator()(const Vec3& travel, const Vec3& offset) const {
-    return (from_both_sides || glm::dot(travel, normal) < 0.0f) && near_plane(offset);
+  bool operator()(const PackedDirection& travel, const Vec3& offset) const {
+    return near_plane(offset) && (from_both_sides || glm::dot(travel.unpack(), normal) < 0.0f);
   }
 };
 

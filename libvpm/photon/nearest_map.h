@@ -1,5 +1,5 @@
-// The photon map for k nearest neighbours: a left-balanced kd-tree laid out as a heap, without pointers [Jensen2001,
-// ch. 6].
+// The photon map for k nearest neighbours: a balanced kd-tree over leaves of up to 16 photons [Friedman1977], without
+// pointers. Splits lie as in a heap; a leaf's photons lie side by side, and its place follows from its number.
 #pragma once
 
 #include <cstdint>
@@ -7,95 +7,81 @@
 
 #include "base/count.h"
 #include "base/vec.h"
-#include "photon/photon.h"
+#include "photon/neighbours.h"
+#include "photon/photon_table.h"
 
 namespace vpm {
 
-/// The photons a k-nearest query found: a bounded max-heap on the squared distance. Reused between queries, so that no
-/// query allocates.
-class Neighbours {
- public:
-  struct Entry {
-    float distance2;  // m^2
-    uint32_t photon;  // for NearestMap::photon()
-  };
-
-  explicit Neighbours(uint32_t count) { reserve(count); }
-  /// Makes room for the `count` nearest.
-  void reserve(uint32_t count) {
-    count_ = count;
-    heap_.reserve(count);
-  }
-  void clear(float max_radius) {
-    heap_.clear();
-    limit_ = max_radius * max_radius;
-  }
-  /// Photons farther than this, squared, cannot enter.
-  float limit() const { return limit_; }
-  void add(const Entry& entry);
-  /// Were `count` photons found within the largest radius?
-  bool full() const { return heap_.size() == count_; }
-  const std::vector<Entry>& entries() const { return heap_; }
-
- private:
-  uint32_t count_ = 0;
-  float limit_ = 0.0f;
-  std::vector<Entry> heap_;
-};
-
 class NearestMap {
  public:
+  using Payload = PhotonTable::Payload;
+
   NearestMap() = default;
-  /// Balances the photons, with powers multiplied by `scale`: 1/emitted.
-  NearestMap(std::vector<Photon> photons, float scale);
+  /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
+  NearestMap(const std::vector<Photon>& photons, float scale);
 
-  /// The k nearest photons within `max_radius` (m; may be infinite) of `point` among those for which accept(const
-  /// Photon&, offset from `point`) holds, k as the neighbours were made for. When full, the farthest is at
-  /// sqrt(limit()). Returns how many photons it computed the distance of.
+  /// The `count` nearest photons within `max_radius` (m; may be infinite) of `point` among those for which
+  /// accept(const PackedDirection& travel, offset from `point`) holds. Returns how many photons it computed the
+  /// distance of.
   template <class Accept>
-  uint32_t find(const Vec3& point, float max_radius, Neighbours& neighbours, Accept&& accept) const;
+  uint32_t find(const Vec3& point, uint32_t count, float max_radius, Neighbours& neighbours, Accept&& accept) const;
 
-  const Photon& photon(uint32_t i) const { return tree_[i]; }
-  size_t size() const { return tree_.size(); }
+  const Payload& payload(size_t i) const { return photons_.payload(i); }
+  size_t size() const { return photons_.size(); }
   const Box& bounds() const { return bounds_; }
   size_t memory_bytes() const;
 
  private:
-  void balance(std::vector<Photon>& photons, size_t begin, size_t end, size_t node, const Box& box);
+  struct Split {
+    float at = 0.0f;  // m: photons below lie at most here, those above at least
+    uint32_t axis = 0;
+  };
 
-  std::vector<Photon> tree_;   // children of node i: 2 i + 1 and 2 i + 2
-  std::vector<uint8_t> axis_;  // that splits at node i
+  size_t leaf_begin(size_t leaf) const { return size() * leaf / leaves_; }
+
+  size_t leaves_ = 1;          // a power of 2
+  std::vector<Split> splits_;  // the root is 1; the children of i are 2 i and 2 i + 1, leaves from `leaves_` on
+  PhotonTable photons_;        // leaf by leaf
   Box bounds_;
 };
 
 template <class Accept>
-uint32_t NearestMap::find(const Vec3& point, float max_radius, Neighbours& neighbours, Accept&& accept) const {
-  neighbours.clear(max_radius);
-  // Far children wait on a stack with the squared distance of their plane; depth is at most 32 for 2^32 photons.
-  struct Waiting {
+uint32_t NearestMap::find(const Vec3& point, uint32_t count, float max_radius, Neighbours& neighbours,
+                          Accept&& accept) const {
+  neighbours.start(count, max_radius);
+  // What lies on the far side of splits waits on a stack, with how far the point is from it along each axis; depth is
+  // at most 32 for 2^32 photons.
+  struct Part {
     size_t node;
+    Vec3 gap;
     float distance2;
   };
-  Waiting stack[64];
+  Part stack[32];
   int top = 0;
   uint32_t visited = 0;
-  size_t node = 0;
-  for (;;) {
-    for (; node < tree_.size(); count(visited)) {
-      const Photon& p = tree_[node];
-      const Vec3 offset = p.position - point;
-      const float d2 = glm::dot(offset, offset);
-      if (d2 < neighbours.limit() && accept(p, offset)) neighbours.add({d2, static_cast<uint32_t>(node)});
-      const float across = -offset[axis_[node]];  // > 0: the point lies on the upper side
-      const size_t near = 2 * node + (across > 0.0f ? 2 : 1);
-      stack[top++] = {4 * node + 3 - near, across * across};
-      node = near;
+  const auto add = [&](size_t i, const Vec3& offset, float distance2) {
+    if (accept(payload(i).travel, offset)) neighbours.add({distance2, static_cast<uint32_t>(i)});
+  };
+  for (Part part{1, Vec3(0.0f), 0.0f};; part = stack[--top]) {
+    if (part.distance2 < neighbours.limit()) {
+      while (part.node < leaves_) {
+        const Split& split = splits_[part.node];
+        const float across = point[split.axis] - split.at;  // > 0: the point lies above
+        const size_t near = 2 * part.node + (across > 0.0f ? 1 : 0);
+        Part far{near ^ 1, part.gap, 0.0f};
+        far.gap[split.axis] = across;
+        far.distance2 = glm::dot(far.gap, far.gap);
+        stack[top++] = far;
+        part.node = near;
+      }
+      const size_t leaf = part.node - leaves_, begin = leaf_begin(leaf), end = leaf_begin(leaf + 1);
+      photons_.for_each_near(begin, end, point, neighbours.limit(), add);
+      vpm::count(visited, end - begin);
     }
-    do {
-      if (top == 0) return visited;
-      node = stack[--top].node;
-    } while (stack[top].distance2 >= neighbours.limit() || node >= tree_.size());
+    if (top == 0) break;
   }
+  neighbours.finish();
+  return visited;
 }
 
 }  // namespace vpm

@@ -34,23 +34,13 @@ RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float sca
   first_.assign(static_cast<size_t>(count_.x) * count_.y * count_.z + 1, 0);
   for (const Photon& p : photons) ++first_[cell_of(p.position) + 1];
   for (size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
-  x_.resize(photons.size());
-  y_.resize(photons.size());
-  z_.resize(photons.size());
-  payload_.resize(photons.size());
+  photons_ = PhotonTable(photons.size());
   std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-  for (const Photon& p : photons) {
-    const uint32_t i = next[cell_of(p.position)]++;
-    x_[i] = p.position.x;
-    y_[i] = p.position.y;
-    z_[i] = p.position.z;
-    payload_[i] = {p.travel, p.power * scale};
-  }
+  for (const Photon& p : photons) photons_.set(next[cell_of(p.position)]++, p, scale);
 }
 
 size_t RadiusMap::memory_bytes() const {
-  return sizeof(*this) + first_.capacity() * sizeof(uint32_t) + 3 * x_.capacity() * sizeof(float) +
-         payload_.capacity() * sizeof(Payload);
+  return sizeof(*this) + first_.capacity() * sizeof(uint32_t) + photons_.memory_bytes();
 }
 
 }  // namespace vpm

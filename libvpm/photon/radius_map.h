@@ -11,17 +11,13 @@
 
 #include "base/count.h"
 #include "base/vec.h"
-#include "photon/photon.h"
+#include "photon/photon_table.h"
 
 namespace vpm {
 
 class RadiusMap {
  public:
-  /// What a gather reads of a photon beside its position.
-  struct Payload {
-    PackedDirection travel;
-    Rgb power{0.0f};
-  };
+  using Payload = PhotonTable::Payload;
 
   RadiusMap() = default;
   /// Sorts the photons for queries of about `radius` (m, > 0), with powers multiplied by `scale`: 1/emitted.
@@ -32,50 +28,30 @@ class RadiusMap {
   template <class Visit>
   uint32_t for_each_near(const Vec3& point, float radius, Visit&& visit) const;
 
-  size_t size() const { return payload_.size(); }
+  size_t size() const { return photons_.size(); }
   /// The box around the photons.
   const Box& bounds() const { return bounds_; }
   size_t memory_bytes() const;
 
  private:
-  static constexpr int kBlock = 16;  // distances computed at once
-
   int cell_along(int axis, float x) const {
     return std::clamp(static_cast<int>((x - bounds_.lo[axis]) * per_cell_), 0, count_[axis] - 1);
   }
-  template <class Visit>
-  void scan(uint32_t begin, uint32_t end, const Vec3& point, float radius, Visit& visit) const;
-
   float per_cell_ = 0.0f;  // 1/m
   Box bounds_;
   Vec3i count_{0};
   std::vector<uint32_t> first_;  // of each cell, and one past the last
-  std::vector<float> x_, y_, z_;
-  std::vector<Payload> payload_;
+  PhotonTable photons_;          // cell by cell
 };
-
-template <class Visit>
-void RadiusMap::scan(uint32_t begin, uint32_t end, const Vec3& point, float radius, Visit& visit) const {
-  const float limit = radius * radius;
-  for (uint32_t block = begin; block < end; block += kBlock) {
-    float d2[kBlock];
-    const uint32_t n = std::min<uint32_t>(kBlock, end - block);
-    for (uint32_t i = 0; i < n; ++i) {
-      const float dx = x_[block + i] - point.x;
-      const float dy = y_[block + i] - point.y;
-      const float dz = z_[block + i] - point.z;
-      d2[i] = dx * dx + dy * dy + dz * dz;
-    }
-    for (uint32_t i = 0; i < n; ++i)
-      if (d2[i] < limit) visit(payload_[block + i], Vec3(x_[block + i], y_[block + i], z_[block + i]) - point, d2[i]);
-  }
-}
 
 template <class Visit>
 uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit) const {
   for (int a = 0; a < 3; ++a)
     if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return 0;
   uint32_t visited = 0;
+  const auto visit_photon = [&](size_t i, const Vec3& offset, float distance2) {
+    visit(photons_.payload(i), offset, distance2);
+  };
   const float cell = 1.0f / per_cell_;
   const int z_end = cell_along(2, point.z + radius);
   for (int z = cell_along(2, point.z - radius); z <= z_end; ++z) {
@@ -98,7 +74,7 @@ uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit
       const size_t row = (static_cast<size_t>(z) * count_.y + y) * count_.x;
       const uint32_t begin = first_[row + cell_along(0, point.x - reach_x)];
       const uint32_t end = first_[row + cell_along(0, point.x + reach_x) + 1];
-      scan(begin, end, point, radius, visit);
+      photons_.for_each_near(begin, end, point, radius * radius, visit_photon);
       count(visited, end - begin);
     }
   }

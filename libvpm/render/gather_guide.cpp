@@ -27,7 +27,7 @@ GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, G
       nearest(Gathering{map, from_rough.settings, counters}, hit.position, arrives).entries();
   count(counters.used, near.size());
   for (const Neighbours::Entry& entry : near) {
-    const Photon& photon = map.photon(entry.photon);
+    const NearestMap::Payload& photon = map.payload(entry.photon);
     const Vec3 travel = photon.travel.unpack();
     const Rgb scattered = scatter_value(view.material, hit, travel, -view.travel).value;
     up_to_[cell_of(-travel)] += glm::dot(Rgbd(scattered), Rgbd(photon.power));
