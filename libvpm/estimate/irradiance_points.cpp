@@ -47,7 +47,7 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
   const Neighbours& near = nearest(Gathering{points_, gather_, counters}, hit.position, agrees);
   if (near.entries().empty()) return std::nullopt;
   count(counters.used);
-  return points_.payload(near.entries().front().photon).power;
+  return points_.payload(near.entries().front().photon).power.unpack();
 }
 
 }  // namespace vpm

@@ -1,7 +1,8 @@
 // The sum every density estimate shares: kernel-weighted photons around a point, over a map or a plain list of photons.
 //
 // Each photon's contribution is value(travel, power) K_r; what differs between volumes and surfaces is `value`, the
-// photons that count, and the dimension of the kernel.
+// photons that count, and the dimension of the kernel. Sums are of doubles: thousands of photons that are alike would
+// round alike, and show.
 #pragma once
 
 #include <algorithm>
@@ -61,17 +62,17 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
   const float r = map.settings.radius;
   const float inverse = 1.0f / (r * r);
   return with_kernel(map.settings.kernel, [&](auto profile) {
-    Rgb sum(0.0f);
+    Rgbd sum(0.0);
     uint32_t used = 0;
     const auto visit = [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
       if (!accept(p.travel, offset)) return;
-      sum += value(p.travel.unpack(), p.power) * profile(d2 * inverse);
+      sum += Rgbd(value(p.travel.unpack(), p.power.unpack()) * profile(d2 * inverse));
       count(used);
     };
     count(map.counters.searches);
     count(map.counters.visited, map.index.for_each_near(point, r, visit));
     count(map.counters.used, used);
-    return sum * kernel_norm<Dimension>(map.settings.kernel, r);
+    return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, r);
   });
 }
 
@@ -95,13 +96,13 @@ Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours
   const size_t first = neighbours.full() ? 1 : 0;  // the farthest
   count(map.counters.used, neighbours.entries().size() - first);
   return with_kernel(map.settings.kernel, [&](auto profile) {
-    Rgb sum(0.0f);
+    Rgbd sum(0.0);
     for (size_t i = first; i < neighbours.entries().size(); ++i) {
       const auto [d2, index] = neighbours.entries()[i];
       const NearestMap::Payload& p = map.index.payload(index);
-      sum += value(p.travel.unpack(), p.power) * profile(d2 / r2);
+      sum += Rgbd(value(p.travel.unpack(), p.power.unpack()) * profile(d2 / r2));
     }
-    return sum * kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2));
+    return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2));
   });
 }
 
@@ -153,9 +154,9 @@ Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& setting
     near.pop_back();
   }
   return with_kernel(settings.kernel, [&](auto profile) {
-    Rgb sum(0.0f);
-    for (const auto& [d2, p] : near) sum += value(p->travel.unpack(), p->power) * profile(d2 / r2);
-    return sum * kernel_norm<Dimension>(settings.kernel, std::sqrt(r2)) / static_cast<float>(emitted);
+    Rgbd sum(0.0);
+    for (const auto& [d2, p] : near) sum += Rgbd(value(p->travel.unpack(), p->power) * profile(d2 / r2));
+    return Rgb(sum) * kernel_norm<Dimension>(settings.kernel, std::sqrt(r2)) / static_cast<float>(emitted);
   });
 }
 

@@ -29,7 +29,7 @@ struct Arrives {
     return std::abs(glm::dot(offset, normal)) <= thickness + kSlope * glm::length(offset);
   }
   bool operator()(const PackedDirection& travel, const Vec3& offset) const {
-    return near_plane(offset) && (from_both_sides || glm::dot(travel.unpack(), normal) < 0.0f);
+    return near_plane(offset) && (from_both_sides || glm::dot(travel.on_octahedron(), normal) < 0.0f);
   }
 };
 

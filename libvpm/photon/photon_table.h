@@ -16,8 +16,9 @@ class PhotonTable {
   /// What a gather reads of a photon beside its position.
   struct Payload {
     PackedDirection travel;
-    Rgb power{0.0f};
+    PackedPower power;
   };
+  static_assert(sizeof(Payload) == 12);
 
   PhotonTable() = default;
   /// Room for `size` photons, to be set.
@@ -28,7 +29,7 @@ class PhotonTable {
     x_[i] = photon.position.x;
     y_[i] = photon.position.y;
     z_[i] = photon.position.z;
-    payload_[i] = {photon.travel, photon.power * scale};
+    payload_[i] = {photon.travel, PackedPower(photon.power * scale)};
   }
 
   /// Calls visit(i, offset from `point`, squared distance) for the photons of [begin, end) nearer to `point` than the

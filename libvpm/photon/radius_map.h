@@ -1,6 +1,6 @@
 // The photon map for fixed radii: photons sorted into a uniform grid, found by scanning short rows of cells.
 //
-// The grid's cells are half a radius wide unless that would make more than two cells a photon. Queries of any other
+// The grid's cells are half a radius wide unless that would make more than a cell a photon. Queries of any other
 // radius are as right, and slower the less the cells fit it. Rows run along x, so that the photons of neighbouring
 // cells lie side by side and distances are computed in blocks.
 #pragma once
@@ -37,6 +37,9 @@ class RadiusMap {
   int cell_along(int axis, float x) const {
     return std::clamp(static_cast<int>((x - bounds_.lo[axis]) * per_cell_), 0, count_[axis] - 1);
   }
+  /// Fills `first_` from the photons' cells; returns the photons' numbers in the order of their cells.
+  std::vector<uint32_t> sort_by_cell(const std::vector<uint32_t>& cells);
+
   float per_cell_ = 0.0f;  // 1/m
   Box bounds_;
   Vec3i count_{0};

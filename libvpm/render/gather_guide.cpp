@@ -30,7 +30,7 @@ GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, G
     const NearestMap::Payload& photon = map.payload(entry.photon);
     const Vec3 travel = photon.travel.unpack();
     const Rgb scattered = scatter_value(view.material, hit, travel, -view.travel).value;
-    up_to_[cell_of(-travel)] += glm::dot(Rgbd(scattered), Rgbd(photon.power));
+    up_to_[cell_of(-travel)] += glm::dot(Rgbd(scattered), Rgbd(photon.power.unpack()));
   }
   std::partial_sum(up_to_.begin(), up_to_.end(), up_to_.begin());
   const auto count = static_cast<float>(near.size());

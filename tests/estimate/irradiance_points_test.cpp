@@ -91,7 +91,7 @@ TEST(IrradiancePoints, EqualTheirBruteForceTwin) {
         const std::optional<Rgb> quick = seen(points, hit, eye), slow = brute_force(sites, map, hit, eye);
         ASSERT_EQ(quick.has_value(), slow.has_value());
         found += quick.has_value();
-        if (quick) differ += *quick != *slow;
+        if (quick) differ += max_channel(glm::abs(*quick - *slow)) > 4e-6f * max_channel(*slow);  // it is packed
       }
       EXPECT_EQ(differ, 0);
       EXPECT_GT(found, 0);

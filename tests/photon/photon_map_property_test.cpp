@@ -113,7 +113,7 @@ RC_GTEST_PROP(MapProperty, AnswersRadiiItWasNotMadeForAndCounts, ()) {
     const Arrives arrives{up, plane_thickness(own)};
     const auto counts = [&](const Photon& p) {
       const Vec3 offset = p.position - at;
-      return glm::dot(offset, offset) < own.radius * own.radius && arrives(p.travel.unpack(), offset);
+      return glm::dot(offset, offset) < own.radius * own.radius && arrives(p.travel, offset);
     };
     RC_ASSERT(counters.used == static_cast<uint64_t>(std::count_if(photons.begin(), photons.end(), counts)));
     RC_ASSERT(counters.used <= counters.visited && counters.visited <= photons.size());

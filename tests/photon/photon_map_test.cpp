@@ -37,8 +37,10 @@ std::vector<Photon> photons(Layout layout, size_t count) {
 
 constexpr Layout kLayouts[] = {Layout::spread, Layout::flat, Layout::clustered, Layout::coinciding, Layout::line};
 
+/// But for rounding: of sums, and of packed powers, in shares of the largest channel.
 void expect_near(const Rgb& a, const Rgb& b, const char* what) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-4f * (1e-3f + std::abs(b[c]))) << what;
+  const float packed = 4e-6f * max_channel(b);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-4f * (1e-3f + std::abs(b[c])) + packed) << what;
 }
 
 TEST(PackedDirection, IsAccurate) {
@@ -52,6 +54,21 @@ TEST(PackedDirection, IsAccurate) {
   }
 }
 
+TEST(PackedPower, IsAccurate) {
+  const auto off = [](const Rgb& power) { return max_channel(glm::abs(PackedPower(power).unpack() - power)); };
+  for (uint64_t i = 0; i < 100000; ++i) {
+    Rng rng(4, rng_stream(RngUse::test, 21), i);
+    const float scale = std::pow(10.0f, 70.0f * rng.uniform() - 37.0f);
+    const Rgb power = scale * Rgb(rng.uniform(), rng.uniform(), rng.uniform());
+    ASSERT_LE(off(power), std::max(4e-6f * max_channel(power), 1e-38f));
+  }
+  // Powers of two are exact; what would round up to the next one takes its exponent.
+  for (int e = -125; e <= 127; ++e) ASSERT_EQ(off(Rgb(std::ldexp(1.0f, e), 0.0f, std::ldexp(1.0f, e - 1))), 0.0f);
+  for (int e = -100; e <= 127; ++e)
+    ASSERT_LE(off(Rgb(std::nextafter(std::ldexp(1.0f, e), 0.0f))), std::ldexp(1.0f, e - 24));
+  EXPECT_EQ(off(Rgb(0.0f)), 0.0f);
+}
+
 TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
   const Phase phase = HenyeyGreenstein{0.6f};
   const Vec3 towards = glm::normalize(Vec3(1, 2, 3));
@@ -62,6 +79,9 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
         for (const float radius : {0.02f, 0.11f, 3.0f}) {
           const GatherSettings settings{mode, radius, 40, kernel};
           const PhotonMap map = make_photon_map(all, settings, 1000);
+          SCOPED_TRACE(testing::Message()
+                       << "layout " << static_cast<int>(layout) << ", by count " << (mode == GatherMode::nearest)
+                       << ", " << kernel_name << ", " << radius << " m");
           for (uint64_t i = 0; i < 20; ++i) {
             Rng rng(4, rng_stream(RngUse::test, 10), i);
             const Vec3 at = all[static_cast<size_t>(rng.uniform() * 5000)].position +
@@ -77,6 +97,15 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
           }
         }
   }
+}
+
+TEST(PhotonMap, TakesAtMost28BytesAPhoton) {
+  for (const Layout layout : kLayouts)
+    for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
+      for (const float radius : {1e-3f, 0.1f, 10.0f}) {
+        const PhotonMap map = make_photon_map(photons(layout, 20000), {mode, radius, 40}, 1);
+        EXPECT_LE(static_cast<double>(map.memory_bytes()) / 20000.0, 28.0 + 0.05);  // what a map takes beside photons
+      }
 }
 
 TEST(PhotonMap, OnePhotonCountsAsTheEstimatesSay) {
