@@ -9,7 +9,6 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kLeaf = 16;        // photons at most
 constexpr size_t kAlone = 1 << 15;  // parts of fewer photons are not worth a thread of their own
 constexpr size_t kChunk = 1 << 16;  // photons copied one after another
 

@@ -2,6 +2,8 @@
 // pointers. Splits lie as in a heap; a leaf's photons lie side by side, and its place follows from its number.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -32,11 +34,16 @@ class NearestMap {
   size_t memory_bytes() const;
 
  private:
+  static constexpr size_t kLeaf = 16;     // photons of a leaf, at most
+  static constexpr uint32_t kMany = 512;  // neighbours
   struct Split {
     float at = 0.0f;  // m: photons below lie at most here, those above at least
     uint32_t axis = 0;
   };
 
+  /// The nearest of the first `of_leaf` photons of each leaf, as the neighbours were started.
+  template <class Accept>
+  uint32_t search(const Vec3& point, size_t of_leaf, Neighbours& neighbours, Accept&& accept) const;
   size_t leaf_begin(size_t leaf) const { return size() * leaf / leaves_; }
 
   size_t leaves_ = 1;          // a power of 2
@@ -48,7 +55,24 @@ class NearestMap {
 template <class Accept>
 uint32_t NearestMap::find(const Vec3& point, uint32_t count, float max_radius, Neighbours& neighbours,
                           Accept&& accept) const {
+  uint32_t visited = 0;
+  if (count >= kMany) {
+    // The first photons of the leaves tell the radius well enough to look at little beyond it.
+    const auto of_leaves = static_cast<uint32_t>(count * leaves_ / size());
+    neighbours.start(of_leaves, max_radius);
+    visited += search(point, 1, neighbours, accept);
+    const float margin = 1.0f + 3.0f / std::sqrt(static_cast<float>(of_leaves));  // three standard deviations
+    const float likely = std::sqrt(neighbours.limit() * margin);
+    neighbours.start(count, std::min(max_radius, likely));
+    visited += search(point, kLeaf, neighbours, accept);
+    if (neighbours.full() || likely >= max_radius) return visited;
+  }
   neighbours.start(count, max_radius);
+  return visited + search(point, kLeaf, neighbours, accept);
+}
+
+template <class Accept>
+uint32_t NearestMap::search(const Vec3& point, size_t of_leaf, Neighbours& neighbours, Accept&& accept) const {
   // What lies on the far side of splits waits on a stack, with how far the point is from it along each axis; depth is
   // at most 32 for 2^32 photons.
   struct Part {
@@ -74,9 +98,10 @@ uint32_t NearestMap::find(const Vec3& point, uint32_t count, float max_radius, N
         stack[top++] = far;
         part.node = near;
       }
-      const size_t leaf = part.node - leaves_, begin = leaf_begin(leaf), end = leaf_begin(leaf + 1);
+      const size_t leaf = part.node - leaves_, begin = leaf_begin(leaf);
+      const size_t end = std::min(begin + of_leaf, leaf_begin(leaf + 1));
       photons_.for_each_near(begin, end, point, neighbours.limit(), add);
-      vpm::count(visited, end - begin);
+      count(visited, end - begin);
     }
     if (top == 0) break;
   }
