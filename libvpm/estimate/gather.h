@@ -8,7 +8,8 @@
 
 namespace vpm {
 
-enum class GatherMode { radius, nearest };
+/// Around points by radius or by count; or, in media, beside whole stretches of rays (beam_estimate.h), by radius.
+enum class GatherMode { radius, nearest, beam };
 
 /// What is done where a disc or a ball reaches beyond the places that photons can come to: nothing, so that estimates
 /// are too dark there and light leaks through walls; or the correction of BoundedMap.
@@ -16,7 +17,7 @@ enum class BoundaryRule { none, corrected };
 
 struct GatherSettings {
   GatherMode mode = GatherMode::radius;
-  float radius = 0.0f;  // m, > 0: of the first pass (radius mode), or the largest allowed (nearest mode); 0: chosen by
+  float radius = 0.0f;  // m, > 0: of the first pass (radius, beam), or the largest allowed (nearest mode); 0: chosen by
                         // the scene's size
   uint32_t count = 50;  // nearest mode: k >= 2
   KernelKind kernel = KernelKind::epanechnikov;

@@ -31,9 +31,14 @@ constexpr Range kVoxels{1e-3, kNoLimit, false, true};
 constexpr Range kOpticalStep{1e-4, kNoLimit, false, true};
 constexpr Range kSamples{1e-3, 1e6, false, false};
 
-void read_gather(TableReader& table, GatherSettings& gather) {
-  gather.mode = table.choice<GatherMode>("gather", {{"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}},
-                                         gather.mode);
+const std::vector<std::pair<std::string, GatherMode>> kAroundPoints{{"radius", GatherMode::radius},
+                                                                    {"nearest", GatherMode::nearest}};
+const std::vector<std::pair<std::string, GatherMode>> kInMedia{
+    {"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}, {"beam", GatherMode::beam}};
+
+void read_gather(TableReader& table, const std::vector<std::pair<std::string, GatherMode>>& modes,
+                 GatherSettings& gather) {
+  gather.mode = table.choice<GatherMode>("gather", modes, gather.mode);
   gather.radius = table.number("radius", kRadius, gather.radius);
   gather.count = static_cast<uint32_t>(table.integer("count", 2, 1'000'000, gather.count));
   std::vector<std::pair<std::string, KernelKind>> kernels;
@@ -235,7 +240,7 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
   });
   read_section(root, "distance", [&](TableReader& table) { read_distance(table, s, contents.grids); });
   read_section(root, "volume", [&](TableReader& table) {
-    read_gather(table, s.volume);
+    read_gather(table, kInMedia, s.volume);
     s.volume_form = table.choice<VolumeForm>(
         "form",
         {{"density-at-query", VolumeForm::density_at_query}, {"density-at-photon", VolumeForm::density_at_photon}},
@@ -245,11 +250,14 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
       table.fail("boundary",
                  "there is no correction at borders for 'density-at-photon', which counts photons from outside",
                  "use form = \"density-at-query\", or leave out 'boundary'");
+    if (s.volume.boundary == BoundaryRule::corrected && s.volume.mode == GatherMode::beam)
+      table.fail("boundary", "there is no correction at borders for \"beam\", which gathers along whole rays",
+                 "use gather = \"radius\", or leave out 'boundary'");
     s.density_floor = table.number("density_floor", kFraction, s.density_floor);
     s.volume_direct = read_direct(table, s.volume_direct);
   });
   read_section(root, "surface", [&](TableReader& table) {
-    read_gather(table, s.surface);
+    read_gather(table, kAroundPoints, s.surface);
     read_boundary(table, s, s.surface);
     s.caustics.boundary = s.surface.boundary;
     read_surface_light(table, s);
@@ -257,7 +265,7 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
     if (s.radii == RadiusSchedule::per_pixel) check_radii_of_pixels(table, s);
   });
   read_section(root, "caustics", [&](TableReader& table) {
-    read_gather(table, s.caustics);
+    read_gather(table, kAroundPoints, s.caustics);
     s.caustics_emitted = table.integer("emitted", 0, kMaxInteger, s.caustics_emitted);
   });
   read_section(root, "transmittance",

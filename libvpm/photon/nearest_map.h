@@ -1,5 +1,4 @@
-// The photon map for k nearest neighbours: a balanced kd-tree over leaves of up to 16 photons [Friedman1977], without
-// pointers. Splits lie as in a heap; a leaf's photons lie side by side, and its place follows from its number.
+// The photon map for k nearest neighbours: a balanced kd-tree over leaves of up to 16 photons that lie side by side.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "base/count.h"
 #include "base/vec.h"
+#include "photon/leaf_order.h"
 #include "photon/neighbours.h"
 #include "photon/photon_table.h"
 
@@ -36,18 +36,13 @@ class NearestMap {
  private:
   static constexpr size_t kLeaf = 16;     // photons of a leaf, at most
   static constexpr uint32_t kMany = 512;  // neighbours
-  struct Split {
-    float at = 0.0f;  // m: photons below lie at most here, those above at least
-    uint32_t axis = 0;
-  };
 
   /// The nearest of the first `of_leaf` photons of each leaf, as the neighbours were started.
   template <class Accept>
   uint32_t search(const Vec3& point, size_t of_leaf, Neighbours& neighbours, Accept&& accept) const;
-  size_t leaf_begin(size_t leaf) const { return size() * leaf / leaves_; }
 
-  size_t leaves_ = 1;          // a power of 2
-  std::vector<Split> splits_;  // the root is 1; the children of i are 2 i and 2 i + 1, leaves from `leaves_` on
+  size_t leaves_ = 1;
+  std::vector<Split> splits_;  // numbered as LeafOrder says
   PhotonTable photons_;        // leaf by leaf
   Box bounds_;
 };
@@ -56,7 +51,7 @@ template <class Accept>
 uint32_t NearestMap::find(const Vec3& point, uint32_t count, float max_radius, Neighbours& neighbours,
                           Accept&& accept) const {
   uint32_t visited = 0;
-  if (count >= kMany) {
+  if (count >= kMany && count < size()) {
     // The first photons of the leaves tell the radius well enough to look at little beyond it.
     const auto of_leaves = static_cast<uint32_t>(count * leaves_ / size());
     neighbours.start(of_leaves, max_radius);
@@ -98,8 +93,8 @@ uint32_t NearestMap::search(const Vec3& point, size_t of_leaf, Neighbours& neigh
         stack[top++] = far;
         part.node = near;
       }
-      const size_t leaf = part.node - leaves_, begin = leaf_begin(leaf);
-      const size_t end = std::min(begin + of_leaf, leaf_begin(leaf + 1));
+      const size_t leaf = part.node - leaves_, begin = leaf_begin(size(), leaves_, leaf);
+      const size_t end = std::min(begin + of_leaf, leaf_begin(size(), leaves_, leaf + 1));
       photons_.for_each_near(begin, end, point, neighbours.limit(), add);
       count(visited, end - begin);
     }

@@ -21,21 +21,19 @@ class PhotonTable {
   static_assert(sizeof(Payload) == 12);
 
   PhotonTable() = default;
-  /// Room for `size` photons, to be set.
-  explicit PhotonTable(size_t size) : x_(size + kBlock), y_(size + kBlock), z_(size + kBlock), payload_(size) {}
-
-  /// Makes `photon` the i-th, with its power multiplied by `scale`.
-  void set(size_t i, const Photon& photon, float scale) {
-    x_[i] = photon.position.x;
-    y_[i] = photon.position.y;
-    z_[i] = photon.position.z;
-    payload_[i] = {photon.travel, PackedPower(photon.power * scale)};
-  }
+  /// The photons in that order, with powers multiplied by `scale`.
+  PhotonTable(const std::vector<Photon>& photons, const std::vector<uint32_t>& order, float scale);
 
   /// Calls visit(i, offset from `point`, squared distance) for the photons of [begin, end) nearer to `point` than the
   /// root of `limit2`, m^2, in their order.
   template <class Visit>
   void for_each_near(size_t begin, size_t end, const Vec3& point, float limit2, Visit&& visit) const;
+
+  /// Calls visit(i, distance along the ray, m, squared distance from it) for the photons of [begin, end) that are
+  /// nearer to the ray than the root of `limit2`, m^2, at distances along it of [t0, t1), in their order.
+  template <class Visit>
+  void for_each_beside(size_t begin, size_t end, const Ray& ray, const Interval& interval, float limit2,
+                       Visit&& visit) const;
 
   const Payload& payload(size_t i) const { return payload_[i]; }
   size_t size() const { return payload_.size(); }
@@ -47,6 +45,9 @@ class PhotonTable {
   std::vector<float> x_, y_, z_;
   std::vector<Payload> payload_;
 };
+
+/// The box around the photons.
+Box bounds_of(const std::vector<Photon>& photons);
 
 template <class Visit>
 void PhotonTable::for_each_near(size_t begin, size_t end, const Vec3& point, float limit2, Visit&& visit) const {
@@ -71,6 +72,32 @@ void PhotonTable::for_each_near(size_t begin, size_t end, const Vec3& point, flo
       const uint32_t i = near[f];
       visit(block + i, Vec3(dx[i], dy[i], dz[i]), d2[i]);
     }
+  }
+}
+
+template <class Visit>
+void PhotonTable::for_each_beside(size_t begin, size_t end, const Ray& ray, const Interval& interval, float limit2,
+                                  Visit&& visit) const {
+  const Vec3 o = ray.origin, w = ray.direction;
+  for (size_t block = begin; block < end; block += kBlock) {
+    const float *x = &x_[block], *y = &y_[block], *z = &z_[block];
+    float t[kBlock], d2[kBlock];
+    bool in[kBlock];
+    for (uint32_t i = 0; i < kBlock; ++i) {
+      const float dx = x[i] - o.x, dy = y[i] - o.y, dz = z[i] - o.z;
+      t[i] = dx * w.x + dy * w.y + dz * w.z;
+      const float ex = dx - t[i] * w.x, ey = dy - t[i] * w.y, ez = dz - t[i] * w.z;
+      d2[i] = ex * ex + ey * ey + ez * ez;
+      in[i] = (d2[i] < limit2) & (t[i] >= interval.t0) & (t[i] < interval.t1);
+    }
+    uint8_t near[kBlock];
+    const auto n = static_cast<uint32_t>(std::min<size_t>(kBlock, end - block));
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < n; ++i) {
+      near[found] = static_cast<uint8_t>(i);
+      found += in[i] ? 1 : 0;
+    }
+    for (uint32_t f = 0; f < found; ++f) visit(block + near[f], t[near[f]], d2[near[f]]);
   }
 }
 

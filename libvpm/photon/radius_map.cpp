@@ -16,16 +16,6 @@ Vec3d cells_for(const Vec3& extent, double size) { return glm::floor(Vec3d(exten
 constexpr size_t kChunk = 1 << 14;  // photons one thread takes at once
 constexpr size_t kParts = 8;        // of the cells, that threads sort one by one
 
-Box bounds_of(const std::vector<Photon>& photons) {
-  std::vector<Box> parts(chunk_count(photons.size(), kChunk));
-  parallel_for_chunks(photons.size(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
-    for (size_t i = begin; i < end; ++i) parts[chunk].add(photons[i].position);
-  });
-  Box bounds;
-  for (const Box& part : parts) bounds.add(part);
-  return bounds;
-}
-
 /// The edge of the cells: half a radius, or more where that would make over a cell a photon.
 double cell_size(const Vec3& extent, float radius, size_t photons) {
   const double most = static_cast<double>(photons);
@@ -37,7 +27,7 @@ double cell_size(const Vec3& extent, float radius, size_t photons) {
 
 }  // namespace
 
-RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float scale) : photons_(photons.size()) {
+RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float scale) {
   assert(radius > 0.0f);
   if (photons.empty()) return;
   bounds_ = bounds_of(photons);
@@ -51,10 +41,7 @@ RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float sca
       cells[i] = (cell_along(2, p.z) * count_.y + cell_along(1, p.y)) * count_.x + cell_along(0, p.x);
     }
   });
-  const std::vector<uint32_t> order = sort_by_cell(cells);
-  parallel_for_chunks(order.size(), kChunk, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) photons_.set(i, photons[order[i]], scale);
-  });
+  photons_ = PhotonTable(photons, sort_by_cell(cells), scale);
 }
 
 std::vector<uint32_t> RadiusMap::sort_by_cell(const std::vector<uint32_t>& cells) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/count.h"
+#include "estimate/beam_estimate.h"
 #include "estimate/irradiance_points.h"
 #include "estimate/photon_map.h"
 #include "render/photon_pass.h"
@@ -16,7 +17,8 @@ struct EyeContext {
   const Scene& scene;
   const RenderSettings& settings;
   Stages stages;
-  std::vector<PhotonMap> volume;  // by medium, under Stages::volume_map; otherwise none
+  std::vector<PhotonMap> volume;  // by medium, under Stages::volume_map without beams; otherwise none
+  std::vector<BeamMap> beams;     // by medium, under Stages::beams; otherwise none
   PhotonMap surface;              // under Stages::surface_map; otherwise empty, as below
   PhotonMap caustics;             // under Stages::final_gather
   PhotonMap from_rough;           // by count, under Stages::guided_gather: photons that rough surfaces scattered last

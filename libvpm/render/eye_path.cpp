@@ -4,6 +4,7 @@
 #include "base/count.h"
 #include "estimate/volume_estimate.h"
 #include "estimate/volume_region.h"
+#include "medium/columns_along.h"
 #include "path/direct_light.h"
 #include "render/surface_light.h"
 
@@ -59,11 +60,14 @@ class EyePath {
   /// Adds what media scatter towards the eye along the segment, and attenuates by it.
   void cross_segment(const Interval& segment) {
     const bool at_photon = c_.stages.volume_map && c_.settings.volume_form == VolumeForm::density_at_photon;
-    if (at_photon) gather_photon_densities(segment);
+    if (c_.stages.beams)
+      gather_beams(segment);
+    else if (at_photon)
+      gather_photon_densities(segment);
     if (medium_ == kVacuum) return;
     const Medium& medium = c_.scene.media[medium_];
-    const PhotonMap* map =
-        c_.stages.volume_map && !at_photon && c_.volume[medium_].size() > 0 ? &c_.volume[medium_] : nullptr;
+    const bool marches = c_.stages.volume_map && !c_.stages.beams && !at_photon;
+    const PhotonMap* map = marches && c_.volume[medium_].size() > 0 ? &c_.volume[medium_] : nullptr;
     if (!medium.scatters() || (!map && !c_.stages.volume_shadow_rays)) {
       throughput_ *= transmittance(medium, counted_column(medium, ray_, segment, counters_.walk));
       return;
@@ -131,6 +135,30 @@ class EyePath {
                          volume_sum(medium.phase, point, -ray_.direction, CountedMap{map, counters_.gather});
           });
       count(counters_.walk.lookups, lookups);
+    }
+  }
+
+  /// The beam radiance estimate, in one query of each map: with the density at the query of the medium that the ray is
+  /// in, with that at the photon of all.
+  void gather_beams(const Interval& segment) {
+    static thread_local ColumnsAlong columns;
+    const bool at_query = c_.settings.volume_form == VolumeForm::density_at_query;
+    const Medium* around = medium_ == kVacuum ? nullptr : &c_.scene.media[medium_];
+    for (size_t m = 0; m < c_.beams.size(); ++m) {
+      const BeamMap& map = c_.beams[m];
+      const Medium& medium = c_.scene.media[m];
+      if (map.photons.size() == 0 || (at_query && &medium != around)) continue;
+      const Interval near = clip(segment, map.photons.bounds(), map.settings.radius);
+      if (near.empty()) continue;
+      count(counters_.walk.lookups, columns.walk(around, ray_, {segment.t0, near.t1}));
+      count(counters_.volume_queries);
+      const float densest = medium.max_density();
+      const auto along = [&](float t) {
+        const auto [column, density] = columns.at(t);
+        const Rgb passed = around ? transmittance(*around, column) : Rgb(1.0f);
+        return at_query ? passed * (static_cast<float>(density) / densest) : passed;
+      };
+      radiance_ += throughput_ * medium.albedo() * beam_sum(medium.phase, ray_, near, along, map, counters_.gather);
     }
   }
 

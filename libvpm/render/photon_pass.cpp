@@ -53,7 +53,7 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
 
 /// Do radii shrink from pass to pass? In radius mode; the largest radius of the nearest mode stays.
 bool shrinks(const GatherSettings& gather, const RenderSettings& settings) {
-  return settings.radii != RadiusSchedule::constant && gather.mode == GatherMode::radius;
+  return settings.radii != RadiusSchedule::constant && gather.mode != GatherMode::nearest;
 }
 
 /// The settings of a map in this pass. Those of pixels with radii of their own are near it: in even light these shrink
@@ -72,7 +72,7 @@ struct UsedMap {
 };
 std::vector<UsedMap> used_maps(const RenderSettings& settings, const Stages& stages) {
   std::vector<UsedMap> maps;
-  if (stages.volume_map) maps.push_back({"volume", 3, shrinks(settings.volume, settings)});
+  if (stages.volume_map) maps.push_back({"volume", stages.beams ? 2 : 3, shrinks(settings.volume, settings)});
   if (stages.surface_map) maps.push_back({"surface", 2, shrinks(settings.surface, settings) && !stages.pixel_discs});
   if (stages.final_gather) maps.push_back({"caustics", 2, shrinks(settings.caustics, settings)});
   return maps;
@@ -88,7 +88,7 @@ std::vector<float> pixel_radii(const Scene& scene, const RenderSettings& setting
 }
 
 float default_share(const GatherSettings& gather) {
-  return gather.mode == GatherMode::radius ? kDefaultRadius : kDefaultSearch;
+  return gather.mode == GatherMode::nearest ? kDefaultSearch : kDefaultRadius;
 }
 
 /// Adds the caustic photons that are aimed, with powers as if they were as many as the others.
@@ -105,13 +105,28 @@ void add_caustics(const EyeContext& context, const DistanceStrategy& strategy, c
   }
 }
 
+/// Merges photons where the settings ask for that.
+void merge_photons(std::vector<Photon>& photons, const GatherSettings& gather, const RenderSettings& settings,
+                   RenderStatistics& statistics) {
+  if (settings.photons_in_cube > 0 && gather.mode != GatherMode::nearest)
+    statistics.merged_photons += control_density(photons, 0.5f * gather.radius, settings.photons_in_cube);
+}
+
 /// A map of photons of which that many were emitted.
 PhotonMap make_map(std::vector<Photon>& photons, const GatherSettings& gather, uint64_t emitted,
                    const RenderSettings& settings, RenderStatistics& statistics) {
-  if (settings.photons_in_cube > 0 && gather.mode == GatherMode::radius)
-    statistics.merged_photons += control_density(photons, 0.5f * gather.radius, settings.photons_in_cube);
+  merge_photons(photons, gather, settings, statistics);
   PhotonMap map = make_photon_map(std::move(photons), gather, emitted);
   statistics.photon_map_bytes += map.memory_bytes();
+  return map;
+}
+
+/// The same for the rays of the eye.
+BeamMap make_beam_map(std::vector<Photon>& photons, const GatherSettings& gather, uint64_t emitted,
+                      const RenderSettings& settings, RenderStatistics& statistics) {
+  merge_photons(photons, gather, settings, statistics);
+  BeamMap map{gather, SegmentMap(std::exchange(photons, {}), static_cast<float>(1.0 / static_cast<double>(emitted)))};
+  statistics.photon_map_bytes += map.photons.memory_bytes();
   return map;
 }
 
@@ -165,9 +180,13 @@ void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& pro
   for (size_t m = 0; context.stages.volume_map && m < scene.media.size(); ++m) {
     const float first = first_volume_radius(scene, settings, scene.media[m]);
     statistics.volume_photons += photons.volume[m].size();
-    context.volume.push_back(make_map(photons.volume[m], gather_in_pass(settings.volume, first, 3, settings, pass),
-                                      photons.ledger.emitted_count, settings, statistics));
-    statistics.last_volume_radius = std::max(statistics.last_volume_radius, context.volume.back().settings.radius);
+    const GatherSettings gather = gather_in_pass(settings.volume, first, context.stages.beams ? 2 : 3, settings, pass);
+    const uint64_t emitted = photons.ledger.emitted_count;
+    if (context.stages.beams)
+      context.beams.push_back(make_beam_map(photons.volume[m], gather, emitted, settings, statistics));
+    else
+      context.volume.push_back(make_map(photons.volume[m], gather, emitted, settings, statistics));
+    statistics.last_volume_radius = std::max(statistics.last_volume_radius, gather.radius);
   }
   if (context.stages.surface_map) {
     const float first = first_surface_radius(scene, settings);
@@ -189,6 +208,7 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
   for (const Shape& shape : scene.shapes) rough |= is_rough(scene.materials[shape.material]);
   const bool gather = rough && settings.surface_indirect == IndirectLight::final_gather;
   return {.volume_map = scatters,
+          .beams = scatters && settings.volume.mode == GatherMode::beam,
           .surface_map = rough,
           .volume_shadow_rays = scatters && settings.volume_direct == DirectLight::shadow_rays,
           .surface_shadow_rays = rough && settings.surface_direct == DirectLight::shadow_rays,
@@ -215,7 +235,8 @@ float first_caustic_radius(const Scene& scene, const RenderSettings& settings) {
 
 EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
                             const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics) {
-  EyeContext context{scene, settings, stages, {}, {}, {}, {}, {}, make_transmittance_estimator(settings.transmittance)};
+  EyeContext context{scene, settings, stages, {}, {},
+                     {},    {},       {},     {}, make_transmittance_estimator(settings.transmittance)};
   if (stages.photons()) make_maps(context, trace_settings(settings, stages, pass, stop), progress, statistics);
   return context;
 }

@@ -13,6 +13,7 @@ namespace vpm {
 /// What a scene needs: stages that would do nothing are not run.
 struct Stages {
   bool volume_map = false;
+  bool beams = false;  // it is gathered from along rays
   bool surface_map = false;
   bool volume_shadow_rays = false;
   bool surface_shadow_rays = false;

@@ -49,7 +49,7 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   return {line(stages.photons(), "photon tracing", distances, "nothing stores photons"),
           line(stages.photons() && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                stages.photons() ? "photons go where power does" : "nothing stores photons"),
-          line(stages.volume_map, "volume photon map", "", no_medium),
+          line(stages.volume_map, "volume photon map", stages.beams ? ", gathered from along rays" : "", no_medium),
           line(stages.surface_map, "surface photon map", "", "no rough surface"),
           line(stages.pixel_discs, "radii of pixels' own", ", on surfaces",
                stages.surface_map ? "radii do not depend on what pixels find" : "no rough surface"),

@@ -109,7 +109,7 @@ Moments estimate_airlight_by_eye_path(const Airlight& a, uint64_t samples, uint6
   RenderSettings settings;
   settings.volume_direct = DirectLight::shadow_rays;
   const Stages stages{.volume_shadow_rays = true};
-  const EyeContext context{scene, settings, stages, {}, {}, {}, {}, {}, make_transmittance_estimator({})};
+  const EyeContext context{scene, settings, stages, {}, {}, {}, {}, {}, {}, make_transmittance_estimator({})};
   return sample_moments(1, samples, seed, [&](Rng& rng, double* out) {
     Marcher marcher;
     EyeCounters counters;
