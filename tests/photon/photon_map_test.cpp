@@ -5,6 +5,7 @@
 #include "base/warp.h"
 #include "estimate/surface_estimate.h"
 #include "estimate/volume_estimate.h"
+#include "support/photon_layouts.h"
 #include "support/statistics.h"
 
 namespace vpm {
@@ -16,26 +17,6 @@ Hit hit_at(const Vec3& position, const Vec3& normal) {
   hit.normal = hit.shading_normal = normal;
   return hit;
 }
-
-enum class Layout { spread, flat, clustered, coinciding, line };
-
-std::vector<Photon> photons(Layout layout, size_t count) {
-  std::vector<Photon> result(count);
-  for (size_t i = 0; i < count; ++i) {
-    Rng rng(4, rng_stream(RngUse::test, static_cast<uint64_t>(layout)), i);
-    Vec3 p(rng.uniform(), rng.uniform(), rng.uniform());
-    if (layout == Layout::flat) p.y = 0.25f;
-    if (layout == Layout::clustered) p = (i & 7) ? 1e-3f * p + 0.4f : 100.0f * p;
-    if (layout == Layout::coinciding && i % 2) p = Vec3(0.5f);
-    if (layout == Layout::line) p = Vec3(p.x * 50.0f, 1.0f, 2.0f);
-    result[i] = {p, PackedDirection(uniform_sphere(rng.uniform2())), Rgb(rng.uniform(), rng.uniform(), rng.uniform())};
-    // Photons at one distance must be alike, or a k-nearest answer would depend on which of them it takes.
-    if (p == Vec3(0.5f)) result[i] = {p, PackedDirection(Vec3(0.6f, -0.8f, 0.0f)), Rgb(0.5f)};
-  }
-  return result;
-}
-
-constexpr Layout kLayouts[] = {Layout::spread, Layout::flat, Layout::clustered, Layout::coinciding, Layout::line};
 
 /// But for rounding: of sums, and of packed powers, in shares of the largest channel.
 void expect_near(const Rgb& a, const Rgb& b, const char* what) {

@@ -122,8 +122,8 @@ NamedSettings forms(const RenderSettings& base, bool media) {
   return all;
 }
 
-/// The ways of gathering: in all forms; with k nearest; from photons that are guided; on surfaces corrected at borders,
-/// and by final gathering, whose rays are guided or not.
+/// The ways of gathering: in all forms; with k nearest; in media along rays; from photons that are guided; on surfaces
+/// corrected at borders, and by final gathering, whose rays are guided or not.
 NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) {
   NamedSettings all = forms(base, media);
   RenderSettings nearest = base;
@@ -132,6 +132,16 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
     gather->count = 200'000;  // more than lie within the radius, so that this is what bounds the search
   }
   all.emplace_back("k nearest within the radius", nearest);
+  if (media) {
+    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+      RenderSettings beams = base;
+      beams.volume.mode = GatherMode::beam;
+      beams.volume_form = form;
+      all.emplace_back(fmt::format("photons beside rays, density at the {}",
+                                   form == VolumeForm::density_at_query ? "query" : "photon"),
+                       beams);
+    }
+  }
   RenderSettings guided = base;
   guided.guide.importons = 1'000;
   all.emplace_back("photons guided by importance", guided);

@@ -1,0 +1,33 @@
+// Photons on which maps are compared with their brute-force twins.
+#pragma once
+
+#include <vector>
+
+#include "base/rng.h"
+#include "base/warp.h"
+#include "photon/photon.h"
+
+namespace vpm {
+
+/// How photons lie: evenly, in a plane, most in a small part, most in one point, on a line.
+enum class Layout { spread, flat, clustered, coinciding, line };
+
+inline std::vector<Photon> photons(Layout layout, size_t count) {
+  std::vector<Photon> result(count);
+  for (size_t i = 0; i < count; ++i) {
+    Rng rng(4, rng_stream(RngUse::test, static_cast<uint64_t>(layout)), i);
+    Vec3 p(rng.uniform(), rng.uniform(), rng.uniform());
+    if (layout == Layout::flat) p.y = 0.25f;
+    if (layout == Layout::clustered) p = (i & 7) ? 1e-3f * p + 0.4f : 100.0f * p;
+    if (layout == Layout::coinciding && i % 2) p = Vec3(0.5f);
+    if (layout == Layout::line) p = Vec3(p.x * 50.0f, 1.0f, 2.0f);
+    result[i] = {p, PackedDirection(uniform_sphere(rng.uniform2())), Rgb(rng.uniform(), rng.uniform(), rng.uniform())};
+    // Photons at one distance must be alike, or a k-nearest answer would depend on which of them it takes.
+    if (p == Vec3(0.5f)) result[i] = {p, PackedDirection(Vec3(0.6f, -0.8f, 0.0f)), Rgb(0.5f)};
+  }
+  return result;
+}
+
+inline constexpr Layout kLayouts[] = {Layout::spread, Layout::flat, Layout::clustered, Layout::coinciding, Layout::line};
+
+}  // namespace vpm
