@@ -38,6 +38,10 @@ std::vector<Check> check_radii(const Effort& effort) {
     };
     check("volume radius", found.last_volume_radius, settings.volume.radius, 3.0);
     check("surface radius", found.last_surface_radius, settings.surface.radius, 2.0);
+    RenderSettings beams = settings;
+    beams.volume.mode = GatherMode::beam;
+    check("radius beside rays", render_photon_pass(scene, beams, pass, kGoOn).statistics.last_volume_radius,
+          settings.volume.radius, 2.0);
   }
   settings.radii = RadiusSchedule::constant;
   const RenderStatistics found = render_photon_pass(scene, settings, 30, kGoOn).statistics;
