@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
+#include "base/below.h"
 #include "base/vec.h"
 #include "photon/photon.h"
 
@@ -60,17 +62,10 @@ void PhotonTable::for_each_near(size_t begin, size_t end, const Vec3& point, flo
       dz[i] = z[i] - point.z;
       d2[i] = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
     }
-    // Which are near is as good as random: they are listed without a branch for each.
-    uint8_t near[kBlock];
     const auto n = static_cast<uint32_t>(std::min<size_t>(kBlock, end - block));
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < n; ++i) {
-      near[found] = static_cast<uint8_t>(i);
-      found += d2[i] < limit2 ? 1 : 0;
-    }
-    for (uint32_t f = 0; f < found; ++f) {
-      const uint32_t i = near[f];
-      visit(block + i, Vec3(dx[i], dy[i], dz[i]), d2[i]);
+    for (uint32_t near = bits_below(d2, limit2) & ((1u << n) - 1); near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
+      visit(block + static_cast<size_t>(i), Vec3(dx[i], dy[i], dz[i]), d2[i]);
     }
   }
 }
@@ -82,22 +77,18 @@ void PhotonTable::for_each_beside(size_t begin, size_t end, const Ray& ray, cons
   for (size_t block = begin; block < end; block += kBlock) {
     const float *x = &x_[block], *y = &y_[block], *z = &z_[block];
     float t[kBlock], d2[kBlock];
-    bool in[kBlock];
     for (uint32_t i = 0; i < kBlock; ++i) {
       const float dx = x[i] - o.x, dy = y[i] - o.y, dz = z[i] - o.z;
       t[i] = dx * w.x + dy * w.y + dz * w.z;
       const float ex = dx - t[i] * w.x, ey = dy - t[i] * w.y, ez = dz - t[i] * w.z;
-      d2[i] = ex * ex + ey * ey + ez * ez;
-      in[i] = (d2[i] < limit2) & (t[i] >= interval.t0) & (t[i] < interval.t1);
+      const float across = ex * ex + ey * ey + ez * ez;
+      d2[i] = t[i] >= interval.t0 && t[i] < interval.t1 ? across : kInfinity;
     }
-    uint8_t near[kBlock];
     const auto n = static_cast<uint32_t>(std::min<size_t>(kBlock, end - block));
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < n; ++i) {
-      near[found] = static_cast<uint8_t>(i);
-      found += in[i] ? 1 : 0;
+    for (uint32_t near = bits_below(d2, limit2) & ((1u << n) - 1); near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
+      visit(block + static_cast<size_t>(i), t[i], d2[i]);
     }
-    for (uint32_t f = 0; f < found; ++f) visit(block + near[f], t[near[f]], d2[near[f]]);
   }
 }
 

@@ -16,10 +16,10 @@ Vec3d cells_for(const Vec3& extent, double size) { return glm::floor(Vec3d(exten
 constexpr size_t kChunk = 1 << 14;  // photons one thread takes at once
 constexpr size_t kParts = 8;        // of the cells, that threads sort one by one
 
-/// The edge of the cells: half a radius, or more where that would make over a cell a photon.
+/// The edge of the cells: a radius, or more where that would make over a cell a photon.
 double cell_size(const Vec3& extent, float radius, size_t photons) {
   const double most = static_cast<double>(photons);
-  double size = 0.5 * radius;
+  double size = radius;
   for (Vec3d n = cells_for(extent, size); n.x * n.y * n.z > most; n = cells_for(extent, size))
     size *= std::max(1.01, 0.9 * std::cbrt(n.x * n.y * n.z / most));
   return size;

@@ -1,6 +1,6 @@
 // The photon map for fixed radii: photons sorted into a uniform grid, found by scanning short rows of cells.
 //
-// The grid's cells are half a radius wide unless that would make more than a cell a photon. Queries of any other
+// The grid's cells are a radius wide unless that would make more than a cell a photon. Queries of any other
 // radius are as right, and slower the less the cells fit it. Rows run along x, so that the photons of neighbouring
 // cells lie side by side and distances are computed in blocks.
 #pragma once

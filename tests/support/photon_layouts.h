@@ -28,6 +28,7 @@ inline std::vector<Photon> photons(Layout layout, size_t count) {
   return result;
 }
 
-inline constexpr Layout kLayouts[] = {Layout::spread, Layout::flat, Layout::clustered, Layout::coinciding, Layout::line};
+inline constexpr Layout kLayouts[] = {Layout::spread, Layout::flat, Layout::clustered, Layout::coinciding,
+                                      Layout::line};
 
 }  // namespace vpm
