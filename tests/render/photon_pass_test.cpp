@@ -43,6 +43,20 @@ RenderSettings settings_of(uint64_t photons, float radius) {
   return settings;
 }
 
+/// The ways to gather photons of media within a radius: around points of a ray and beside all of it, in both forms.
+std::vector<std::pair<std::string, RenderSettings>> volume_estimates(RenderSettings settings) {
+  std::vector<std::pair<std::string, RenderSettings>> all;
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::beam})
+    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+      settings.volume.mode = mode;
+      settings.volume_form = form;
+      const std::string where = mode == GatherMode::beam ? "beside rays" : "around points";
+      const std::string density = form == VolumeForm::density_at_query ? "query" : "photon";
+      all.emplace_back(where + ", density at the " + density, settings);
+    }
+  return all;
+}
+
 /// A lamp over a floor, seen from above, in vacuum or fog. In fog the floor is black by default, so that only the fog
 /// is seen.
 Scene lamp_and_floor(const Medium* fog, const Rgb& floor_in_fog = Rgb(0.0f)) {
@@ -78,14 +92,12 @@ TEST(SlowPhotonPass, SingleScatteringByPhotonsEqualsShadowRays) {
   Medium fog = make_medium(nullptr, Rgb(0.4f, 0.6f, 0.9f), 0.7f);
   fog.phase = HenyeyGreenstein{0.4f};
   const Scene scene = lamp_and_floor(&fog);
-  for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
-    RenderSettings settings = settings_of(30000, 0.1f);
-    settings.volume_form = form;
+  for (auto [name, settings] : volume_estimates(settings_of(30000, 0.1f))) {
     settings.volume_direct = DirectLight::photons;
     const Moments photons = pass_means(scene, settings, 12);
     settings.volume_direct = DirectLight::shadow_rays;
     const Moments rays = pass_means(scene, settings, 12);
-    expect_same(photons, rays, 5e-3, "single scattering in fog");
+    expect_same(photons, rays, 5e-3, "single scattering in fog, photons " + name);
   }
 }
 
@@ -109,17 +121,14 @@ TEST(PhotonPass, AWhiteFurnaceIsUniform) {
   const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.2 + lattice_noise(x, y, z); });
   for (const auto& density : {std::shared_ptr<const DensityGrid>(), grid})
     for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
-      for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+      for (auto [name, settings] : volume_estimates(settings_of(20000, 0.1f))) {
         const Scene scene = furnace(density, 1.5f);
-        RenderSettings settings = settings_of(20000, 0.1f);
         settings.volume_direct = direct;
-        settings.volume_form = form;
         const Moments mean = pass_means(scene, settings, 16);
         // The camera looks at the ball's middle half: the kernel's darkening within 0.1 m of its surface takes below 1
         // %.
         EXPECT_NEAR(mean.mean(), 1.0, 0.012 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean()))
-            << (density ? "grid" : "homogeneous") << ", direct " << static_cast<int>(direct) << ", form "
-            << static_cast<int>(form);
+            << (density ? "grid" : "homogeneous") << ", direct " << static_cast<int>(direct) << ", photons " << name;
       }
 }
 
@@ -162,13 +171,10 @@ TEST(PhotonPass, AWhiteFurnaceIsUniformThroughGlass) {
   scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 16.0f, 10, 10, {});
   scene.geometry.commit();
   finish(scene);
-  for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
-    RenderSettings settings = settings_of(10000, 0.1f);
-    settings.volume_form = form;
+  for (const auto& [name, settings] : volume_estimates(settings_of(10000, 0.1f))) {
     const Moments mean = pass_means(scene, settings, 12);
     // As above, the kernel's darkening at the surface.
-    EXPECT_NEAR(mean.mean(), 1.0, 0.02 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean()))
-        << static_cast<int>(form);
+    EXPECT_NEAR(mean.mean(), 1.0, 0.02 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean())) << name;
   }
 }
 
@@ -194,16 +200,14 @@ TEST(PhotonPass, FogDimsBeforeAndBehindThePhotons) {
   const Scene scene = cone_in_fog(1e-7f);  // too faint to send photons of its own, bright against what the fog scatters
   static const std::atomic<bool> kGoOn{false};
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
-    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
-      RenderSettings settings = settings_of(1000, 0.05f);
+    for (auto [name, settings] : volume_estimates(settings_of(1000, 0.05f))) {
       settings.volume_direct = direct;
-      settings.volume_form = form;
       const Image image = render_photon_pass(scene, settings, 0, kGoOn).image;
       for (const Rgb& pixel : image.pixels)
         for (int c = 0; c < 3; ++c) {
           // 4 m to the panel, up to 0.1 % more at the corners.
           const double exact = 1e-7 * std::exp(-4.0 * scene.media[0].sigma_t[c]);
-          EXPECT_NEAR(pixel[c], exact, 0.02 * exact) << static_cast<int>(direct) << static_cast<int>(form);
+          EXPECT_NEAR(pixel[c], exact, 0.02 * exact) << static_cast<int>(direct) << name;
         }
     }
 }
@@ -214,9 +218,23 @@ TEST(PhotonPass, LightFarFromTheEyeIsDimmedOnItsWay) {
   settings.volume_direct = DirectLight::shadow_rays;
   const Moments rays = pass_means(scene, settings, 12);
   settings.volume_direct = DirectLight::photons;
-  for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
-    settings.volume_form = form;
-    expect_same(pass_means(scene, settings, 12), rays, 0.01, "a cone of light 2 m away");
+  for (const auto& [name, photons] : volume_estimates(settings))
+    expect_same(pass_means(scene, photons, 12), rays, 0.01, "a cone of light 2 m away, photons " + name);
+}
+
+TEST(PhotonPass, PhotonsBesideRaysAgreeWithThoseAroundPointsAsRadiiShrink) {
+  // A cloud whose density changes within a gather radius, lit from one side: what the kernels' shapes do to the mean
+  // picture is of the order of the radius squared.
+  const GridFrame frame = centred_frame(9, 0.2);
+  const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.05 + lattice_noise(x, y, z); });
+  Scene scene =
+      boxed_medium(make_medium(grid, Rgb(2.0f), 0.8f), SpotLight{Vec3(3, 1, 0), Vec3(-1, 0, 0), 0.9f, 0.9f, Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 25.0f, 10, 10, {});
+  for (const float radius : {0.2f, 0.1f, 0.05f}) {
+    const auto all = volume_estimates(settings_of(20000, radius));
+    const Moments marched = pass_means(scene, all.front().second, 12);
+    for (const auto& [name, settings] : all)
+      expect_same(pass_means(scene, settings, 12), marched, 2.0 * radius * radius, "a cloud, photons " + name);
   }
 }
 
@@ -225,11 +243,10 @@ TEST(PhotonPass, OnlyTheDensityAtThePhotonSpreadsBeyondItsMedium) {
   Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 0.8f),
                              SpotLight{Vec3(0, 3, 0), Vec3(0, -1, 0), 0.9f, 0.9f, Rgb(1.0f)});
   scene.camera = make_camera(Vec3(1.05f, 0, 4), Vec3(1.05f, 0, 0), Vec3(0, 1, 0), 0.5f, 4, 4, {});
-  RenderSettings settings = settings_of(10000, 0.2f);
-  settings.volume_form = VolumeForm::density_at_query;
-  EXPECT_EQ(pass_means(scene, settings, 1).mean(), 0.0);
-  settings.volume_form = VolumeForm::density_at_photon;
-  EXPECT_GT(pass_means(scene, settings, 1).mean(), 0.0);
+  for (const auto& [name, settings] : volume_estimates(settings_of(10000, 0.2f))) {
+    const double mean = pass_means(scene, settings, 1).mean();
+    EXPECT_EQ(mean > 0.0, settings.volume_form == VolumeForm::density_at_photon) << name << ": " << mean;
+  }
 }
 
 TEST(PhotonPass, RadiiShrinkFromPassToPass) {
@@ -245,6 +262,8 @@ TEST(PhotonPass, RadiiShrinkFromPassToPass) {
   EXPECT_EQ(radii(settings, 7), Vec2(0.1f, 0.2f));
   settings.radii = RadiusSchedule::per_pass;
   EXPECT_EQ(radii(settings, 7), Vec2(radius_of_pass(0.1f, 3, 7), radius_of_pass(0.2f, 2, 7)));
+  settings.volume.mode = GatherMode::beam;
+  EXPECT_EQ(radii(settings, 7), Vec2(radius_of_pass(0.1f, 2, 7), radius_of_pass(0.2f, 2, 7)));
 }
 
 TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
