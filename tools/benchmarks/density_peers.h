@@ -1,0 +1,26 @@
+// Other libraries' density grids, filled with the cloud.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "base/vec.h"
+#include "benchmarks/cloud.h"
+
+namespace vpm::bench {
+
+/// The sum of densities at points.
+using SumDensities = std::function<double(std::span<const Vec3>)>;
+/// The sum of the lengths of free flights of a sigma_t at density 1, 1/m; ray i draws from Rng(1, stream, i).
+using SumFlights = std::function<double(const CloudRays&, float sigma_t)>;
+
+/// OpenVDB: BoxSampler over an accessor, and GridSampler over the tree.
+SumDensities openvdb_accessor();
+SumDensities openvdb_grid_sampler();
+
+/// NanoVDB; empty where it is not installed: the sampler that keeps the corners of its last cell, and flights through
+/// null collisions under the leaves' largest densities, which HDDA steps through.
+SumDensities nanovdb_sampler();
+SumFlights nanovdb_flights();
+
+}  // namespace vpm::bench

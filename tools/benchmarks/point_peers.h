@@ -1,0 +1,27 @@
+// Other libraries' indices of points.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "photon/photon.h"
+
+namespace vpm::bench {
+
+/// Queries come by the list, so that the call through a table costs none of them.
+class PointIndex {
+ public:
+  virtual ~PointIndex() = default;
+  /// The sum of radius^2 - distance^2 over the points within `radius` of each query.
+  virtual double sum_near(std::span<const Vec3> queries, float radius) const = 0;
+  /// The sum of the queries' distances to the k-th nearest point. Not every index can.
+  virtual double sum_nearest(std::span<const Vec3>, uint32_t) const { return 0.0; }
+};
+
+/// A kd-tree; null where nanoflann is not installed. Refers to the photons.
+std::unique_ptr<PointIndex> make_nanoflann_index(const std::vector<Photon>& photons);
+/// Embree's hierarchy of boxes over a point a primitive. Refers to the photons.
+std::unique_ptr<PointIndex> make_embree_index(const std::vector<Photon>& photons);
+
+}  // namespace vpm::bench
