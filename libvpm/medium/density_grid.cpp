@@ -70,6 +70,8 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
     brick_lo_[a] = floor_div(frame.lo[a] - 1, kCells);
     brick_count_[a] = floor_div(frame.hi[a], kCells) - brick_lo_[a] + 1;
   }
+  lattice_lo_ = Vec3d(brick_lo_ * kCells) - lattice_shift();
+  lattice_size_ = Vec3d(brick_count_ * kCells);
   const double count = double(brick_count_.x) * brick_count_.y * brick_count_.z;
   if (count > kMaxBricks)
     throw InputError(fmt::format(
@@ -108,18 +110,18 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
 }
 
 float DensityGrid::density(const Vec3& world) const {
-  const Vec3d p = Vec3d(world_to_index_ * glm::dvec4(Vec3d(world), 1.0)) + lattice_shift();
-  const Vec3d floored = glm::floor(p);
-  if (glm::any(glm::lessThan(floored, Vec3d(brick_lo_ * kCells))) ||
-      glm::any(glm::greaterThanEqual(floored, Vec3d((brick_lo_ + brick_count_) * kCells))))
-    return frame_.background;
-  const Vec3i cell = Vec3i(floored) - brick_lo_ * kCells;
-  const Brick& b = brick(cell / kCells);
+  // From the corner of the bricks on nothing is negative: cells and bricks are cut off, not rounded down.
+  const Vec3d p = Vec3d(world_to_index_ * glm::dvec4(Vec3d(world), 1.0)) - lattice_lo_;
+  const bool inside = (p.x >= 0.0) & (p.y >= 0.0) & (p.z >= 0.0) & (p.x < lattice_size_.x) & (p.y < lattice_size_.y) &
+                      (p.z < lattice_size_.z);
+  if (!inside) return frame_.background;
+  const Vec3i cell(p);
+  const Brick& b = brick(cell >> kCellBits);
   if (b.uniform()) return b.min;
-  const Vec3i c = cell % kCells;
+  const Vec3i c = cell & (kCells - 1);
   const float* v = values_of(b) + (c.z * kValues + c.y) * kValues + c.x;
   if (frame_.interpolation == Interpolation::nearest) return *v;
-  const Vec3 f(p - floored);
+  const Vec3 f(p - Vec3d(cell));
   const auto along_x = [&](const float* row) { return row[0] + f.x * (row[1] - row[0]); };
   const auto along_y = [&](const float* slice) {
     const float a = along_x(slice);

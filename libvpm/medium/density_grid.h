@@ -5,6 +5,7 @@
 // dimensionless densities; a medium multiplies them by its coefficients per unit density.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -29,6 +30,7 @@ class DensityGrid {
  public:
   static constexpr int kCells = DensityStretch::kCells;
   static constexpr int kValues = DensityStretch::kValues;
+  static constexpr int kCellBits = std::countr_zero(unsigned{kCells});
   static constexpr int kBrickValues = kValues * kValues * kValues;
 
   /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]; called from
@@ -103,7 +105,8 @@ class DensityGrid {
 
   GridFrame frame_;
   Mat4d world_to_index_{1.0};
-  Vec3i brick_lo_{0}, brick_count_{0};  // in bricks
+  Vec3i brick_lo_{0}, brick_count_{0};         // in bricks
+  Vec3d lattice_lo_{0.0}, lattice_size_{0.0};  // of all bricks: corner in index coordinates, and extent in cells
   std::vector<Brick> bricks_;
   std::vector<float> values_;
   float max_density_ = 0.0f;

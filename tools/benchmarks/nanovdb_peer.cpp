@@ -84,7 +84,7 @@ SumDensities nanovdb_sampler() {
     const auto accessor = grid().getAccessor();
     const nanovdb::SampleFromVoxels<decltype(grid().getAccessor()), 1, true> sampler(accessor);
     double sum = 0.0;
-    for (const Vec3& p : points) sum += sampler(nanovdb::Vec3f(p.x, p.y, p.z));
+    for (const Vec3& p : points) sum += sampler(grid().worldToIndexF(nanovdb::Vec3f(p.x, p.y, p.z)));
     return sum;
   };
 }

@@ -30,7 +30,8 @@ SumDensities openvdb_accessor() {
   return [grid = grid()](std::span<const Vec3> points) {
     const auto accessor = grid->getConstAccessor();
     double sum = 0.0;
-    for (const Vec3& p : points) sum += openvdb::tools::BoxSampler::sample(accessor, openvdb::Vec3d(p.x, p.y, p.z));
+    for (const Vec3& p : points)
+      sum += openvdb::tools::BoxSampler::sample(accessor, grid->worldToIndex(openvdb::Vec3d(p.x, p.y, p.z)));
     return sum;
   };
 }
