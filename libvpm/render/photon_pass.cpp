@@ -51,7 +51,7 @@ TraceSettings trace_settings(const RenderSettings& settings, const Stages& stage
   return trace;
 }
 
-/// Do radii shrink from pass to pass? In radius mode; the largest radius of the nearest mode stays.
+/// Do radii shrink from pass to pass? Not the largest radius of the nearest mode.
 bool shrinks(const GatherSettings& gather, const RenderSettings& settings) {
   return settings.radii != RadiusSchedule::constant && gather.mode != GatherMode::nearest;
 }
