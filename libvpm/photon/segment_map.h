@@ -85,8 +85,6 @@ uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, f
     const float d = ray.direction[a];
     beam.inverse[a] = 1.0f / (std::abs(d) < 1e-12f ? std::copysign(1e-12f, d) : d);
   }
-  beam.interval.t0 -= beam.radius;
-  beam.interval.t1 += beam.radius;
   const auto visit_photon = [&](size_t i, float t, float distance2) { visit(photons_.payload(i), t, distance2); };
   uint32_t visited = 0;
   size_t stack[12 * kWide];
