@@ -3,20 +3,12 @@
 
 namespace vpm {
 
-/// Adds to a counter that nothing is decided by. A program built with VPM_COUNTERS=OFF counts nothing here, to be
-/// timed against one that does.
+/// Adds to a counter that nothing is decided by and that no warning rests on. A program built with VPM_COUNTERS=OFF
+/// counts nothing here, to be timed against one that does.
 template <class Counter, class Number = int>
 inline void count([[maybe_unused]] Counter& counter, [[maybe_unused]] Number number = 1) {
 #ifndef VPM_NO_COUNTERS
   counter += static_cast<Counter>(number);
-#endif
-}
-
-/// The same of the largest of numbers.
-template <class Number>
-inline void count_largest([[maybe_unused]] Number& largest, [[maybe_unused]] Number number) {
-#ifndef VPM_NO_COUNTERS
-  if (number > largest) largest = number;
 #endif
 }
 

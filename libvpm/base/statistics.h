@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "base/count.h"
-
 namespace vpm {
 
 /// A sum of doubles with a second double for the digits that rounding would lose [Neumaier1974]. An infinity
@@ -65,24 +63,27 @@ class Moments {
   double m2_ = 0.0;  // sum of squared deviations from the mean
 };
 
+/// (sum w)^2 / sum w^2 of weights w: how many samples of equal weights would tell as much. Weights of either sign,
+/// which partly cancel, count for less.
+inline double effective_sample_size(double sum, double squares) { return squares == 0.0 ? 0.0 : sum * sum / squares; }
+
 /// Weights of samples that stand for unequal shares of a mean.
 struct WeightMoments {
-  double sum = 0.0, squares = 0.0, largest = 0.0;
+  double sum = 0.0, squares = 0.0, largest = 0.0;  // the largest magnitude
 
   void add(double weight) {
-    count(sum, weight);
-    count(squares, weight * weight);
+    sum += weight;
+    squares += weight * weight;
     at_least(weight);
   }
   /// Looks at a weight for the largest one only.
-  void at_least(double weight) { count_largest(largest, weight); }
+  void at_least(double weight) { largest = std::max(largest, std::fabs(weight)); }
   void merge(const WeightMoments& other) {
     sum += other.sum;
     squares += other.squares;
     largest = std::max(largest, other.largest);
   }
-  /// How many samples of equal weights would tell as much: (sum w)^2 / sum w^2.
-  double effective_sample_size() const { return squares > 0.0 ? sum * sum / squares : 0.0; }
+  double effective_sample_size() const { return vpm::effective_sample_size(sum, squares); }
 };
 
 /// Probability that a standard normal variable lies further from 0 than `z` (either side): the p-value of a z-test.

@@ -40,10 +40,10 @@ Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along
     const auto visit = [&](const SegmentMap::Payload& photon, float t, float distance2) {
       const float weight = p.value(photon.travel.unpack(), -ray.direction) * profile(distance2 * inverse);
       sum_of_photons += Rgbd(photon.power.unpack() * (weight * along(t)));
-      count(used);
+      ++used;
     };
     count(counters.visited, map.photons.for_each_beside(ray, interval, radius, visit));
-    count(counters.used, used);
+    counters.used += used;
     return Rgb(sum_of_photons);
   };
   return kernel_norm_2d(kernel, radius) *

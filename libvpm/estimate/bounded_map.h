@@ -33,7 +33,7 @@ const GatherSettings& settings_of(const BoundedMap<Region>& bounded) {
 /// A sum over what a region has of a kernel, over its share.
 inline Rgb over_share(const Rgb& sum, const RegionShare& share, GatherCounters& counters) {
   count(counters.corrected);
-  if (share.inside < kLeastShare) count(counters.least_shares);
+  if (share.inside < kLeastShare) ++counters.least_shares;
   return sum / static_cast<float>(std::max(share.inside, kLeastShare));
 }
 

@@ -1,7 +1,6 @@
 // Computing the points, and finding the nearest.
 #include "estimate/irradiance_points.h"
 
-#include "base/count.h"
 #include "base/parallel.h"
 #include "estimate/surface_estimate.h"
 
@@ -46,7 +45,7 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
   };
   const Neighbours& near = nearest(Gathering{points_, gather_, counters}, hit.position, agrees);
   if (near.entries().empty()) return std::nullopt;
-  count(counters.used);
+  ++counters.used;
   return points_.payload(near.entries().front().photon).power.unpack();
 }
 

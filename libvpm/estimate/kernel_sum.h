@@ -67,11 +67,11 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
     const auto visit = [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
       if (!accept(p.travel, offset)) return;
       sum += Rgbd(value(p.travel.unpack(), p.power.unpack()) * profile(d2 * inverse));
-      count(used);
+      ++used;
     };
     count(map.counters.searches);
     count(map.counters.visited, map.index.for_each_near(point, r, visit));
-    count(map.counters.used, used);
+    map.counters.used += used;
     return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, r);
   });
 }
@@ -94,7 +94,7 @@ template <int Dimension, class Value>
 Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
   const size_t first = neighbours.full() ? 1 : 0;  // the farthest
-  count(map.counters.used, neighbours.entries().size() - first);
+  map.counters.used += neighbours.entries().size() - first;
   return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgbd sum(0.0);
     for (size_t i = first; i < neighbours.entries().size(); ++i) {

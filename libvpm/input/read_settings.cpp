@@ -177,12 +177,6 @@ void read_distance(TableReader& table, RenderSettings& s, bool has_grid) {
             suggest(distance.strategy, strategies_that(&StrategyInfo::positive), "right for photons"));
 }
 
-/// Does anything ask for the transmittance towards lights?
-bool casts_shadow_rays(const RenderSettings& s, const SceneContents& contents) {
-  return s.integrator == Integrator::path || s.volume_direct == DirectLight::shadow_rays ||
-         (contents.rough_surfaces && s.surface_direct == DirectLight::shadow_rays);
-}
-
 void read_transmittance(TableReader& table, TransmittanceSettings& transmittance, bool used) {
   const std::string exact = transmittance.estimator;
   transmittance.estimator = read_listed(table, "estimator", transmittance_estimators(), exact);
@@ -190,7 +184,7 @@ void read_transmittance(TableReader& table, TransmittanceSettings& transmittance
   transmittance.samples = table.number("samples", kSamples, transmittance.samples);
   if (!used && transmittance.estimator != exact)
     table.fail("estimator", "nothing asks '" + transmittance.estimator + "': shadow rays do, and none are cast",
-               "write direct = \"shadow-rays\" in [volume], or leave out 'estimator'");
+               "write direct = \"shadow-rays\" in [volume] or [surface] of what scatters, or leave out 'estimator'");
 }
 
 /// Reads a section if the file has it.
@@ -268,8 +262,9 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
     read_gather(table, kAroundPoints, s.caustics);
     s.caustics_emitted = table.integer("emitted", 0, kMaxInteger, s.caustics_emitted);
   });
+  const bool shadow_rays = s.integrator == Integrator::path || plan_stages(contents.scattering, s).shadow_rays();
   read_section(root, "transmittance",
-               [&](TableReader& table) { read_transmittance(table, s.transmittance, casts_shadow_rays(s, contents)); });
+               [&](TableReader& table) { read_transmittance(table, s.transmittance, shadow_rays); });
   return s;
 }
 

@@ -86,9 +86,12 @@ void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan)
 
 SceneContents contents_of(const ScenePlan& plan) {
   SceneContents contents;
-  for (const MediumPlan& medium : plan.media) contents.grids |= medium.grid.has_value();
+  for (const MediumPlan& medium : plan.media) {
+    contents.grids |= medium.grid.has_value();
+    contents.scattering.media |= medium.medium.scatters();
+  }
   for (const ShapePlan& shape : plan.shapes)
-    contents.rough_surfaces |= is_rough(plan.materials[shape.shape.material].material);
+    contents.scattering.surfaces |= is_rough(plan.materials[shape.shape.material].material);
   return contents;
 }
 

@@ -9,6 +9,7 @@
 
 #include "input/grid_file.h"
 #include "input/table_reader.h"
+#include "render/photon_pass.h"
 #include "render/settings.h"
 #include "scene/scene.h"
 #include "surface/mesh.h"
@@ -82,10 +83,10 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
 
 /// What settings have to suit.
 struct SceneContents {
-  bool grids = false;           // media of grids
-  bool rough_surfaces = false;  // that direct light reaches
+  bool grids = false;  // media of grids
+  Scattering scattering;
 };
-/// Reads [render], [photons], [distance], [transmittance], [volume], [surface] and [caustics].
+/// Reads [render], [photons], [importance], [distance], [transmittance], [volume], [surface] and [caustics].
 RenderSettings read_settings(TableReader& root, const SceneContents& contents);
 
 }  // namespace vpm

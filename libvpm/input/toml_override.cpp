@@ -29,7 +29,13 @@ std::string name_of(const Node& element) {
   return text ? *text : "";
 }
 
-/// The element of an array that `key` names, by name or by number; the number after the last one makes an element.
+/// The key of an element that is not there yet.
+constexpr const char* kNew = "new";
+
+bool is_number(const std::string& key) { return key.find_first_not_of("0123456789") == std::string::npos; }
+
+/// The element of an array that `key` names, by name or by number; "new", and the number after the last one, make an
+/// element.
 Node& element_of(Node::Array& array, const std::string& key, const std::string& owner, const Place& place) {
   std::vector<std::string> names;
   for (Node& element : array) {
@@ -37,19 +43,18 @@ Node& element_of(Node::Array& array, const std::string& key, const std::string& 
     if (name == key) return element;
     if (!name.empty()) names.push_back(name);
   }
-  size_t index = 0;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-  const bool is_number = error == std::errc() && end == key.data() + key.size();
-  if (is_number && index == array.size()) array.push_back(Node{place, Node::Table{}});
-  if (is_number && index < array.size()) return array[index];
-  const std::string next = std::to_string(array.size()) + " would be a new one";
+  size_t index = key == kNew ? array.size() : array.size() + 1;
+  if (is_number(key)) std::from_chars(key.data(), key.data() + key.size(), index);  // leaves it where it is too large
+  if (index == array.size()) array.push_back(Node{place, Node::Table{}});
+  if (index < array.size()) return array[index];
+  const std::string next = std::string("'") + kNew + "' would be a new one";
   const std::string range = array.empty() ? "it is empty, " + next
                                           : "its elements are 0 to " + std::to_string(array.size() - 1) + ", " + next;
   fail_at(place, "'" + owner + "' has no element '" + key + "'", range + "; " + suggest(key, names, "named"));
 }
 
-/// The value under `key`; where it is missing it is made if `may_be_new`.
-Node& value_of(Node::Table& table, const std::string& key, const std::string& owner, bool may_be_new,
+/// The value under `key`; where it is missing and `made` is not null, that is put there.
+Node& value_of(Node::Table& table, const std::string& key, const std::string& owner, const Node* made,
                const Place& place) {
   std::vector<std::string> keys;
   for (Entry& entry : table) {
@@ -57,8 +62,8 @@ Node& value_of(Node::Table& table, const std::string& key, const std::string& ow
     keys.push_back(entry.key);
   }
   const std::string where = owner.empty() ? "the scene file" : "'" + owner + "'";
-  if (!may_be_new) fail_at(place, where + " has no '" + key + "'", suggest(key, keys, "there are"));
-  table.push_back({key, place, Node{place, Node::Table{}}});
+  if (!made) fail_at(place, where + " has no '" + key + "'", suggest(key, keys, "there are"));
+  table.push_back({key, place, *made});
   return table.back().node;
 }
 
@@ -88,9 +93,10 @@ void apply_override(Document& document, const std::string& option) {
   std::string owner;
   const std::vector<std::string> keys = split_path(option.substr(0, equals), place);
   for (size_t i = 0; i < keys.size(); ++i) {
-    const bool may_be_new = i == 0 || i + 1 == keys.size();
+    const bool is_last = i + 1 == keys.size(), of_list = !is_last && (is_number(keys[i + 1]) || keys[i + 1] == kNew);
+    const Node made = of_list ? Node{place, Node::Array{}} : Node{place, Node::Table{}};
     if (auto* table = std::get_if<Node::Table>(&node->value))
-      node = &value_of(*table, keys[i], owner, may_be_new, place);
+      node = &value_of(*table, keys[i], owner, i == 0 || is_last ? &made : nullptr, place);
     else if (auto* array = std::get_if<Node::Array>(&node->value))
       node = &element_of(*array, keys[i], owner, place);
     else

@@ -11,7 +11,7 @@ Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium
   Encounter met = scene.geometry.encounter(ray, t_max);
   if (!met && t_max < kInfinity) return met;
   const MediumId known = met ? medium_before(scene, met, ray.direction, medium) : scene.world_medium;
-  if (known != medium) count(counters.medium_mismatches);
+  if (known != medium) ++counters.medium_mismatches;
   medium = known;
   return met;
 }
@@ -24,30 +24,32 @@ void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, Medium
 
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
                  WalkCounters& counters, float limit) {
+  bool through_medium = false;
   for (;;) {
     const Encounter met = meet(scene, state.ray, limit, state.medium, counters);
     if (state.medium != kVacuum) {
+      through_medium = true;
       const Medium& medium = scene.media[state.medium];
       const Interval free{0.0f, met ? met.hits[0].t : limit};
       const Flight flight = strategy.sample(medium, state.ray, free, state.power, rng);
       count(counters.lookups, flight.lookups);
       count(counters.bricks, flight.bricks);
       count(counters.null_collisions, flight.null_collisions);
-      count(counters.majorant_violations, flight.majorant_violations);
+      counters.majorant_violations += flight.majorant_violations;
       state.power *= flight.weight;
       if (flight.collided) {
         state.ray.origin = state.ray.at(flight.t);
-        return {EventKind::collision, {}, flight.density};
+        return {EventKind::collision, {}, flight.density, through_medium};
       }
     }
     if (!met) {
-      if (limit == kInfinity) return {EventKind::escape, {}, 0.0f};
+      if (limit == kInfinity) return {EventKind::escape, {}, 0.0f, through_medium};
       state.ray.origin = state.ray.at(limit);
-      return {EventKind::limit, {}, 0.0f};
+      return {EventKind::limit, {}, 0.0f, through_medium};
     }
     if (!is_boundary(scene.material_of(met.hits[0]))) {
       state.ray.origin = met.hits[0].position;
-      return {EventKind::surface, met.hits[0], 0.0f};
+      return {EventKind::surface, met.hits[0], 0.0f, through_medium};
     }
     limit -= met.hits[0].t;
     cross_boundaries(scene, met, state.ray, state.medium, counters);

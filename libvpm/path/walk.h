@@ -20,8 +20,9 @@ enum class EventKind { collision, surface, limit, escape };
 /// What ends a flight. The path's state stands at the event: its ray starts there (at a surface: exactly on it).
 struct Event {
   EventKind kind = EventKind::escape;
-  Hit hit;               // at a surface
-  float density = 0.0f;  // at a collision
+  Hit hit;                      // at a surface
+  float density = 0.0f;         // at a collision
+  bool through_medium = false;  // did any part of the flight lead through one?
 };
 
 /// What a walk counts.

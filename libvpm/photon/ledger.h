@@ -19,7 +19,7 @@ struct Ledger {
   Rgbd cut{0.0};  // carried by photons that reached the limit of events
   uint64_t cut_count = 0;
   Moments imbalance;      // of each photon: (absorbed + escaped + cut - emitted) over channels, W; its mean is zero
-  WeightMoments weights;  // of collisions, power over emitted power; the largest one also of surface hits
+  WeightMoments weights;  // of photons: PathWeight, power over emitted power
   uint64_t collisions = 0;
   uint64_t surface_hits = 0;
   uint64_t floored = 0;     // stored photons whose density was below TraceSettings::density_floor

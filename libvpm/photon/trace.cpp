@@ -7,6 +7,7 @@
 #include "base/count.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "path/path_weight.h"
 #include "photon/emission.h"
 #include "photon/guided_scatter.h"
 
@@ -40,6 +41,7 @@ class PhotonPath {
       go_on(rng);
     }
     out_.ledger.imbalance.add(balance_);
+    weight_.add_to(out_.ledger.weights);
   }
 
  private:
@@ -63,6 +65,7 @@ class PhotonPath {
     at_.state.power /= drawn.density;
     emitted_power_ = sum_channels(at_.state.power);
     balance_ = -static_cast<double>(emitted_power_);
+    weight_ = {};
     alive_ = emitted_power_ > 0.0f;
     ++out_.ledger.emitted_count;
     if (!for_sites_) ++out_.surface_emitted;
@@ -79,6 +82,7 @@ class PhotonPath {
         ++out_.ledger.non_finite;
         return;
       }
+      weight_.meet(sum_channels(at_.state.power) / emitted_power_, at_.event);
       arrive(rng);
       if (!alive_) return;
       split(rng);
@@ -116,7 +120,6 @@ class PhotonPath {
   void collide(Rng& rng) {
     const double weight = sum_channels(at_.state.power) / emitted_power_;
     count(out_.ledger.collisions);
-    out_.ledger.weights.add(weight);
     alive_ = weight > 0.0 && survive_roulette(worth(), at_.state, rng);
     if (!alive_) return;
     const Medium& medium = scene_.media[at_.state.medium];
@@ -141,7 +144,6 @@ class PhotonPath {
 
   void meet_surface() {
     count(out_.ledger.surface_hits);
-    out_.ledger.weights.at_least(sum_channels(at_.state.power) / emitted_power_);
     alive_ = max_channel(at_.state.power) > 0.0f;
     if (!alive_) return;
     const bool rough = is_rough(scene_.material_of(at_.event.hit));
@@ -219,6 +221,7 @@ class PhotonPath {
   std::vector<Branch> waiting_;
   float emitted_power_ = 0.0f;
   double balance_ = 0.0;  // gone minus emitted, W
+  PathWeight weight_;     // of all branches
   bool alive_ = true;
   bool for_sites_ = false;
 };

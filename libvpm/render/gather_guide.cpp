@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/count.h"
 #include "base/warp.h"
 #include "estimate/surface_estimate.h"
 #include "surface/incidence.h"
@@ -25,7 +24,7 @@ GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, G
   const auto& map = std::get<NearestMap>(from_rough.index);
   const std::vector<Neighbours::Entry>& near =
       nearest(Gathering{map, from_rough.settings, counters}, hit.position, arrives).entries();
-  count(counters.used, near.size());
+  counters.used += near.size();
   for (const Neighbours::Entry& entry : near) {
     const NearestMap::Payload& photon = map.payload(entry.photon);
     const Vec3 travel = photon.travel.unpack();

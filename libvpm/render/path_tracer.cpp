@@ -1,8 +1,11 @@
 // Paths from the eye, event by event.
 #include "render/path_tracer.h"
 
+#include <cmath>
+
 #include "base/count.h"
 #include "path/direct_light.h"
+#include "path/path_weight.h"
 #include "surface/shading.h"
 
 namespace vpm {
@@ -14,10 +17,18 @@ class TracedPath {
       : c_(context), rng_(rng), counters_(counters), state_{ray, medium, Rgb(1.0f)} {}
 
   Rgb follow() {
+    const Rgb radiance = follow_events();
+    weight_.add_to(counters_.weights);
+    return radiance;
+  }
+
+ private:
+  Rgb follow_events() {
     for (int events = 0; events < c_.max_events; ++events) {
       const Vec3 from = state_.ray.origin;
       const Event event = next_event(c_.scene, *c_.distance, state_, rng_, counters_.walk);
       if (!is_finite(state_.power)) return state_.power;  // no roulette: that would end it as if it were black
+      weight_.meet(weight(), event);
       if (event.kind == EventKind::escape) {
         see_environment(from);
         return radiance_;
@@ -29,9 +40,12 @@ class TracedPath {
     return radiance_;
   }
 
- private:
+  /// The mean magnitude of the channels' throughput, with the sign of their sum.
+  double weight() const {
+    return std::copysign(sum_channels(glm::abs(state_.power)) / 3.0, sum_channels(state_.power));
+  }
+
   bool collide() {
-    counters_.weights.add(sum_channels(glm::abs(state_.power)) / 3.0);
     if (!survive_roulette(max_channel(glm::abs(state_.power)), state_, rng_)) return false;
     const Medium& medium = c_.scene.media[state_.medium];
     const Vec3 travel = state_.ray.direction;
@@ -113,6 +127,7 @@ class TracedPath {
   Rng& rng_;
   EyeCounters& counters_;
   PathState state_;
+  PathWeight weight_;
   float scatter_pdf_ = kInfinity;  // of the present direction, 1/sr; infinite for the camera's and specular ones
   Rgb radiance_{0.0f};
 };

@@ -202,10 +202,15 @@ void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& pro
 }  // namespace
 
 Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
+  Scattering scattering;
+  for (const Medium& medium : scene.media) scattering.media |= medium.scatters();
+  for (const Shape& shape : scene.shapes) scattering.surfaces |= is_rough(scene.materials[shape.material]);
+  return plan_stages(scattering, settings);
+}
+
+Stages plan_stages(const Scattering& scattering, const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return {};
-  bool scatters = false, rough = false;
-  for (const Medium& medium : scene.media) scatters |= medium.scatters();
-  for (const Shape& shape : scene.shapes) rough |= is_rough(scene.materials[shape.material]);
+  const auto [scatters, rough] = scattering;
   const bool gather = rough && settings.surface_indirect == IndirectLight::final_gather;
   return {.volume_map = scatters,
           .beams = scatters && settings.volume.mode == GatherMode::beam,

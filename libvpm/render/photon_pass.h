@@ -22,8 +22,16 @@ struct Stages {
   bool irradiance_points = false;  // its rays end at points whose irradiance is known
   bool pixel_discs = false;        // the eye's gathers from the surface map have radii of the pixels' own
   bool photons() const { return volume_map || surface_map; }
+  bool shadow_rays() const { return volume_shadow_rays || surface_shadow_rays; }
 };
-/// The stages that such a render of the scene runs; none by the path tracer.
+/// What of a scene scatters, and so asks for stages.
+struct Scattering {
+  bool media = false;
+  bool surfaces = false;  // rough ones: mirrors and glass need no map
+};
+/// The stages that such a render runs; none by the path tracer.
+Stages plan_stages(const Scattering& scattering, const RenderSettings& settings);
+/// The same of a scene.
 Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 
 struct EyeContext;

@@ -18,7 +18,7 @@ struct EyeCounters {
   uint64_t irradiance_misses = 0;   // those near no such point, which asked the map
   uint64_t cut_paths = 0;           // that reached the limit of events
   uint64_t non_finite = 0;          // samples that were dropped because they were not finite
-  WeightMoments weights;            // of the path tracer's collisions: the mean magnitude of the channels' throughput
+  WeightMoments weights;            // of the path tracer's paths: PathWeight, a mean over channels
   GatherCounters gather;
   WalkCounters walk;
 

@@ -62,15 +62,15 @@ TEST(StrategiesExtremes, TheLedgerReportsHeavyTails) {
   finish(scene);
   const Ledger analog = clean_ledger(scene, "regular", 20000);
   EXPECT_FLOAT_EQ(static_cast<float>(analog.weights.largest), 1.0f);
-  EXPECT_NEAR(analog.weights.effective_sample_size() / static_cast<double>(analog.collisions), 1.0, 1e-6);
+  EXPECT_NEAR(analog.weights.effective_sample_size() / 20000.0, 1.0, 1e-6);
   TraceSettings settings;
   settings.emitted = 20000;
   const Ledger weighted = trace_with(scene, "mean-extinction", settings).ledger;
   EXPECT_EQ(weighted.non_finite, 0u);
-  std::printf("mean-extinction: largest weight %.3g, effective sample size %.0f of %.0f collisions\n",
-              weighted.weights.largest, weighted.weights.effective_sample_size(), double(weighted.collisions));
+  std::printf("mean-extinction: largest weight %.3g, effective sample size %.0f of 20000 photons\n",
+              weighted.weights.largest, weighted.weights.effective_sample_size());
   EXPECT_GT(weighted.weights.largest, 5.0);
-  EXPECT_LT(weighted.weights.effective_sample_size(), 0.5 * static_cast<double>(weighted.collisions));
+  EXPECT_LT(weighted.weights.effective_sample_size(), 0.5 * 20000.0);
 }
 
 /// A ray through a medium along which the optical thickness is known.
@@ -135,7 +135,7 @@ std::vector<HardRay> hard_rays() {
 /// tails.
 template <class Draw>
 Check check_draws(const std::string& name, double through, const Draw& draw) {
-  constexpr uint64_t kDraws = 20000;
+  constexpr uint64_t kDraws = 40000;
   Fnv1a seed;
   seed.add(name);
   Moments draws;
@@ -163,7 +163,8 @@ TEST(StrategiesExtremes, HardRaysAreCrossedByAllThatHaveNoBias) {
         return flight.collided ? 0.0 : double(flight.weight.r);
       }));
       EXPECT_TRUE(checks.back().value > 0.0 || !info.positive) << checks.back().name;
-      EXPECT_TRUE(checks.back().kind != CheckKind::undetermined || !info.bounded_weight) << checks.back().name;
+      const bool may_be_unknown = hard.spike && !info.bounded_weight;
+      EXPECT_TRUE(may_be_unknown || checks.back().kind != CheckKind::undetermined) << checks.back().name;
     }
     for (const EstimatorInfo& info : transmittance_estimators()) {
       if (!info.unbiased) continue;

@@ -93,10 +93,17 @@ TEST(SceneFile, OptionsAddElements) {
       "[[shapes]]\nname = 'a ball'\ntype = 'sphere'\nmaterial = 'grey'\ncenter = [0, 0, 0]\nradius = 1\n";
   const LoadedScene added = load_with(
       kGrey + ball, {" shapes.1 = {type='sphere', material='grey', center=[0, 0, 3]}", "shapes.1.radius=2",
-                     "shapes. a ball .center=[0, 0, -1]", "lights.1={type='point', position=[0, 4, 0], power=1}"});
+                     "shapes. a ball .center=[0, 0, -1]", "lights.1={type='point', position=[0, 4, 0], power=1}",
+                     "lights.new={type='point', position=[0, 5, 0], power=1}"});
   EXPECT_EQ(added.scene.geometry.bounds().lo, Vec3(-2, -2, -2));
   EXPECT_EQ(added.scene.geometry.bounds().hi, Vec3(2, 2, 5));
-  EXPECT_EQ(added.scene.lights.size(), 2u);
+  EXPECT_EQ(added.scene.lights.size(), 3u);
+  // Where the file has no such list, too.
+  for (const char* key : {"0", "new"}) {
+    const std::string sphere =
+        std::string("shapes.") + key + "={type='sphere', material='grey', center=[0, 0, 0], radius=3}";
+    EXPECT_EQ(load_with(kGrey, {sphere}).scene.geometry.bounds().hi, Vec3(3)) << key;
+  }
 }
 
 TEST(SceneFile, HashesTheBytesOfTheFilesItNames) {
@@ -144,11 +151,13 @@ TEST(SceneFile, RefusesBadOptions) {
       {"render.passes=many", "--set render.passes=many: 'passes' of [render] must be an integer, not a string"},
       {"render.passes=0", "--set render.passes=0: 'passes' of [render] must be from 1"},
       {"shapes.2.radius=3",
-       "--set shapes.2.radius=3: 'shapes' has no element '2'\nits elements are 0 to 0, 1 would be a new one; named: "
+       "--set shapes.2.radius=3: 'shapes' has no element '2'\nits elements are 0 to 0, 'new' would be a new one; "
+       "named: "
        "ball"},
+      {"shapes.99999999999999999999.radius=3", "'shapes' has no element '99999999999999999999'"},
       {"shapes.1.radius=3", "--set shapes.1.radius=3: [[shapes]] number 1 lacks the key 'type'"},
       {"shapes.bal.radius=3",
-       "'shapes' has no element 'bal'\nits elements are 0 to 0, 1 would be a new one; did you mean 'ball'? named: "
+       "'shapes' has no element 'bal'\nits elements are 0 to 0, 'new' would be a new one; did you mean 'ball'? named: "
        "ball"},
       {"media.fgo.sigma_s=3", "'media' has no 'fgo'\ndid you mean 'fog'? there are: fog"},
       {"media.fog.phase.g=0.5", "'media.fog' has no 'phase'\nthere are: type, sigma_s, sigma_a"},

@@ -37,6 +37,7 @@ TEST(SceneFile, ReadsEverySetting) {
           "aim = false\nsplit = false\nscatter = true\n[distance]\nstrategy = 'ray-march'\nstep "
           "= 0.5\noptical_step = 0.02\nextinction_floor = 0.2\nmajorant = 0.125\n"
           "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\nsamples = 2.5\n"
+          "[media.fog]\ntype = 'homogeneous'\nsigma_s = 1\nsigma_a = 0\n"
           "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
           "'density-at-photon'\ndirect = 'shadow-rays'\n"
           "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n"

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "path/path_weight.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
 
@@ -198,6 +199,44 @@ TEST(PathTracer, WeightedFlightsGiveTheSamePicture) {
       EXPECT_LT(error, 0.01 * exact[c].mean());
     }
   }
+}
+
+// Rays through a thin ball and past it: paths count once, however often they collide, and those past it do not.
+TEST(PathTracer, WeighsPathsThroughMediaOnce) {
+  Scene scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(5.0f), 1.0f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Boundary{}, &media);
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  const PathContext context = make_path_context(scene, {});
+  EyeCounters counters;
+  for (uint64_t i = 0; i < 200; ++i) {
+    Rng rng(5, rng_stream(RngUse::test, 2), i);
+    path_radiance(context, {Vec3(i % 2 == 0 ? 0.0f : 2.0f, 0, 5), Vec3(0, 0, -1)}, kVacuum, rng, counters);
+  }
+  EXPECT_NEAR(counters.weights.sum, 100.0, 1e-4);
+  EXPECT_NEAR(counters.weights.effective_sample_size(), 100.0, 1e-4);
+  EXPECT_NEAR(counters.weights.largest, 1.0, 1e-5);
+}
+
+TEST(PathWeight, IsTheLargestMagnitudeWithItsSign) {
+  WeightMoments weights;
+  Event in_fog;
+  in_fog.through_medium = true;
+  PathWeight path, other, outside;
+  for (const double weight : {0.5, -4.0, 2.0}) path.meet(weight, in_fog);
+  path.meet(1.0, {});
+  path.add_to(weights);
+  other.meet(3.0, in_fog);
+  other.add_to(weights);
+  outside.meet(-9.0, {});
+  outside.add_to(weights);
+  EXPECT_EQ(weights.sum, -1.0);
+  EXPECT_EQ(weights.squares, 25.0);
+  EXPECT_EQ(weights.largest, 9.0);
+  EXPECT_EQ(weights.effective_sample_size(), 1.0 / 25.0);
 }
 
 TEST(PathTracer, PathsThatAreNotFiniteAreCountedAndNotBlack) {

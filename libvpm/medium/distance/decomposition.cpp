@@ -14,21 +14,14 @@ namespace vpm {
 
 Flight Decomposition::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                              Rng& rng) const {
-  NullCollisionFlight flight(medium, interval, power, rng);
-  const uint32_t bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
-    const double control = static_cast<double>(stretch.min) / static_cast<double>(stretch.max);
-    for (double t = stretch.t0; flight.advance(t, stretch.t1, stretch.max);) {
-      if (flight.is_real(control)) {
+  return track_bricks(
+      medium, ray, interval, power, rng, [](const DensityStretch& stretch) { return stretch.max; },
+      [&](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
+        if (!flight.is_real(stretch.min / majorant)) return flight.meet(t, stretch.density(t), majorant);
         if (needs_density_) flight.count_lookup();
         flight.collide(t, needs_density_ ? stretch.density(t) : stretch.min);
-        return false;
-      }
-      if (flight.meet(t, stretch.density(t), stretch.max)) return false;
-    }
-    return true;
-  });
-  flight.count_bricks(bricks);
-  return flight.result();
+        return true;
+      });
 }
 
 }  // namespace vpm

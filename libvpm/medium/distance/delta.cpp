@@ -13,7 +13,7 @@ Flight Delta::sample(const Medium& medium, const Ray& ray, const Interval& inter
   NullCollisionFlight flight(medium, interval, power, rng);
   for (double t = inside.t0; flight.advance(t, inside.t1, majorant);)
     if (flight.meet(t, medium.density(ray.at(static_cast<float>(t))), majorant)) break;
-  return flight.result();
+  return flight.result(0);
 }
 
 }  // namespace vpm

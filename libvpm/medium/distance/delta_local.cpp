@@ -9,14 +9,11 @@ namespace vpm {
 
 Flight DeltaLocal::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                           Rng& rng) const {
-  NullCollisionFlight flight(medium, interval, power, rng);
-  const uint32_t bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
-    for (double t = stretch.t0; flight.advance(t, stretch.t1, stretch.max);)
-      if (flight.meet(t, stretch.density(t), stretch.max)) return false;
-    return true;
-  });
-  flight.count_bricks(bricks);
-  return flight.result();
+  return track_bricks(
+      medium, ray, interval, power, rng, [](const DensityStretch& stretch) { return stretch.max; },
+      [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
+        return flight.meet(t, stretch.density(t), majorant);
+      });
 }
 
 }  // namespace vpm

@@ -26,7 +26,7 @@ NullCollisionFlight::NullCollisionFlight(const Medium& medium, const Interval& i
 // the channels, so that neither is left out where any channel has some of it.
 bool NullCollisionFlight::meet_beyond(double t, float density, double majorant) {
   count(flight_.lookups);
-  count(flight_.majorant_violations);
+  ++flight_.majorant_violations;
   const double share = density / majorant;
   const Rgbd null = 1.0 - coefficients_ / sigma_t_ * share;
   const double real = chance_ * share, rest = glm::dot(shares_ * glm::abs(weight_), glm::abs(null));
@@ -60,8 +60,9 @@ void NullCollisionFlight::drop_exhausted_channels() {
   chance_ = sigma_t_ > 0.0 ? glm::dot(shares_ * glm::abs(weight_), coefficients_) / sigma_t_ : 0.0;
 }
 
-Flight NullCollisionFlight::result() const {
+Flight NullCollisionFlight::result(uint32_t bricks) const {
   Flight flight = flight_;
+  flight.bricks = bricks;
   if (grey_) return flight;
   flight.weight *= Rgb(flight.collided ? weight_ * coefficients_ / (chance_ * sigma_t_) : weight_);
   return flight;

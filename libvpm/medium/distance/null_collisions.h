@@ -56,7 +56,7 @@ class NullCollisionFlight {
     count(flight_.lookups);
     double share = density / majorant;
     if (share > 1.0) {
-      count(flight_.majorant_violations);
+      ++flight_.majorant_violations;
       share = 1.0;
     }
     if (is_real(share)) {
@@ -74,11 +74,10 @@ class NullCollisionFlight {
     return density > majorant ? meet_beyond(t, density, majorant) : meet(t, density, majorant);
   }
 
-  void count_bricks(uint32_t crossed) { flight_.bricks = crossed; }
   void count_lookup() { count(flight_.lookups); }
 
-  /// The flight that ended by a real collision, or reached the interval's end.
-  Flight result() const;
+  /// The flight that ended by a real collision, or reached the interval's end, over so many bricks.
+  Flight result(uint32_t bricks) const;
 
  private:
   bool meet_beyond(double t, float density, double majorant);
@@ -96,5 +95,20 @@ class NullCollisionFlight {
   Rgbd shares_;        // of the power, when the flight began
   Rgbd weight_{1.0};   // in chromatic media; the sum of shares_ times magnitudes stays as it was
 };
+
+/// Flies through the bricks on the way, in each under the majorant that majorant(stretch) says, to the first tentative
+/// collision of which meets(flight, t, stretch, majorant) is true.
+template <class Majorant, class Meets>
+Flight track_bricks(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng,
+                    Majorant&& majorant, Meets&& meets) {
+  NullCollisionFlight flight(medium, interval, power, rng);
+  const uint32_t bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
+    const double most = majorant(stretch);
+    for (double t = stretch.t0; flight.advance(t, stretch.t1, most);)
+      if (meets(flight, t, stretch, most)) return false;
+    return true;
+  });
+  return flight.result(bricks);
+}
 
 }  // namespace vpm

@@ -17,15 +17,12 @@ ProgressiveNull::ProgressiveNull(float majorant, uint64_t pass)
 Flight ProgressiveNull::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                                Rng& rng) const {
   const double most = share_ * static_cast<double>(medium.max_density());
-  NullCollisionFlight flight(medium, interval, power, rng);
-  const uint32_t bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
-    const double majorant = std::min<double>(stretch.max, most);
-    for (double t = stretch.t0; flight.advance(t, stretch.t1, majorant);)
-      if (flight.meet(t, stretch.density(t), majorant)) return false;
-    return true;
-  });
-  flight.count_bricks(bricks);
-  return flight.result();
+  return track_bricks(
+      medium, ray, interval, power, rng,
+      [&](const DensityStretch& stretch) { return std::min<double>(stretch.max, most); },
+      [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
+        return flight.meet(t, stretch.density(t), majorant);
+      });
 }
 
 }  // namespace vpm

@@ -64,7 +64,7 @@ struct RunCost {
   uint64_t photons_used = 0;
   uint64_t bytes = 0;                  // of photon maps and guides, of the largest pass
   double largest_weight = 0.0;         // of photons, see Ledger; of paths, see EyeCounters
-  double effective_sample_size = 0.0;  // of collisions of these
+  double effective_sample_size = 0.0;  // of these
 };
 
 /// Calls f(name, number) for each of a run's numbers, with the names they have in files.

@@ -61,7 +61,7 @@ Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order
     const Pass fine = render_photon_pass(scene, halved, 2 * pass + 1, kGoOn);
     means[i] = half * channel_means(fine.image) + (1.0 - half) * channel_means(coarse.image);
     const Ledger& ledger = fine.statistics.ledger;
-    effective[i] = ledger.collisions > 0 ? ledger.weights.effective_sample_size() : kLeastSampleSize;
+    effective[i] = ledger.weights.sum > 0.0 ? ledger.weights.effective_sample_size() : kLeastSampleSize;
   });
   Measured measured{std::vector<Moments>(3)};
   for (size_t i = 0; i < means.size(); ++i) {

@@ -115,8 +115,8 @@ Check check_distribution(std::string name, const std::vector<double>& counts,
 }
 
 double effective_sample_size(const Moments& samples) {
-  const double square = mean_square(samples);
-  return square == 0.0 ? 0.0 : static_cast<double>(samples.count()) * samples.mean() * samples.mean() / square;
+  const auto count = static_cast<double>(samples.count());
+  return effective_sample_size(count * samples.mean(), count * mean_square(samples));
 }
 
 Check check_weighted_mean(std::string name, const Moments& samples, double exact) {

@@ -55,8 +55,7 @@ Check check_same(std::string name, const Moments& a, const Moments& b);
 /// than 10 pooled. `value` is the statistic, `exact` its mean (the degrees of freedom).
 Check check_distribution(std::string name, const std::vector<double>& counts, const std::vector<double>& probabilities);
 
-/// (sum x)^2 / sum x^2 over the samples: so many equal ones would know the sum as well. Samples of either sign, which
-/// partly cancel, count for less.
+/// Of the samples as weights.
 double effective_sample_size(const Moments& samples);
 
 /// Below that effective sample size heavy tails may hide from a sample: nothing is said of its mean.

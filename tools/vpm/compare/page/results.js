@@ -31,7 +31,7 @@ const meanOf = (budget, key) => mean(budget.runs.map(run => run[key]));
 const costOf = budget => meanOf(budget, budgetCost.key);
 const budgetText = index => `${plain(results.budgets[index])} ${results.unit}`;
 
-/** The smallest effective sample size among the repetitions; null where nothing collided. */
+/** The smallest effective sample size among the repetitions; null where none met a medium. */
 function sampleSize(budget) {
   const least = Math.min(...budget.runs.map(run => run.effective_sample_size));
   return least > 0 ? least : null;
