@@ -1,29 +1,69 @@
-// Which of sixteen numbers lie below a limit, as bits.
+// Picking out those of many numbers that lie below a limit, without a branch for each.
 #pragma once
 
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 
-#if defined(__AVX512F__) || defined(__AVX__)
+#if defined(__AVX512F__)
 #include <immintrin.h>
 #endif
 
 namespace vpm {
 
-/// Bit i tells whether values[i] < limit, i < 16.
-inline uint32_t bits_below(const float* values, float limit) {
+/// Numbers looked at at once.
+inline constexpr uint32_t kBlock = 16;
+
+/// Appends those of the first `count` <= kBlock values that are below the limit to `found`, and to `numbers` which ones
+/// they are, from `first` on. Reads and writes kBlock places of each. Returns how many there are.
+inline uint32_t append_below(const float* values, uint32_t count, float limit, uint32_t first, float* found,
+                             uint32_t* numbers) {
+  assert(count <= kBlock);
 #if defined(__AVX512F__)
-  return _mm512_cmp_ps_mask(_mm512_loadu_ps(values), _mm512_set1_ps(limit), _CMP_LT_OQ);
-#elif defined(__AVX__)
-  const __m256 most = _mm256_set1_ps(limit);
-  const auto half = [&](const float* v) {
-    return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(_mm256_loadu_ps(v), most, _CMP_LT_OQ)));
-  };
-  return half(values) | half(values + 8) << 8;
+  const __m512 all = _mm512_loadu_ps(values);
+  const __m512i which = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)),
+                                         _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+  const auto below =
+      static_cast<__mmask16>(_mm512_cmp_ps_mask(all, _mm512_set1_ps(limit), _CMP_LT_OQ) & ((1u << count) - 1));
+  _mm512_storeu_ps(found, _mm512_maskz_compress_ps(below, all));
+  _mm512_storeu_si512(numbers, _mm512_maskz_compress_epi32(below, which));
+  return static_cast<uint32_t>(__builtin_popcount(below));
 #else
-  uint32_t bits = 0;
-  for (int i = 0; i < 16; ++i) bits |= (values[i] < limit ? 1u : 0u) << i;
-  return bits;
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    found[kept] = values[i];
+    numbers[kept] = first + i;
+    kept += values[i] < limit ? 1 : 0;
+  }
+  return kept;
 #endif
+}
+
+/// How many of the values are at most the limit.
+inline size_t count_up_to(const float* values, size_t count, float limit) {
+  uint32_t all = 0;
+  for (size_t i = 0; i < count; ++i) all += values[i] <= limit ? 1 : 0;
+  return all;
+}
+
+/// The k-th smallest of `count` values, 1 <= k <= count, which are finite and >= 0: the interval that holds it is
+/// halved until nothing else is in it. Each step is one look at all values, many at once; there are about as many
+/// steps as binary digits of `count`.
+inline float kth_smallest(const float* values, size_t count, size_t k) {
+  assert(k >= 1 && k <= count);
+  float lo = -1.0f, hi = 0.0f;  // fewer than k are up to lo, at least k up to hi
+  for (size_t i = 0; i < count; ++i) hi = std::max(hi, values[i]);
+  for (size_t up_to_hi = count; up_to_hi != k;) {
+    const float middle = 0.5f * (std::max(lo, 0.0f) + hi);
+    if (!(middle > lo && middle < hi)) break;  // equal ones
+    const size_t up_to = count_up_to(values, count, middle);
+    (up_to < k ? lo : hi) = middle;
+    if (up_to >= k) up_to_hi = up_to;
+  }
+  float largest = 0.0f;
+  for (size_t i = 0; i < count; ++i) largest = std::max(largest, values[i] <= hi ? values[i] : 0.0f);
+  return largest;
 }
 
 }  // namespace vpm

@@ -44,9 +44,9 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
     return -glm::dot(travel.unpack(), normal) > kSameNormal && in_plane(travel, offset);
   };
   const Neighbours& near = nearest(Gathering{points_, gather_, counters}, hit.position, agrees);
-  if (near.entries().empty()) return std::nullopt;
+  if (near.size() == 0) return std::nullopt;
   ++counters.used;
-  return points_.payload(near.entries().front().photon).power.unpack();
+  return points_.payload(near.photon(0)).power.unpack();
 }
 
 }  // namespace vpm

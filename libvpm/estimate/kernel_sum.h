@@ -94,13 +94,12 @@ template <int Dimension, class Value>
 Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
   const size_t first = neighbours.full() ? 1 : 0;  // the farthest
-  map.counters.used += neighbours.entries().size() - first;
+  map.counters.used += neighbours.size() - first;
   return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgbd sum(0.0);
-    for (size_t i = first; i < neighbours.entries().size(); ++i) {
-      const auto [d2, index] = neighbours.entries()[i];
-      const NearestMap::Payload& p = map.index.payload(index);
-      sum += Rgbd(value(p.travel.unpack(), p.power.unpack()) * profile(d2 / r2));
+    for (size_t i = first; i < neighbours.size(); ++i) {
+      const NearestMap::Payload& p = map.index.payload(neighbours.photon(i));
+      sum += Rgbd(value(p.travel.unpack(), p.power.unpack()) * profile(neighbours.distance2(i) / r2));
     }
     return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2));
   });

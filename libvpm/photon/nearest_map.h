@@ -75,11 +75,12 @@ uint32_t NearestMap::search(const Vec3& point, size_t of_leaf, Neighbours& neigh
     Vec3 gap;
     float distance2;
   };
-  Part stack[32];
+  Part stack[33];
   int top = 0;
   uint32_t visited = 0;
-  const auto add = [&](size_t i, const Vec3& offset, float distance2) {
-    if (accept(payload(i).travel, offset)) neighbours.add({distance2, static_cast<uint32_t>(i)});
+  const auto takes = [&](uint32_t i) { return accept(payload(i).travel, photons_.position(i) - point); };
+  const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
+    neighbours.add(distances2, number, first, takes);
   };
   for (Part part{1, Vec3(0.0f), 0.0f};; part = stack[--top]) {
     if (part.distance2 < neighbours.limit()) {
@@ -90,12 +91,13 @@ uint32_t NearestMap::search(const Vec3& point, size_t of_leaf, Neighbours& neigh
         Part far{near ^ 1, part.gap, 0.0f};
         far.gap[split.axis] = across;
         far.distance2 = glm::dot(far.gap, far.gap);
-        stack[top++] = far;
+        stack[top] = far;
+        top += far.distance2 < neighbours.limit() ? 1 : 0;
         part.node = near;
       }
       const size_t leaf = part.node - leaves_, begin = leaf_begin(size(), leaves_, leaf);
       const size_t end = std::min(begin + of_leaf, leaf_begin(size(), leaves_, leaf + 1));
-      photons_.for_each_near(begin, end, point, neighbours.limit(), add);
+      photons_.for_each_block(begin, end, point, add);
       count(visited, end - begin);
     }
     if (top == 0) break;

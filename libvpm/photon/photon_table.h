@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -26,24 +25,22 @@ class PhotonTable {
   /// The photons in that order, with powers multiplied by `scale`.
   PhotonTable(const std::vector<Photon>& photons, const std::vector<uint32_t>& order, float scale);
 
-  /// Calls visit(i, offset from `point`, squared distance) for the photons of [begin, end) nearer to `point` than the
-  /// root of `limit2`, m^2, in their order.
+  /// Calls visit(squared distances from `point`, how many, number of the first) for the photons of [begin, end), in
+  /// blocks of at most kBlock; behind the last distance there are as many as make a block.
   template <class Visit>
-  void for_each_near(size_t begin, size_t end, const Vec3& point, float limit2, Visit&& visit) const;
+  void for_each_block(size_t begin, size_t end, const Vec3& point, Visit&& visit) const;
 
-  /// Calls visit(i, distance along the ray, m, squared distance from it) for the photons of [begin, end) that are
-  /// nearer to the ray than the root of `limit2`, m^2, at distances along it of [t0, t1), in their order.
+  /// The same of squared distances from the ray, infinite for photons whose foot on it lies outside the interval.
   template <class Visit>
-  void for_each_beside(size_t begin, size_t end, const Ray& ray, const Interval& interval, float limit2,
-                       Visit&& visit) const;
+  void for_each_block(size_t begin, size_t end, const Ray& ray, const Interval& interval, Visit&& visit) const;
 
+  Vec3 position(size_t i) const { return {x_[i], y_[i], z_[i]}; }
   const Payload& payload(size_t i) const { return payload_[i]; }
   size_t size() const { return payload_.size(); }
   size_t memory_bytes() const { return 3 * x_.capacity() * sizeof(float) + payload_.capacity() * sizeof(Payload); }
 
  private:
-  static constexpr uint32_t kBlock = 16;  // distances computed at once; blocks may reach beyond the last photon
-
+  // Of kBlock photons beyond the last, too, so that whole blocks can be read.
   std::vector<float> x_, y_, z_;
   std::vector<Payload> payload_;
 };
@@ -52,44 +49,62 @@ class PhotonTable {
 Box bounds_of(const std::vector<Photon>& photons);
 
 template <class Visit>
-void PhotonTable::for_each_near(size_t begin, size_t end, const Vec3& point, float limit2, Visit&& visit) const {
+void PhotonTable::for_each_block(size_t begin, size_t end, const Vec3& point, Visit&& visit) const {
   for (size_t block = begin; block < end; block += kBlock) {
     const float *x = &x_[block], *y = &y_[block], *z = &z_[block];
-    float dx[kBlock], dy[kBlock], dz[kBlock], d2[kBlock];
+    float d2[kBlock];
     for (uint32_t i = 0; i < kBlock; ++i) {
-      dx[i] = x[i] - point.x;
-      dy[i] = y[i] - point.y;
-      dz[i] = z[i] - point.z;
-      d2[i] = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
+      const float dx = x[i] - point.x, dy = y[i] - point.y, dz = z[i] - point.z;
+      d2[i] = dx * dx + dy * dy + dz * dz;
     }
-    const auto n = static_cast<uint32_t>(std::min<size_t>(kBlock, end - block));
-    for (uint32_t near = bits_below(d2, limit2) & ((1u << n) - 1); near != 0; near &= near - 1) {
-      const int i = std::countr_zero(near);
-      visit(block + static_cast<size_t>(i), Vec3(dx[i], dy[i], dz[i]), d2[i]);
-    }
+    visit(d2, static_cast<uint32_t>(std::min<size_t>(kBlock, end - block)), static_cast<uint32_t>(block));
   }
 }
 
 template <class Visit>
-void PhotonTable::for_each_beside(size_t begin, size_t end, const Ray& ray, const Interval& interval, float limit2,
-                                  Visit&& visit) const {
+void PhotonTable::for_each_block(size_t begin, size_t end, const Ray& ray, const Interval& interval,
+                                 Visit&& visit) const {
   const Vec3 o = ray.origin, w = ray.direction;
   for (size_t block = begin; block < end; block += kBlock) {
     const float *x = &x_[block], *y = &y_[block], *z = &z_[block];
-    float t[kBlock], d2[kBlock];
+    float d2[kBlock];
     for (uint32_t i = 0; i < kBlock; ++i) {
       const float dx = x[i] - o.x, dy = y[i] - o.y, dz = z[i] - o.z;
-      t[i] = dx * w.x + dy * w.y + dz * w.z;
-      const float ex = dx - t[i] * w.x, ey = dy - t[i] * w.y, ez = dz - t[i] * w.z;
+      const float t = dx * w.x + dy * w.y + dz * w.z;
+      const float ex = dx - t * w.x, ey = dy - t * w.y, ez = dz - t * w.z;
       const float across = ex * ex + ey * ey + ez * ez;
-      d2[i] = t[i] >= interval.t0 && t[i] < interval.t1 ? across : kInfinity;
+      d2[i] = t >= interval.t0 && t < interval.t1 ? across : kInfinity;
     }
-    const auto n = static_cast<uint32_t>(std::min<size_t>(kBlock, end - block));
-    for (uint32_t near = bits_below(d2, limit2) & ((1u << n) - 1); near != 0; near &= near - 1) {
-      const int i = std::countr_zero(near);
-      visit(block + static_cast<size_t>(i), t[i], d2[i]);
-    }
+    visit(d2, static_cast<uint32_t>(std::min<size_t>(kBlock, end - block)), static_cast<uint32_t>(block));
   }
 }
+
+/// Collects photons nearer than a limit, so that what is done with each of them waits for the end of a row or two.
+class NearPhotons {
+ public:
+  explicit NearPhotons(float limit2) : limit2_(limit2) {}
+
+  /// Adds those of a block that are near; when there is little room left, calls use(photon, squared distance) for all
+  /// so far, in their order.
+  template <class Use>
+  void add(const float* distances2, uint32_t number, uint32_t first, Use&& use) {
+    size_ += append_below(distances2, number, limit2_, first, distances2_ + size_, photons_ + size_);
+    if (size_ > kMost) take(use);
+  }
+  /// Calls use() for those that are left.
+  template <class Use>
+  void take(Use&& use) {
+    for (size_t i = 0; i < size_; ++i) use(photons_[i], distances2_[i]);
+    size_ = 0;
+  }
+
+ private:
+  static constexpr size_t kMost = 256;
+
+  float limit2_;  // m^2
+  size_t size_ = 0;
+  float distances2_[kMost + 2 * kBlock];
+  uint32_t photons_[kMost + 2 * kBlock];
+};
 
 }  // namespace vpm

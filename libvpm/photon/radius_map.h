@@ -52,8 +52,12 @@ uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit
   for (int a = 0; a < 3; ++a)
     if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return 0;
   uint32_t visited = 0;
-  const auto visit_photon = [&](size_t i, const Vec3& offset, float distance2) {
-    visit(photons_.payload(i), offset, distance2);
+  NearPhotons found(radius * radius);
+  const auto use = [&](uint32_t i, float distance2) {
+    visit(photons_.payload(i), photons_.position(i) - point, distance2);
+  };
+  const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
+    found.add(distances2, number, first, use);
   };
   const float cell = 1.0f / per_cell_;
   const int z_end = cell_along(2, point.z + radius);
@@ -77,10 +81,11 @@ uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit
       const size_t row = (static_cast<size_t>(z) * count_.y + y) * count_.x;
       const uint32_t begin = first_[row + cell_along(0, point.x - reach_x)];
       const uint32_t end = first_[row + cell_along(0, point.x + reach_x) + 1];
-      photons_.for_each_near(begin, end, point, radius * radius, visit_photon);
+      photons_.for_each_block(begin, end, point, add);
       count(visited, end - begin);
     }
   }
+  found.take(use);
   return visited;
 }
 

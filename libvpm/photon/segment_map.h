@@ -2,9 +2,9 @@
 // lie side by side. Eight boxes are met at once: those three levels below a box lie side by side, too.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -85,7 +85,14 @@ uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, f
     const float d = ray.direction[a];
     beam.inverse[a] = 1.0f / (std::abs(d) < 1e-12f ? std::copysign(1e-12f, d) : d);
   }
-  const auto visit_photon = [&](size_t i, float t, float distance2) { visit(photons_.payload(i), t, distance2); };
+  NearPhotons found(radius * radius);
+  const auto use = [&](uint32_t i, float distance2) {
+    const float t = glm::dot(photons_.position(i) - ray.origin, ray.direction);
+    visit(photons_.payload(i), std::clamp(t, interval.t0, interval.t1), distance2);
+  };
+  const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
+    found.add(distances2, number, first, use);
+  };
   uint32_t visited = 0;
   size_t stack[12 * kWide];
   int top = 0;
@@ -95,7 +102,7 @@ uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, f
     if (node >= leaves_) {
       const size_t leaf = node - leaves_;
       const size_t begin = leaf_begin(size(), leaves_, leaf), end = leaf_begin(size(), leaves_, leaf + 1);
-      photons_.for_each_beside(begin, end, ray, interval, radius * radius, visit_photon);
+      photons_.for_each_block(begin, end, ray, interval, add);
       count(visited, end - begin);
       continue;
     }
@@ -105,6 +112,7 @@ uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, f
     uint32_t met = meet(beam, first) & ((1u << (1 << levels)) - 1);
     for (; met != 0; met &= met - 1) stack[top++] = first + static_cast<size_t>(std::countr_zero(met));
   }
+  found.take(use);
   return visited;
 }
 

@@ -22,11 +22,10 @@ GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, G
   normals_ = {side * hit.shading_normal, -side * hit.shading_normal};
   const Arrives arrives{side * hit.normal, plane_thickness(from_rough.settings), scatters_through(view.material)};
   const auto& map = std::get<NearestMap>(from_rough.index);
-  const std::vector<Neighbours::Entry>& near =
-      nearest(Gathering{map, from_rough.settings, counters}, hit.position, arrives).entries();
+  const Neighbours& near = nearest(Gathering{map, from_rough.settings, counters}, hit.position, arrives);
   counters.used += near.size();
-  for (const Neighbours::Entry& entry : near) {
-    const NearestMap::Payload& photon = map.payload(entry.photon);
+  for (size_t i = 0; i < near.size(); ++i) {
+    const NearestMap::Payload& photon = map.payload(near.photon(i));
     const Vec3 travel = photon.travel.unpack();
     const Rgb scattered = scatter_value(view.material, hit, travel, -view.travel).value;
     up_to_[cell_of(-travel)] += glm::dot(Rgbd(scattered), Rgbd(photon.power.unpack()));
