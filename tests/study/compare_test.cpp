@@ -34,6 +34,17 @@ TEST(Resampling, IntervalsOfMeansAreStudents) {
   EXPECT_NEAR(3.0 - mean.lo, mean.hi - 3.0, 1e-12);
 }
 
+// Errors that are known have infinitely many degrees of freedom.
+TEST(Resampling, MeansBesideWhatHasAnErrorAreWelchs) {
+  const Tested even = mean_beside({1.0, 2.0, 3.0, 4.0, 5.0}, std::sqrt(0.5));
+  EXPECT_NEAR(even.value.hi - 3.0, 2.119905299, 1e-8);  // t at 97.5 %, 16 degrees of freedom, of variances of 1/2
+  EXPECT_NEAR(even.p, student_tail(3.0, 16.0), 1e-12);
+  const Tested known = mean_beside({2.0, 2.0}, 1.0);
+  EXPECT_NEAR(known.value.hi - 2.0, 1.959963985, 1e-8);
+  EXPECT_NEAR(known.p, normal_tail(2.0), 1e-12);
+  EXPECT_EQ(mean_beside({2.0, 2.0}, 0.0).p, 0.0);
+}
+
 TEST(Resampling, TheJackknifeOfAMeanIsStudents) {
   const std::vector<double> samples{0.3, 1.7, 0.9, 4.1, 2.2, 0.1};
   const Bounded direct = mean_with_interval(samples);
