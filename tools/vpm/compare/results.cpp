@@ -231,9 +231,8 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
         {"bias",
          "mean over pixels and channels of I over that of R, less 1; the interval has the reference's noise in it"},
         {"own_bias",
-         "the mean over that of the baseline, less 1: what is left of bias that all methods share; by the jackknife "
-         "over "
-         "pairs of repetitions"},
+         "the mean over that of the baseline, less 1: what is left of bias that all methods share; by the "
+         "jackknife over pairs of repetitions"},
         {"verdict",
          "of the bias at the last budget (of the own bias, where there is a baseline): p_holm is p, corrected for "
          "all verdicts of the experiment"},
