@@ -17,14 +17,14 @@ double normal(Rng& rng) {
 
 /// Repetitions whose errors are means of squares over so many pixels, of noise of that variance; costs differ by 5 %.
 Repetitions noisy(double variance, int pixels, size_t count, Rng& rng) {
-  Repetitions all;
+  std::vector<double> errors, costs;
   for (size_t i = 0; i < count; ++i) {
     double sum = 0.0;
     for (int p = 0; p < pixels; ++p) sum += std::pow(normal(rng), 2.0);
-    all.errors.push_back(variance * sum / pixels);
-    all.costs.push_back(1.0 + 0.05 * normal(rng));
+    errors.push_back(variance * sum / pixels);
+    costs.push_back(1.0 + 0.05 * normal(rng));
   }
-  return all;
+  return {mean_of(errors), costs};
 }
 
 TEST(Resampling, IntervalsOfMeansAreStudents) {
@@ -32,6 +32,17 @@ TEST(Resampling, IntervalsOfMeansAreStudents) {
   EXPECT_DOUBLE_EQ(mean.value, 3.0);
   EXPECT_NEAR(mean.hi - 3.0, 2.776445105 * std::sqrt(0.5), 1e-8);  // t at 97.5 %, 4 degrees of freedom
   EXPECT_NEAR(3.0 - mean.lo, mean.hi - 3.0, 1e-12);
+}
+
+// Errors that are known have infinitely many degrees of freedom.
+TEST(Resampling, MeansBesideWhatHasAnErrorAreWelchs) {
+  const Tested even = mean_beside({1.0, 2.0, 3.0, 4.0, 5.0}, std::sqrt(0.5));
+  EXPECT_NEAR(even.value.hi - 3.0, 2.119905299, 1e-8);  // t at 97.5 %, 16 degrees of freedom, of variances of 1/2
+  EXPECT_NEAR(even.p, student_tail(3.0, 16.0), 1e-12);
+  const Tested known = mean_beside({2.0, 2.0}, 1.0);
+  EXPECT_NEAR(known.value.hi - 2.0, 1.959963985, 1e-8);
+  EXPECT_NEAR(known.p, normal_tail(2.0), 1e-12);
+  EXPECT_EQ(mean_beside({2.0, 2.0}, 0.0).p, 0.0);
 }
 
 TEST(Resampling, TheJackknifeOfAMeanIsStudents) {
@@ -50,14 +61,16 @@ TEST(Resampling, TheJackknifeOfAMeanIsStudents) {
   EXPECT_NEAR(found.hi, direct.hi, 1e-12);
 }
 
-// Ten repetitions each of two estimators, one of which needs 2.5 times the cost for the same error. The intervals cover
-// that in about 95 of 100 cases: in at most 273 of 300 with probability 0.003.
+// Three or ten repetitions each of two estimators, one of which needs 2.5 times the cost for the same error. The
+// intervals cover that in about 95 of 100 cases: in at most 273 of 300 with probability 0.003.
 TEST(Resampling, RatiosKnownByConstructionLieWithinTheirIntervals) {
-  int covered = 0, found = 0;
+  int covered = 0, covered_by_three = 0, found = 0;
   Moments logs;
   for (uint64_t i = 0; i < 300; ++i) {
     Rng rng(1, rng_stream(RngUse::test, 1), i);
     const Repetitions a = noisy(1.0, 30, 10, rng), b = noisy(2.5, 30, 10, rng);
+    const Comparison by_three = compare_efficiency(noisy(1.0, 30, 3, rng), noisy(2.5, 30, 3, rng));
+    covered_by_three += by_three.ratio.lo <= 2.5 && 2.5 <= by_three.ratio.hi;
     const Comparison comparison = compare_efficiency(a, b);
     ASSERT_TRUE(comparison.known);
     covered += comparison.ratio.lo <= 2.5 && 2.5 <= comparison.ratio.hi;
@@ -65,6 +78,7 @@ TEST(Resampling, RatiosKnownByConstructionLieWithinTheirIntervals) {
     logs.add(std::log(comparison.ratio.value));
   }
   EXPECT_GT(covered, 273);
+  EXPECT_GT(covered_by_three, 273);
   EXPECT_EQ(found, 300);
   expect_mean(logs, std::log(2.5), 1e-6);
 }
@@ -86,12 +100,20 @@ TEST(Resampling, EqualMethodsDifferAtTheStatedRateOnly) {
 }
 
 TEST(Resampling, NothingIsSaidWhereTheReferenceIsTooNoisy) {
-  const Repetitions good{{1.0, 1.1, 0.9, 1.0}, {1.0, 1.0, 1.0, 1.0}};
-  const Repetitions lost{{0.1, -0.2, -0.1, 0.1}, {1.0, 1.0, 1.0, 1.0}};  // less than the reference's own noise
-  const Repetitions at_times{{0.1, -0.05, 0.1, 0.1}, {1.0, 1.0, 1.0, 1.0}};
-  EXPECT_FALSE(compare_efficiency(lost, good).known);
-  EXPECT_FALSE(compare_efficiency(good, at_times).known);
-  EXPECT_TRUE(std::isnan(compare_efficiency(good, at_times).ratio.lo));
+  const auto repetitions = [](const std::vector<double>& errors) {
+    return Repetitions{mean_of(errors), std::vector<double>(errors.size(), 1.0)};
+  };
+  const Repetitions good = repetitions({1.0, 1.1, 0.9, 1.0}), none = repetitions({0.0, 0.0, 0.0, 0.0});
+  const Repetitions lost = repetitions({0.1, -0.2, -0.1, 0.1});  // less than the reference's own noise
+  const Repetitions at_times = repetitions({0.1, -0.05, 0.1, 0.1}), seldom = repetitions({-0.1, 0.8, 1.0, 0.9, 1.1});
+  const Repetitions rough = repetitions({0.1, 0.1, 3.0, 0.1});  // the interval of the mean reaches 0, which it is not
+  for (const Repetitions& bad : {lost, none, at_times}) {
+    EXPECT_FALSE(compare_efficiency(bad, good).known);
+    EXPECT_FALSE(compare_efficiency(good, bad).known);
+    EXPECT_TRUE(std::isnan(compare_efficiency(good, bad).ratio.lo));
+  }
+  EXPECT_TRUE(compare_efficiency(seldom, repetitions({1.0, 1.0, 1.0, 1.0, 2.0})).known);
+  EXPECT_TRUE(compare_efficiency(rough, good).known);
 }
 
 TEST(Resampling, CorrectsForManyAsHolmDoes) {
@@ -107,22 +129,32 @@ TEST(Resampling, CorrectsForManyAsHolmDoes) {
   EXPECT_DOUBLE_EQ(comparisons[0].p_holm, 0.06);  // never below that of a smaller p
 }
 
-// Means of samples of unlike sizes and spreads: the interval holds the truth as often as it says.
+// Pairs of unlike spreads, that have nothing in common or most: the interval holds the truth as often as it says.
 TEST(Resampling, RelativeDifferencesHoldTheTruth) {
-  int covered = 0, seen = 0;
+  int covered = 0, covered_pairs = 0, seen = 0;
   constexpr int kTrials = 400;
+  Moments apart, paired;  // widths of intervals
   for (uint64_t trial = 0; trial < kTrials; ++trial) {
     Rng rng(1, rng_stream(RngUse::test, 4), trial);
-    std::vector<double> a, b;
-    for (int i = 0; i < 5; ++i) a.push_back(2.2 + 0.1 * normal(rng));
-    for (int i = 0; i < 9; ++i) b.push_back(2.0 + 0.02 * normal(rng));
-    const Tested difference = relative_difference(a, b);
-    covered += difference.value.lo <= 0.1 && 0.1 <= difference.value.hi;
+    std::vector<double> a, b, like_a;
+    for (int i = 0; i < 6; ++i) {
+      a.push_back(2.2 + 0.1 * normal(rng));
+      b.push_back(2.0 + 0.04 * normal(rng));
+      like_a.push_back(a.back() / 1.1 + 0.005 * normal(rng));
+    }
+    const Tested difference = relative_difference(a, b), of_pairs = relative_difference(a, like_a);
+    const auto holds = [](const Bounded& bound, double truth) { return bound.lo <= truth && truth <= bound.hi; };
+    covered += holds(difference.value, 0.1);
+    covered_pairs += holds(of_pairs.value, 0.1);
     seen += difference.p < 0.05;
-    EXPECT_EQ(difference.p < 0.05, !(difference.value.lo <= 0.0 && 0.0 <= difference.value.hi));
+    EXPECT_EQ(difference.p < 0.05, !holds(difference.value, 0.0));
+    apart.add(difference.value.hi - difference.value.lo);
+    paired.add(of_pairs.value.hi - of_pairs.value.lo);
   }
   EXPECT_GT(covered, 365);  // of 95 %: 365 or fewer with probability 0.001
-  EXPECT_GT(seen, 350);
+  EXPECT_GT(covered_pairs, 365);
+  EXPECT_LT(paired.mean(), 0.1 * apart.mean());  // without pairs it would be wider than `apart`
+  EXPECT_GT(seen, 300);
   EXPECT_EQ(relative_difference({2.0, 2.0}, {1.0, 1.0}).value.value, 1.0);
   EXPECT_EQ(relative_difference({2.0, 2.0}, {1.0, 1.0}).p, 0.0);
   EXPECT_EQ(relative_difference({2.0, 2.0}, {2.0, 2.0}).p, 1.0);
@@ -132,7 +164,7 @@ TEST(Resampling, SlopesOfPowersAreExact) {
   std::vector<Repetitions> budgets;
   for (const double cost : {1.0, 2.0, 5.0, 11.0}) {
     const double error = 3.0 * std::pow(cost, -0.8);
-    budgets.push_back({{error, 1.5 * error, 0.5 * error}, {cost, cost, cost}});
+    budgets.push_back({mean_of({error, 1.5 * error, 0.5 * error}), {cost, cost, cost}});
   }
   const Bounded slope = convergence_slope(budgets);
   EXPECT_NEAR(slope.value, -0.8, 1e-12);
@@ -160,6 +192,63 @@ TEST(PictureErrors, AreLessTheReferencesOwnNoise) {
   const double scale = (1.0 / 0.26 + 1.0 / 1.01 + 1.0 / 2.26) / 3.0;
   EXPECT_NEAR(errors.relative_mse, 0.006 * scale, 1e-6);
   EXPECT_NEAR(reference_noise({exact, variance}), 0.004 * scale, 1e-6);
+}
+
+/// Pictures of so many grey pixels around 1, whose noise is independent and of that variance.
+std::vector<Image> noisy_pictures(size_t count, int pixels, double variance, Rng& rng) {
+  std::vector<Image> images(count, Image(pixels, 1));
+  for (Image& image : images)
+    for (Rgb& pixel : image.pixels) pixel = Rgb(static_cast<float>(1.0 + std::sqrt(variance) * normal(rng)));
+  return images;
+}
+
+/// A truth of grey pixels of radiance 1, that is exact.
+Reference even_reference(int pixels) {
+  Reference reference{Image(pixels, 1), Image(pixels, 1)};
+  for (Rgb& pixel : reference.mean.pixels) pixel = Rgb(1.0f);
+  return reference;
+}
+
+/// In how many of 400 trials the interval holds the ratio of efficiencies by variance, which is 2.5.
+int held_ratios_of_variances(int pixels, size_t count) {
+  const Reference reference = even_reference(pixels);
+  int held = 0;
+  for (uint64_t trial = 0; trial < 400; ++trial) {
+    Rng rng(1, rng_stream(RngUse::test, 5), trial);
+    const auto repetitions = [&](double variance) {
+      const RepeatedErrors errors = repeated_errors(noisy_pictures(count, pixels, variance, rng), reference);
+      Repetitions all{variance_of(errors.distances), {}};
+      for (size_t i = 0; i < count; ++i) all.costs.push_back(1.0 + 0.05 * normal(rng));
+      return all;
+    };
+    const Repetitions a = repetitions(0.01), b = repetitions(0.025);
+    const Comparison comparison = compare_efficiency(a, b);
+    held += comparison.known && comparison.ratio.lo <= 2.5 && 2.5 <= comparison.ratio.hi;
+  }
+  return held;
+}
+
+// However few pixels and repetitions there are. Of 95 %, 365 or fewer come with probability 0.001; each.
+TEST(PictureErrors, RatiosOfVariancesLieWithinTheirIntervals) {
+  for (const int pixels : {1, 30, 300})
+    for (const size_t count : {3, 5, 10})
+      EXPECT_GT(held_ratios_of_variances(pixels, count), 365) << pixels << " pixels, " << count << " repetitions";
+}
+
+TEST(PictureErrors, DeviationsAreFromTheMeanOfAll) {
+  const Reference reference = even_reference(1);
+  std::vector<Image> images(3, Image(1, 1));
+  for (size_t i = 0; i < 3; ++i) images[i].pixels[0] = Rgb(i == 2 ? 4.0f : 1.0f);
+  const RepeatedErrors errors = repeated_errors(images, reference);
+  const double scale = 1.01;
+  EXPECT_NEAR(errors.distances[2][1], 9.0 / scale, 1e-12);
+  EXPECT_NEAR(errors.deviations[0], 1.5 * 1.0 / scale, 1e-12);
+  EXPECT_NEAR(errors.deviations[2], 1.5 * 4.0 / scale, 1e-12);
+  const Statistic variance = variance_of(errors.distances);
+  EXPECT_NEAR(variance({1.0, 1.0, 1.0}), 3.0 / scale, 1e-12);
+  EXPECT_NEAR(variance({0.0, 1.0, 1.0}), 4.5 / scale, 1e-12);
+  EXPECT_EQ(variance({1.0, 1.0, 0.0}), 0.0);
+  EXPECT_TRUE(std::isnan(variance({0.0, 0.0, 1.0})));
 }
 
 // Pictures with a bias of a twentieth and noise of a tenth: both are told apart, without bias themselves.
@@ -193,21 +282,23 @@ TEST(PictureErrors, TellBiasFromVariance) {
 }
 
 TEST(SceneSummary, FindsTheBestMethodAndCostsOfEqualErrors) {
-  const auto budget = [](double cost, double error) {
+  const auto budget = [](double cost, double error, double variance, double mean_ratio) {
     BudgetSummary summary;
     for (const double spread : {0.9, 1.0, 1.1}) {
       RunCost run;
       run.cpu_seconds = cost;
       summary.costs.push_back(run);
-      summary.each.push_back({2.0 * spread * error, spread * error, 1.0, cost * spread});
-      summary.errors.deviations.push_back(0.5 * spread * error);
+      summary.each.push_back({2.0 * spread * error, spread * error, 1.0, mean_ratio * spread});
     }
+    summary.errors.distances = {{}, {1.8 * variance}, {2.0 * variance, 2.2 * variance}};
     return summary;
   };
-  // The second method has the same error at a quarter of the cost.
-  const SceneSummary summary = summarise_scene(
-      {{budget(1.0, 0.4), budget(4.0, 0.1)}, {budget(1.0, 0.1), budget(4.0, 0.025)}}, CostUnit::seconds, size_t{1});
+  // The second method has the same error at a quarter of the cost, at three times the variance.
+  const SceneSummary summary = summarise_scene({{budget(1.0, 0.4, 0.02, 1.1), budget(4.0, 0.1, 0.005, 1.2)},
+                                                {budget(1.0, 0.1, 0.06, 1.0), budget(4.0, 0.025, 0.015, 1.0)}},
+                                               CostUnit::seconds, size_t{1});
   EXPECT_EQ(summary.best_by_relative_mse, (std::vector<size_t>{1, 1}));
+  EXPECT_EQ(summary.best_by_mse, (std::vector<size_t>{1, 1}));
   EXPECT_NEAR(summary.methods[0].by_relative_mse[1].ratio.value, 0.25, 1e-12);
   EXPECT_EQ(summary.methods[1].by_mse[1].ratio.value, 1.0);
   EXPECT_NEAR(summary.targets[0], 0.1, 1e-12);
@@ -218,11 +309,111 @@ TEST(SceneSummary, FindsTheBestMethodAndCostsOfEqualErrors) {
   ASSERT_EQ(summary.pairs.size(), 1u);
   EXPECT_NEAR(summary.pairs[0].comparison.ratio.value, 0.25, 1e-12);
   EXPECT_NEAR(summary.methods[0].slope.value, -1.0, 1e-12);
-  EXPECT_EQ(summary.best_by_variance, (std::vector<size_t>{1, 1}));
-  EXPECT_NEAR(summary.methods[0].by_variance[0].ratio.value, 0.25, 1e-12);
+  EXPECT_EQ(summary.best_by_variance, (std::vector<size_t>{0, 0}));
+  EXPECT_NEAR(summary.methods[1].by_variance[0].ratio.value, 1.0 / 3.0, 1e-12);
+  EXPECT_EQ(summary.methods[0].by_variance[1].ratio.value, 1.0);
   ASSERT_TRUE(summary.methods[0].own_bias[1]);
-  EXPECT_NEAR(summary.methods[0].own_bias[1]->value.value, 0.0, 1e-12);
+  EXPECT_NEAR(summary.methods[0].own_bias[0]->value.value, 0.1, 1e-12);
+  EXPECT_NEAR(summary.methods[0].own_bias[1]->value.value, 0.2, 1e-12);
   EXPECT_FALSE(summary.methods[1].own_bias[1]);
+}
+
+/// How many p-values fell below 5 %.
+struct FalseAlarms {
+  int of_bias = 0, of_own_bias = 0;
+};
+
+/// A thousand scenes of 20 pixels, where two methods without bias meet a reference whose noise moves its brightness by
+/// as much as theirs moves their means'. The second's noise is half the first's.
+FalseAlarms false_alarms() {
+  constexpr int kPixels = 20;
+  constexpr size_t kRepetitions = 10;
+  FalseAlarms found;
+  for (uint64_t trial = 0; trial < 1000; ++trial) {
+    Rng rng(1, rng_stream(RngUse::test, 6), trial);
+    Reference reference{noisy_pictures(1, kPixels, 0.001, rng)[0], Image(kPixels, 1)};
+    for (Rgb& pixel : reference.variance.pixels) pixel = Rgb(0.001f);
+    const std::vector<Image> first = noisy_pictures(kRepetitions, kPixels, 0.01, rng);
+    std::vector<Image> second = noisy_pictures(kRepetitions, kPixels, 0.0025, rng);
+    for (size_t i = 0; i < kRepetitions; ++i)
+      for (size_t p = 0; p < kPixels; ++p) second[i].pixels[p] += 0.5f * (first[i].pixels[p] - 1.0f);
+    const std::vector<RunCost> costs(kRepetitions, RunCost{1.0});
+    const std::vector<std::vector<BudgetSummary>> budgets{{summarise_budget(costs, first, reference)},
+                                                          {summarise_budget(costs, second, reference)}};
+    const auto alarm = [&](std::optional<size_t> baseline) {
+      const SceneSummary summary = summarise_scene(budgets, CostUnit::seconds, baseline);
+      return bias_evidence(budgets, summary, baseline, reference)[0].p < 0.05;
+    };
+    found.of_bias += alarm(std::nullopt);
+    found.of_own_bias += alarm(1);
+  }
+  return found;
+}
+
+// Of 5 %, 29 or fewer of a thousand come with probability 0.0007, 73 or more with 0.001; each.
+TEST(BiasVerdicts, AreWrongAtTheStatedRate) {
+  const FalseAlarms found = false_alarms();
+  EXPECT_GT(found.of_bias, 29);
+  EXPECT_LT(found.of_bias, 73);
+  EXPECT_GT(found.of_own_bias, 29);
+  EXPECT_LT(found.of_own_bias, 73);
+}
+
+/// Three methods at one budget, with p-values of their biases, and of those beside a baseline.
+struct ThreeMethods {
+  std::vector<std::vector<BudgetSummary>> budgets{3, std::vector<BudgetSummary>(1)};
+  SceneSummary summary;
+
+  explicit ThreeMethods(std::optional<size_t> baseline) {
+    summary.methods.resize(3);
+    for (size_t m = 0; m < 3; ++m) {
+      budgets[m][0].errors.bias_p = 0.1 * static_cast<double>(m + 1);
+      const double own_p = 0.01 * static_cast<double>(m + 1);
+      summary.methods[m].own_bias = {baseline && *baseline != m ? std::optional(Tested{{}, own_p}) : std::nullopt};
+    }
+  }
+};
+
+TEST(BiasVerdicts, KnowNothingBesideABaselineInDoubt) {
+  const Reference reference;
+  ThreeMethods methods(1);
+  std::vector<BiasEvidence> evidence = bias_evidence(methods.budgets, methods.summary, 1, reference);
+  EXPECT_TRUE(is_judged(evidence[0]));
+  EXPECT_EQ(evidence[0].p, 0.01);
+  EXPECT_EQ(evidence[1].verdict, BiasVerdict::baseline);
+  EXPECT_FALSE(is_judged(evidence[1]));
+  methods.budgets[2][0].why_bias_unknown = "effective sample size 7 < 1000";
+  evidence = bias_evidence(methods.budgets, methods.summary, 1, reference);
+  EXPECT_TRUE(is_judged(evidence[0]));
+  EXPECT_EQ(evidence[2].verdict, BiasVerdict::undetermined);
+  EXPECT_EQ(evidence[2].why, "effective sample size 7 < 1000");
+  methods.budgets[1][0].why_bias_unknown = "effective sample size 4.2 < 1000";
+  evidence = bias_evidence(methods.budgets, methods.summary, 1, reference);
+  EXPECT_EQ(evidence[0].verdict, BiasVerdict::undetermined);
+  EXPECT_EQ(evidence[0].why, "the baseline's effective sample size 4.2 < 1000");
+  EXPECT_EQ(evidence[1].verdict, BiasVerdict::baseline);
+  EXPECT_EQ(evidence[2].why, "effective sample size 7 < 1000");
+}
+
+TEST(BiasVerdicts, KnowNothingBesideAReferenceInDoubt) {
+  Reference reference;
+  const ThreeMethods alone(std::nullopt), beside(0);
+  EXPECT_EQ(bias_evidence(alone.budgets, alone.summary, std::nullopt, reference)[2].p,
+            alone.budgets[2][0].errors.bias_p);
+  reference.doubt = "it is odd";
+  for (const BiasEvidence& one : bias_evidence(alone.budgets, alone.summary, std::nullopt, reference)) {
+    EXPECT_EQ(one.verdict, BiasVerdict::undetermined);
+    EXPECT_EQ(one.why, "it is odd");
+  }
+  EXPECT_TRUE(is_judged(bias_evidence(beside.budgets, beside.summary, 0, reference)[2]));
+}
+
+TEST(BiasVerdicts, KnowNothingOfWhatIsNoNumber) {
+  ThreeMethods methods(std::nullopt);
+  methods.budgets[1][0].errors.bias_p = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<BiasEvidence> evidence = bias_evidence(methods.budgets, methods.summary, std::nullopt, Reference());
+  EXPECT_TRUE(is_judged(evidence[0]));
+  EXPECT_EQ(evidence[1].verdict, BiasVerdict::undetermined);
 }
 
 TEST(BiasVerdicts, JudgeAllBiasesTogether) {

@@ -137,6 +137,31 @@ reference = "exact"
   EXPECT_GT(queries.at("photons_used"), 0);
 }
 
+TEST_F(VpmCompare, BiasesBesideReferencesInDoubtAreNotJudged) {
+  write("fog.toml", kScene);
+  vpm_succeeds({"render", "fog.toml", "-o", "photons.exr", "--passes", "2"});
+  vpm_succeeds({"render", "fog.toml", "-o", "paths.exr", "--passes", "2", "--set", "render.integrator=path"});
+  vpm_succeeds({"render", "fog.toml", "-o", "one.exr", "--passes", "1", "--set", "render.integrator=path"});
+  const auto why = [&](const std::string& more) {
+    write("e.toml", "title = \"t\"\nunit = \"passes\"\nbudgets = [1]\nrepetitions = 3\n" + more +
+                        "[product]\nvolume.radius = [0.2, 0.4]\n");
+    const ProcessResult result = vpm_succeeds({"compare", "e.toml", "-o", "out"});
+    const json verdict = results("out").at("scenes").at(0).at("methods").at(0).at("verdict");
+    EXPECT_EQ(verdict.at("p").is_null(), verdict.at("says") == "not determined");
+    EXPECT_NE(result.out.find(verdict.at("why").get<std::string>()), std::string::npos) << result.out;
+    return verdict.at("why").get<std::string>();
+  };
+  const std::string scene = "[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";
+  const std::string of_photons = "the reference is of photons and may be biased itself";
+  EXPECT_EQ(why("[reference]\nerror = 1\n" + scene), "");
+  const std::string photon_maps = "[reference]\nerror = 1\nset.render.integrator = \"photon\"\n";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(why(photon_maps + scene), of_photons);  // made, then found
+  EXPECT_EQ(why("baseline = \"0.4\"\n" + photon_maps + scene), "");
+  EXPECT_EQ(why(scene + "reference = \"paths.exr\"\n"), "");
+  EXPECT_EQ(why(scene + "reference = \"photons.exr\"\n"), of_photons);
+  EXPECT_EQ(why(scene + "reference = \"one.exr\"\n"), "the reference does not tell its own noise");
+}
+
 TEST_F(VpmCompare, RefusesBeforeItRenders) {
   write("fog.toml", kScene);
   const std::string head = "title = \"t\"\nbudgets = [1]\n[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";

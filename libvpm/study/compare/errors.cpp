@@ -47,43 +47,32 @@ double relative_error_of_brightness(const Reference& reference) {
   return std::sqrt(variance.value()) / static_cast<double>(reference.mean.pixels.size()) / brightness(reference.mean);
 }
 
-/// All repetitions have the same reference: its error moves all of them alike.
-Bounded widened(const Bounded& bound, double error) {
-  constexpr double kNormal = 1.96;  // standard errors, of a 95 % interval
-  const auto reach = [&](double own) { return std::hypot(own, kNormal * error); };
-  return {bound.value, bound.value - reach(bound.value - bound.lo), bound.value + reach(bound.hi - bound.value)};
+/// RepeatedErrors::distances.
+std::vector<std::vector<double>> distances_of(const std::vector<Image>& images, const Scales& scales) {
+  std::vector<std::vector<double>> distances(images.size());
+  for (size_t k = 0; k < images.size(); ++k)
+    for (size_t l = 0; l < k; ++l)
+      distances[k].push_back(mean_over(images[k], [&](size_t i, int c) {
+        const double off = double{images[k].pixels[i][c]} - images[l].pixels[i][c];
+        return over(off * off, scales.at(i, c));
+      }));
+  return distances;
 }
 
-/// The same for the p-value: of the mean of samples over its error and the reference's.
-double tested(const std::vector<double>& samples, double error) {
-  Moments moments;
-  for (const double sample : samples) moments.add(sample);
-  if (moments.mean() == 0.0) return 1.0;
-  return student_tail(moments.mean() / std::hypot(std::sqrt(moments.variance_of_mean()), error),
-                      static_cast<double>(samples.size() - 1));
-}
-
-Image mean_of(const std::vector<Image>& images) {
-  Image mean(images.front().width, images.front().height);
-  for (size_t i = 0; i < mean.pixels.size(); ++i) {
-    Rgbd sum(0.0);
-    for (const Image& image : images) sum += Rgbd(image.pixels[i]);
-    mean.pixels[i] = Rgb(sum / static_cast<double>(images.size()));
-  }
-  return mean;
-}
-
-/// RepeatedErrors::deviations.
-std::vector<double> deviations_of(const std::vector<Image>& images, const Scales& scales) {
-  const Image mean = mean_of(images);
-  const auto n = static_cast<double>(images.size());
-  std::vector<double> deviations;
-  for (const Image& image : images)
-    deviations.push_back(n / (n - 1.0) * mean_over(image, [&](size_t i, int c) {
-                           const double off = double{image.pixels[i][c]} - mean.pixels[i][c];
-                           return over(off * off, scales.at(i, c));
-                         }));
-  return deviations;
+/// RepeatedErrors::deviations: a square of a difference from the mean is the mean square of differences from all, less
+/// half the mean square of all differences.
+std::vector<double> deviations_of(const std::vector<std::vector<double>>& distances) {
+  const auto n = static_cast<double>(distances.size());
+  std::vector<double> from_all(distances.size(), 0.0);
+  double sum = 0.0;
+  for (size_t k = 0; k < distances.size(); ++k)
+    for (size_t l = 0; l < k; ++l) {
+      from_all[k] += distances[k][l];
+      from_all[l] += distances[k][l];
+      sum += distances[k][l];
+    }
+  for (double& deviation : from_all) deviation = n / (n - 1.0) * (deviation / n - sum / (n * n));
+  return from_all;
 }
 
 }  // namespace
@@ -126,12 +115,14 @@ RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference
   RepeatedErrors result;
   result.mse = mean_with_interval(mses);
   result.relative_mse = mean_with_interval(relatives);
-  const double reference_error = relative_error_of_brightness(reference);
-  result.bias = widened(mean_with_interval(biases), reference_error);
-  result.bias_p = tested(biases, reference_error);
+  // All repetitions have the same reference: its error moves all of them alike.
+  const Tested bias = mean_beside(biases, relative_error_of_brightness(reference));
+  result.bias = bias.value;
+  result.bias_p = bias.p;
   result.squared_bias = jackknife(images.size(), squared_bias);
   result.variance = result.relative_mse.value - result.squared_bias.value;
-  result.deviations = deviations_of(images, scales);
+  result.distances = distances_of(images, scales);
+  result.deviations = deviations_of(result.distances);
   return result;
 }
 

@@ -1,6 +1,7 @@
 // How far repeated pictures of one method are from the truth, and how much of that is bias.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "image/image.h"
@@ -10,7 +11,8 @@ namespace vpm {
 /// A picture taken for the truth, with the variance that it has itself.
 struct Reference {
   Image mean;
-  Image variance;  // of each pixel of `mean`; black: it is exact
+  Image variance;          // of each pixel of `mean`; black: it is exact
+  std::string doubt = "";  // why biases beside it cannot be told; empty: they can
 };
 
 /// An estimate between the ends of a 95 % confidence interval.
@@ -41,8 +43,11 @@ struct RepeatedErrors {
   /// bias: the first may come out below 0.
   Bounded squared_bias;
   double variance = 0.0;
-  /// By repetition: the relative mean square of its difference from the mean of all, times n/(n - 1). Their mean is an
-  /// unbiased estimate of the variance, too, and no noise of the reference is in it but in its scale.
+  /// By two repetitions, the second before the first: the relative mean square of their difference. Half their mean is
+  /// an unbiased estimate of the variance, too, and no noise of the reference is in it but in its scale.
+  std::vector<std::vector<double>> distances;
+  /// By repetition: the relative mean square of its difference from the mean of all, times n/(n - 1). Their mean is
+  /// that same estimate, but they hang together by the mean they share.
   std::vector<double> deviations;
 };
 RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference& reference);

@@ -1,4 +1,4 @@
-// Jackknife, bootstrap, and the correction for many comparisons.
+// The jackknife, and the correction for many comparisons.
 #include "study/compare/resampling.h"
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "base/line_fit.h"
-#include "base/rng.h"
 #include "base/statistics.h"
 
 namespace vpm {
@@ -29,22 +28,17 @@ struct Estimate {
   double value, error;  // a standard error
 };
 
-/// Of repetitions that are taken as often as the weights tell: the statistic, and its error from its values with one
-/// of them less.
-Estimate jackknifed(std::vector<double> weights, const Statistic& statistic) {
-  const double all = statistic(weights);
-  double count = 0.0, sum = 0.0, squares = 0.0;
+/// The statistic of all repetitions, and its error from its values with one of them less.
+Estimate jackknifed(size_t count, const Statistic& statistic) {
+  std::vector<double> weights(count, 1.0);
+  Moments with_one_less;
   for (double& weight : weights) {
-    if (weight == 0.0) continue;
-    const double times = weight;
-    weight -= 1.0;
-    const double change = statistic(weights) - all;
-    weight = times;
-    count += times;
-    sum += times * change;
-    squares += times * change * change;
+    weight = 0.0;
+    with_one_less.add(statistic(weights));
+    weight = 1.0;
   }
-  return {all, std::sqrt(std::max(0.0, (count - 1.0) / count * (squares - sum * sum / count)))};
+  const auto n = static_cast<double>(count);
+  return {statistic(weights), (n - 1.0) * std::sqrt(with_one_less.variance() / n)};
 }
 
 Bounded with_interval(const Estimate& estimate, double dof) {
@@ -52,93 +46,98 @@ Bounded with_interval(const Estimate& estimate, double dof) {
   return {estimate.value, estimate.value - reach, estimate.value + reach};
 }
 
-double weighted_sum(const std::vector<double>& weights, const std::vector<double>& values) {
-  Sum sum;
-  for (size_t i = 0; i < values.size(); ++i) sum.add(weights[i] * values[i]);
-  return sum.value();
+Tested tested(const Estimate& estimate, double dof) {
+  const auto& [value, error] = estimate;
+  if (error == 0.0) return {{value, value, value}, value == 0.0 ? 1.0 : 0.0};
+  return {with_interval(estimate, dof), student_tail(value / error, dof)};
 }
 
-/// log(error cost), up to a constant; NaN where the mean error is not above 0.
-double log_inefficiency(const std::vector<double>& weights, const Repetitions& of) {
-  const double error = weighted_sum(weights, of.errors);
-  return error > 0.0 ? std::log(error * weighted_sum(weights, of.costs)) : kUnknown;
-}
-
-/// As many draws of repetitions as there are, with replacement.
-std::vector<double> resample(size_t count, Rng& rng) {
-  std::vector<double> weights(count, 0.0);
-  for (size_t i = 0; i < count; ++i)
-    weights[static_cast<size_t>(rng.uniform_double() * static_cast<double>(count))] += 1.0;
-  return weights;
-}
-
-/// How far resamples fall from the statistic, in their own standard errors, in rising order. Empty where the statistic
-/// is unknown of one of them.
-std::vector<double> studentised(size_t count, double value, const Statistic& statistic) {
-  constexpr uint64_t kResamples = 2000, kSeed = 1;
-  std::vector<double> deviations;
-  for (uint64_t i = 0; i < kResamples; ++i) {
-    Rng rng(kSeed, rng_stream(RngUse::probe, 0), i);
-    const Estimate drawn = jackknifed(resample(count, rng), statistic);
-    if (std::isnan(drawn.value) || std::isnan(drawn.error)) return {};
-    if (drawn.error > 0.0) deviations.push_back((drawn.value - value) / drawn.error);  // else one is all that was drawn
+double weighted_mean(const std::vector<double>& weights, const std::vector<double>& values) {
+  Sum sum, all;
+  for (size_t i = 0; i < values.size(); ++i) {
+    sum.add(weights[i] * values[i]);
+    all.add(weights[i]);
   }
-  std::sort(deviations.begin(), deviations.end());
-  return deviations;
+  return sum.value() / all.value();
+}
+
+/// Whether the noise of the reference hides the error: the mean is not told from 0, and may be below as some are.
+bool is_hidden(const Repetitions& of) {
+  std::vector<double> weights(of.costs.size(), 0.0);
+  bool any_below = false;
+  for (double& weight : weights) {
+    weight = 1.0;
+    any_below |= of.error(weights) <= 0.0;
+    weight = 0.0;
+  }
+  return any_below && !(jackknife(of.costs.size(), of.error).lo > 0.0);
 }
 
 }  // namespace
 
-Bounded mean_with_interval(const std::vector<double>& samples) {
+Tested mean_beside(const std::vector<double>& samples, double error) {
   Moments moments;
   for (const double sample : samples) moments.add(sample);
-  return with_interval({moments.mean(), std::sqrt(moments.variance_of_mean())},
-                       static_cast<double>(samples.size() - 1));
+  const double own = moments.variance_of_mean(), all = own + error * error;
+  // That of the expected value is known: it has infinitely many degrees of freedom.
+  const double share = own > 0.0 ? own / all : 0.0, dof = static_cast<double>(samples.size() - 1) / (share * share);
+  return tested({moments.mean(), std::sqrt(all)}, dof);
 }
 
+Bounded mean_with_interval(const std::vector<double>& samples) { return mean_beside(samples, 0.0).value; }
+
 Tested relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  Moments of_a, of_b;
-  for (const double sample : a) of_a.add(sample);
-  for (const double sample : b) of_b.add(sample);
-  const double ratio = of_a.mean() / of_b.mean(), scale = of_b.mean() * of_b.mean();
-  const double part_a = of_a.variance_of_mean() / scale, part_b = ratio * ratio * of_b.variance_of_mean() / scale;
-  const double error = std::sqrt(part_a + part_b);
-  if (error == 0.0) return {{ratio - 1.0, ratio - 1.0, ratio - 1.0}, ratio == 1.0 ? 1.0 : 0.0};
-  const auto freedom = [](const std::vector<double>& samples) { return static_cast<double>(samples.size() - 1); };
-  const double dof =
-      (part_a + part_b) * (part_a + part_b) / (part_a * part_a / freedom(a) + part_b * part_b / freedom(b));
-  return {with_interval({ratio - 1.0, error}, dof), student_tail((ratio - 1.0) / error, dof)};
+  assert(a.size() == b.size());
+  const Statistic difference = [&](const std::vector<double>& weights) {
+    return weighted_mean(weights, a) / weighted_mean(weights, b) - 1.0;
+  };
+  return tested(jackknifed(a.size(), difference), static_cast<double>(a.size() - 1));
 }
 
 Bounded jackknife(size_t count, const Statistic& statistic) {
   assert(count >= 3);
-  return with_interval(jackknifed(std::vector<double>(count, 1.0), statistic), static_cast<double>(count - 1));
+  const Estimate estimate = jackknifed(count, statistic);
+  if (std::isnan(estimate.value) || std::isnan(estimate.error)) return {estimate.value, kUnknown, kUnknown};
+  return with_interval(estimate, static_cast<double>(count - 1));
 }
 
+Statistic mean_of(std::vector<double> samples) {
+  return [samples = std::move(samples)](const std::vector<double>& weights) { return weighted_mean(weights, samples); };
+}
+
+Statistic variance_of(std::vector<std::vector<double>> distances) {
+  return [distances = std::move(distances)](const std::vector<double>& weights) {
+    Sum sum, all;
+    for (size_t i = 0; i < distances.size(); ++i)
+      for (size_t j = 0; j < i; ++j) {
+        sum.add(weights[i] * weights[j] * distances[i][j]);
+        all.add(weights[i] * weights[j]);
+      }
+    return 0.5 * sum.value() / all.value();
+  };
+}
+
+double mean_error(const Repetitions& of) { return of.error(std::vector<double>(of.costs.size(), 1.0)); }
+
+double mean_cost(const Repetitions& of) { return weighted_mean(std::vector<double>(of.costs.size(), 1.0), of.costs); }
+
 Comparison compare_efficiency(const Repetitions& a, const Repetitions& b) {
-  const size_t count = a.errors.size();
-  assert(count >= 3 && b.errors.size() == count && a.costs.size() == count && b.costs.size() == count);
-  const Statistic log_ratio = [&](const std::vector<double>& weights) {
-    return log_inefficiency(weights, b) - log_inefficiency(weights, a);
+  const size_t count = a.costs.size();
+  assert(count >= 3 && b.costs.size() == count);
+  const auto log_inefficiency = [](const Repetitions& of, const std::vector<double>& weights) {
+    const double error = of.error(weights);
+    return error > 0.0 ? std::log(error * weighted_mean(weights, of.costs)) : kUnknown;
   };
-  const Estimate estimate = jackknifed(std::vector<double>(count, 1.0), log_ratio);
+  const Estimate log_ratio = jackknifed(count, [&](const std::vector<double>& weights) {
+    return log_inefficiency(b, weights) - log_inefficiency(a, weights);
+  });
   Comparison result;
-  result.ratio = {std::exp(estimate.value), kUnknown, kUnknown};
-  if (std::isnan(estimate.value) || std::isnan(estimate.error)) return result;
-  if (estimate.error == 0.0) {
-    result.ratio.lo = result.ratio.hi = result.ratio.value;
-    result.p = result.p_holm = estimate.value == 0.0 ? 1.0 : 0.0;
-    result.known = true;
-    return result;
-  }
-  const std::vector<double> deviations = studentised(count, estimate.value, log_ratio);
-  if (deviations.empty()) return result;
-  const auto quantile = [&](double p) {
-    return deviations[static_cast<size_t>(p * static_cast<double>(deviations.size()))];
-  };
-  result.ratio.lo = std::exp(estimate.value - quantile(1.0 - kRate / 2.0) * estimate.error);
-  result.ratio.hi = std::exp(estimate.value - quantile(kRate / 2.0) * estimate.error);
-  result.p = result.p_holm = student_tail(estimate.value / estimate.error, static_cast<double>(count - 1));
+  result.ratio = {std::exp(log_ratio.value), kUnknown, kUnknown};
+  if (is_hidden(a) || is_hidden(b) || std::isnan(log_ratio.value) || std::isnan(log_ratio.error)) return result;
+  const Tested log = tested(log_ratio, static_cast<double>(count - 1));
+  result.ratio.lo = std::exp(log.value.lo);
+  result.ratio.hi = std::exp(log.value.hi);
+  result.p = result.p_holm = log.p;
   result.known = true;
   return result;
 }
@@ -171,14 +170,14 @@ Bounded convergence_slope(const std::vector<Repetitions>& budgets) {
   const Statistic slope = [&](const std::vector<double>& weights) {
     std::vector<double> x, y;
     for (const Repetitions& budget : budgets) {
-      x.push_back(std::log(weighted_sum(weights, budget.costs)));
-      const double error = weighted_sum(weights, budget.errors);
+      x.push_back(std::log(weighted_mean(weights, budget.costs)));
+      const double error = budget.error(weights);
       y.push_back(error > 0.0 ? std::log(error) : kUnknown);
     }
     const bool one_cost = std::all_of(x.begin(), x.end(), [&](double cost) { return cost == x[0]; });
     return one_cost ? kUnknown : fit_line(x, y).slope;
   };
-  return jackknife(budgets.front().errors.size(), slope);
+  return jackknife(budgets.front().costs.size(), slope);
 }
 
 }  // namespace vpm

@@ -14,22 +14,16 @@ std::vector<double> values_of(const BudgetSummary& budget, double PictureErrors:
   return values;
 }
 
-/// Errors by repetition, with what these cost.
-Repetitions with_costs(std::vector<double> errors, const BudgetSummary& budget, CostUnit unit) {
-  Repetitions all{std::move(errors), {}};
+/// An error, with what the repetitions cost.
+Repetitions with_costs(Statistic error, const BudgetSummary& budget, CostUnit unit) {
+  Repetitions all{std::move(error), {}};
   for (const RunCost& cost : budget.costs) all.costs.push_back(cost_in(unit, cost));
   return all;
 }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
 /// The method with the least error times cost. Errors that the reference's noise hides count as none.
 size_t best_of(const std::vector<Repetitions>& methods) {
-  const auto inefficiency = [](const Repetitions& of) { return std::max(0.0, mean(of.errors)) * mean(of.costs); };
+  const auto inefficiency = [](const Repetitions& of) { return std::max(0.0, mean_error(of)) * mean_cost(of); };
   const auto less = [&](const Repetitions& a, const Repetitions& b) { return inefficiency(a) < inefficiency(b); };
   return static_cast<size_t>(std::min_element(methods.begin(), methods.end(), less) - methods.begin());
 }
@@ -38,10 +32,10 @@ size_t best_of(const std::vector<Repetitions>& methods) {
 /// where it does so before the first budget or not by the last.
 std::optional<double> cost_of(double target, const std::vector<Repetitions>& budgets) {
   for (size_t i = 0; i + 1 < budgets.size(); ++i) {
-    const double before = mean(budgets[i].errors), after = mean(budgets[i + 1].errors);
+    const double before = mean_error(budgets[i]), after = mean_error(budgets[i + 1]);
     if (!(after > 0.0) || !(before >= target && after <= target)) continue;
     const double share = before > after ? std::log(before / target) / std::log(before / after) : 0.0;
-    return std::exp((1.0 - share) * std::log(mean(budgets[i].costs)) + share * std::log(mean(budgets[i + 1].costs)));
+    return std::exp((1.0 - share) * std::log(mean_cost(budgets[i])) + share * std::log(mean_cost(budgets[i + 1])));
   }
   return std::nullopt;
 }
@@ -73,15 +67,15 @@ SceneSummary summarise_scene(const std::vector<std::vector<BudgetSummary>>& budg
   for (size_t b = 0; b < budget_count; ++b) {
     std::vector<Repetitions> absolute, relative, variance;
     for (const std::vector<BudgetSummary>& method : budgets) {
-      absolute.push_back(with_costs(values_of(method[b], &PictureErrors::mse), method[b], unit));
-      relative.push_back(with_costs(values_of(method[b], &PictureErrors::relative_mse), method[b], unit));
-      variance.push_back(with_costs(method[b].errors.deviations, method[b], unit));
+      absolute.push_back(with_costs(mean_of(values_of(method[b], &PictureErrors::mse)), method[b], unit));
+      relative.push_back(with_costs(mean_of(values_of(method[b], &PictureErrors::relative_mse)), method[b], unit));
+      variance.push_back(with_costs(variance_of(method[b].errors.distances), method[b], unit));
     }
     summary.best_by_mse.push_back(best_of(absolute));
     summary.best_by_relative_mse.push_back(best_of(relative));
     summary.best_by_variance.push_back(best_of(variance));
     const Repetitions& best = relative[summary.best_by_relative_mse.back()];
-    summary.targets.push_back(mean(best.errors));
+    summary.targets.push_back(mean_error(best));
     for (size_t m = 0; m < budgets.size(); ++m) {
       MethodSummary& method = summary.methods[m];
       method.by_mse.push_back(compare_efficiency(absolute[m], absolute[summary.best_by_mse.back()]));

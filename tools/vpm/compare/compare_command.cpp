@@ -114,12 +114,13 @@ bool make_reference(Contest& contest, const ComparisonPlan& plan, const Store& s
   if (!contest.referee) return true;
   if (std::optional<Reference> known = store.find_reference(contest.referee->identity)) {
     contest.reference = std::move(*known);
-    return true;
+  } else {
+    const RenderResult result = run_reference(contest.referee->loaded, plan.reference_error, stop, options.progress);
+    if (stop) return false;
+    contest.reference = {result.film.mean(), result.film.variance_of_mean()};
+    store.add_reference(contest.referee->identity, contest.reference);
   }
-  const RenderResult result = run_reference(contest.referee->loaded, plan.reference_error, stop, options.progress);
-  if (stop) return false;
-  contest.reference = {result.film.mean(), result.film.variance_of_mean()};
-  store.add_reference(contest.referee->identity, contest.reference);
+  if (contest.referee->loaded.settings.integrator != Integrator::path) contest.reference.doubt = kOfPhotons;
   return true;
 }
 
@@ -186,13 +187,6 @@ std::string reference_text(const Contest& contest, double error) {
   return fmt::format("{}, relative MSE {:.2g}", paths ? "the path tracer" : "photon mapping", error);
 }
 
-BiasEvidence evidence_of(const BudgetSummary& budget, const MethodSummary& method, bool is_baseline) {
-  if (is_baseline) return {BiasVerdict::baseline};
-  if (!budget.why_bias_unknown.empty()) return {BiasVerdict::undetermined};
-  const std::optional<Tested>& own = method.own_bias.back();
-  return {BiasVerdict::none_seen, own ? own->p : budget.errors.bias_p};
-}
-
 /// Of all scenes together.
 void judge_biases(std::vector<SceneResults>& scenes) {
   std::vector<BiasEvidence*> all;
@@ -217,8 +211,7 @@ SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, cons
     results.budgets.push_back(std::move(budgets));
   }
   results.summary = summarise_scene(results.budgets, plan.unit, plan.baseline);
-  for (size_t m = 0; m < plan.methods.size(); ++m)
-    results.verdicts.push_back(evidence_of(results.budgets[m].back(), results.summary.methods[m], plan.baseline == m));
+  results.verdicts = bias_evidence(results.budgets, results.summary, plan.baseline, contest.reference);
   return results;
 }
 

@@ -71,12 +71,11 @@ Json budget_json(const BudgetSummary& budget, const MethodSummary& method, size_
           {"runs", std::move(runs)}};
 }
 
-Json verdict_json(const BiasEvidence& evidence, const std::string& why_unknown) {
-  const bool judged = evidence.verdict == BiasVerdict::none_seen || evidence.verdict == BiasVerdict::biased;
+Json verdict_json(const BiasEvidence& evidence) {
   return {{"says", verdict_name(evidence.verdict)},
-          {"p", judged ? number(evidence.p) : Json(nullptr)},
-          {"p_holm", judged ? number(evidence.p_holm) : Json(nullptr)},
-          {"why", why_unknown}};
+          {"p", is_judged(evidence) ? number(evidence.p) : Json(nullptr)},
+          {"p_holm", is_judged(evidence) ? number(evidence.p_holm) : Json(nullptr)},
+          {"why", evidence.why}};
 }
 
 Json method_json(const ComparisonPlan& plan, const SceneResults& scene, size_t m) {
@@ -91,7 +90,7 @@ Json method_json(const ComparisonPlan& plan, const SceneResults& scene, size_t m
           {"scene_hash", scene.hashes[m]},
           {"slope", bounded(summary.slope)},
           {"equal_error", std::move(equal_error)},
-          {"verdict", verdict_json(scene.verdicts[m], scene.budgets[m].back().why_bias_unknown)},
+          {"verdict", verdict_json(scene.verdicts[m])},
           {"budgets", std::move(budgets)}};
 }
 
@@ -121,8 +120,7 @@ Json scene_json(const ComparisonPlan& plan, const ComparedScene& compared, const
 size_t judged_count(const std::vector<SceneResults>& scenes) {
   size_t count = 0;
   for (const SceneResults& scene : scenes)
-    for (const BiasEvidence& evidence : scene.verdicts)
-      count += evidence.verdict == BiasVerdict::none_seen || evidence.verdict == BiasVerdict::biased;
+    for (const BiasEvidence& evidence : scene.verdicts) count += is_judged(evidence);
   return count;
 }
 
@@ -162,17 +160,16 @@ std::string equal_cost_table(const ComparisonPlan& plan, const SceneResults& sce
 /// What is known of each method's bias at the last budget.
 std::string verdicts_text(const ComparisonPlan& plan, const SceneResults& scene, size_t judged) {
   std::string text =
-      fmt::format("  bias at the last budget{} ({} verdicts, family-wise {:g} %):\n",
+      fmt::format("  bias at the last budget{} ({} verdicts, family-wise at most {:g} %):\n",
                   plan.baseline ? " beside " + plan.methods[*plan.baseline].name : "", judged, 100.0 * kFalseVerdicts);
   for (size_t m = 0; m < plan.methods.size(); ++m) {
     const BiasEvidence& evidence = scene.verdicts[m];
     if (evidence.verdict == BiasVerdict::baseline) continue;
-    const bool judged_here = evidence.verdict != BiasVerdict::undetermined;
     const std::optional<Tested>& own = scene.summary.methods[m].own_bias.back();
     const std::string bias = percent_with_interval(own ? own->value : scene.budgets[m].back().errors.bias);
-    text += fmt::format(
-        "    {:32} {:15} {}\n", plan.methods[m].name, verdict_name(evidence.verdict),
-        judged_here ? fmt::format("{} %, p {:.2g}", bias, evidence.p_holm) : scene.budgets[m].back().why_bias_unknown);
+    text +=
+        fmt::format("    {:32} {:15} {}\n", plan.methods[m].name, verdict_name(evidence.verdict),
+                    is_judged(evidence) ? fmt::format("{} %, p (Holm) {:.2g}", bias, evidence.p_holm) : evidence.why);
   }
   return text;
 }
@@ -187,13 +184,13 @@ std::string pairs_text(const ComparisonPlan& plan, const SceneResults& scene) {
     if (!c.known || c.p_holm >= kRate) continue;
     const bool first = c.ratio.value > 1.0;
     const Bounded ratio = first ? c.ratio : Bounded{1.0 / c.ratio.value, 1.0 / c.ratio.hi, 1.0 / c.ratio.lo};
-    text += fmt::format("    {} is {} times as efficient as {} (p {:.1g})\n",
+    text += fmt::format("    {} is {} times as efficient as {} (p (Holm) {:.1g})\n",
                         plan.methods[first ? pair.first : pair.second].name, with_interval(ratio),
                         plan.methods[first ? pair.second : pair.first].name, c.p_holm);
   }
   if (text.empty()) text = "    none\n";
   if (unknown > 0) text += fmt::format("    not determined: {} pairs, for the reference is too noisy\n", unknown);
-  return fmt::format("  significant differences among {} pairs, at the last budget (family-wise {:g} %):\n{}",
+  return fmt::format("  significant differences among {} pairs, at the last budget (family-wise at most {:g} %):\n{}",
                      scene.summary.pairs.size(), 100.0 * kRate, text);
 }
 
@@ -233,14 +230,19 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
         {"relative_mse_of_pbrt", "mean of (I - R)^2 / (R + 0.01)^2, less the reference's own"},
         {"bias",
          "mean over pixels and channels of I over that of R, less 1; the interval has the reference's noise in it"},
-        {"own_bias", "the mean over that of the baseline, less 1: what is left of bias that all methods share"},
+        {"own_bias",
+         "the mean over that of the baseline, less 1: what is left of bias that all methods share; by the "
+         "jackknife over pairs of repetitions"},
         {"verdict",
-         "of the bias at the last budget (of the own bias, where there is a baseline): p_holm is corrected for all "
-         "verdicts of the experiment"},
-        {"efficiency_by_variance", "1 / (variance x cost), over that of the best method"},
+         "of the bias at the last budget (of the own bias, where there is a baseline): p_holm is p, corrected for "
+         "all verdicts of the experiment"},
+        {"efficiency_by_variance",
+         "1 / (variance x cost), over that of the best method; the variance is half the mean square of differences "
+         "between two repetitions, over the scale of relative_mse"},
         {"squared_bias", "relative MSE of the mean of repetitions, less its variance"},
         {"efficiency", "1 / (relative MSE x cost), over that of the best method; whether two differ, pairs tell"},
-        {"intervals", "95 %: Student's t over repetitions; ratios: studentised bootstrap of repetitions in pairs"},
+        {"intervals",
+         "95 %: Student's t over repetitions; ratios: jackknife of their logarithm over pairs of repetitions"},
         {"p", "Student's t of the jackknife over pairs of repetitions; p_holm: corrected for all pairs of a scene"}}},
       {"scenes", std::move(all)}};
   return json.dump(1) + "\n";

@@ -105,10 +105,16 @@ void Store::add_reference(const std::string& identity, const Reference& referenc
 }
 
 Reference read_reference(const fs::path& path) {
-  Image mean = read_exr(path);
-  std::optional<Image> variance = layer(read_exr_channels(path), "variance.");
-  Image exact(mean.width, mean.height);
-  return {std::move(mean), variance ? std::move(*variance) : std::move(exact)};
+  const ExrChannels file = read_exr_channels(path);
+  Reference reference{read_exr(path), Image(file.width, file.height)};
+  if (std::optional<Image> variance = layer(file, "variance."))
+    reference.variance = std::move(*variance);
+  else
+    reference.doubt = "the reference does not tell its own noise";
+  const auto settings = file.metadata.find("vpm.settings");
+  if (settings != file.metadata.end() && settings->second.starts_with("integrator=photon"))
+    reference.doubt = kOfPhotons;
+  return reference;
 }
 
 }  // namespace vpm::tools

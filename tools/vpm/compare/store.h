@@ -39,8 +39,12 @@ class Store {
 /// What a run cost, as the text of a JSON object.
 std::string cost_json(const RunCost& cost);
 
+/// Reference::doubt of those that photon maps made: a kernel's bias is in them.
+inline constexpr const char* kOfPhotons = "the reference is of photons and may be biased itself";
+
 /// A reference read from a file: R, G, B, and the variance of these where the file has it (variance.R, ...), as those
-/// have that vpm writes; else it is taken to be exact.
+/// have that vpm writes; else errors are computed as if it were exact, but biases beside it are in doubt. So they are
+/// where the file tells that photons made it.
 Reference read_reference(const std::filesystem::path& path);
 
 }  // namespace vpm::tools

@@ -26,7 +26,7 @@ function finding(scene) {
       `The next, ${scene.methods[next].name}, is ${interval(efficiency(next))} times as efficient. `;
   return `At ${budgetText(results.budgets.length - 1)}, ${
              scene.methods[best].name} has the smallest relative MSE × cost. ${ofNext}` +
-      `Significantly less efficient: ${beaten} of the ${others.length} others (5 % family-wise over all pairs).`;
+      `Significantly less efficient: ${beaten} of the ${others.length} others (at most 5 % family-wise, all pairs).`;
 }
 
 /** The scene's pictures with their names, and what the tables say of each. */

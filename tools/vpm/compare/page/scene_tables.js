@@ -151,7 +151,7 @@ function pairsTable(scene) {
     methodColumn(scene, worseOf, 'less efficient'),
     intervalColumn('ratio', `${results.formulas.efficiency}; ${results.formulas.intervals}`, ratioOf),
     numberColumn('p', results.formulas.p, pair => pair.p, p => number(p, 2)),
-    numberColumn('p, Holm', results.formulas.p, pair => pair.p_holm, p => number(p, 2)),
+    numberColumn('p (Holm)', results.formulas.p, pair => pair.p_holm, p => number(p, 2)),
     {
       title: 'difference',
       words: true,

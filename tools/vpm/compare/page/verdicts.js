@@ -22,7 +22,7 @@ function verdictsTable(scene) {
     },
     ...(results.baseline === null ? [biasColumn()] : ownBiasColumns()),
     numberColumn('p', 'of a bias so far from 0, were there none', row => row.verdict.p, p => number(p, 2)),
-    numberColumn('p, Holm', f.verdict, row => row.verdict.p_holm, p => number(p, 2)),
+    numberColumn('p (Holm)', f.verdict, row => row.verdict.p_holm, p => number(p, 2)),
   ];
   const rows = rowsAt(scene, budget).map(row => ({...row, verdict: scene.methods[row.index].verdict}));
   return sortableTable(`Verdicts on bias${besideBaseline()} at ${budgetText(budget)}`, columns, rows, 4);
@@ -30,9 +30,10 @@ function verdictsTable(scene) {
 
 function verdictsText({methods}) {
   const those = says => methods.filter(method => method.verdict.says === says).length;
+  const judged = methods.filter(method => method.verdict.p !== null).length;
   const unknown = those('not determined'), {rate, count} = results.verdicts;
-  return `${those('biased')} of ${methods.length} methods are biased${besideBaseline()}` +
+  return `${those('biased')} of ${judged} methods that are judged are biased${besideBaseline()}` +
       (unknown > 0 ? `; not determined: ${unknown}. ` : '. ') +
-      `All ${count} verdicts of the experiment together are wrong in ${plain(100 * rate)}\u202f% of experiments ` +
-      'without a bias.';
+      `One or more of the ${count} verdicts of the experiment are wrong in at most ${plain(100 * rate)}\u202f% of ` +
+      'experiments without a bias.';
 }
