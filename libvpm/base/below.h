@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
@@ -40,6 +42,31 @@ inline uint32_t append_below(const float* values, uint32_t count, float limit, u
 #endif
 }
 
+/// Moves those of `count` values that are at most the limit, with their numbers, to the front, in their order. Reads
+/// and writes up to the next multiple of kBlock. Returns how many there are.
+inline size_t keep_up_to(float* values, uint32_t* numbers, size_t count, float limit) {
+  size_t kept = 0;
+#if defined(__AVX512F__)
+  for (size_t i = 0; i < count; i += kBlock) {
+    const __m512 some = _mm512_loadu_ps(values + i);
+    const __m512i which = _mm512_loadu_si512(numbers + i);
+    const uint32_t there = count - i < kBlock ? (1u << (count - i)) - 1 : 0xffffu;
+    const auto keep = static_cast<__mmask16>(_mm512_cmp_ps_mask(some, _mm512_set1_ps(limit), _CMP_LE_OQ) & there);
+    _mm512_storeu_ps(values + kept, _mm512_maskz_compress_ps(keep, some));
+    _mm512_storeu_si512(numbers + kept, _mm512_maskz_compress_epi32(keep, which));
+    kept += static_cast<size_t>(__builtin_popcount(keep));
+  }
+#else
+  for (size_t i = 0; i < count; ++i) {
+    const float value = values[i];
+    values[kept] = value;
+    numbers[kept] = numbers[i];
+    kept += value <= limit ? 1 : 0;
+  }
+#endif
+  return kept;
+}
+
 /// How many of the values are at most the limit.
 inline size_t count_up_to(const float* values, size_t count, float limit) {
   uint32_t all = 0;
@@ -47,23 +74,28 @@ inline size_t count_up_to(const float* values, size_t count, float limit) {
   return all;
 }
 
+/// The largest of the values, which are >= 0, that are at most the limit; 0 of none.
+inline float largest_up_to(const float* values, size_t count, float limit) {
+  int32_t largest = 0;  // the bits of such numbers are in the same order, and integers are compared many at once
+  for (size_t i = 0; i < count; ++i)
+    largest = std::max(largest, std::bit_cast<int32_t>(values[i] <= limit ? values[i] : 0.0f));
+  return std::bit_cast<float>(largest);
+}
+
 /// The k-th smallest of `count` values, 1 <= k <= count, which are finite and >= 0: the interval that holds it is
 /// halved until nothing else is in it. Each step is one look at all values, many at once; there are about as many
 /// steps as binary digits of `count`.
 inline float kth_smallest(const float* values, size_t count, size_t k) {
   assert(k >= 1 && k <= count);
-  float lo = -1.0f, hi = 0.0f;  // fewer than k are up to lo, at least k up to hi
-  for (size_t i = 0; i < count; ++i) hi = std::max(hi, values[i]);
-  for (size_t up_to_hi = count; up_to_hi != k;) {
+  float lo = -1.0f, hi = largest_up_to(values, count, std::numeric_limits<float>::max());
+  for (size_t up_to_hi = count; up_to_hi != k;) {  // fewer than k are up to lo
     const float middle = 0.5f * (std::max(lo, 0.0f) + hi);
     if (!(middle > lo && middle < hi)) break;  // equal ones
     const size_t up_to = count_up_to(values, count, middle);
     (up_to < k ? lo : hi) = middle;
     if (up_to >= k) up_to_hi = up_to;
   }
-  float largest = 0.0f;
-  for (size_t i = 0; i < count; ++i) largest = std::max(largest, values[i] <= hi ? values[i] : 0.0f);
-  return largest;
+  return largest_up_to(values, count, hi);
 }
 
 }  // namespace vpm

@@ -9,27 +9,22 @@ void Neighbours::start(uint32_t count, float max_radius) {
   count_ = count;
   limit_ = max_radius * max_radius;
   size_ = 0;
-  if (distances2_.size() < most() + kBlock) {
-    distances2_.resize(most() + kBlock);
-    photons_.resize(most() + kBlock);
+  if (distances2_.size() < most() + 2 * kBlock) {
+    distances2_.resize(most() + 2 * kBlock);
+    photons_.resize(most() + 2 * kBlock);
   }
 }
 
 void Neighbours::keep_nearest() {
   limit_ = kth_smallest(distances2_.data(), size_, count_);
-  size_t below = 0;
-  for (size_t i = 0; i < size_; ++i) below += distances2_[i] < limit_ ? 1 : 0;
+  size_ = keep_up_to(distances2_.data(), photons_.data(), size_, limit_);
   // Of those at the limit itself the first found stay, as many as make k.
-  size_t ties = count_ - below, kept = 0;
-  for (size_t i = 0; i < size_; ++i) {
-    const float distance2 = distances2_[i];
-    const bool at_limit = distance2 == limit_ && ties > 0;
-    if (at_limit) --ties;
-    distances2_[kept] = distance2;
-    photons_[kept] = photons_[i];
-    kept += distance2 < limit_ || at_limit ? 1 : 0;
+  for (size_t i = size_; size_ > count_;) {
+    if (distances2_[--i] != limit_) continue;
+    std::copy(&distances2_[i + 1], &distances2_[size_], &distances2_[i]);
+    std::copy(&photons_[i + 1], &photons_[size_], &photons_[i]);
+    --size_;
   }
-  size_ = kept;
 }
 
 void Neighbours::finish() {

@@ -40,7 +40,7 @@ class Neighbours {
   uint32_t count_ = 0;
   float limit_ = 0.0f;
   size_t size_ = 0;
-  std::vector<float> distances2_;  // room for another block behind most()
+  std::vector<float> distances2_;  // with room for two blocks behind most(): whole ones are read and written
   std::vector<uint32_t> photons_;
 };
 
