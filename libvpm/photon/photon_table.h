@@ -65,6 +65,7 @@ template <class Visit>
 void PhotonTable::for_each_block(size_t begin, size_t end, const Ray& ray, const Interval& interval,
                                  Visit&& visit) const {
   const Vec3 o = ray.origin, w = ray.direction;
+  const auto [t0, t1] = interval;
   for (size_t block = begin; block < end; block += kBlock) {
     const float *x = &x_[block], *y = &y_[block], *z = &z_[block];
     float d2[kBlock];
@@ -73,7 +74,8 @@ void PhotonTable::for_each_block(size_t begin, size_t end, const Ray& ray, const
       const float t = dx * w.x + dy * w.y + dz * w.z;
       const float ex = dx - t * w.x, ey = dy - t * w.y, ez = dz - t * w.z;
       const float across = ex * ex + ey * ey + ez * ez;
-      d2[i] = t >= interval.t0 && t < interval.t1 ? across : kInfinity;
+      const float beyond = std::max(t0 - t, t < t1 ? -1.0f : 1.0f);  // > 0 outside; no branch, so that it is one loop
+      d2[i] = beyond > 0.0f ? kInfinity : across;
     }
     visit(d2, static_cast<uint32_t>(std::min<size_t>(kBlock, end - block)), static_cast<uint32_t>(block));
   }

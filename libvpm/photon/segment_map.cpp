@@ -15,24 +15,48 @@ SegmentMap::SegmentMap(const std::vector<Photon>& photons, float scale) {
   leaves_ = tree.leaves;
   photons_ = PhotonTable(photons, tree.order, scale);
   bounds_ = bounds_of(photons);
+  while ((size_t{1} << (kLevels * depth_)) < leaves_) ++depth_;
+  for (int d = 0; d <= depth_; ++d)
+    begin_[d + 1] = begin_[d] + std::max<size_t>(1, leaves_ >> (kLevels * (depth_ - d)));
   for (int a = 0; a < 3; ++a) {
-    lo_[a].assign(2 * leaves_ + kWide, kInfinity);  // the last boxes are met in groups, too
-    hi_[a].assign(2 * leaves_ + kWide, -kInfinity);
+    lo_[a].assign(begin_[depth_ + 1] + kBlock, kInfinity);  // whole blocks are read
+    hi_[a].assign(begin_[depth_ + 1] + kBlock, -kInfinity);
   }
   parallel_for_chunks(leaves_, kChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t leaf = begin; leaf < end; ++leaf)
       for (size_t i = leaf_begin(size(), leaves_, leaf); i < leaf_begin(size(), leaves_, leaf + 1); ++i)
-        for (int a = 0; a < 3; ++a) {
-          const float x = photons[tree.order[i]].position[a];
-          lo_[a][leaves_ + leaf] = std::min(lo_[a][leaves_ + leaf], x);
-          hi_[a][leaves_ + leaf] = std::max(hi_[a][leaves_ + leaf], x);
-        }
+        include(begin_[depth_] + leaf, photons[tree.order[i]].position, photons[tree.order[i]].position);
   });
-  for (size_t node = leaves_; node-- > 1;)
-    for (int a = 0; a < 3; ++a) {
-      lo_[a][node] = std::min(lo_[a][2 * node], lo_[a][2 * node + 1]);
-      hi_[a][node] = std::max(hi_[a][2 * node], hi_[a][2 * node + 1]);
+  for (int d = depth_; d-- > 0;)
+    for (size_t box = 0; box < begin_[d + 1] - begin_[d]; ++box) {
+      const auto [first, count] = children(d, static_cast<uint32_t>(box));
+      for (size_t i = begin_[d + 1] + first; i < begin_[d + 1] + first + count; ++i)
+        include(begin_[d] + box, {lo_[0][i], lo_[1][i], lo_[2][i]}, {hi_[0][i], hi_[1][i], hi_[2][i]});
     }
+}
+
+void SegmentMap::include(size_t place, const Vec3& lo, const Vec3& hi) {
+  for (int a = 0; a < 3; ++a) {
+    lo_[a][place] = std::min(lo_[a][place], lo[a]);
+    hi_[a][place] = std::max(hi_[a][place], hi[a]);
+  }
+}
+
+SegmentMap::Beam SegmentMap::make_beam(const Ray& ray, const Interval& interval, float radius) const {
+  // Boxes grow by a hair more than the radius, so that rounding loses no photon that the last test would take; and no
+  // component of the direction is so small that 0 times its inverse has no value.
+  const Vec3 reach = glm::max(glm::max(glm::abs(bounds_.lo), glm::abs(bounds_.hi)), glm::abs(ray.origin));
+  const float wider = 1.0001f * radius + 1e-6f * max_channel(reach);
+  Beam beam{interval, {}, {}, {}, {}, {}};
+  for (int a = 0; a < 3; ++a) {
+    const float d = ray.direction[a], sign = std::copysign(1.0f, d);
+    beam.inverse[a] = 1.0f / (std::abs(d) < 1e-12f ? sign * 1e-12f : d);
+    beam.enter[a] = (-sign * wider - ray.origin[a]) * beam.inverse[a];
+    beam.leave[a] = (sign * wider - ray.origin[a]) * beam.inverse[a];
+    beam.near[a] = (d < 0.0f ? hi_ : lo_)[a].data();
+    beam.far[a] = (d < 0.0f ? lo_ : hi_)[a].data();
+  }
+  return beam;
 }
 
 size_t SegmentMap::memory_bytes() const {

@@ -1,11 +1,11 @@
-// The photon map for the photons beside a stretch of a ray: a hierarchy of boxes over leaves of up to 32 photons that
-// lie side by side. Eight boxes are met at once: those three levels below a box lie side by side, too.
+// The photon map for the photons beside a stretch of a ray: a hierarchy of boxes over leaves of up to 16 photons that
+// lie side by side. The sixteen boxes below a box are met at once: four levels of the tree that leaves are sorted by.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/count.h"
@@ -34,57 +34,61 @@ class SegmentMap {
   size_t memory_bytes() const;
 
  private:
-  static constexpr size_t kLeaf = 32;  // photons of a leaf, at most
-  static constexpr int kWide = 8;      // boxes met at once
-  static constexpr int kLevels = 3;    // of the tree between them
+  static constexpr size_t kLeaf = kBlock;  // photons of a leaf, at most
+  static constexpr int kLevels = 4;        // of LeafOrder's tree between a box and those below it
+  static constexpr int kMostDepth = 8;     // of boxes: 2^32 leaves
 
-  /// A ray as boxes are met.
+  /// A ray as boxes are met. Along each axis it enters a box, `radius` wider than it is, at near plane * inverse +
+  /// enter, and leaves it at far plane * inverse + leave, m.
   struct Beam {
-    Vec3 origin, inverse;
     Interval interval;
-    float radius;
+    Vec3 inverse, enter, leave;
+    std::array<const float*, 3> near, far;  // of all boxes: their lower sides or their upper ones
   };
-  /// Which of the `kWide` boxes from node `first` on the beam meets: a bit for each.
-  uint32_t meet(const Beam& beam, size_t first) const;
+  Beam make_beam(const Ray& ray, const Interval& interval, float radius) const;
+  /// The first of the boxes below a box, numbered among those of their depth, and how many there are.
+  std::pair<uint32_t, uint32_t> children(int depth, uint32_t box) const {
+    const uint32_t most = 1u << kLevels;
+    return {box * most, static_cast<uint32_t>(std::min<size_t>(most, begin_[depth + 2] - begin_[depth + 1]))};
+  }
+  /// Appends to `met` which of the `count` boxes from that place on the beam meets, numbered from `first` on. Returns
+  /// how many it does.
+  uint32_t meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
 
-  size_t leaves_ = 1;                          // nodes are numbered as LeafOrder says
-  std::array<std::vector<float>, 3> lo_, hi_;  // of the nodes' boxes, m
-  PhotonTable photons_;                        // leaf by leaf
+  /// Makes the box at that place reach around those corners.
+  void include(size_t place, const Vec3& lo, const Vec3& hi);
+
+  size_t leaves_ = 1;
+  int depth_ = 0;                               // of the leaves' boxes; the root's is 0
+  std::array<size_t, kMostDepth + 2> begin_{};  // of the boxes of each depth, and one past the last
+  std::array<std::vector<float>, 3> lo_, hi_;   // m
+  PhotonTable photons_;                         // leaf by leaf
   Box bounds_;
 };
 
-inline uint32_t SegmentMap::meet(const Beam& beam, size_t first) const {
-  float enter[kWide], leave[kWide];
-  for (int i = 0; i < kWide; ++i) {
-    enter[i] = beam.interval.t0;
-    leave[i] = beam.interval.t1;
+inline uint32_t SegmentMap::meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const {
+  const float *near_x = beam.near[0] + place, *near_y = beam.near[1] + place, *near_z = beam.near[2] + place;
+  const float *far_x = beam.far[0] + place, *far_y = beam.far[1] + place, *far_z = beam.far[2] + place;
+  const auto [t0, t1] = beam.interval;
+  const Vec3 inverse = beam.inverse, at_enter = beam.enter, at_leave = beam.leave;
+  float missed[kBlock], unused[kBlock];
+  for (uint32_t i = 0; i < kBlock; ++i) {
+    float enter = t0, leave = t1;
+    enter = std::max(enter, near_x[i] * inverse.x + at_enter.x);
+    enter = std::max(enter, near_y[i] * inverse.y + at_enter.y);
+    enter = std::max(enter, near_z[i] * inverse.z + at_enter.z);
+    leave = std::min(leave, far_x[i] * inverse.x + at_leave.x);
+    leave = std::min(leave, far_y[i] * inverse.y + at_leave.y);
+    leave = std::min(leave, far_z[i] * inverse.z + at_leave.z);
+    missed[i] = enter <= leave ? 0.0f : 1.0f;
   }
-  for (int a = 0; a < 3; ++a) {
-    const float *lo = &lo_[a][first], *hi = &hi_[a][first];
-    for (int i = 0; i < kWide; ++i) {
-      const float at_lo = (lo[i] - beam.radius - beam.origin[a]) * beam.inverse[a];
-      const float at_hi = (hi[i] + beam.radius - beam.origin[a]) * beam.inverse[a];
-      const float near = at_lo < at_hi ? at_lo : at_hi, far = at_lo < at_hi ? at_hi : at_lo;
-      enter[i] = near > enter[i] ? near : enter[i];
-      leave[i] = far < leave[i] ? far : leave[i];
-    }
-  }
-  uint32_t met = 0;
-  for (int i = 0; i < kWide; ++i) met |= (enter[i] <= leave[i] ? 1u : 0u) << i;
-  return met;
+  return append_below(missed, count, 0.5f, first, unused, met);
 }
 
 template <class Visit>
 uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, float radius, Visit&& visit) const {
   if (size() == 0) return 0;
-  // Boxes grow by a hair more than the radius, so that rounding loses no photon that the last test would take; and no
-  // component of the direction is so small that 0 times its inverse has no value.
-  const Vec3 reach = glm::max(glm::max(glm::abs(bounds_.lo), glm::abs(bounds_.hi)), glm::abs(ray.origin));
-  Beam beam{ray.origin, Vec3(0.0f), interval, 1.0001f * radius + 1e-6f * max_channel(reach)};
-  for (int a = 0; a < 3; ++a) {
-    const float d = ray.direction[a];
-    beam.inverse[a] = 1.0f / (std::abs(d) < 1e-12f ? std::copysign(1e-12f, d) : d);
-  }
+  const Beam beam = make_beam(ray, interval, radius);
   NearPhotons found(radius * radius);
   const auto use = [&](uint32_t i, float distance2) {
     const float t = glm::dot(photons_.position(i) - ray.origin, ray.direction);
@@ -93,24 +97,29 @@ uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, f
   const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
     found.add(distances2, number, first, use);
   };
-  uint32_t visited = 0;
-  size_t stack[12 * kWide];
-  int top = 0;
-  stack[top++] = 1;
-  while (top > 0) {
-    const size_t node = stack[--top];
-    if (node >= leaves_) {
-      const size_t leaf = node - leaves_;
-      const size_t begin = leaf_begin(size(), leaves_, leaf), end = leaf_begin(size(), leaves_, leaf + 1);
+  struct Group {
+    uint32_t begin, end;  // of `met`
+  };
+  // Boxes met and not looked into yet, depth by depth.
+  uint32_t visited = 0, met[(kMostDepth + 1) * kBlock] = {0};
+  Group waiting[kMostDepth + 1];
+  waiting[0] = {0, 1};
+  for (int depth = 0; depth >= 0;) {
+    Group& group = waiting[depth];
+    if (group.begin == group.end) {
+      --depth;
+      continue;
+    }
+    const uint32_t box = met[group.begin++];
+    if (depth == depth_) {
+      const size_t begin = leaf_begin(size(), leaves_, box), end = leaf_begin(size(), leaves_, box + 1);
       photons_.for_each_block(begin, end, ray, interval, add);
       count(visited, end - begin);
       continue;
     }
-    const int below = std::bit_width(leaves_) - std::bit_width(node);  // levels from here to the leaves
-    const int levels = below < kLevels ? below : kLevels;
-    const size_t first = node << levels;
-    uint32_t met = meet(beam, first) & ((1u << (1 << levels)) - 1);
-    for (; met != 0; met &= met - 1) stack[top++] = first + static_cast<size_t>(std::countr_zero(met));
+    const auto [first, below] = children(depth, box);
+    const uint32_t begin = group.end;
+    waiting[++depth] = {begin, begin + meet(beam, begin_[depth] + first, below, first, met + begin)};
   }
   found.take(use);
   return visited;
