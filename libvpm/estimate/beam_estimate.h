@@ -10,7 +10,7 @@ namespace vpm {
 
 /// Photons sorted for the rays of one pass, powers divided by the photons emitted.
 struct BeamMap {
-  GatherSettings settings;  // radius > 0, as it is in this pass
+  GatherSettings settings;  // radius > 0, as it is in this pass: the largest
   SegmentMap photons;
 };
 
@@ -22,31 +22,31 @@ struct PhotonList {
 };
 
 /// sum_p p(travel_p . towards the eye) Phi_p K_r(distance of p from the ray) along(t_p) over the photons whose foot t_p
-/// on the ray lies in the interval, K_r over discs; times the albedo, radiance in W/(m^2 sr) where `along`(t), an Rgb,
-/// is the transmittance from the eye to the foot t. With photons stored for the density at the query it has that
-/// density as a factor, too, over the medium's largest.
+/// on the ray lies in the interval, K_r over discs of the photon's radius r; times the albedo, radiance in W/(m^2 sr)
+/// where `along`(t), an Rgb, is the transmittance from the eye to the foot t. With photons stored for the density at
+/// the query it has that density as a factor, too, over the medium's largest.
 ///
 /// What is left of bias is that of the kernel across the ray, of order r^2, and that of discs that stick out of the
 /// medium.
 template <class Along>
 Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along&& along, const BeamMap& map,
              GatherCounters& counters) {
-  const auto& [radius, kernel] = std::pair(map.settings.radius, map.settings.kernel);
-  const float inverse = 1.0f / (radius * radius);
+  const KernelKind kernel = map.settings.kernel;
   count(counters.searches);
   const auto sum = [&](const auto& p, auto profile) {
     Rgbd sum_of_photons(0.0);
     uint32_t used = 0;
-    const auto visit = [&](const SegmentMap::Payload& photon, float t, float distance2) {
-      const float weight = p.value(photon.travel.unpack(), -ray.direction) * profile(distance2 * inverse);
+    const auto visit = [&](const SegmentMap::Payload& photon, float t, float distance2, float radius) {
+      const float inverse = 1.0f / (radius * radius);
+      const float weight = p.value(photon.travel.unpack(), -ray.direction) * profile(distance2 * inverse) * inverse;
       sum_of_photons += Rgbd(photon.power.unpack() * (weight * along(t)));
       ++used;
     };
-    count(counters.visited, map.photons.for_each_beside(ray, interval, radius, visit));
+    count(counters.visited, map.photons.for_each_beside(ray, interval, visit));
     counters.used += used;
     return Rgb(sum_of_photons);
   };
-  return kernel_norm_2d(kernel, radius) *
+  return kernel_norm_2d(kernel, 1.0f) *
          std::visit([&](const auto& p) { return with_kernel(kernel, [&](auto profile) { return sum(p, profile); }); },
                     phase);
 }

@@ -22,6 +22,8 @@ struct GatherSettings {
   uint32_t count = 50;  // nearest mode: k >= 2
   KernelKind kernel = KernelKind::epanechnikov;
   BoundaryRule boundary = BoundaryRule::none;
+  uint32_t beam_count = 0;  // beam mode, > 0: photons have radii of their own, of balls of about so many photons, at
+                            // most `radius`; 0: that one
 };
 
 /// What gathering counts.

@@ -40,7 +40,9 @@ void read_gather(TableReader& table, const std::vector<std::pair<std::string, Ga
                  GatherSettings& gather) {
   gather.mode = table.choice<GatherMode>("gather", modes, gather.mode);
   gather.radius = table.number("radius", kRadius, gather.radius);
-  gather.count = static_cast<uint32_t>(table.integer("count", 2, 1'000'000, gather.count));
+  const bool beams = gather.mode == GatherMode::beam;
+  uint32_t& count = beams ? gather.beam_count : gather.count;
+  count = static_cast<uint32_t>(table.integer("count", beams ? 0 : 2, 1'000'000, count));
   std::vector<std::pair<std::string, KernelKind>> kernels;
   for (const KernelInfo& kernel : kKernels) kernels.emplace_back(kernel.name, kernel.kind);
   gather.kernel = table.choice<KernelKind>("kernel", kernels, gather.kernel);

@@ -2,6 +2,7 @@
 // heap, the root 1, the children of i 2 i and 2 i + 1; what lies in a leaf follows from its number.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +23,9 @@ struct LeafOrder {
 };
 
 /// Of that many photons in that many leaves, how many lie before a leaf.
-inline size_t leaf_begin(size_t photons, size_t leaves, size_t leaf) { return photons * leaf / leaves; }
+inline size_t leaf_begin(size_t photons, size_t leaves, size_t leaf) {
+  return (photons * leaf) >> std::countr_zero(leaves);
+}
 
 /// Parts the photons at medians, each time across the longest side of what is parted, until leaves hold at most
 /// `largest`: half of that at least, where there are so many. On all threads, and the same on however many.

@@ -84,13 +84,11 @@ void PhotonTable::for_each_block(size_t begin, size_t end, const Ray& ray, const
 /// Collects photons nearer than a limit, so that what is done with each of them waits for the end of a row or two.
 class NearPhotons {
  public:
-  explicit NearPhotons(float limit2) : limit2_(limit2) {}
-
-  /// Adds those of a block that are near; when there is little room left, calls use(photon, squared distance) for all
-  /// so far, in their order.
+  /// Adds those of a block that are nearer than the root of `limit2`, m^2; when there is little room left, calls
+  /// use(photon, squared distance) for all so far, in their order.
   template <class Use>
-  void add(const float* distances2, uint32_t number, uint32_t first, Use&& use) {
-    size_ += append_below(distances2, number, limit2_, first, distances2_ + size_, photons_ + size_);
+  void add(const float* distances2, uint32_t number, uint32_t first, float limit2, Use&& use) {
+    size_ += append_below(distances2, number, limit2, first, distances2_ + size_, photons_ + size_);
     if (size_ > kMost) take(use);
   }
   /// Calls use() for those that are left.
@@ -103,7 +101,6 @@ class NearPhotons {
  private:
   static constexpr size_t kMost = 256;
 
-  float limit2_;  // m^2
   size_t size_ = 0;
   float distances2_[kMost + 2 * kBlock];
   uint32_t photons_[kMost + 2 * kBlock];

@@ -52,12 +52,12 @@ uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit
   for (int a = 0; a < 3; ++a)
     if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return 0;
   uint32_t visited = 0;
-  NearPhotons found(radius * radius);
+  NearPhotons found;
   const auto use = [&](uint32_t i, float distance2) {
     visit(photons_.payload(i), photons_.position(i) - point, distance2);
   };
   const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
-    found.add(distances2, number, first, use);
+    found.add(distances2, number, first, radius * radius, use);
   };
   const float cell = 1.0f / per_cell_;
   const int z_end = cell_along(2, point.z + radius);

@@ -15,19 +15,31 @@
 
 namespace vpm {
 
+/// Over which discs photons are spread.
+struct BeamRadii {
+  float largest = 0.0f;  // m, > 0
+  uint32_t count = 0;    // > 0: each photon has the radius of a ball of about so many, times `scale`; 0: the largest
+  float scale = 1.0f;
+};
+
 class SegmentMap {
  public:
   using Payload = PhotonTable::Payload;
 
   SegmentMap() = default;
   /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
-  SegmentMap(const std::vector<Photon>& photons, float scale);
+  SegmentMap(const std::vector<Photon>& photons, const BeamRadii& radii, float scale);
 
-  /// Calls visit(const Payload&, distance along the ray, m, squared distance from it) for the photons nearer to the ray
-  /// than `radius`, m, whose foot on it lies in the interval, in a fixed order. Returns how many photons it computed
-  /// the distance of.
+  /// Calls visit(const Payload&, distance along the ray, m, squared distance from it, m^2, the photon's radius, m) for
+  /// the photons nearer to the ray than their radii whose foot on it lies in the interval, in a fixed order. Returns
+  /// how many photons it computed the distance of.
   template <class Visit>
-  uint32_t for_each_beside(const Ray& ray, const Interval& interval, float radius, Visit&& visit) const;
+  uint32_t for_each_beside(const Ray& ray, const Interval& interval, Visit&& visit) const;
+
+  /// Of photon `i` in the map's order.
+  const Payload& payload(size_t i) const { return photons_.payload(i); }
+  Vec3 position(size_t i) const { return photons_.position(i); }
+  float radius(size_t i) const;  // m
 
   size_t size() const { return photons_.size(); }
   const Box& bounds() const { return bounds_; }
@@ -38,14 +50,15 @@ class SegmentMap {
   static constexpr int kLevels = 4;        // of LeafOrder's tree between a box and those below it
   static constexpr int kMostDepth = 8;     // of boxes: 2^32 leaves
 
-  /// A ray as boxes are met. Along each axis it enters a box, `radius` wider than it is, at near plane * inverse +
-  /// enter, and leaves it at far plane * inverse + leave, m.
+  /// A ray as boxes are met. Along each axis it enters a box at near plane * inverse + enter, and leaves it at far
+  /// plane
+  /// * inverse + leave, m.
   struct Beam {
     Interval interval;
     Vec3 inverse, enter, leave;
     std::array<const float*, 3> near, far;  // of all boxes: their lower sides or their upper ones
   };
-  Beam make_beam(const Ray& ray, const Interval& interval, float radius) const;
+  Beam make_beam(const Ray& ray, const Interval& interval) const;
   /// The first of the boxes below a box, numbered among those of their depth, and how many there are.
   std::pair<uint32_t, uint32_t> children(int depth, uint32_t box) const {
     const uint32_t most = 1u << kLevels;
@@ -55,14 +68,19 @@ class SegmentMap {
   /// how many it does.
   uint32_t meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
 
+  /// The photons' radii, leaf by leaf, and the boxes around their discs.
+  void choose_radii(const BeamRadii& radii);
+  void make_boxes();
   /// Makes the box at that place reach around those corners.
   void include(size_t place, const Vec3& lo, const Vec3& hi);
+  Box box_of(size_t begin, size_t end) const;
 
   size_t leaves_ = 1;
   int depth_ = 0;                               // of the leaves' boxes; the root's is 0
   std::array<size_t, kMostDepth + 2> begin_{};  // of the boxes of each depth, and one past the last
   std::array<std::vector<float>, 3> lo_, hi_;   // m
   PhotonTable photons_;                         // leaf by leaf
+  std::vector<float> radius_;                   // of the photons of a leaf, m
   Box bounds_;
 };
 
@@ -86,16 +104,15 @@ inline uint32_t SegmentMap::meet(const Beam& beam, size_t place, uint32_t count,
 }
 
 template <class Visit>
-uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, float radius, Visit&& visit) const {
+uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, Visit&& visit) const {
   if (size() == 0) return 0;
-  const Beam beam = make_beam(ray, interval, radius);
-  NearPhotons found(radius * radius);
-  const auto use = [&](uint32_t i, float distance2) {
+  const Beam beam = make_beam(ray, interval);
+  NearPhotons found;  // numbered by leaf and place in it
+  const auto use = [&](uint32_t number, float distance2) {
+    const uint32_t leaf = number / kBlock;
+    const size_t i = leaf_begin(size(), leaves_, leaf) + number % kBlock;
     const float t = glm::dot(photons_.position(i) - ray.origin, ray.direction);
-    visit(photons_.payload(i), std::clamp(t, interval.t0, interval.t1), distance2);
-  };
-  const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
-    found.add(distances2, number, first, use);
+    visit(photons_.payload(i), std::clamp(t, interval.t0, interval.t1), distance2, radius_[leaf]);
   };
   struct Group {
     uint32_t begin, end;  // of `met`
@@ -113,7 +130,10 @@ uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, f
     const uint32_t box = met[group.begin++];
     if (depth == depth_) {
       const size_t begin = leaf_begin(size(), leaves_, box), end = leaf_begin(size(), leaves_, box + 1);
-      photons_.for_each_block(begin, end, ray, interval, add);
+      const float limit2 = radius_[box] * radius_[box];
+      photons_.for_each_block(begin, end, ray, interval, [&](const float* distances2, uint32_t number, uint32_t) {
+        found.add(distances2, number, box * kBlock, limit2, use);
+      });
       count(visited, end - begin);
       continue;
     }

@@ -88,7 +88,9 @@ std::vector<float> pixel_radii(const Scene& scene, const RenderSettings& setting
 }
 
 float default_share(const GatherSettings& gather) {
-  return gather.mode == GatherMode::nearest ? kDefaultSearch : kDefaultRadius;
+  const bool is_largest =
+      gather.mode == GatherMode::nearest || (gather.mode == GatherMode::beam && gather.beam_count > 0);
+  return is_largest ? kDefaultSearch : kDefaultRadius;
 }
 
 /// Adds the caustic photons that are aimed, with powers as if they were as many as the others.
@@ -122,10 +124,12 @@ PhotonMap make_map(std::vector<Photon>& photons, const GatherSettings& gather, u
 }
 
 /// The same for the rays of the eye.
-BeamMap make_beam_map(std::vector<Photon>& photons, const GatherSettings& gather, uint64_t emitted,
+/// `shrunk`: the pass's radius over that of the first.
+BeamMap make_beam_map(std::vector<Photon>& photons, const GatherSettings& gather, float shrunk, uint64_t emitted,
                       const RenderSettings& settings, RenderStatistics& statistics) {
   merge_photons(photons, gather, settings, statistics);
-  BeamMap map{gather, SegmentMap(std::exchange(photons, {}), static_cast<float>(1.0 / static_cast<double>(emitted)))};
+  const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
+  BeamMap map{gather, SegmentMap(std::exchange(photons, {}), {gather.radius, gather.beam_count, shrunk}, scale)};
   statistics.photon_map_bytes += map.photons.memory_bytes();
   return map;
 }
@@ -183,7 +187,8 @@ void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& pro
     const GatherSettings gather = gather_in_pass(settings.volume, first, context.stages.beams ? 2 : 3, settings, pass);
     const uint64_t emitted = photons.ledger.emitted_count;
     if (context.stages.beams)
-      context.beams.push_back(make_beam_map(photons.volume[m], gather, emitted, settings, statistics));
+      context.beams.push_back(
+          make_beam_map(photons.volume[m], gather, gather.radius / first, emitted, settings, statistics));
     else
       context.volume.push_back(make_map(photons.volume[m], gather, emitted, settings, statistics));
     statistics.last_volume_radius = std::max(statistics.last_volume_radius, gather.radius);

@@ -14,7 +14,8 @@ namespace vpm {
 namespace {
 
 BeamMap beam_map(const std::vector<Photon>& all, const GatherSettings& settings, uint64_t emitted) {
-  return {settings, SegmentMap(all, static_cast<float>(1.0 / static_cast<double>(emitted)))};
+  return {settings, SegmentMap(all, {settings.radius, settings.beam_count},
+                               static_cast<float>(1.0 / static_cast<double>(emitted)))};
 }
 
 /// A ray past one of the photons: oblique, or along an axis.
@@ -35,7 +36,7 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
     const std::vector<Photon> all = photons(layout, 5000);
     for (const KernelInfo& kernel : kKernels)
       for (const float radius : {0.02f, 0.11f, 3.0f}) {
-        const GatherSettings settings{GatherMode::beam, radius, 0, kernel.kind};
+        const GatherSettings settings{.mode = GatherMode::beam, .radius = radius, .kernel = kernel.kind};
         const BeamMap map = beam_map(all, settings, 1000);
         SCOPED_TRACE(testing::Message() << "layout " << static_cast<int>(layout) << ", " << kernel.name << ", "
                                         << radius << " m");
@@ -58,39 +59,96 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
 }
 
 TEST(BeamEstimate, IsTheIntegralThatEvenPhotonsStandFor) {
-  // 1 W over n photons even in a cube of 2 m about a ray through its middle, seen from 1 m before it through a medium
+  // 1 W over n photons even in a cube of 2 m about a ray near its middle, seen from 1 m before it through a medium
   // of that extinction: the integral of exp(-sigma t)/(8 m^3) from 1 to 3 m, at 1/(4 pi) sr. Right code fails by chance
   // in 1 of 10 000.
   const Rgb sigma(0.2f, 1.0f, 3.0f);
-  const Ray ray{Vec3(0.0f, 0.0f, -2.0f), Vec3(0.0f, 0.0f, 1.0f)};
   const uint64_t n = 2000;
-  for (const KernelInfo& kernel : kKernels) {
-    std::vector<Moments> sums(3);
-    for (uint64_t set = 0; set < 400; ++set) {
-      std::vector<Photon> even(n);
-      for (uint64_t i = 0; i < n; ++i) {
-        Rng rng(5, rng_stream(RngUse::test, set), i);
-        even[i] = {2.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.0f, PackedDirection(Vec3(1, 0, 0)),
-                   Rgb(1.0f)};
+  for (const KernelInfo& kernel : kKernels)
+    for (const uint32_t count : {0u, 10u}) {
+      std::vector<Moments> sums(3);
+      for (uint64_t set = 0; set < 400; ++set) {
+        std::vector<Photon> even(n);
+        for (uint64_t i = 0; i < n; ++i) {
+          Rng rng(5, rng_stream(RngUse::test, set), i);
+          even[i] = {2.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.0f, PackedDirection(Vec3(1, 0, 0)),
+                     Rgb(1.0f)};
+        }
+        Rng at(5, rng_stream(RngUse::test, set), n);
+        const Ray ray{Vec3(at.uniform() - 0.5f, at.uniform() - 0.5f, -2.0f), Vec3(0.0f, 0.0f, 1.0f)};
+        GatherCounters counters;
+        const GatherSettings settings{
+            .mode = GatherMode::beam, .radius = 0.3f, .kernel = kernel.kind, .beam_count = count};
+        const BeamMap map = beam_map(even, settings, n);
+        const Rgb sum = beam_sum(
+            Isotropic{}, ray, {0.0f, 10.0f}, [&](float t) { return glm::exp(-sigma * t); }, map, counters);
+        for (int c = 0; c < 3; ++c) sums[static_cast<size_t>(c)].add(sum[c]);
       }
+      for (int c = 0; c < 3; ++c) {
+        const double s = sigma[c], integral = (std::exp(-s) - std::exp(-3.0 * s)) / s;
+        expect_mean(sums[static_cast<size_t>(c)], integral / 8.0 / (4.0 * kPiD), 1e-4 / 30.0, kernel.name);
+      }
+    }
+}
+
+// Each photon within its own radius, by the map's own words of where photons and what radii are.
+TEST(BeamEstimate, EqualsTheSumOverPhotonsWithRadiiOfTheirOwn) {
+  for (const Layout layout : kLayouts) {
+    const GatherSettings settings{.mode = GatherMode::beam, .radius = 0.2f, .beam_count = 40};
+    const BeamMap map = beam_map(photons(layout, 5000), settings, 1);
+    float least = kInfinity, most = 0.0f;
+    for (uint64_t i = 0; i < 50; ++i) {
+      const Ray ray = any_ray(photons(layout, 5000), 0.1f, i);
       GatherCounters counters;
-      const BeamMap map = beam_map(even, {GatherMode::beam, 0.3f, 0, kernel.kind}, n);
-      const Rgb sum = beam_sum(
-          Isotropic{}, ray, {0.0f, 10.0f}, [&](float t) { return glm::exp(-sigma * t); }, map, counters);
-      for (int c = 0; c < 3; ++c) sums[static_cast<size_t>(c)].add(sum[c]);
+      const Rgb quick = beam_sum(
+          Isotropic{}, ray, {0.3f, 0.9f}, [](float t) { return Rgb(t); }, map, counters);
+      Rgbd slow(0.0);
+      for (size_t k = 0; k < map.photons.size(); ++k) {
+        const float radius = map.photons.radius(k);
+        const Vec3 offset = map.photons.position(k) - ray.origin;
+        const float t = glm::dot(offset, ray.direction), across = glm::length(offset - t * ray.direction);
+        least = std::min(least, radius);
+        most = std::max(most, radius);
+        if (!(t >= 0.3f && t < 0.9f && across < radius)) continue;
+        const float q = across * across / (radius * radius);
+        slow += Rgbd(map.photons.payload(k).power.unpack() * t * kernel_profile<KernelKind::epanechnikov>(q) *
+                     kernel_norm_2d(KernelKind::epanechnikov, radius) / (4.0f * kPi));
+      }
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(quick[c], slow[c], 2e-3 * slow[c] + 1e-3) << "ray " << i;
     }
-    for (int c = 0; c < 3; ++c) {
-      const double s = sigma[c], integral = (std::exp(-s) - std::exp(-3.0 * s)) / s;
-      expect_mean(sums[static_cast<size_t>(c)], integral / 8.0 / (4.0 * kPiD), 1e-4 / 15.0, kernel.name);
-    }
+    EXPECT_LE(most, 0.2f);
+    EXPECT_GE(least, 0.0019f);
   }
+}
+
+// In even light radii are those of balls of that many photons, and in a later pass smaller.
+TEST(SegmentMap, ChoosesRadiiByCount) {
+  const uint64_t n = 50'000;
+  std::vector<Photon> even(n);
+  for (uint64_t i = 0; i < n; ++i) {
+    Rng rng(5, rng_stream(RngUse::test, 1), i);
+    even[i] = {Vec3(rng.uniform(), rng.uniform(), rng.uniform()), PackedDirection(Vec3(1, 0, 0)), Rgb(1.0f)};
+  }
+  const auto mean_radius = [&](const BeamRadii& radii) {
+    const SegmentMap map(even, radii, 1.0f);
+    double sum = 0.0;
+    for (size_t i = 0; i < n; ++i) sum += map.radius(i);
+    return sum / static_cast<double>(n);
+  };
+  for (const uint32_t count : {20u, 80u, 500u}) {
+    const double of_ball = std::cbrt(0.75 / kPiD * count / static_cast<double>(n));
+    EXPECT_NEAR(mean_radius({1.0f, count}), of_ball, 0.02 * of_ball) << count;
+    EXPECT_NEAR(mean_radius({1.0f, count, 0.5f}), 0.5 * mean_radius({1.0f, count}), 1e-6) << count;
+  }
+  EXPECT_FLOAT_EQ(static_cast<float>(mean_radius({0.01f, 500})), 0.01f);
+  EXPECT_FLOAT_EQ(static_cast<float>(mean_radius({0.01f})), 0.01f);
 }
 
 TEST(BeamEstimate, IsTheSameOnAnyNumberOfThreads) {
   const std::vector<Photon> all = photons(Layout::clustered, 200'000);
   const auto sums = [&](int threads) {
     set_threads(threads);
-    const BeamMap map = beam_map(all, {GatherMode::beam, 0.05f, 0, KernelKind::epanechnikov}, 1);
+    const BeamMap map = beam_map(all, {.mode = GatherMode::beam, .radius = 0.05f}, 1);
     std::vector<Rgb> result;
     for (uint64_t i = 0; i < 50; ++i) {
       GatherCounters counters;
@@ -106,12 +164,12 @@ TEST(BeamEstimate, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(SegmentMap, TakesAtMost28BytesAPhotonAndAnswersWithoutAny) {
   for (const Layout layout : kLayouts) {
-    const SegmentMap map(photons(layout, 20'000), 1.0f);
+    const SegmentMap map(photons(layout, 20'000), {0.1f}, 1.0f);
     EXPECT_LE(static_cast<double>(map.memory_bytes()) / 20'000.0, 28.0 + 0.1);  // what a map takes beside photons
   }
-  const SegmentMap none(std::vector<Photon>{}, 1.0f);
-  const auto fail = [](const SegmentMap::Payload&, float, float) { ADD_FAILURE(); };
-  EXPECT_EQ(none.for_each_beside({}, {}, 1.0f, fail), 0u);
+  const SegmentMap none(std::vector<Photon>{}, {1.0f, 50}, 1.0f);
+  const auto fail = [](const SegmentMap::Payload&, float, float, float) { ADD_FAILURE(); };
+  EXPECT_EQ(none.for_each_beside({}, {}, fail), 0u);
 }
 
 TEST(ColumnsAlong, AreThoseOfTheMedium) {

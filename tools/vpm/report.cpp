@@ -237,8 +237,8 @@ std::string settings_line(const RenderSettings& s) {
     const char* kernel = kernel_info(g.kernel).name;
     const char* boundary = g.boundary == BoundaryRule::corrected ? ":corrected" : "";
     if (g.mode == GatherMode::nearest) return fmt::format("nearest:{}:{}:{}{}", g.count, g.radius, kernel, boundary);
-    const char* mode = g.mode == GatherMode::beam ? "beam" : "radius";
-    return fmt::format("{}:{}:{}{}", mode, g.radius, kernel, boundary);
+    if (g.mode == GatherMode::beam) return fmt::format("beam:{}:{}:{}", g.beam_count, g.radius, kernel);
+    return fmt::format("radius:{}:{}{}", g.radius, kernel, boundary);
   };
   const auto radii = [](RadiusSchedule r) {
     return r == RadiusSchedule::constant ? "constant" : r == RadiusSchedule::per_pass ? "per-pass" : "per-pixel";

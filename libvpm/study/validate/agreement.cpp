@@ -141,6 +141,10 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
                                    form == VolumeForm::density_at_query ? "query" : "photon"),
                        beams);
     }
+    RenderSettings own_radii = base;
+    own_radii.volume.mode = GatherMode::beam;
+    own_radii.volume.beam_count = 30;
+    all.emplace_back("photons beside rays, with radii of their own", own_radii);
   }
   RenderSettings guided = base;
   guided.guide.importons = 1'000;
