@@ -64,7 +64,7 @@ struct RenderSettings {
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]
   DirectLight volume_direct = DirectLight::photons;  // single scattering
-  int direct_samples = 2;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
+  int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
   DirectLight surface_direct = DirectLight::shadow_rays;
   IndirectLight surface_indirect = IndirectLight::photons;
   int gather_rays = 8;  // of final gathering, at each point of a surface that the eye sees, >= 1

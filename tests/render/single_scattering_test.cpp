@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "light/lights.h"
+#include "render/eye_path.h"
 #include "render/march.h"
 #include "study/exact/airlight.h"
 #include "study/sample_moments.h"
@@ -212,6 +213,31 @@ TEST(SingleScattering, IsAsMarchedUnderEveryLight) {
     expect_as_marched(cloud, {light}, "grid, " + std::string(light_kind(light)));
   }
   expect_as_marched(cloud, test_lights(), "grid, all lights");
+}
+
+// A ray that has come through fog and goes on in a box of other fog, by all of the eye path.
+TEST(SingleScattering, IsDimmedByTheMediaBefore) {
+  Scene scene;
+  scene.media = {make_medium(nullptr, Rgb(0.6f, 0.3f, 0.1f), 0.3f), make_medium(nullptr, kChromatic, 0.9f)};
+  scene.world_medium = scene.camera_medium = 0;
+  const Interface media{1, 0};
+  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
+  scene.lights.push_back(PointLight{Vec3(0.2f, 1.5f, -0.3f), Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  const auto by = [&](DirectLight direct) {
+    RenderSettings settings;
+    settings.volume_direct = direct;
+    EyeContext context = context_of(scene, settings);
+    context.stages = {.volume_shadow_rays = true, .equiangular = direct == DirectLight::equiangular};
+    return sample_moments(3, 4'000, 3, [&](Rng& rng, double* out) {
+      Marcher marcher;
+      EyeCounters counters;
+      const Rgb radiance = eye_radiance(context, {Vec3(0.1f, 0.2f, -3.0f), Vec3(0, 0, 1)}, marcher, rng, counters);
+      for (int c = 0; c < 3; ++c) out[c] = radiance[c];
+    });
+  };
+  expect_same_means(by(DirectLight::equiangular), by(DirectLight::shadow_rays), kFalseAlarms, "two media");
 }
 
 }  // namespace
