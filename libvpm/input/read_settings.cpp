@@ -61,6 +61,21 @@ DirectLight read_direct(TableReader& table, DirectLight fallback) {
       "direct", {{"photons", DirectLight::photons}, {"shadow-rays", DirectLight::shadow_rays}}, fallback);
 }
 
+/// Where single scattering comes from.
+void read_volume_direct(TableReader& table, RenderSettings& s) {
+  s.volume_direct = table.choice<DirectLight>("direct",
+                                              {{"photons", DirectLight::photons},
+                                               {"shadow-rays", DirectLight::shadow_rays},
+                                               {"equiangular", DirectLight::equiangular}},
+                                              s.volume_direct);
+  if (table.has("direct_samples") && s.volume_direct != DirectLight::equiangular)
+    table.fail("direct_samples",
+               std::string("no distances are drawn for single scattering: 'direct' of [volume] is ") +
+                   (s.volume_direct == DirectLight::photons ? "\"photons\"" : "\"shadow-rays\""),
+               "make 'direct' \"equiangular\", or leave out 'direct_samples'");
+  s.direct_samples = small_integer(table, "direct_samples", 1'000'000, s.direct_samples);
+}
+
 /// A name out of a list of strategies or estimators.
 template <class Info>
 std::string read_listed(TableReader& table, const std::string& key, std::span<const Info> infos,
@@ -250,7 +265,7 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
       table.fail("boundary", "there is no correction at borders for \"beam\", which gathers along whole rays",
                  "use gather = \"radius\", or leave out 'boundary'");
     s.density_floor = table.number("density_floor", kFraction, s.density_floor);
-    s.volume_direct = read_direct(table, s.volume_direct);
+    read_volume_direct(table, s);
   });
   read_section(root, "surface", [&](TableReader& table) {
     read_gather(table, kAroundPoints, s.surface);

@@ -3,13 +3,12 @@
 
 namespace vpm {
 
-std::optional<Incident> incident_by_area(const Rgb& radiance, const Vec3& position, const Vec3& normal, float area,
-                                         const Vec3& point) {
-  const Vec3 towards = position - point;
-  const float facing = -glm::dot(normal, towards);  // cosine * distance
+std::optional<Incident> incident_by_area(const Rgb& radiance, const LightPoint& from, const Vec3& point) {
+  const Vec3 towards = from.position - point;
+  const float facing = -glm::dot(from.normal, towards);  // cosine * distance
   if (!(facing > 0.0f)) return std::nullopt;
   const float square = glm::dot(towards, towards), distance = std::sqrt(square);
-  const float pdf = square * distance / (area * facing);
+  const float pdf = square * distance / (from.area * facing);
   return Incident{towards / distance, distance, radiance / pdf, pdf};
 }
 

@@ -27,7 +27,11 @@ Emission emit_from(const DiscLight& light, const Box& scene, const EmissionNumbe
 }
 
 std::optional<Incident> incident_from(const DiscLight& light, const Vec3& point, Rng& rng) {
-  return incident_by_area(light.radiance, uniform_point(light, rng.uniform2()), light.normal, area_of(light), point);
+  return incident_by_area(light.radiance, draw_place(light, rng), point);
+}
+
+LightPoint draw_place(const DiscLight& light, Rng& rng) {
+  return {uniform_point(light, rng.uniform2()), light.normal, area_of(light)};
 }
 
 float pdf_of(const DiscLight& light, const Vec3&, const SeenLight& seen) { return pdf_by_area(area_of(light), seen); }

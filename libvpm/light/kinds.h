@@ -49,10 +49,12 @@ float pdf_of(const MeshLight& light, const Vec3& point, const SeenLight& seen);
 float pdf_of(const ConstantEnvironment& light, const Vec3& point, const SeenLight& seen);
 float pdf_of(const EnvironmentMap& light, const Vec3& point, const SeenLight& seen);
 
-/// The light of radiance `radiance` that reaches `point` from `position`, drawn uniformly from a surface of `area`
-/// (m^2), where the outward normal is `normal`; nothing from behind.
-std::optional<Incident> incident_by_area(const Rgb& radiance, const Vec3& position, const Vec3& normal, float area,
-                                         const Vec3& point);
+// draw_light_point(), of the lights whose points are drawn by area
+LightPoint draw_place(const QuadLight& light, Rng& rng);
+LightPoint draw_place(const DiscLight& light, Rng& rng);
+LightPoint draw_place(const MeshLight& light, Rng& rng);
+/// The light of radiance `radiance` that reaches `point` from one drawn evenly over an area; nothing from behind.
+std::optional<Incident> incident_by_area(const Rgb& radiance, const LightPoint& from, const Vec3& point);
 /// The density of that at what was seen, 1/sr: distance^2 / (area cos).
 float pdf_by_area(float area, const SeenLight& seen);
 

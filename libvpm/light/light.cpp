@@ -22,6 +22,23 @@ std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rn
   return std::visit([&](const auto& l) { return incident_from(l, point, rng); }, light);
 }
 
+std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng) {
+  using Point = std::optional<LightPoint>;
+  return std::visit(
+      Overloads{[](const PointLight& l) { return Point(LightPoint{l.position}); },
+                [](const SpotLight& l) { return Point(LightPoint{l.position}); },
+                [](const SphereLight& l) { return Point(LightPoint{l.centre}); },
+                [&](const AreaLight auto& l) { return Point(draw_place(l, rng)); },
+                [](const BeamLight&) { return Point(); }, [](const DistantLight auto&) { return Point(); }},
+      light);
+}
+
+std::optional<Incident> sample_towards(const Light& light, const LightPoint& from, const Vec3& point, Rng& rng) {
+  if (from.area == 0.0f) return sample_towards(light, point, rng);
+  const auto incident = [&](const AreaLight auto& l) { return incident_by_area(l.radiance, from, point); };
+  return std::visit(Overloads{incident, [](const auto&) { return std::optional<Incident>(); }}, light);
+}
+
 float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen) {
   return std::visit(Overloads{[](const UnseenLight auto&) { return 0.0f; },
                               [&](const AreaLight auto& l) { return pdf_of(l, point, seen); },

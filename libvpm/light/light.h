@@ -194,6 +194,18 @@ struct Incident {
 /// other parts of a mesh light stand between is not asked.
 std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rng& rng);
 
+/// A point of a light.
+struct LightPoint {
+  Vec3 position{0.0f};  // m
+  Vec3 normal{0.0f};    // unit, outward; zero where the point does not tell what arrives from it
+  float area = 0.0f;    // m^2, over which it was drawn evenly; 0 likewise
+};
+/// Draws one that nearby places get most of their light from; nothing of parallel light and of lights at infinity,
+/// which send as much to near places as to far ones.
+std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng);
+/// sample_towards(), from a point that draw_light_point() drew of that light: the same mean over both draws.
+std::optional<Incident> sample_towards(const Light& light, const LightPoint& from, const Vec3& point, Rng& rng);
+
 /// A light that a ray ran into.
 struct SeenLight {
   Vec3 direction{0.0f};        // of the ray, unit

@@ -58,9 +58,13 @@ Emission emit_from(const MeshLight& light, const Box& scene, const EmissionNumbe
 }
 
 std::optional<Incident> incident_from(const MeshLight& light, const Vec3& point, Rng& rng) {
+  return incident_by_area(light.radiance, draw_place(light, rng), point);
+}
+
+LightPoint draw_place(const MeshLight& light, Rng& rng) {
   const double choice = rng.uniform_double();
   const EmittingMesh::Sample from = light.mesh->sample(choice, rng.uniform2());
-  return incident_by_area(light.radiance, from.position, from.normal, area_of(light), point);
+  return {from.position, from.normal, area_of(light)};
 }
 
 float pdf_of(const MeshLight& light, const Vec3&, const SeenLight& seen) { return pdf_by_area(area_of(light), seen); }

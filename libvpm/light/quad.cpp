@@ -35,8 +35,11 @@ Emission emit_from(const QuadLight& light, const Box& scene, const EmissionNumbe
 }
 
 std::optional<Incident> incident_from(const QuadLight& light, const Vec3& point, Rng& rng) {
-  const Vec3 normal(glm::normalize(area_vector(light)));
-  return incident_by_area(light.radiance, uniform_point(light, rng.uniform2()), normal, area_of(light), point);
+  return incident_by_area(light.radiance, draw_place(light, rng), point);
+}
+
+LightPoint draw_place(const QuadLight& light, Rng& rng) {
+  return {uniform_point(light, rng.uniform2()), Vec3(glm::normalize(area_vector(light))), area_of(light)};
 }
 
 float pdf_of(const QuadLight& light, const Vec3&, const SeenLight& seen) { return pdf_by_area(area_of(light), seen); }

@@ -53,8 +53,11 @@ Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, Mediu
   }
 }
 
-DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver) {
-  const std::optional<Incident> incident = sample_towards(rays.scene.lights[light], receiver.point, rays.rng);
+DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver,
+                           const std::optional<LightPoint>& from) {
+  const Light& source = rays.scene.lights[light];
+  const std::optional<Incident> incident =
+      from ? sample_towards(source, *from, receiver.point, rays.rng) : sample_towards(source, receiver.point, rays.rng);
   if (!incident) return {};
   const bool from_everywhere = receiver.normal == Vec3(0.0f);
   if (!from_everywhere && glm::dot(receiver.normal, incident->direction) <= 0.0f) return {};

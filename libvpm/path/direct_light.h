@@ -29,8 +29,9 @@ struct Receiver {
   Vec3 normal{0.0f};          // unit, to the side whose light counts; zero: light from everywhere
 };
 
-/// Estimates what light number `light` sends to the receiver.
-DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver);
+/// Estimates what light number `light` sends to the receiver: from that point of it, where one was drawn before.
+DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver,
+                           const std::optional<LightPoint>& from = std::nullopt);
 
 /// The side on which a path in `medium` meets the surface along `travel`; and the other one, from which light reaches
 /// the path's side where the material scatters it through.

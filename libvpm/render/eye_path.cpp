@@ -5,7 +5,7 @@
 #include "estimate/volume_estimate.h"
 #include "estimate/volume_region.h"
 #include "medium/columns_along.h"
-#include "path/direct_light.h"
+#include "render/single_scattering.h"
 #include "render/surface_light.h"
 
 namespace vpm {
@@ -72,9 +72,11 @@ class EyePath {
       gather_photon_densities(segment);
     if (medium_ == kVacuum) return;
     const Medium& medium = c_.scene.media[medium_];
+    if (c_.stages.equiangular)
+      radiance_ += single_scattering(c_, {ray_, segment, medium_, throughput_}, rng_, counters_);
     const bool marches = c_.stages.volume_map && !c_.stages.beams && !at_photon;
     const PhotonMap* map = marches && c_.volume[medium_].size() > 0 ? &c_.volume[medium_] : nullptr;
-    if (!medium.scatters() || (!map && !c_.stages.volume_shadow_rays)) {
+    if (!medium.scatters() || (!map && !c_.stages.marched_shadow_rays())) {
       throughput_ *= transmittance(medium, counted_column(medium, ray_, segment, counters_.walk));
       return;
     }
@@ -93,7 +95,7 @@ class EyePath {
   /// Adds what the medium scatters towards the eye along an interval, and attenuates by it.
   void march_media(const Medium& medium, const Interval& interval, const PhotonMap* map) {
     if (interval.empty() || is_black(throughput_)) return;
-    if (!map && !c_.stages.volume_shadow_rays) {
+    if (!map && !c_.stages.marched_shadow_rays()) {
       throughput_ *= transmittance(medium, counted_column(medium, ray_, interval, counters_.walk));
       return;
     }
@@ -106,22 +108,15 @@ class EyePath {
             count(counters_.volume_queries);
             radiance_ += throughput_ * (weight / densest) * medium.albedo() * sum_at_query(medium, point, *map);
           }
-          if (c_.stages.volume_shadow_rays)
-            radiance_ += throughput_ * (weight * medium.sigma_s) * single_scattering(medium, point);
+          if (c_.stages.marched_shadow_rays()) {
+            const PickedLight light = pick_light(c_.scene, rng_.uniform_double());
+            radiance_ += throughput_ * (weight * medium.sigma_s) *
+                         scattered_light(c_, {light, {}}, {point, medium_}, ray_.direction, rng_, counters_);
+          }
         });
     count(counters_.steps, marched.steps);
     count(counters_.walk.lookups, marched.lookups);
     throughput_ *= transmittance(medium, marched.column);
-  }
-
-  /// Radiance scattered once at a point, over sigma_s: phase function times what the lights send there.
-  Rgb single_scattering(const Medium& medium, const Vec3& point) {
-    count(counters_.shadow_rays);
-    const PickedLight picked = pick_light(c_.scene, rng_.uniform_double());
-    const DirectSample light =
-        sample_direct({c_.scene, *c_.transmittance, rng_, counters_.walk}, picked.number, {point, medium_});
-    if (is_black(light.irradiance)) return Rgb(0.0f);
-    return light.irradiance * phase_value(medium.phase, -light.direction, -ray_.direction) / picked.probability;
   }
 
   /// The estimate with the density at the photon: photons of any medium count wherever they lie within the radius of

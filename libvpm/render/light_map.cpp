@@ -46,7 +46,7 @@ Rgb bake_texel(const EyeContext& context, const UvLayout& layout, int pass, size
 
 Stages light_map_stages(const Scene& scene, const RenderSettings& settings) {
   Stages stages = plan_stages(scene, settings);
-  stages.volume_map = stages.volume_shadow_rays = false;
+  stages.volume_map = stages.volume_shadow_rays = stages.equiangular = false;
   return stages;
 }
 

@@ -215,12 +215,14 @@ Stages plan_stages(const Scene& scene, const RenderSettings& settings) {
 
 Stages plan_stages(const Scattering& scattering, const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return {};
+  assert(settings.surface_direct != DirectLight::equiangular);
   const auto [scatters, rough] = scattering;
   const bool gather = rough && settings.surface_indirect == IndirectLight::final_gather;
   return {.volume_map = scatters,
           .beams = scatters && settings.volume.mode == GatherMode::beam,
           .surface_map = rough,
-          .volume_shadow_rays = scatters && settings.volume_direct == DirectLight::shadow_rays,
+          .volume_shadow_rays = scatters && settings.volume_direct != DirectLight::photons,
+          .equiangular = scatters && settings.volume_direct == DirectLight::equiangular,
           .surface_shadow_rays = rough && settings.surface_direct == DirectLight::shadow_rays,
           .final_gather = gather,
           .guided_gather = gather && settings.gather_by == GatherBy::photons,

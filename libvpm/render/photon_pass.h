@@ -16,12 +16,14 @@ struct Stages {
   bool beams = false;  // it is gathered from along rays
   bool surface_map = false;
   bool volume_shadow_rays = false;
+  bool equiangular = false;  // these start at a few distances instead of at every step
   bool surface_shadow_rays = false;
   bool final_gather = false;       // with a caustic map beside the surface map
   bool guided_gather = false;      // its rays guided by one more map
   bool irradiance_points = false;  // its rays end at points whose irradiance is known
   bool pixel_discs = false;        // the eye's gathers from the surface map have radii of the pixels' own
   bool photons() const { return volume_map || surface_map; }
+  bool marched_shadow_rays() const { return volume_shadow_rays && !equiangular; }
   bool shadow_rays() const { return volume_shadow_rays || surface_shadow_rays; }
 };
 /// What of a scene scatters, and so asks for stages.

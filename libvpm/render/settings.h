@@ -11,8 +11,9 @@
 
 namespace vpm {
 
-/// Where light that has not scattered yet comes from: the photon map, or rays towards the lights.
-enum class DirectLight { photons, shadow_rays };
+/// Where light that has not scattered yet comes from: the photon map, or rays towards the lights. In media these start
+/// at every step of the eye rays' march, or equiangular, which is for media alone: at a few distances drawn for that.
+enum class DirectLight { photons, shadow_rays, equiangular };
 
 /// Where light comes from that surfaces have scattered on: the photon map itself, or final gathering, rays over the
 /// hemisphere that end in the map. Light that only mirrors, glass and media have led to a surface has a map of its own
@@ -63,6 +64,7 @@ struct RenderSettings {
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]
   DirectLight volume_direct = DirectLight::photons;  // single scattering
+  int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
   DirectLight surface_direct = DirectLight::shadow_rays;
   IndirectLight surface_indirect = IndirectLight::photons;
   int gather_rays = 8;  // of final gathering, at each point of a surface that the eye sees, >= 1

@@ -195,6 +195,12 @@ TEST(ColumnsAlong, AreThoseOfTheMedium) {
         EXPECT_NEAR(column_to, medium ? column(*medium, ray, {interval.t0, t}).value : 0.0, 1e-6 * box.diagonal());
         EXPECT_NEAR(density, medium ? medium->density(ray.at(t)) : 0.0f, 2e-4) << t;
       }
+      const double whole = medium ? column(*medium, ray, interval).value : 0.0;
+      EXPECT_NEAR(columns.column(), whole, 1e-12 * box.diagonal());
+      for (const double part : {0.0, 0.3, 0.7, 0.999})
+        if (whole > 0.0) {
+          EXPECT_NEAR(columns.at(columns.where(part * whole)).column, part * whole, 1e-10 * whole);
+        }
     }
 }
 

@@ -100,6 +100,13 @@ TEST(SceneFile, CorrectsAtBordersWhereAsked) {
   EXPECT_EQ(plain.surface.boundary, BoundaryRule::none);
 }
 
+TEST(SceneFile, SingleScatteringMayBeEquiangular) {
+  const RenderSettings usual = load_with("[volume]\ndirect = 'equiangular'\n").settings;
+  EXPECT_EQ(usual.volume_direct, DirectLight::equiangular);
+  EXPECT_EQ(usual.direct_samples, RenderSettings{}.direct_samples);
+  EXPECT_EQ(load_with("[volume]\ndirect = 'equiangular'\ndirect_samples = 7\n").settings.direct_samples, 7);
+}
+
 TEST(SceneFile, AMethodChoosesDirectAndIndirectLight) {
   const auto with = [](const std::string& method) {
     return load_with("[surface]\nmethod = '" + method + "'\n").settings;

@@ -218,6 +218,30 @@ Vec3 normal_at(const Light& light, const Vec3& point) {
   return normal;
 }
 
+TEST(Incident, ComesFromAPointDrawnBeforehandAsFromOthers) {
+  const Vec3 point(0.3f, -0.4f, 0.2f);
+  for (const Light& light : test_lights()) {
+    Rng rng = test_rng(30 + light.index());
+    std::vector<Moments> before(3), at_once(3);
+    bool is_drawn = false;
+    for (int i = 0; i < 20'000; ++i) {
+      const auto from = draw_light_point(light, rng);
+      is_drawn = from.has_value();
+      if (!from) break;
+      const auto in = sample_towards(light, *from, point, rng), other = sample_towards(light, point, rng);
+      for (int c = 0; c < 3; ++c) {
+        before[c].add(in ? in->irradiance[c] : 0.0);
+        at_once[c].add(other ? other->irradiance[c] : 0.0);
+      }
+      if (from->area > 0.0f && in) {
+        ASSERT_LT(glm::distance(point + in->distance * in->direction, from->position), 1e-5f);
+      }
+    }
+    EXPECT_EQ(is_drawn, !is_infinite(light) && !std::holds_alternative<BeamLight>(light)) << light_kind(light);
+    if (is_drawn) expect_same_means(before, at_once, 1e-6, std::string(light_kind(light)));
+  }
+}
+
 // What sample_towards() says of its own density is what incident_pdf() says of the same direction.
 TEST(Incident, TheDensityOfADirectionIsThatOfItsSample) {
   Rng rng = test_rng(20);

@@ -98,6 +98,8 @@ TEST(SlowPhotonPass, SingleScatteringByPhotonsEqualsShadowRays) {
     settings.volume_direct = DirectLight::shadow_rays;
     const Moments rays = pass_means(scene, settings, 12);
     expect_same(photons, rays, 5e-3, "single scattering in fog, photons " + name);
+    settings.volume_direct = DirectLight::equiangular;
+    expect_same(pass_means(scene, settings, 12), rays, 0.0, "equiangular single scattering, photons " + name);
   }
 }
 
@@ -120,7 +122,7 @@ TEST(PhotonPass, AWhiteFurnaceIsUniform) {
   const GridFrame frame = centred_frame(9, 0.15);
   const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.2 + lattice_noise(x, y, z); });
   for (const auto& density : {std::shared_ptr<const DensityGrid>(), grid})
-    for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
+    for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays, DirectLight::equiangular})
       for (auto [name, settings] : volume_estimates(settings_of(20000, 0.1f))) {
         const Scene scene = furnace(density, 1.5f);
         settings.volume_direct = direct;
@@ -199,7 +201,7 @@ Scene cone_in_fog(float panel_radiance) {
 TEST(PhotonPass, FogDimsBeforeAndBehindThePhotons) {
   const Scene scene = cone_in_fog(1e-7f);  // too faint to send photons of its own, bright against what the fog scatters
   static const std::atomic<bool> kGoOn{false};
-  for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
+  for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays, DirectLight::equiangular})
     for (auto [name, settings] : volume_estimates(settings_of(1000, 0.05f))) {
       settings.volume_direct = direct;
       const Image image = render_photon_pass(scene, settings, 0, kGoOn).image;
@@ -217,6 +219,8 @@ TEST(PhotonPass, LightFarFromTheEyeIsDimmedOnItsWay) {
   RenderSettings settings = settings_of(20000, 0.03f);
   settings.volume_direct = DirectLight::shadow_rays;
   const Moments rays = pass_means(scene, settings, 12);
+  settings.volume_direct = DirectLight::equiangular;
+  expect_same(pass_means(scene, settings, 12), rays, 0.0, "a cone of light 2 m away, equiangular");
   settings.volume_direct = DirectLight::photons;
   for (const auto& [name, photons] : volume_estimates(settings))
     expect_same(pass_means(scene, photons, 12), rays, 0.01, "a cone of light 2 m away, photons " + name);

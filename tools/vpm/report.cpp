@@ -243,7 +243,10 @@ std::string settings_line(const RenderSettings& s) {
   const auto radii = [](RadiusSchedule r) {
     return r == RadiusSchedule::constant ? "constant" : r == RadiusSchedule::per_pass ? "per-pass" : "per-pixel";
   };
-  const auto direct = [](DirectLight d) { return d == DirectLight::photons ? "photons" : "shadow-rays"; };
+  const auto direct = [&](DirectLight d) -> std::string {
+    if (d == DirectLight::equiangular) return fmt::format("equiangular:{}", s.direct_samples);
+    return d == DirectLight::photons ? "photons" : "shadow-rays";
+  };
   return fmt::format(
       "integrator={} samples_per_pixel={} emitted={} stored={} in_cube={} importons={}:aim={}:split={}:scatter={} "
       "distance={}:step={}:optical_step={}:floor={}:majorant={} transmittance={}:step={}:samples={} "

@@ -104,11 +104,11 @@ Moments estimate_airlight(const Airlight& a, double log10_scale, uint64_t sample
   })[0];
 }
 
-Moments estimate_airlight_by_eye_path(const Airlight& a, uint64_t samples, uint64_t seed) {
+Moments estimate_airlight_by_eye_path(const Airlight& a, DirectLight direct, uint64_t samples, uint64_t seed) {
   const Scene scene = airlight_scene(a);
   RenderSettings settings;
-  settings.volume_direct = DirectLight::shadow_rays;
-  const Stages stages{.volume_shadow_rays = true};
+  settings.volume_direct = direct;
+  const Stages stages{.volume_shadow_rays = true, .equiangular = direct == DirectLight::equiangular};
   const EyeContext context{scene, settings, stages, {}, {}, {}, {}, {}, {}, make_transmittance_estimator({})};
   return sample_moments(1, samples, seed, [&](Rng& rng, double* out) {
     Marcher marcher;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "base/statistics.h"
+#include "render/settings.h"
 
 namespace vpm {
 
@@ -21,7 +22,8 @@ struct Airlight {
 /// of transmittances. The ray is marched in stretches that grow away from the light; a sample is a march over all.
 Moments estimate_airlight(const Airlight& airlight, double log10_scale, uint64_t samples, uint64_t seed);
 
-/// Radiance over all of an endless ray (t0 = 0, t1 infinite) as a render's eye path finds it, W/(m^2 sr).
-Moments estimate_airlight_by_eye_path(const Airlight& airlight, uint64_t samples, uint64_t seed);
+/// Radiance over all of an endless ray (t0 = 0, t1 infinite) as a render's eye path finds it, by shadow rays from its
+/// steps or equiangularly, W/(m^2 sr).
+Moments estimate_airlight_by_eye_path(const Airlight& airlight, DirectLight direct, uint64_t samples, uint64_t seed);
 
 }  // namespace vpm

@@ -122,10 +122,17 @@ NamedSettings forms(const RenderSettings& base, bool media) {
   return all;
 }
 
-/// The ways of gathering: in all forms; with k nearest; in media along rays; from photons that are guided; on surfaces
-/// corrected at borders, and by final gathering, whose rays are guided or not.
+/// The ways of gathering: in all forms, also with single scattering at drawn distances; with k nearest; in media along
+/// rays; from photons that are guided; on surfaces corrected at borders, and by final gathering, whose rays are guided
+/// or not.
 NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) {
   NamedSettings all = forms(base, media);
+  if (media)
+    for (auto [name, settings] : forms(base, media)) {
+      if (settings.volume_direct != DirectLight::shadow_rays) continue;
+      settings.volume_direct = DirectLight::equiangular;
+      all.emplace_back(name + ", equiangular in media", settings);
+    }
   RenderSettings nearest = base;
   for (GatherSettings* gather : {&nearest.volume, &nearest.surface}) {
     gather->mode = GatherMode::nearest;
@@ -140,6 +147,8 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
       all.emplace_back(fmt::format("photons beside rays, density at the {}",
                                    form == VolumeForm::density_at_query ? "query" : "photon"),
                        beams);
+      beams.volume_direct = DirectLight::equiangular;
+      all.emplace_back(all.back().first + ", single scattering equiangular", beams);
     }
     RenderSettings own_radii = base;
     own_radii.volume.mode = GatherMode::beam;

@@ -100,10 +100,14 @@ std::vector<Check> airlights(const Effort& effort) {
     checks.push_back(check_mean(name + ": radiance over what is exact",
                                 estimate_airlight(a, s.log10_radiance, effort.count(10'000, 400'000), seed), 1.0,
                                 1e-6));
-    if (std::isinf(a.t1))
-      checks.push_back(check_mean(name + ": radiance by the eye path",
-                                  estimate_airlight_by_eye_path(a, effort.count(40'000, 1'600'000), seed + 1),
-                                  s.radiance.value));
+    if (!std::isinf(a.t1)) continue;
+    const uint64_t paths = effort.count(40'000, 1'600'000);
+    checks.push_back(check_mean(name + ": radiance by the eye path",
+                                estimate_airlight_by_eye_path(a, DirectLight::shadow_rays, paths, seed + 1),
+                                s.radiance.value));
+    checks.push_back(check_mean(name + ": radiance by the eye path, equiangular",
+                                estimate_airlight_by_eye_path(a, DirectLight::equiangular, paths, seed + 2),
+                                s.radiance.value));
   }
   return checks;
 }

@@ -105,7 +105,8 @@ std::vector<CaseResult> run_airlights(const OracleList& list, const Effort& effo
                                        estimate_airlight(airlight, log10_l, samples, seed), 1.0, 1e-6));
     if (airlight.t0 == 0.0 && std::isinf(airlight.t1) && airlight.distance >= 0.05 * airlight.t_light)
       result.checks.push_back(check_mean(
-          "L by the eye path", estimate_airlight_by_eye_path(airlight, 4 * samples, seed + 1), c.number("L")));
+          "L by the eye path", estimate_airlight_by_eye_path(airlight, DirectLight::shadow_rays, 4 * samples, seed + 1),
+          c.number("L")));
     return result;
   });
 }

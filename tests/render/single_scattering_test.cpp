@@ -1,0 +1,244 @@
+// Single scattering at drawn distances: densities that are what they are said to be, exact radiance, and the march's
+// answer for every light, in fog and in grids.
+#include "render/single_scattering.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "light/lights.h"
+#include "render/eye_path.h"
+#include "render/march.h"
+#include "study/exact/airlight.h"
+#include "study/sample_moments.h"
+#include "support/scenes.h"
+#include "support/statistics.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kFalseAlarms = 1e-6;  // of each comparison
+const Rgb kChromatic(0.5f, 1.5f, 4.0f);
+
+EyeContext context_of(const Scene& scene, const RenderSettings& settings) {
+  return {scene, settings, {}, {}, {}, {}, {}, {}, {}, make_transmittance_estimator({})};
+}
+
+/// The radiance of each channel over many estimates.
+std::vector<Moments> estimates(const Scene& scene, const EyeSegment& segment, int pairs, uint64_t count) {
+  RenderSettings settings;
+  settings.direct_samples = pairs;
+  const EyeContext context = context_of(scene, settings);
+  return sample_moments(3, count, 1, [&](Rng& rng, double* out) {
+    EyeCounters counters;
+    const Rgb radiance = single_scattering(context, segment, rng, counters);
+    for (int c = 0; c < 3; ++c) out[c] = radiance[c];
+  });
+}
+
+/// The same by marching in short steps.
+std::vector<Moments> marched(const Scene& scene, const EyeSegment& s, uint64_t count) {
+  const RenderSettings settings;
+  const EyeContext context = context_of(scene, settings);
+  const Medium& medium = scene.media[s.medium];
+  return sample_moments(3, count, 2, [&](Rng& rng, double* out) {
+    EyeCounters counters;
+    Marcher marcher;
+    marcher.march(medium, s.ray, s.interval, {0.05f, 0.1f}, glm::bvec3(true), rng, [&](const Vec3& p, const Rgb& w) {
+      const PickedLight light = pick_light(scene, rng.uniform_double());
+      const Rgb radiance = s.throughput * w * medium.sigma_s *
+                           scattered_light(context, {light, {}}, {p, s.medium}, s.ray.direction, rng, counters);
+      for (int c = 0; c < 3; ++c) out[c] += radiance[c];
+    });
+  });
+}
+
+/// Noise with empty layers, over [-1, 1]^3.
+std::shared_ptr<const DensityGrid> noise_grid() {
+  return make_grid(centred_frame(11, 0.2),
+                   [](int x, int y, int z) { return x % 4 == 0 ? 0.0 : 2.0 * lattice_noise(x, y, z); });
+}
+
+constexpr int kBins = 50, kMidpoints = 4000;  // in all of an interval; of each bin
+
+/// The density's integral over each bin is the share of evenly spaced numbers that draw from it.
+void expect_density(const Interval& interval, const std::function<double(double)>& draw,
+                    const std::function<double(double)>& pdf, const std::string& what) {
+  constexpr int kDraws = 100'000;
+  std::vector<double> drawn(kBins);
+  const double width = double{interval.length()} / kBins;
+  for (int i = 0; i < kDraws; ++i) {
+    const double t = draw((i + 0.5) / kDraws);
+    ASSERT_GE(t, interval.t0) << what;
+    ASSERT_LE(t, interval.t1) << what;
+    drawn[std::min(kBins - 1, static_cast<int>((t - interval.t0) / width))] += 1.0 / kDraws;
+  }
+  double sum = 0.0;
+  for (int bin = 0; bin < kBins; ++bin) {
+    double share = 0.0;
+    for (int i = 0; i < kMidpoints; ++i)
+      share += pdf(interval.t0 + (bin + (i + 0.5) / kMidpoints) * width) * width / kMidpoints;
+    EXPECT_NEAR(drawn[bin], share, 1e-4) << what << ", bin " << bin;  // three channels' strata, each off by one draw
+    sum += share;
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-5) << what;
+}
+
+TEST(SingleScattering, EquiangularDistancesHaveTheirDensity) {
+  const Ray ray{Vec3(1.0f, 2.0f, 3.0f), glm::normalize(Vec3(1.0f, -2.0f, 2.0f))};
+  for (const Interval interval : {Interval{0.0f, 4.0f}, Interval{1.0f, 1.5f}})
+    for (const float closest : {-3.0f, 0.5f, 2.0f, 50.0f})
+      for (const float off : {0.05f, 1.0f, 300.0f}) {
+        const Vec3 point = ray.at(closest) + off * glm::normalize(Vec3(2.0f, 1.0f, 0.0f));
+        const auto distances = EquiangularDistances::towards(LightPoint{point}, ray, interval);
+        ASSERT_TRUE(distances);
+        expect_density(
+            interval, [&](double u) { return distances->draw(u); }, [&](double t) { return distances->pdf(t); },
+            fmt::format("{} m off at {} m", off, closest));
+      }
+}
+
+// The angle under which the rest of an endless ray is seen, as a share of all of it, is the number still to come.
+TEST(SingleScattering, EquiangularDistancesOfEndlessRays) {
+  const auto distances = EquiangularDistances::towards(LightPoint{{0.5f, 0.0f, 2.0f}}, {}, {0.0f, kInfinity});
+  ASSERT_TRUE(distances);
+  const double all = std::atan2(0.5, -2.0);
+  for (const double u : {0.0, 0.1, 0.5, 0.9, 0.999})
+    EXPECT_NEAR(std::atan2(0.5, distances->draw(u) - 2.0), (1.0 - u) * all, 1e-12);
+}
+
+TEST(SingleScattering, ThereAreNoEquiangularDistancesTowardsNothingAndTheRayItself) {
+  EXPECT_FALSE(EquiangularDistances::towards(std::nullopt, {}, {0.0f, 1.0f}));
+  EXPECT_FALSE(EquiangularDistances::towards(LightPoint{{0.0f, 0.0f, 0.5f}}, {}, {0.0f, 1.0f}));
+  EXPECT_FALSE(EquiangularDistances::towards(LightPoint{{0.0f, 0.0f, 2.0f}}, {}, {0.0f, 1.0f}));
+}
+
+TEST(SingleScattering, AttenuatedDistancesHaveTheirDensity) {
+  const Ray ray{Vec3(-2.0f, 0.1f, -0.2f), glm::normalize(Vec3(1.0f, 0.05f, 0.1f))};
+  for (const auto& grid : {std::shared_ptr<const DensityGrid>(), noise_grid()})
+    for (const Rgb& sigma_t : {Rgb(1e-12f), Rgb(1.0f), kChromatic, Rgb(0.0f, 2.0f, 1.0f)})
+      for (const Rgb& throughput : {Rgb(1.0f), Rgb(0.0f, 0.2f, 3.0f), Rgb(0.0f, 1.0f, 0.0f)}) {
+        const Medium medium = make_medium(grid, sigma_t);
+        const Interval interval = medium.clip(ray, {0.0f, 4.0f});
+        ColumnsAlong columns;
+        columns.walk(&medium, ray, interval);
+        const AttenuatedDistances distances(columns, sigma_t, throughput * medium.sigma_s);
+        expect_density(
+            interval, [&](double u) { return distances.draw(u); },
+            [&](double t) { return distances.pdf(columns.at(t)); },
+            fmt::format("{}, extinction of red {}, throughput of red {}", grid ? "grid" : "fog", sigma_t.r,
+                        throughput.r));
+      }
+}
+
+TEST(SingleScattering, NothingScattersWithoutDensityOrThroughput) {
+  const Medium empty = make_medium(make_grid(centred_frame(5, 0.4), [](int, int, int) { return 0.0; }), Rgb(1.0f));
+  const Scene fog = boxed_medium(make_medium(nullptr, Rgb(1.0f)), PointLight{}),
+              void_ = boxed_medium(empty, PointLight{});
+  const RenderSettings settings;
+  Rng rng(1, 0, 0);
+  EyeCounters counters;
+  const Ray ray{Vec3(0.0f, 0.3f, -0.9f), Vec3(0, 0, 1)};
+  EXPECT_EQ(single_scattering(context_of(void_, settings), {ray, {0.0f, 1.0f}, 0}, rng, counters), Rgb(0.0f));
+  EXPECT_EQ(single_scattering(context_of(fog, settings), {ray, {0.0f, 1.0f}, 0, Rgb(0.0f)}, rng, counters), Rgb(0.0f));
+  EXPECT_EQ(counters.shadow_rays, 0u);
+}
+
+/// A lamp of 1 W/sr in endless fog.
+Scene lamp_in_fog(const Medium& fog, const Vec3& position) {
+  Scene scene;
+  scene.media.push_back(fog);
+  scene.world_medium = scene.camera_medium = 0;
+  scene.lights.push_back(PointLight{position, Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+TEST(SingleScattering, IsExactForALampInFog) {
+  for (const Rgb& sigma_t : {Rgb(1e-6f), Rgb(0.5f, 1.0f, 3.0f)})
+    for (const float off : {0.01f, 1.0f})
+      for (const float g : {0.0f, 0.7f})
+        for (const Interval interval : {Interval{0.0f, 3.0f}, Interval{0.0f, kInfinity}})
+          for (const int pairs : {1, 3}) {
+            Medium fog = make_medium(nullptr, sigma_t, 0.8f);
+            if (g != 0.0f) fog.phase = HenyeyGreenstein{g};
+            const Scene scene = lamp_in_fog(fog, Vec3(0.0f, off, 1.25f));
+            const Rgb throughput(1.0f, 0.25f, 2.0f);
+            const auto found = estimates(scene, {Ray{}, interval, 0, throughput}, pairs, 20'000);
+            for (int c = 0; c < 3; ++c) {
+              const auto exact =
+                  exact::solve_airlight({sigma_t[c], fog.albedo()[c], g, off, 1.25, interval.t0, interval.t1});
+              expect_mean(found[c], throughput[c] * exact.radiance.value, kFalseAlarms,
+                          fmt::format("{} m off, g {}, extinction {}, {} pairs", off, g, sigma_t[c], pairs).c_str());
+            }
+          }
+}
+
+// In fog that does not attenuate, a lamp's light comes with exactly the equiangular density. The other technique's
+// distances are then uniform, and the balance heuristic bounds what either brings: light over half its own density.
+TEST(SingleScattering, StaysBoundedBesideALamp) {
+  const double off = 1e-3;
+  const Scene scene = lamp_in_fog(make_medium(nullptr, Rgb(1e-6f), 1.0f), Vec3(0.0f, static_cast<float>(off), 1.0f));
+  const RenderSettings settings;
+  const EyeContext context = context_of(scene, settings);
+  const double exact = exact::solve_airlight({1e-6, 1.0, 0.0, off, 1.0, 0.0, 2.0}).radiance.value;
+  EyeCounters counters;
+  for (uint64_t i = 0; i < 10'000; ++i) {
+    Rng rng(1, 0, i);
+    const Rgb found = single_scattering(context, {Ray{}, {0.0f, 2.0f}, 0}, rng, counters);
+    ASSERT_LT(found.g, 2.001 * exact);
+  }
+}
+
+/// Segments through the box [-1, 1]^3, and the box with a medium in it.
+void expect_as_marched(const Medium& medium, const std::vector<Light>& lights, const std::string& what) {
+  Scene scene = boxed_medium(medium, lights.front());
+  scene.lights = lights;
+  finish(scene);
+  for (const EyeSegment& segment :
+       {EyeSegment{{Vec3(-0.9f, 0.4f, -0.8f), glm::normalize(Vec3(1.0f, 0.2f, 0.9f))}, {0.0f, 2.0f}, 0, Rgb(1.0f)},
+        EyeSegment{{Vec3(0.3f, -0.9f, 0.2f), Vec3(0, 1, 0)}, {0.0f, 1.8f}, 0, Rgb(0.5f, 1.0f, 2.0f)}})
+    expect_same_means(estimates(scene, segment, 2, 8'000), marched(scene, segment, 1'000), kFalseAlarms, what);
+}
+
+TEST(SingleScattering, IsAsMarchedUnderEveryLight) {
+  Medium fog = make_medium(nullptr, kChromatic, 0.7f);
+  fog.phase = HenyeyGreenstein{0.4f};
+  Medium cloud = make_medium(noise_grid(), kChromatic, 0.7f);
+  cloud.phase = HenyeyGreenstein{-0.4f};
+  for (const Light& light : test_lights()) {
+    expect_as_marched(fog, {light}, "fog, " + std::string(light_kind(light)));
+    expect_as_marched(cloud, {light}, "grid, " + std::string(light_kind(light)));
+  }
+  expect_as_marched(cloud, test_lights(), "grid, all lights");
+}
+
+// A ray that has come through fog and goes on in a box of other fog, by all of the eye path.
+TEST(SingleScattering, IsDimmedByTheMediaBefore) {
+  Scene scene;
+  scene.media = {make_medium(nullptr, Rgb(0.6f, 0.3f, 0.1f), 0.3f), make_medium(nullptr, kChromatic, 0.9f)};
+  scene.world_medium = scene.camera_medium = 0;
+  const Interface media{1, 0};
+  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
+  scene.lights.push_back(PointLight{Vec3(0.2f, 1.5f, -0.3f), Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  const auto by = [&](DirectLight direct) {
+    RenderSettings settings;
+    settings.volume_direct = direct;
+    EyeContext context = context_of(scene, settings);
+    context.stages = {.volume_shadow_rays = true, .equiangular = direct == DirectLight::equiangular};
+    return sample_moments(3, 4'000, 3, [&](Rng& rng, double* out) {
+      Marcher marcher;
+      EyeCounters counters;
+      const Rgb radiance = eye_radiance(context, {Vec3(0.1f, 0.2f, -3.0f), Vec3(0, 0, 1)}, marcher, rng, counters);
+      for (int c = 0; c < 3; ++c) out[c] = radiance[c];
+    });
+  };
+  expect_same_means(by(DirectLight::equiangular), by(DirectLight::shadow_rays), kFalseAlarms, "two media");
+}
+
+}  // namespace
+}  // namespace vpm
