@@ -17,7 +17,8 @@ enum class RngUse : uint64_t {
   importon = 6,
   scout = 7,
   caustic = 8,
-  caustic_scout = 9
+  caustic_scout = 9,
+  pilot = 10
 };
 
 /// A permuted congruential generator with 128 bits of state [ONeill2014, sec. 6.3, XSL RR]. Equal (seed, stream,

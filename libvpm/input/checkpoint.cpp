@@ -132,7 +132,16 @@ std::string text_of(const std::filesystem::path& path) {
   return std::move(text).str();
 }
 
+/// The second line.
+std::string identity_in(const std::filesystem::path& path, const std::string& bytes) {
+  const size_t kind = bytes.find('\n'), end = kind == std::string::npos ? kind : bytes.find('\n', kind + 1);
+  if (end == std::string::npos || bytes.substr(0, kind) != kKind) refuse(path, "it is no checkpoint");
+  return bytes.substr(kind + 1, end - kind - 1);
+}
+
 }  // namespace
+
+std::string checkpoint_identity(const std::filesystem::path& path) { return identity_in(path, text_of(path)); }
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const RenderResult& result) {
   assert(identity.find('\n') == std::string::npos);
@@ -153,9 +162,8 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
 
 RenderResult read_checkpoint(const std::filesystem::path& path, const std::string& identity) {
   const std::string bytes = text_of(path);
-  const size_t kind = bytes.find('\n'), end = kind == std::string::npos ? kind : bytes.find('\n', kind + 1);
-  if (end == std::string::npos || bytes.substr(0, kind) != kKind) refuse(path, "it is no checkpoint");
-  const std::string found = bytes.substr(kind + 1, end - kind - 1);
+  const std::string found = identity_in(path, bytes);
+  const size_t end = std::string_view(kKind).size() + 1 + found.size();
   if (found != identity)
     refuse(path,
            fmt::format("it is of another render; remove it, or render again what it is of\n  file:   {}\n  asked:  {}",

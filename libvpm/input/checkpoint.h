@@ -16,4 +16,7 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
 /// of different renders do not add up.
 RenderResult read_checkpoint(const std::filesystem::path& path, const std::string& identity);
 
+/// The identity that a checkpoint was written with. Throws InputError where the file is missing or no checkpoint.
+std::string checkpoint_identity(const std::filesystem::path& path);
+
 }  // namespace vpm

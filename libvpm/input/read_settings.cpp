@@ -37,9 +37,10 @@ const std::vector<std::pair<std::string, GatherMode>> kInMedia{
     {"radius", GatherMode::radius}, {"nearest", GatherMode::nearest}, {"beam", GatherMode::beam}};
 
 void read_gather(TableReader& table, const std::vector<std::pair<std::string, GatherMode>>& modes,
-                 GatherSettings& gather) {
+                 GatherSettings& gather, bool& automatic_radius) {
   gather.mode = table.choice<GatherMode>("gather", modes, gather.mode);
-  gather.radius = table.number("radius", kRadius, gather.radius);
+  automatic_radius = table.says_auto("radius");
+  if (!automatic_radius) gather.radius = table.number("radius", kRadius, gather.radius);
   const bool beams = gather.mode == GatherMode::beam;
   uint32_t& count = beams ? gather.beam_count : gather.count;
   count = static_cast<uint32_t>(table.integer("count", beams ? 0 : 2, 1'000'000, count));
@@ -143,9 +144,11 @@ void read_render(TableReader& table, RenderSettings& s) {
   s.max_optical_step = table.number("max_optical_step", kOpticalStep, s.max_optical_step);
 }
 
-void read_photons(TableReader& table, RenderSettings& s) {
+void read_photons(TableReader& table, RenderSettings& s, bool& automatic) {
   s.photons_stored = table.integer("stored", 0, kMaxInteger, s.photons_stored);
-  s.photons_emitted = table.integer("emitted", 0, kMaxInteger, s.photons_stored > 0 ? 0 : s.photons_emitted);
+  automatic = table.says_auto("emitted");
+  if (!automatic)
+    s.photons_emitted = table.integer("emitted", 0, kMaxInteger, s.photons_stored > 0 ? 0 : s.photons_emitted);
   s.photons_in_cube = static_cast<uint32_t>(table.integer("in_cube", 0, 1'000'000, s.photons_in_cube));
   if (s.photons_emitted == 0 && s.photons_stored == 0)
     table.fail("emitted", "no photon would be emitted: 'emitted' and 'stored' are both 0", "make one of them positive");
@@ -175,9 +178,19 @@ Names strategies_that(bool StrategyInfo::*is) {
   return names;
 }
 
-void read_distance(TableReader& table, RenderSettings& s, bool has_grid) {
+/// The strategy; of "auto" the default.
+std::string read_strategy(TableReader& table, const std::string& usual, bool& automatic) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const StrategyInfo& info : distance_strategies()) names.emplace_back(info.name, info.name);
+  names.emplace_back(kAuto, kAuto);
+  const std::string name = table.choice<std::string>("strategy", names, usual);
+  automatic = name == kAuto;
+  return automatic ? usual : name;
+}
+
+void read_distance(TableReader& table, RenderSettings& s, bool has_grid, bool& automatic) {
   DistanceSettings& distance = s.distance;
-  distance.strategy = read_listed(table, "strategy", distance_strategies(), distance.strategy);
+  distance.strategy = read_strategy(table, distance.strategy, automatic);
   distance.step = table.number("step", kVoxels, distance.step);
   distance.optical_step = table.number("optical_step", kOpticalStep, distance.optical_step);
   distance.majorant = table.number("majorant", {1e-6, 1.0, false, false}, distance.majorant);
@@ -236,10 +249,10 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
   return make_camera(position, target, up, fov, width, height, filter);
 }
 
-RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
+RenderSettings read_settings(TableReader& root, const SceneContents& contents, AutomaticSettings& automatic) {
   RenderSettings s;
   read_section(root, "render", [&](TableReader& table) { read_render(table, s); });
-  read_section(root, "photons", [&](TableReader& table) { read_photons(table, s); });
+  read_section(root, "photons", [&](TableReader& table) { read_photons(table, s, automatic.photons); });
   read_section(root, "importance", [&](TableReader& table) {
     s.guide.importons = table.integer("importons", 0, 1'000'000'000, s.guide.importons);
     s.guide.aim = table.flag("aim", s.guide.aim);
@@ -249,9 +262,10 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
       table.fail("scatter", "nothing tells photons where to scatter: 'importons' of [importance] is 0",
                  "make 'importons' positive, or leave out 'scatter'");
   });
-  read_section(root, "distance", [&](TableReader& table) { read_distance(table, s, contents.grids); });
+  read_section(root, "distance",
+               [&](TableReader& table) { read_distance(table, s, contents.grids, automatic.strategy); });
   read_section(root, "volume", [&](TableReader& table) {
-    read_gather(table, kInMedia, s.volume);
+    read_gather(table, kInMedia, s.volume, automatic.volume_radius);
     s.volume_form = table.choice<VolumeForm>(
         "form",
         {{"density-at-query", VolumeForm::density_at_query}, {"density-at-photon", VolumeForm::density_at_photon}},
@@ -268,7 +282,7 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
     read_volume_direct(table, s);
   });
   read_section(root, "surface", [&](TableReader& table) {
-    read_gather(table, kAroundPoints, s.surface);
+    read_gather(table, kAroundPoints, s.surface, automatic.surface_radius);
     read_boundary(table, s, s.surface);
     s.caustics.boundary = s.surface.boundary;
     read_surface_light(table, s);
@@ -276,7 +290,7 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents) {
     if (s.radii == RadiusSchedule::per_pixel) check_radii_of_pixels(table, s);
   });
   read_section(root, "caustics", [&](TableReader& table) {
-    read_gather(table, kAroundPoints, s.caustics);
+    read_gather(table, kAroundPoints, s.caustics, automatic.caustic_radius);
     s.caustics_emitted = table.integer("emitted", 0, kMaxInteger, s.caustics_emitted);
   });
   const bool shadow_rays = s.integrator == Integrator::path || plan_stages(contents.scattering, s).shadow_rays();

@@ -95,7 +95,7 @@ SceneContents contents_of(const ScenePlan& plan) {
   return contents;
 }
 
-ScenePlan read_plan(TableReader& root, RenderSettings& settings) {
+ScenePlan read_plan(TableReader& root, LoadedScene& loaded) {
   ScenePlan plan;
   Names media;
   read_media_and_world(root, plan, media);
@@ -105,9 +105,27 @@ ScenePlan read_plan(TableReader& root, RenderSettings& settings) {
   plan.shapes = read_shapes(shapes, media, keys_of(materials ? &*materials : nullptr), plan.world, plan.materials);
   read_all_lights(root, plan);
   read_camera_section(root, media, plan);
-  settings = read_settings(root, contents_of(plan));
+  loaded.settings = read_settings(root, contents_of(plan), loaded.automatic);
   root.finish();
   return plan;
+}
+
+/// The options that make "auto" of what may be and is left out. Where the photons stored are given, they decide how
+/// many are emitted.
+std::vector<std::string> left_to_choose(const Document& document) {
+  const auto has = [&](const char* section, const char* key) {
+    const Entry* entry = find_entry(*document.root.table(), section);
+    const Node::Table* table = entry ? entry->node.table() : nullptr;
+    return table && find_entry(*table, key);
+  };
+  constexpr std::pair<const char*, const char*> kKeys[] = {
+      {"distance", "strategy"}, {"volume", "radius"}, {"surface", "radius"}, {"caustics", "radius"}};
+  std::vector<std::string> options;
+  for (const auto& [section, key] : kKeys)
+    if (!has(section, key)) options.push_back(fmt::format("{}.{}={}", section, key, kAuto));
+  if (!has("photons", "emitted") && !has("photons", "stored"))
+    options.push_back(fmt::format("photons.emitted={}", kAuto));
+  return options;
 }
 
 /// Is the grid medium met within a box of its own, rather than within the scene's shapes?
@@ -263,12 +281,18 @@ void note_unresolved_media(LoadedScene& loaded) {
 
 }  // namespace
 
-LoadedScene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
+LoadedScene load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out) {
   Document document = read_toml(path);
-  for (const std::string& option : overrides) apply_override(document, option);
+  for (const std::string& option : options) apply_override(document, option);
+  std::vector<std::string> overrides = options;
+  if (left_out == LeftOut::automatic)
+    for (const std::string& option : left_to_choose(document)) {
+      apply_override(document, option);
+      overrides.push_back(option);
+    }
   LoadedScene loaded;
   TableReader root(document.root, "the scene file", loaded.files);
-  ScenePlan plan = read_plan(root, loaded.settings);
+  ScenePlan plan = read_plan(root, loaded);
   load_grids(plan, loaded);
   loaded.hash = hash_of(document.text, overrides, loaded.files);
 

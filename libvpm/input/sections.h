@@ -9,6 +9,7 @@
 
 #include "input/grid_file.h"
 #include "input/table_reader.h"
+#include "render/automatic.h"
 #include "render/photon_pass.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -86,7 +87,8 @@ struct SceneContents {
   bool grids = false;  // media of grids
   Scattering scattering;
 };
-/// Reads [render], [photons], [importance], [distance], [transmittance], [volume], [surface] and [caustics].
-RenderSettings read_settings(TableReader& root, const SceneContents& contents);
+/// Reads [render], [photons], [importance], [distance], [transmittance], [volume], [surface] and [caustics]. Where a
+/// value is "auto" the settings hold its default, and `automatic` tells.
+RenderSettings read_settings(TableReader& root, const SceneContents& contents, AutomaticSettings& automatic);
 
 }  // namespace vpm

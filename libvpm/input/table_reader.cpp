@@ -95,6 +95,13 @@ float TableReader::number(const std::string& key, const Range& range, std::optio
   return static_cast<float>(checked_number(require(key), quoted(key, title_), range));
 }
 
+bool TableReader::says_auto(const std::string& key) {
+  const Node* node = find(key);
+  const std::string* word = node ? std::get_if<std::string>(&node->value) : nullptr;
+  if (word && *word != kAuto) refuse_word(key, *word, {"a number", kAuto});
+  return word != nullptr;
+}
+
 uint64_t TableReader::integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback) {
   if (!find(key) && fallback) return *fallback;
   const Node& node = require(key);

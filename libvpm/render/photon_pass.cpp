@@ -93,15 +93,14 @@ float default_share(const GatherSettings& gather) {
   return is_largest ? kDefaultSearch : kDefaultRadius;
 }
 
-/// Adds the caustic photons that are aimed, with powers as if they were as many as the others.
-void add_caustics(const EyeContext& context, const DistanceStrategy& strategy, const TraceSettings& trace,
+/// Adds `emitted` caustic photons that are aimed, with powers as if they were as many as the others.
+void add_caustics(const Scene& scene, const DistanceStrategy& strategy, uint64_t emitted, const TraceSettings& trace,
                   TracedPhotons& photons) {
-  CausticSettings aimed{trace.seed,       trace.pass, context.settings.caustics_emitted,
-                        trace.max_events, nullptr,    trace.stop};
+  CausticSettings aimed{trace.seed, trace.pass, emitted, trace.max_events, nullptr, trace.stop};
   if (trace.guide) aimed.importance = &trace.guide->importance;
   const auto share =
       static_cast<float>(static_cast<double>(photons.ledger.emitted_count) / static_cast<double>(aimed.emitted));
-  for (Photon& photon : trace_caustics(context.scene, strategy, aimed)) {
+  for (Photon& photon : trace_caustics(scene, strategy, aimed)) {
     photon.power *= share;
     photons.caustics.push_back(photon);
   }
@@ -155,31 +154,10 @@ void make_gathering(EyeContext& context, TracedPhotons& photons, int pass, Rende
   }
 }
 
-/// Traces the photons and sorts them into the context's maps.
-void make_maps(EyeContext& context, TraceSettings trace, const PassProgress& progress, RenderStatistics& statistics) {
-  const int pass = static_cast<int>(trace.pass);
+/// Sorts the photons of a pass into the context's maps.
+void make_maps(EyeContext& context, TracedPhotons photons, int pass, RenderStatistics& statistics) {
   const Scene& scene = context.scene;
   const RenderSettings& settings = context.settings;
-  const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(
-      settings.distance,
-      {.pass = trace.pass, .density = trace.keep_volume && trace.volume_form == VolumeForm::density_at_query});
-  std::optional<PhotonGuide> guide;
-  if (settings.guide.importons > 0) {
-    const Stopwatch learning;
-    guide = learn_guide(scene, *strategy, settings.guide, trace.seed, trace.pass, settings.max_events);
-    trace.guide = &*guide;
-    trace.split = settings.guide.split;
-    statistics.guide_seconds = learning.seconds();
-    statistics.guide_bytes = guide->memory_bytes();
-  }
-  const Stopwatch tracing;
-  Progress bar("photons", settings.photons_emitted, progress.stages);
-  TracedPhotons photons = trace_photons(scene, *strategy, trace, bar);
-  bar.finish();
-  if (context.stages.final_gather && settings.caustics_emitted > 0) add_caustics(context, *strategy, trace, photons);
-  statistics.trace_seconds = tracing.seconds();
-  statistics.ledger = photons.ledger;
-
   const Stopwatch building;
   for (size_t m = 0; context.stages.volume_map && m < scene.media.size(); ++m) {
     const float first = first_volume_radius(scene, settings, scene.media[m]);
@@ -245,11 +223,38 @@ float first_caustic_radius(const Scene& scene, const RenderSettings& settings) {
                                          : default_share(settings.caustics) * scene.bounds.diagonal();
 }
 
+TracedPhotons trace_pass(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
+                         const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics) {
+  TraceSettings trace = trace_settings(settings, stages, pass, stop);
+  const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(
+      settings.distance,
+      {.pass = trace.pass, .density = trace.keep_volume && trace.volume_form == VolumeForm::density_at_query});
+  std::optional<PhotonGuide> guide;
+  if (settings.guide.importons > 0) {
+    const Stopwatch learning;
+    guide = learn_guide(scene, *strategy, settings.guide, trace.seed, trace.pass, settings.max_events);
+    trace.guide = &*guide;
+    trace.split = settings.guide.split;
+    statistics.guide_seconds = learning.seconds();
+    statistics.guide_bytes = guide->memory_bytes();
+  }
+  const Stopwatch tracing;
+  Progress bar("photons", settings.photons_emitted, progress.stages);
+  TracedPhotons photons = trace_photons(scene, *strategy, trace, bar);
+  bar.finish();
+  if (stages.final_gather && settings.caustics_emitted > 0)
+    add_caustics(scene, *strategy, settings.caustics_emitted, trace, photons);
+  statistics.trace_seconds = tracing.seconds();
+  statistics.ledger = photons.ledger;
+  return photons;
+}
+
 EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
                             const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics) {
   EyeContext context{scene, settings, stages, {}, {},
                      {},    {},       {},     {}, make_transmittance_estimator(settings.transmittance)};
-  if (stages.photons()) make_maps(context, trace_settings(settings, stages, pass, stop), progress, statistics);
+  if (stages.photons())
+    make_maps(context, trace_pass(scene, settings, stages, pass, stop, progress, statistics), pass, statistics);
   return context;
 }
 

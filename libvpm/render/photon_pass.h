@@ -36,6 +36,11 @@ Stages plan_stages(const Scattering& scattering, const RenderSettings& settings)
 /// The same of a scene.
 Stages plan_stages(const Scene& scene, const RenderSettings& settings);
 
+struct TracedPhotons;
+/// Traces the photons of pass number `pass`, for the maps of those stages.
+TracedPhotons trace_pass(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,
+                         const std::atomic<bool>& stop, const PassProgress& progress, RenderStatistics& statistics);
+
 struct EyeContext;
 /// Traces the photons of pass number `pass` and sorts them into the maps of those stages.
 EyeContext make_eye_context(const Scene& scene, const RenderSettings& settings, const Stages& stages, int pass,

@@ -87,6 +87,7 @@ int bake_command(const BakeOptions& options) {
   set_threads(options.threads);
   const Outputs outputs = output_paths(options, usual_name(options));
   LoadedScene loaded = load_scene(options.scene, options.overrides);
+  refuse_automatic(loaded, "vpm bake");
   apply_options(options, loaded.settings);
   check_settings(loaded.settings);
   const UvLayout layout = lay_out(loaded.scene, options);

@@ -24,6 +24,7 @@ struct RenderOptions : PassOptions {
   std::optional<double> seconds;
   std::optional<double> error;  // relative MSE to stop at
   std::string reference;        // .exr: the truth, against which errors are logged; empty: none
+  bool automatic = false;       // choose settings that the scene leaves out
   bool checkpoint = false;      // keep one beside the image after each pass
   bool resume = false;          // go on from that
 };

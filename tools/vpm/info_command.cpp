@@ -81,6 +81,8 @@ void print_scene(const InfoOptions& options) {
                loaded.light_names[i].empty() ? "" : ", " + loaded.light_names[i], light_kind(scene.lights[i]),
                rgb(light_power(scene.lights[i], scene.bounds)), scene.light_probability[i]);
   for (const Medium& m : scene.media) print_medium(m, scene, loaded.settings);
+  if (loaded.automatic.any())
+    fmt::print("settings that are \"auto\" are chosen by vpm render; defaults are told here\n");
   const Stages stages = plan_stages(scene, loaded.settings);
   for (const std::string& line : stage_lines(scene, loaded.settings, stages)) fmt::print("{}\n", line);
 }

@@ -80,6 +80,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->excludes(passes);
   command->add_option("--reference", options.reference,
                       "EXR image of the truth: log error against time to a CSV file beside the image");
+  command->add_flag("--auto", options.automatic,
+                    "Choose what the scene leaves out of radii, photons and distance strategy, and tell why");
   command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint beside the image after each pass");
   command->add_flag("--resume", options.resume, "Go on from that checkpoint, and keep it up to date");
 }

@@ -96,6 +96,12 @@ void apply_options(const PassOptions& options, RenderSettings& settings) {
   settings.seconds = settings.error = 0.0;
 }
 
+void refuse_automatic(const LoadedScene& loaded, const std::string& command) {
+  if (loaded.automatic.any())
+    throw InputError(fmt::format(
+        "{} chooses no settings: name a value where one is \"auto\"; vpm render tells those that it chooses", command));
+}
+
 Metadata provenance(const PassOptions& options, const LoadedScene& loaded, const Film& film) {
   return {{"vpm.version", std::string(version())},
           {"vpm.scene", fs::path(options.scene).filename().string()},

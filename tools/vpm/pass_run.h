@@ -34,6 +34,9 @@ void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, con
 /// The seed and the number of passes.
 void apply_options(const PassOptions& options, RenderSettings& settings);
 
+/// Throws InputError where a setting is "auto", for a command that chooses none.
+void refuse_automatic(const LoadedScene& loaded, const std::string& command);
+
 /// What the image tells of where it is from.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 Metadata provenance(const PassOptions& options, const LoadedScene& loaded, const Film& film);

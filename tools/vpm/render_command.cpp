@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -47,10 +48,49 @@ void write_outputs(const Outputs& outputs, const RenderOptions& options, const L
   write_text(outputs.json, render_report(options.scene, outputs.exr.string(), loaded, result));
 }
 
-/// What a checkpoint must agree in for its passes to be those of this render.
-std::string identity_of(const LoadedScene& loaded) {
-  return fmt::format("vpm {}; scene {}; seed {}; {}", version(), loaded.hash, loaded.settings.seed,
-                     settings_line(loaded.settings));
+constexpr std::string_view kChosen = "; chosen";
+
+/// What a checkpoint must agree in for its passes to be those of this render; ends with the settings that were chosen.
+std::string identity_of(const LoadedScene& loaded, const std::vector<Choice>& choices) {
+  std::string identity = fmt::format("vpm {}; scene {}; seed {}; {}", version(), loaded.hash, loaded.settings.seed,
+                                     settings_line(loaded.settings));
+  if (loaded.automatic.any()) identity += kChosen;
+  for (const Choice& choice : choices) identity += fmt::format(" {}={}", choice.key, choice.value);
+  return identity;
+}
+
+/// The settings that were chosen when the checkpoint's render began.
+std::vector<Choice> choices_of(const std::filesystem::path& checkpoint) {
+  const std::string identity = checkpoint_identity(checkpoint);
+  const size_t at = identity.rfind(kChosen);
+  std::vector<Choice> choices;
+  if (at == std::string::npos) return choices;
+  std::istringstream words(identity.substr(at + kChosen.size()));
+  for (std::string word; words >> word;) {
+    const size_t equals = std::min(word.find('='), word.size());
+    choices.push_back(
+        {word.substr(0, equals), word.substr(std::min(equals + 1, word.size())), "as chosen when the render began"});
+  }
+  return choices;
+}
+
+/// Gives values to the settings that are "auto", and says so in the scene's notes.
+std::vector<Choice> choose(const RenderOptions& options, const Outputs& outputs, LoadedScene& loaded) {
+  if (!loaded.automatic.any()) return {};
+  std::vector<Choice> choices;
+  if (options.resume) {
+    choices = choices_of(outputs.checkpoint);
+    for (const Choice& choice : choices) set_chosen(loaded.settings, choice.key, choice.value);
+  } else {
+    choices = choose_settings(loaded.scene, loaded.automatic, loaded.settings);
+  }
+  std::string again;
+  for (const Choice& choice : choices) {
+    loaded.notes.push_back(fmt::format("chosen {} = {}: {}", choice.key, choice.value, choice.reason));
+    again += fmt::format(" --set {}={}", choice.key, choice.value);
+  }
+  loaded.notes.push_back("the same picture again without choosing:" + again);
+  return choices;
 }
 
 /// The error that the passes are estimated to have, as far as they tell.
@@ -80,13 +120,15 @@ std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outpu
 int render_command(const RenderOptions& options) {
   set_threads(options.threads);
   const Outputs outputs = output_paths(options, std::filesystem::path(options.scene).stem().string());
-  LoadedScene loaded = load_scene(options.scene, options.overrides);
+  LoadedScene loaded =
+      load_scene(options.scene, options.overrides, options.automatic ? LeftOut::automatic : LeftOut::usual);
   apply_options(options, loaded.settings);
   apply_limits(options, loaded.settings);
   const bool checkpoint = options.checkpoint || options.resume;
   const Camera& camera = loaded.scene.camera;
   check_outputs(outputs, static_cast<uint64_t>(camera.width) * camera.height, checkpoint, options, loaded);
-  const std::string identity = identity_of(loaded);
+  const std::vector<Choice> choices = choose(options, outputs, loaded);
+  const std::string identity = identity_of(loaded, choices);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
   std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film);
   print_notes(loaded);

@@ -49,6 +49,7 @@ std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::vec
                                       const std::string& purpose) {
   try {
     auto entrant = std::make_unique<Entrant>(Entrant{load_scene(scene.file, joined(scene.settings, settings)), ""});
+    refuse_automatic(entrant->loaded, "vpm compare");
     entrant->identity = fmt::format("vpm {}; scene {}; {}; {}", version(), entrant->loaded.hash,
                                     settings_line(entrant->loaded.settings), purpose);
     return entrant;

@@ -1,0 +1,169 @@
+// Settings that a render chooses: the rules are exact; the pilot is a pure function, and changes nothing that is given.
+#include "render/automatic.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "render/pilot.h"
+#include "render/render.h"
+#include "support/scenes.h"
+
+namespace vpm {
+namespace {
+
+// --- The rules
+
+/// 16 photons of 100,000 lie within 0.2 m.
+MapDensity density(int dimension) { return {0.2, 16.0, 1e5, dimension, 0.01}; }
+
+TEST(Automatic, RadiusHoldsSoManyPhotonsWhateverIsEmitted) {
+  // As many photons per emitted as in the pilot: (0.5 / 16)^(1/2) of its reach under 100 times the photons.
+  const float surface = choose_radius(density(2), kPhotonsWithin / 0.5 * 1e5, 10.0).radius;
+  EXPECT_FLOAT_EQ(surface, 0.0354f);  // 0.2 sqrt(1/32) = 0.035355
+  const float volume = choose_radius(density(3), kPhotonsWithin / 2.0 * 1e5, 10.0).radius;
+  EXPECT_FLOAT_EQ(volume, 0.1f);  // 0.2 (1/8)^(1/3)
+  EXPECT_NE(choose_radius(density(3), 1e6, 10.0).reason.find("photons lie within it"), std::string::npos);
+}
+
+TEST(Automatic, RadiusStaysBetweenHalfAPixelAndATwentiethOfTheScene) {
+  const ChosenRadius fine = choose_radius(density(2), 1e12, 10.0);
+  EXPECT_FLOAT_EQ(fine.radius, 0.005f);
+  EXPECT_EQ(fine.reason.substr(0, 12), "half a pixel");
+  const ChosenRadius wide = choose_radius(density(2), 1e3, 3.0);
+  EXPECT_FLOAT_EQ(wide.radius, 0.15f);
+  EXPECT_EQ(wide.reason.substr(0, 11), "a twentieth");
+}
+
+TEST(Automatic, PhotonsCostWhatTheEyePassCosts) {
+  const PassCost cost{2e-6, 0.5, 3.0};
+  EXPECT_EQ(choose_count(cost, 0.0).count, 250'000u);
+  EXPECT_EQ(choose_count(cost, 100.0).count, 250'000u);  // eight passes of a second fit
+  EXPECT_EQ(choose_count(cost, 6.4).count, 150'000u);    // (0.8 - 0.5) s / 2 us
+  EXPECT_EQ(choose_count(cost, 1.0).count, 31'000u);     // an eighth: 31,250
+  EXPECT_EQ(choose_count({2e-6, 1e-4, 3.0}, 0.0).count, kLeastCount);
+  EXPECT_EQ(choose_count({2e-6, 100.0, 4.0}, 0.0).count, 5'000'000u);  // of 4 records each
+  EXPECT_NE(choose_count(cost, 6.4).reason, choose_count(cost, 1.0).reason);
+}
+
+TEST(Automatic, TheCheapestStrategyIsTheFirstOfEquals) {
+  const std::vector<StrategyCost> costs{{"a", 3.0}, {"b", 2.0}, {"c", 2.0}};
+  EXPECT_EQ(cheapest(costs).name, "b");
+}
+
+TEST(Automatic, RefusesChoicesThatAreNone) {
+  RenderSettings settings;
+  set_chosen(settings, "volume.radius", "0.0123");
+  EXPECT_EQ(settings.volume.radius, 0.0123f);
+  set_chosen(settings, "photons.emitted", "170000");
+  EXPECT_EQ(settings.photons_emitted, 170'000u);
+  set_chosen(settings, "distance.strategy", "delta");
+  EXPECT_EQ(settings.distance.strategy, "delta");
+  EXPECT_THROW(set_chosen(settings, "volume.radius", "-1"), InputError);
+  EXPECT_THROW(set_chosen(settings, "volume.radius", "1 m"), InputError);
+  EXPECT_THROW(set_chosen(settings, "photons.emitted", "0"), InputError);
+  EXPECT_THROW(set_chosen(settings, "distance.strategy", "woodcock"), InputError);
+  EXPECT_THROW(set_chosen(settings, "film.width", "3"), InputError);
+}
+
+// --- The pilot
+
+/// A floor below a cloud whose densities differ from brick to brick, seen from the side.
+Scene cloud_over_floor(bool grid) {
+  Scene scene;
+  std::shared_ptr<const DensityGrid> noise;
+  if (grid) noise = make_grid(centred_frame(16, 2.0 / 32.0), lattice_noise);
+  scene.media.push_back(make_medium(noise, Rgb(2.0f), 0.9f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, box_mesh(Vec3d(-0.9), Vec3d(0.9)), Boundary{}, &media);
+  add_shape(scene, quad_mesh(Vec3d(-3.0, -1.5, 3.0), Vec3d(6.0, 0.0, 0.0), Vec3d(0.0, 0.0, -6.0)),
+            Lambertian{Rgb(0.5f)});
+  scene.lights.push_back(PointLight{Vec3(0.0f, 3.0f, 0.0f), Rgb(10.0f)});
+  scene.camera =
+      make_camera(Vec3(0.0f, 0.5f, 5.0f), Vec3(0.0f, -0.5f, 0.0f), Vec3(0.0f, 1.0f, 0.0f), 45.0f, 64, 48, {});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+TEST(Automatic, ChoosesTheSameOnAnyNumberOfThreads) {
+  const Scene scene = cloud_over_floor(true);
+  const AutomaticSettings automatic{.volume_radius = true, .surface_radius = true, .strategy = true};
+  std::vector<std::vector<Choice>> chosen;
+  for (const int threads : {1, 2}) {
+    set_threads(threads);
+    RenderSettings settings;
+    chosen.push_back(choose_settings(scene, automatic, settings));
+    EXPECT_GT(settings.volume.radius, 0.0f);
+    EXPECT_GT(settings.surface.radius, 0.0f);
+  }
+  set_threads(0);
+  ASSERT_EQ(chosen[0].size(), 3u);
+  ASSERT_EQ(chosen[1].size(), 3u);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(chosen[0][i].key, chosen[1][i].key);
+    EXPECT_EQ(chosen[0][i].value, chosen[1][i].value);
+  }
+}
+
+TEST(Automatic, ChangesNothingThatIsGiven) {
+  const Scene scene = cloud_over_floor(true);
+  RenderSettings given;
+  given.volume.radius = 0.3f;
+  given.surface.radius = 0.4f;
+  given.caustics.radius = 0.5f;
+  given.photons_emitted = 12'345;
+  given.distance.strategy = "delta";
+  RenderSettings settings = given;
+  EXPECT_TRUE(choose_settings(scene, {}, settings).empty());
+  EXPECT_EQ(choose_settings(scene, {.surface_radius = true}, settings).size(), 1u);
+  EXPECT_EQ(settings.volume.radius, 0.3f);
+  EXPECT_NE(settings.surface.radius, 0.4f);
+  EXPECT_EQ(settings.caustics.radius, 0.5f);
+  EXPECT_EQ(settings.photons_emitted, 12'345u);
+  EXPECT_EQ(settings.distance.strategy, "delta");
+}
+
+TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
+  const Scene scene = cloud_over_floor(false);
+  RenderSettings settings;
+  settings.integrator = Integrator::path;
+  const AutomaticSettings all{true, true, true, true, true};
+  const std::vector<Choice> choices = choose_settings(scene, all, settings);
+  ASSERT_EQ(choices.size(), 1u);
+  EXPECT_EQ(settings.distance.strategy, "homogeneous");
+  EXPECT_EQ(settings.photons_emitted, RenderSettings{}.photons_emitted);
+  EXPECT_EQ(settings.volume.radius, 0.0f);
+}
+
+// Cells are far smaller than free paths here: to visit all is the dearest way.
+TEST(Automatic, CountsTheExactStrategies) {
+  const std::vector<StrategyCost> costs = strategy_costs(cloud_over_floor(true), {});
+  std::vector<std::string_view> names;
+  for (const StrategyCost& each : costs) names.push_back(each.name);
+  EXPECT_EQ(names, (std::vector<std::string_view>{"regular", "delta", "delta-local", "decomposition"}));
+  EXPECT_EQ(costs[0].cost, std::max({costs[0].cost, costs[1].cost, costs[2].cost, costs[3].cost}));
+}
+
+/// The photons within the radius chosen, at a place that is lit evenly and seen straight, are as many as the rule says:
+/// power over area of an even parallel light tells how many there are.
+TEST(Automatic, TheRadiusHoldsThePhotonsThatItPromises) {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
+            Lambertian{Rgb(0.5f)});
+  scene.lights.push_back(BeamLight{Vec3(0.0f, 2.0f, 0.0f), Vec3(0.0f, -1.0f, 0.0f), 0.9f, Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 3.0f, 0.0f), Vec3(0.0f), Vec3(0.0f, 0.0f, -1.0f), 20.0f, 64, 64, {});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings settings;
+  settings.surface_direct = DirectLight::photons;
+  settings.photons_emitted = 400'000;
+  choose_settings(scene, {.surface_radius = true}, settings);
+  const double share = std::pow(settings.surface.radius / 0.9, 2.0);  // of the photons
+  // The median over 512 places of densities told by 16 photons each: off by 2 % or so, and by 4 % as the median of a
+  // gamma distribution is; a tenth is four standard deviations at least.
+  EXPECT_NEAR(share * 400'000, kPhotonsWithin, 0.1 * kPhotonsWithin);
+}
+
+}  // namespace
+}  // namespace vpm

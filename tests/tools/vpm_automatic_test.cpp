@@ -1,0 +1,92 @@
+// Settings that vpm render chooses: told with their reasons, and the same picture when they are given.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "image/exr.h"
+#include "tools/plume.h"
+
+namespace vpm {
+namespace {
+
+class VpmAutomatic : public VpmRender {
+ protected:
+  /// The plume without what can be chosen.
+  VpmAutomatic() {
+    const std::string scene = kScene;
+    write("open.toml", scene.substr(0, scene.find("[photons]")));
+  }
+  /// The options that a run's last note gives.
+  static std::vector<std::string> told(const std::string& errors) {
+    const std::string sign = "without choosing: ";
+    std::istringstream words(errors.substr(errors.find(sign) + sign.size()));
+    return {std::istream_iterator<std::string>(words), {}};
+  }
+};
+
+TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
+  const std::string told_errors = vpm_succeeds({"render", "open.toml", "--auto", "-o", "auto.exr"}).err;
+  for (const char* key : {"distance.strategy", "photons.emitted", "volume.radius", "surface.radius"})
+    EXPECT_NE(told_errors.find(std::string("note: chosen ") + key), std::string::npos) << told_errors;
+  std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
+  for (const std::string& word : told(told_errors)) again.push_back(word);
+  ASSERT_EQ(again.size(), 4u + 8u) << told_errors;
+  vpm_succeeds(again);
+  EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
+  EXPECT_EQ(report("auto.json")["settings"], report("again.json")["settings"]);
+  EXPECT_EQ(report("auto.json")["notes"].size(), 5u);
+  EXPECT_EQ(report("again.json")["notes"].size(), 0u);
+  EXPECT_EQ(read_exr_channels(path("auto.exr")).metadata.at("vpm.settings"), report("again.json")["settings"]);
+}
+
+TEST_F(VpmAutomatic, WhatIsGivenIsRenderedAsEver) {
+  vpm_succeeds({"render", "scene.toml", "-o", "given.exr"});
+  vpm_succeeds({"render", "scene.toml", "-o", "auto.exr", "--auto", "--set", "distance.strategy=regular"});
+  EXPECT_TRUE(read_exr(path("given.exr")).pixels == read_exr(path("auto.exr")).pixels);
+  EXPECT_EQ(report("given.json")["settings"], report("auto.json")["settings"]);
+}
+
+TEST_F(VpmAutomatic, AWordInTheFileAsksForOneChoice) {
+  const std::string errors = vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "volume.radius=auto"}).err;
+  EXPECT_EQ(told(errors).size(), 2u) << errors;
+  EXPECT_EQ(told(errors).back().substr(0, 14), "volume.radius=");
+}
+
+TEST_F(VpmAutomatic, AResumedRenderKeepsItsChoices) {
+  vpm_succeeds({"render", "open.toml", "--auto", "-o", "a.exr", "--checkpoint", "--passes", "2"});
+  const std::string errors =
+      vpm_succeeds({"render", "open.toml", "--auto", "-o", "a.exr", "--resume", "--passes", "4"}).err;
+  EXPECT_NE(errors.find("as chosen when the render began"), std::string::npos) << errors;
+  std::vector<std::string> whole{"render", "open.toml", "-o", "whole.exr", "--passes", "4"};
+  for (const std::string& word : told(errors)) whole.push_back(word);
+  vpm_succeeds(whole);
+  EXPECT_TRUE(read_exr(path("a.exr")).pixels == read_exr(path("whole.exr")).pixels);
+  vpm_refuses({"render", "open.toml", "-o", "a.exr", "--resume"}, {"it is of another render"});
+  vpm_succeeds({"render", "open.toml", "-o", "a.exr", "--checkpoint"});
+  vpm_refuses({"render", "open.toml", "--auto", "-o", "a.exr", "--resume"}, {"it is of another render"});
+}
+
+TEST_F(VpmAutomatic, OtherCommandsRefuseToChoose) {
+  vpm_refuses({"bake", "scene.toml", "--mesh", "shape 0", "--set", "surface.radius=auto"},
+              {"vpm bake chooses no settings", "name a value"});
+  write("two.toml", R"(
+title = "Two radii"
+unit = "passes"
+budgets = [1]
+repetitions = 3
+[reference]
+error = 1e-2
+[product]
+volume.radius = ["auto", 0.2]
+[[scenes]]
+name = "plume"
+file = "scene.toml"
+)");
+  const auto result = vpm({"compare", "two.toml", "-o", "out"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("vpm compare chooses no settings"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace vpm
