@@ -109,28 +109,6 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
       static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
 }
 
-float DensityGrid::density(const Vec3& world) const {
-  // From the corner of the bricks on nothing is negative: cells and bricks are cut off, not rounded down.
-  const Vec3d p = Vec3d(world_to_index_ * glm::dvec4(Vec3d(world), 1.0)) - lattice_lo_;
-  const bool inside = (p.x >= 0.0) & (p.y >= 0.0) & (p.z >= 0.0) & (p.x < lattice_size_.x) & (p.y < lattice_size_.y) &
-                      (p.z < lattice_size_.z);
-  if (!inside) return frame_.background;
-  const Vec3i cell(p);
-  const Brick& b = brick(cell >> kCellBits);
-  if (b.uniform()) return b.min;
-  const Vec3i c = cell & (kCells - 1);
-  const float* v = values_of(b) + (c.z * kValues + c.y) * kValues + c.x;
-  if (frame_.interpolation == Interpolation::nearest) return *v;
-  const Vec3 f(p - Vec3d(cell));
-  const auto along_x = [&](const float* row) { return row[0] + f.x * (row[1] - row[0]); };
-  const auto along_y = [&](const float* slice) {
-    const float a = along_x(slice);
-    return a + f.y * (along_x(slice + kValues) - a);
-  };
-  const float a = along_y(v);
-  return std::max(0.0f, a + f.z * (along_y(v + kValues * kValues) - a));
-}
-
 Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {
   if (frame_.background > 0.0f) return interval;
   const auto [origin, direction] = to_index(ray);

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -42,8 +44,24 @@ class DensityGrid {
   /// MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill);
 
+  /// A line, in cells from the lower corner of all bricks; its parameter is still metres of the world.
+  struct LatticeRay {
+    Vec3d origin, direction;
+  };
+  LatticeRay lattice_ray(const Ray& ray) const {
+    const auto [origin, direction] = to_index(ray);
+    return {origin - lattice_lo_, direction};
+  }
+  /// Density at a point of a ray.
+  float density(const LatticeRay& ray, double t) const { return density_at(ray.origin + t * ray.direction); }
+  /// Densities at kAtOnce points of a ray at the most, `step` metres apart from t on. All memory they take is asked for
+  /// before any of it is read: it is waited for once.
+  void densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const;
+  static constexpr size_t kAtOnce = 16;
   /// Density at a point of the world.
-  float density(const Vec3& world) const;
+  float density(const Vec3& world) const {
+    return density_at(Vec3d(world_to_index_ * glm::dvec4(Vec3d(world), 1.0)) - lattice_lo_);
+  }
   /// Is the density positive all over a box of the world? May say no of a box in whose neighbourhood it is not, as far
   /// as the bricks reach that the box touches.
   bool is_positive(const Box& world) const;
@@ -91,6 +109,17 @@ class DensityGrid {
   const Brick& brick(const Vec3i& b) const {
     return bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
   }
+  /// Where a look-up reads.
+  struct Place {
+    float density;        // where nothing is to be read
+    const float* values;  // of the voxels from the cell's lower corner on; null: `density` is known
+    Vec3 fraction;        // of the cell
+  };
+  /// Both of a point in cells from the lower corner of all bricks.
+  Place find(const Vec3d& p) const;
+  float density_at(const Vec3d& p) const;
+  /// The density where it is to be read.
+  float read(const Place& place) const;
   void cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
                   DensityPiece& piece) const;
   const float* values_of(const Brick& brick) const {
@@ -116,4 +145,5 @@ class DensityGrid {
 
 }  // namespace vpm
 
+#include "medium/density_grid_lookup.h"
 #include "medium/density_grid_walk.h"

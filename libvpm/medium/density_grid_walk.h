@@ -11,37 +11,56 @@ namespace vpm {
 /// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at
 /// t0. Every plane is met at its own quotient, so that no error builds up along the way. The walk stays in the cells lo
 /// to hi: whoever calls it knows where the ray leaves them, and rounding must not end it before.
+///
+/// No processor foresees which axis is next, and a wrong guess costs more than a step: all axes are dealt with at once,
+/// in lanes that choose without branches, and where an axis meets its next plane but one is known before it is asked.
+template <int spacing>
 class LatticeWalk {
  public:
-  LatticeWalk(const Vec3d& origin, const Vec3d& direction, double spacing, double t0, const Vec3i& lo, const Vec3i& hi)
-      : origin_(origin), spacing_(spacing) {
+  LatticeWalk(const Vec3d& origin, const Vec3d& direction, double t0, const Vec3i& lo, const Vec3i& hi) {
     for (int a = 0; a < 3; ++a) {
-      cell_[a] = std::clamp(static_cast<int>(std::floor((origin[a] + t0 * direction[a]) / spacing)), lo[a], hi[a]);
+      const bool up = direction[a] > 0.0;
+      const auto plane = [&](int cell) { return static_cast<double>((cell + up) * spacing); };
+      const double cell = std::floor((origin[a] + t0 * direction[a]) / spacing);
+      cell_[a] = std::clamp(static_cast<int>(cell), lo[a], hi[a]);
+      step_[a] = up ? 1 : -1;
+      stride_[a] = up ? spacing : -spacing;
+      plane_[a] = plane(static_cast<int>(cell_[a]));
+      last_[a] = direction[a] == 0.0 ? plane_[a] : plane(up ? hi[a] : lo[a]);
+      origin_[a] = origin[a];
       inverse_[a] = 1.0 / direction[a];
-      step_[a] = direction[a] > 0.0 ? 1 : -1;
-      last_[a] = direction[a] > 0.0 ? hi[a] : lo[a];
-      meet_next_plane(a);
     }
+    meet(exit_);
+    plane_ += stride_;
+    meet(next_);
   }
-  const Vec3i& cell() const { return cell_; }
+  Vec3i cell() const { return {cell_[0], cell_[1], cell_[2]}; }
   /// Where the ray leaves the present cell.
-  double exit() const { return std::min(exit_.x, std::min(exit_.y, exit_.z)); }
+  double exit() const { return std::min(exit_[0], std::min(exit_[1], exit_[2])); }
+  /// Goes on to the next cell: across an edge or a corner where the ray meets several planes at once.
   void advance() {
-    const int a = exit_.x <= exit_.y ? (exit_.x <= exit_.z ? 0 : 2) : (exit_.y <= exit_.z ? 1 : 2);
-    cell_[a] += step_[a];
-    meet_next_plane(a);
+    const double leaves = exit();
+    const Integers crosses = exit_ == Numbers{leaves, leaves, leaves, leaves};
+    cell_ += crosses & step_;
+    exit_ = crosses ? next_ : exit_;
+    plane_ = crosses ? plane_ + stride_ : plane_;
+    meet(next_);
   }
 
  private:
-  void meet_next_plane(int a) {
-    const double plane = static_cast<double>(cell_[a] + (step_[a] > 0 ? 1 : 0)) * spacing_;
-    const bool stays = cell_[a] == last_[a] || std::isinf(inverse_[a]);
-    exit_[a] = stays ? std::numeric_limits<double>::infinity() : (plane - origin_[a]) * inverse_[a];
+  // Lanes for x, y, z, and one of no meaning.
+  using Numbers = double __attribute__((vector_size(32)));
+  using Integers = int64_t __attribute__((vector_size(32)));
+
+  /// Finds where the ray meets plane_: never where that is the last.
+  void meet(Numbers& where) const {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    where = plane_ == last_ ? Numbers{kNever, kNever, kNever, kNever} : (plane_ - origin_) * inverse_;
   }
 
-  Vec3d origin_, inverse_, exit_;
-  double spacing_;
-  Vec3i cell_, step_, last_;
+  Numbers origin_{}, inverse_{}, exit_{}, next_{};  // next_: where the planes behind those of exit_ are met
+  Numbers plane_{}, last_{}, stride_{};             // plane_: that of next_
+  Integers cell_{}, step_{};
 };
 
 /// The part of [t0, t1] in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 where there is none.
@@ -52,8 +71,9 @@ inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d
       if (origin[a] < lo[a] || origin[a] > hi[a]) t1 = t0;
       continue;
     }
-    const double near = (lo[a] - origin[a]) / direction[a];
-    const double far = (hi[a] - origin[a]) / direction[a];
+    const double inverse = 1.0 / direction[a];
+    const double near = (lo[a] - origin[a]) * inverse;
+    const double far = (hi[a] - origin[a]) * inverse;
     t0 = std::max(t0, std::min(near, far));
     t1 = std::min(t1, std::max(near, far));
   }
@@ -70,7 +90,7 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
   }
   const float* values = values_of(brick_here);
   const Vec3d inside = ray.origin - Vec3d(b * kCells);  // brick coordinates: 0 to 8
-  LatticeWalk walk(inside, ray.direction, 1.0, t0, Vec3i(0), Vec3i(kCells - 1));
+  LatticeWalk<1> walk(inside, ray.direction, t0, Vec3i(0), Vec3i(kCells - 1));
   const Vec3 step(ray.direction);
   for (double t = t0; t < t1; walk.advance()) {
     const double end = std::min(walk.exit(), t1);
@@ -105,7 +125,7 @@ void DensityGrid::visit_bricks(const Ray& ray, const Interval& interval, Inside&
     return;
   }
   if (!beyond(interval.t0, t0)) return;
-  LatticeWalk walk(origin, direction, kCells, t0, brick_lo_, brick_lo_ + brick_count_ - 1);
+  LatticeWalk<kCells> walk(origin, direction, t0, brick_lo_, brick_lo_ + brick_count_ - 1);
   for (double t = t0; t < t1; walk.advance()) {
     const double end = std::min(walk.exit(), t1);
     if (end > t) {

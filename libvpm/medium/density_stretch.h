@@ -1,7 +1,10 @@
 // The part of a ray that lies in one brick of a density grid: bounds of the density there, and the density itself.
 #pragma once
 
+#include <algorithm>
+
 #include "base/vec.h"
+#include "medium/trilinear.h"
 
 namespace vpm {
 
@@ -19,21 +22,14 @@ struct DensityStretch {
 
   bool uniform() const { return values == nullptr; }
 
-  /// The density at t in [t0, t1]. In double, as float would leave the bounds by its rounding.
+  /// The density at t in [t0, t1]; never outside its bounds, which rounding may leave by a hair, as it may the brick.
   float density(double t) const {
     if (uniform()) return min;
-    const Vec3d p = glm::clamp(origin + t * direction, 0.0, double{kCells});  // which rounding may have left by a hair
+    const Vec3d p = glm::clamp(origin + t * direction, 0.0, double{kCells});
     const Vec3i cell = glm::min(Vec3i(p), Vec3i(kCells - 1));
     const float* v = values + (cell.z * kValues + cell.y) * kValues + cell.x;
     if (nearest) return *v;
-    const Vec3d f = p - Vec3d(cell);
-    const auto along_x = [&](const float* row) { return row[0] + f.x * (double{row[1]} - double{row[0]}); };
-    const auto along_y = [&](const float* slice) {
-      const double a = along_x(slice);
-      return a + f.y * (along_x(slice + kValues) - a);
-    };
-    const double a = along_y(v);
-    return static_cast<float>(a + f.z * (along_y(v + kValues * kValues) - a));
+    return std::clamp(trilinear(v, kValues, kValues * kValues, Vec3(p - Vec3d(cell))), min, max);
   }
 };
 

@@ -2,7 +2,9 @@
 // bounds; tracking is an algorithm outside it.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "base/vec.h"
@@ -10,6 +12,29 @@
 #include "phase/phase.h"
 
 namespace vpm {
+
+/// The density at places of one ray, in any order: what depends on the ray alone is done once. Refers to the grid.
+class DensityAlong {
+ public:
+  /// `grid` null: density 1.
+  DensityAlong(const DensityGrid* grid, const Ray& ray) : grid_(grid) {
+    if (grid) ray_ = grid->lattice_ray(ray);
+  }
+  /// At the distance t, m.
+  float at(double t) const { return grid_ ? grid_->density(ray_, t) : 1.0f; }
+  /// At kAtOnce distances at the most, `step` metres apart from t on: quicker than one by one.
+  void at(double t, double step, std::span<float> densities) const {
+    if (grid_)
+      grid_->densities(ray_, t, step, densities);
+    else
+      std::fill(densities.begin(), densities.end(), 1.0f);
+  }
+  static constexpr size_t kAtOnce = DensityGrid::kAtOnce;
+
+ private:
+  const DensityGrid* grid_;
+  DensityGrid::LatticeRay ray_{};
+};
 
 struct Medium {
   std::string name;
@@ -22,6 +47,7 @@ struct Medium {
   bool scatters() const { return sigma_s != Rgb(0.0f); }
   bool homogeneous() const { return grid == nullptr; }
   float density(const Vec3& p) const { return grid ? grid->density(p) : 1.0f; }
+  DensityAlong density_along(const Ray& ray) const { return {grid.get(), ray}; }
   /// The mean density over the grid's support, empty voxels included.
   double mean_density() const { return grid ? grid->mean_density() : 1.0; }
   float max_density() const { return grid ? grid->max_density() : 1.0f; }

@@ -1,19 +1,38 @@
 // Density look-ups in the cloud.
+#include <algorithm>
+
 #include "benchmarks/bench.h"
 #include "benchmarks/density_peers.h"
 
 namespace vpm::bench {
 namespace {
 
-/// Points of the cloud's box a voxel apart along rays, ray after ray.
-std::vector<Vec3> points_along_rays() {
+/// A ray's places in the cloud's box, a voxel apart from `first` on.
+struct Comb {
+  Ray ray;
+  float first;  // m
+  size_t count;
+};
+
+struct Combs {
+  std::vector<Comb> combs;
+  std::vector<Vec3> points;  // the same places, comb after comb
+};
+
+Combs combs_along_rays() {
   const CloudRays rays = cloud_rays(2000);
   const Vec3 hi(cloud().count - 1);
-  std::vector<Vec3> points;
-  for (const Ray& ray : rays.rays)
+  Combs result;
+  for (const Ray& ray : rays.rays) {
+    Comb comb{ray, 0.0f, 0};
     for (float t = 0.5f; t < rays.length; ++t)
-      if (const Vec3 p = ray.at(t); Box{Vec3(0.0f), hi}.contains(p)) points.push_back(p);
-  return points;
+      if (const Vec3 p = ray.at(t); Box{Vec3(0.0f), hi}.contains(p)) {
+        if (comb.count++ == 0) comb.first = t;
+        result.points.push_back(p);
+      }
+    result.combs.push_back(comb);
+  }
+  return result;
 }
 
 std::vector<Vec3> random_points() {
@@ -30,27 +49,56 @@ double sum_densities(std::span<const Vec3> points) {
   return sum;
 }
 
-void compare(Bench& bench, const std::string& title, const std::vector<Vec3>& points, double target) {
-  const auto over_points = [&](const SumDensities& sum) -> std::function<double()> {
-    if (!sum) return {};
-    return [&points, sum] { return sum(points); };
-  };
-  bench.compare({title,
-                 "look-up",
-                 static_cast<double>(points.size()),
-                 1e-5,
-                 Clock::processor,
-                 {{"vpm, DensityGrid::density", over_points(sum_densities)},
-                  {"NanoVDB, sampler with a cache", over_points(nanovdb_sampler()), target},
-                  {"OpenVDB, BoxSampler over an accessor", over_points(openvdb_accessor())},
-                  {"OpenVDB, GridSampler", over_points(openvdb_grid_sampler())}}});
+/// As marching estimators of transmittance do: what they look up is known in advance.
+double sum_combs(std::span<const Comb> combs) {
+  const DensityGrid& grid = *cloud().grid;
+  double sum = 0.0;
+  float densities[DensityAlong::kAtOnce];
+  for (const auto& [ray, first, count] : combs) {
+    const DensityAlong along(&grid, ray);
+    for (size_t i = 0; i < count; i += DensityAlong::kAtOnce) {
+      const size_t here = std::min(count - i, DensityAlong::kAtOnce);
+      along.at(first + static_cast<double>(i), 1.0, {densities, here});
+      for (size_t k = 0; k < here; ++k) sum += densities[k];
+    }
+  }
+  return sum;
+}
+
+/// The same one by one, as tracking does.
+double sum_combs_singly(std::span<const Comb> combs) {
+  const DensityGrid& grid = *cloud().grid;
+  double sum = 0.0;
+  for (const auto& [ray, first, count] : combs) {
+    const DensityAlong along(&grid, ray);
+    for (size_t i = 0; i < count; ++i) sum += along.at(first + static_cast<double>(i));
+  }
+  return sum;
+}
+
+std::function<double()> over(const std::vector<Vec3>& points, const SumDensities& sum) {
+  if (!sum) return {};
+  return [&points, sum] { return sum(points); };
+}
+
+void compare(Bench& bench, const std::string& title, std::vector<Alternative> ours, const std::vector<Vec3>& points,
+             double target) {
+  ours.push_back({"vpm, DensityGrid::density", over(points, sum_densities)});
+  ours.push_back({"NanoVDB, sampler with a cache", over(points, nanovdb_sampler()), target});
+  ours.push_back({"OpenVDB, BoxSampler over an accessor", over(points, openvdb_accessor())});
+  ours.push_back({"OpenVDB, GridSampler", over(points, openvdb_grid_sampler())});
+  bench.compare({title, "look-up", static_cast<double>(points.size()), 1e-5, Clock::processor, ours});
 }
 
 }  // namespace
 
 void measure_lookups(Bench& bench, const Sizes&) {
-  compare(bench, "Look-ups along rays, a voxel apart, cloud of 256^3", points_along_rays(), 3.5);
-  compare(bench, "Look-ups at random, cloud of 256^3", random_points(), 0.0);
+  const auto [combs, points] = combs_along_rays();
+  compare(bench, "Look-ups along rays, a voxel apart, cloud of 256^3",
+          {{"vpm, DensityAlong, sixteen at once", [&combs = combs] { return sum_combs(combs); }},
+           {"vpm, DensityAlong, one by one", [&combs = combs] { return sum_combs_singly(combs); }}},
+          points, 3.5);
+  compare(bench, "Look-ups at random, cloud of 256^3", {}, random_points(), 0.0);
 }
 
 }  // namespace vpm::bench

@@ -10,9 +10,10 @@ namespace vpm {
 Flight Delta::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng) const {
   const Interval inside = medium.clip(ray, interval);
   const double majorant = majorant_of_lookups(medium);
+  const DensityAlong along = medium.density_along(ray);
   NullCollisionFlight flight(medium, interval, power, rng);
   for (double t = inside.t0; flight.advance(t, inside.t1, majorant);)
-    if (flight.meet(t, medium.density(ray.at(static_cast<float>(t))), majorant)) break;
+    if (flight.meet(t, along.at(t), majorant)) break;
   return flight.result(0);
 }
 

@@ -11,7 +11,7 @@ Flight Homogeneous::sample(const Medium& medium, const Ray&, const Interval& int
   assert(medium.homogeneous());
   const Rgb shares = channel_shares(power);
   const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
-  const double target = -std::log1p(-rng.uniform_double());
+  const double target = rng.exponential();
   const double reach = interval.length();
   Flight flight;
   flight.collided = target < sigma_t * reach;

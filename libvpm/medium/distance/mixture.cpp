@@ -24,7 +24,7 @@ Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& 
                           const Rgb& power, Rng& rng) {
   const Rgbd shares(channel_shares(power));
   const double drawn = pick_channel(rate, Rgb(shares), rng.uniform());
-  const double target = -std::log1p(-rng.uniform_double());
+  const double target = rng.exponential();
   const double reach = std::min<double>(interval.length(), kEndless);
   const double distance = drawn > 0.0 ? target / drawn : kEndless;
   Flight flight;

@@ -27,7 +27,7 @@ class NullCollisionFlight {
   /// Moves t to the next tentative collision before t1 under that majorant (a density). Where there is none it returns
   /// false, and the flight goes on in the next stretch.
   bool advance(double& t, double t1, double majorant) {
-    if (!(left_ > 0.0)) left_ = -std::log1p(-rng_.uniform_double());
+    if (!(left_ > 0.0)) left_ = rng_.exponential();
     const double rate = sigma_t_ * majorant;
     const double reach = rate > 0.0 ? (t1 - t) * rate : 0.0;
     if (!(left_ < reach)) {

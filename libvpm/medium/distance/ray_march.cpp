@@ -13,15 +13,16 @@ Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& in
                         Rng& rng) const {
   const Rgb shares = channel_shares(power);
   const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
-  const double target = -std::log1p(-rng.uniform_double()) / sigma_t;
+  const double target = rng.exponential() / sigma_t;
   const Interval inside = medium.clip(ray, interval);
   const double length = step_ * static_cast<double>(medium.voxel_size());
+  const DensityAlong along = medium.density_along(ray);
   Flight flight;
   flight.t = interval.t1;
   double crossed = 0.0;
   for (double t = inside.t0; t < inside.t1 && sigma_t > 0.0; t += length) {
     const double end = std::min(t + length, static_cast<double>(inside.t1));
-    const double density = medium.density(ray.at(static_cast<float>(std::isinf(end) ? t : 0.5 * (t + end))));
+    const double density = along.at(std::isinf(end) ? t : 0.5 * (t + end));
     count(flight.lookups);
     if (crossed + density * (end - t) > target) {
       flight.collided = true;

@@ -23,7 +23,7 @@ Flight RayMarchAdaptive::sample(const Medium& medium, const Ray& ray, const Inte
                                 Rng& rng) const {
   const Rgb shares = channel_shares(power);
   const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
-  const double target = -std::log1p(-rng.uniform_double()) / sigma_t;  // column to cross; infinite at sigma_t = 0
+  const double target = rng.exponential() / sigma_t;  // column to cross; infinite at sigma_t = 0
   const double longest = step_ * static_cast<double>(medium.voxel_size());
   const double column_of_step = optical_step_ / static_cast<double>(max_channel(medium.sigma_t));
   Flight flight;

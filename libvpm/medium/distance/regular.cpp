@@ -9,7 +9,7 @@ Flight Regular::sample(const Medium& medium, const Ray& ray, const Interval& int
                        Rng& rng) const {
   const Rgb shares = channel_shares(power);
   const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
-  const double target = -std::log1p(-rng.uniform_double()) / sigma_t;  // column to cross; infinite at sigma_t = 0
+  const double target = rng.exponential() / sigma_t;  // column to cross; infinite at sigma_t = 0
   Flight flight;
   flight.t = interval.t1;
   double crossed = 0.0;

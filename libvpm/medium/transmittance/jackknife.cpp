@@ -17,11 +17,11 @@ TransmittanceEstimate JackknifeTransmittance::estimate(const Medium& medium, con
   if (const auto known = known_transmittance(medium, inside)) return *known;
   const double steps = step_count(medium, inside, step_);
   const double length = inside.length() / steps;
+  const DensityAlong along = medium.density_along(ray);
   double sums[2] = {0.0, 0.0};
   for (double i = 0.0; i < steps; ++i) {
     const Vec2 offsets = rng.uniform2();
-    for (int j = 0; j < 2; ++j)
-      sums[j] += medium.density(ray.at(static_cast<float>(inside.t0 + (i + offsets[j]) * length)));
+    for (int j = 0; j < 2; ++j) sums[j] += along.at(inside.t0 + (i + offsets[j]) * length);
   }
   const Rgbd sigma_t(medium.sigma_t);
   const double mean = 0.5 * (sums[0] + sums[1]) * length, half = 0.5 * (sums[0] - sums[1]) * length;

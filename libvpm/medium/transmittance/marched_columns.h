@@ -25,9 +25,14 @@ inline double step_count(const Medium& medium, const Interval& inside, float ste
 /// step. Its mean over uniform offsets in [0, 1) is the column.
 inline double comb_column(const Medium& medium, const Ray& ray, const Interval& inside, double count, double offset) {
   const double length = inside.length() / count;
+  const DensityAlong along = medium.density_along(ray);
+  float densities[DensityAlong::kAtOnce];
   double sum = 0.0;
-  for (double i = 0.0; i < count; ++i)
-    sum += medium.density(ray.at(static_cast<float>(inside.t0 + (i + offset) * length)));
+  for (double i = 0.0; i < count; i += DensityAlong::kAtOnce) {
+    const auto here = static_cast<size_t>(std::min(count - i, double{DensityAlong::kAtOnce}));
+    along.at(inside.t0 + (i + offset) * length, length, {densities, here});
+    for (size_t k = 0; k < here; ++k) sum += densities[k];
+  }
   return sum * length;
 }
 

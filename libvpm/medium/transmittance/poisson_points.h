@@ -26,7 +26,7 @@ class PoissonPoints {
   }
 
  private:
-  double draw() { return -std::log1p(-rng_.uniform_double()); }
+  double draw() { return rng_.exponential(); }
 
   Rng& rng_;
   double left_;  // to the next point: the integral of the rate

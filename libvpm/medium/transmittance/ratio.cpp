@@ -20,11 +20,12 @@ TransmittanceEstimate RatioTransmittance::estimate(const Medium& medium, const R
   if (const auto known = known_transmittance(medium, inside)) return *known;
   const Rgbd sigma_t(medium.sigma_t);
   const double majorant = double{max_channel(medium.sigma_t)} * majorant_of_lookups(medium);  // 1/m
+  const DensityAlong along = medium.density_along(ray);
   uint32_t lookups = 0;
   Rgbd product(1.0);
   PoissonPoints(rng).visit(inside.t0, inside.t1, majorant, [&](double t) {
     count(lookups);
-    product *= 1.0 - sigma_t * double{medium.density(ray.at(static_cast<float>(t)))} / majorant;
+    product *= 1.0 - sigma_t * double{along.at(t)} / majorant;
     return survives(product, rng);
   });
   return {Rgb(product), lookups};

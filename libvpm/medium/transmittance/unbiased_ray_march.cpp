@@ -96,7 +96,8 @@ TransmittanceEstimate UnbiasedRayMarchedTransmittance::estimate(const Medium& me
   if (const auto known = known_transmittance(medium, inside)) return *known;
   TransmittanceEstimate result;
   const double count = comb_size(control_thickness(medium, ray, inside, result.bricks), samples_);
-  const double rise = double{medium.density(ray.at(inside.t1))} - medium.density(ray.at(inside.t0));
+  const DensityAlong along = medium.density_along(ray);
+  const double rise = double{along.at(inside.t1)} - along.at(inside.t0);
   const double of_rise = rise * inside.length() / count;  // m: the error over a straight line is (offset - 1/2) of it
   const int order = draw_order(rng);
   double columns[kMostOrder + 1], thicknesses[kMostOrder + 1];
