@@ -50,9 +50,8 @@ class SegmentMap {
   static constexpr int kLevels = 4;        // of LeafOrder's tree between a box and those below it
   static constexpr int kMostDepth = 8;     // of boxes: 2^32 leaves
 
-  /// A ray as boxes are met. Along each axis it enters a box at near plane * inverse + enter, and leaves it at far
-  /// plane
-  /// * inverse + leave, m.
+  /// A ray as boxes are met. Along each axis it enters a box at the near plane times `inverse` plus `enter`, m, and
+  /// leaves it at the far plane times `inverse` plus `leave`.
   struct Beam {
     Interval interval;
     Vec3 inverse, enter, leave;
