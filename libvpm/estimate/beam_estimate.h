@@ -2,6 +2,8 @@
 // over a disc across the ray.
 #pragma once
 
+#include <span>
+
 #include "estimate/kernel_sum.h"
 #include "phase/phase.h"
 #include "photon/segment_map.h"
@@ -21,10 +23,28 @@ struct PhotonList {
   uint64_t emitted;
 };
 
+/// The share of light that passes from feet on a ray to the eye, channel by channel.
+struct Passed {
+  float r[PhotonBatch::kMost], g[PhotonBatch::kMost], b[PhotonBatch::kMost];
+};
+
+/// What of_foot(distance along the ray, m), an Rgb, says, as beam_sum() asks for it.
+template <class OfFoot>
+auto each_foot(OfFoot&& of_foot) {
+  return [of_foot](std::span<const float> feet, Passed& passed) {
+    for (size_t i = 0; i < feet.size(); ++i) {
+      const Rgb of_this = of_foot(feet[i]);
+      passed.r[i] = of_this.r;
+      passed.g[i] = of_this.g;
+      passed.b[i] = of_this.b;
+    }
+  };
+}
+
 /// sum_p p(travel_p . towards the eye) Phi_p K_r(distance of p from the ray) along(t_p) over the photons whose foot t_p
 /// on the ray lies in the interval, K_r over discs of the photon's radius r; times the albedo, radiance in W/(m^2 sr)
-/// where `along`(t), an Rgb, is the transmittance from the eye to the foot t. With photons stored for the density at
-/// the query it has that density as a factor, too, over the medium's largest.
+/// where `along`(feet, Passed&) finds the transmittance from the eye to the feet t. With photons stored for the
+/// density at the query it has that density as a factor, too, over the medium's largest.
 ///
 /// What is left of bias is that of the kernel across the ray, of order r^2, and that of discs that stick out of the
 /// medium.
@@ -36,13 +56,21 @@ Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along
   const auto sum = [&](const auto& p, auto profile) {
     Rgbd sum_of_photons(0.0);
     uint32_t used = 0;
-    const auto visit = [&](const SegmentMap::Payload& photon, float t, float distance2, float radius) {
-      const float inverse = 1.0f / (radius * radius);
-      const float weight = p.value(photon.travel.unpack(), -ray.direction) * profile(distance2 * inverse) * inverse;
-      sum_of_photons += Rgbd(photon.power.unpack() * (weight * along(t)));
-      ++used;
+    const auto visit = [&](const PhotonsBeside& beside) {
+      const PhotonBatch& batch = beside.batch;
+      Passed passed;
+      along(std::span(beside.foot, batch.size()), passed);
+      const auto weight = [&](size_t i) {
+        const float inverse = 1.0f / (beside.radius[i] * beside.radius[i]);
+        return Rgb(passed.r[i], passed.g[i], passed.b[i]) * (profile(batch.distance2(i) * inverse) * inverse);
+      };
+      const auto scattered = [&](const Vec3& travel, const Rgb& power) {
+        return power * p.value(travel, -ray.direction);
+      };
+      sum_of_photons += sum_photons(batch, weight, scattered);
+      used += batch.number();
     };
-    count(counters.visited, map.photons.for_each_beside(ray, interval, visit));
+    count(counters.visited, map.photons.visit_beside(ray, interval, visit));
     counters.used += used;
     return Rgb(sum_of_photons);
   };

@@ -46,7 +46,7 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
   const Neighbours& near = nearest(Gathering{points_, gather_, counters}, hit.position, agrees);
   if (near.size() == 0) return std::nullopt;
   ++counters.used;
-  return points_.payload(near.photon(0)).power.unpack();
+  return points_.photons().payload(near.photons()[0]).power.unpack();
 }
 
 }  // namespace vpm

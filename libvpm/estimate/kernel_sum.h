@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <type_traits>
 #include <vector>
 
 #include "base/count.h"
@@ -56,6 +57,11 @@ struct Gathering {
 template <class Index>
 Gathering(const Index&, const GatherSettings&, GatherCounters&) -> Gathering<Index>;  // Clang 14 does not deduce it
 
+/// Takes every photon.
+struct AnyPhoton {
+  bool operator()(const PackedDirection&, const Vec3&) const { return true; }
+};
+
 /// Sum over the photons within the radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
@@ -63,15 +69,16 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
   const float inverse = 1.0f / (r * r);
   return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgbd sum(0.0);
-    uint32_t used = 0;
-    const auto visit = [&](const RadiusMap::Payload& p, const Vec3& offset, float d2) {
-      if (!accept(p.travel, offset)) return;
-      sum += Rgbd(value(p.travel.unpack(), p.power.unpack()) * profile(d2 * inverse));
-      ++used;
+    const auto visit = [&](NearPhotons& near) {
+      if constexpr (!std::is_same_v<std::decay_t<Accept>, AnyPhoton>) near.keep(map.index.photons(), point, accept);
+      map.counters.used += near.size();
+      if (near.size() == 0) return;
+      const PhotonBatch batch(map.index.photons(), near.photons(), near.distances2(), near.size());
+      sum += sum_photons(
+          batch, [&](size_t i) { return profile(batch.distance2(i) * inverse); }, value);
     };
     count(map.counters.searches);
-    count(map.counters.visited, map.index.for_each_near(point, r, visit));
-    map.counters.used += used;
+    count(map.counters.visited, map.index.visit_near(point, r, visit));
     return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, r);
   });
 }
@@ -97,9 +104,12 @@ Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours
   map.counters.used += neighbours.size() - first;
   return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgbd sum(0.0);
-    for (size_t i = first; i < neighbours.size(); ++i) {
-      const NearestMap::Payload& p = map.index.payload(neighbours.photon(i));
-      sum += Rgbd(value(p.travel.unpack(), p.power.unpack()) * profile(neighbours.distance2(i) / r2));
+    for (size_t begin = first; begin < neighbours.size(); begin += PhotonBatch::kMost) {
+      const size_t number = std::min(PhotonBatch::kMost, neighbours.size() - begin);
+      const PhotonBatch batch(map.index.photons(), neighbours.photons() + begin, neighbours.distances2() + begin,
+                              number);
+      sum += sum_photons(
+          batch, [&](size_t i) { return profile(batch.distance2(i) / r2); }, value);
     }
     return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2));
   });

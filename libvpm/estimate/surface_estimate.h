@@ -29,7 +29,8 @@ struct Arrives {
     return std::abs(glm::dot(offset, normal)) <= thickness + kSlope * glm::length(offset);
   }
   bool operator()(const PackedDirection& travel, const Vec3& offset) const {
-    return near_plane(offset) && (from_both_sides || glm::dot(travel.on_octahedron(), normal) < 0.0f);
+    const bool arrives = from_both_sides | (glm::dot(travel.on_octahedron(), normal) < 0.0f);
+    return near_plane(offset) & arrives;
   }
 };
 
@@ -52,6 +53,7 @@ Rgb surface_irradiance(const Vec3& point, const Vec3& normal, const Photons&... 
 /// hit's geometric one, turned to the side that is asked for.
 template <class... Photons>
 Rgb shaded_irradiance(const Hit& hit, const Vec3& normal, const Photons&... photons) {
+  if (single_normal(hit)) return surface_irradiance(hit.position, normal, photons...);
   const auto shaded = [&](const Vec3& travel, const Rgb& power) {
     return power * shading_irradiance_scale(hit, travel);
   };

@@ -16,11 +16,10 @@ namespace vpm {
 /// with both densities over the medium's largest.
 template <class... Photons>
 Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const Photons&... photons) {
-  const auto all = [](const PackedDirection&, const Vec3&) { return true; };
   return std::visit(
       [&](const auto& p) {
         const auto value = [&](const Vec3& travel, const Rgb& power) { return power * p.value(travel, towards); };
-        return kernel_sum<3>(photons..., point, all, value);
+        return kernel_sum<3>(photons..., point, AnyPhoton{}, value);
       },
       phase);
 }
@@ -29,8 +28,7 @@ Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const
 /// majorant, as their densities are relative to its largest.
 template <class... Photons>
 Rgb fluence(const Rgb& majorant, const Vec3& point, const Photons&... photons) {
-  const auto all = [](const PackedDirection&, const Vec3&) { return true; };
-  return kernel_sum<3>(photons..., point, all, [](const Vec3&, const Rgb& power) { return power; }) / majorant;
+  return kernel_sum<3>(photons..., point, AnyPhoton{}, [](const Vec3&, const Rgb& power) { return power; }) / majorant;
 }
 
 }  // namespace vpm

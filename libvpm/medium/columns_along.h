@@ -2,6 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "medium/medium.h"
@@ -11,8 +15,7 @@ namespace vpm {
 /// What a medium puts before each place of a stretch of a ray. Keeps its buffer between rays: one for each thread.
 class ColumnsAlong {
  public:
-  /// Walks the medium along the interval, which is finite unless the medium is homogeneous; `medium` null: empty space.
-  /// Returns the look-ups made.
+  /// Walks the medium along the interval, which may be endless; `medium` null: empty space. Returns the look-ups made.
   uint32_t walk(const Medium* medium, const Ray& ray, const Interval& interval) {
     pieces_.clear();
     double before = 0.0;
@@ -23,6 +26,7 @@ class ColumnsAlong {
         before += piece.column();
         return true;
       });
+    make_slots();
     return lookups;
   }
 
@@ -32,10 +36,14 @@ class ColumnsAlong {
   };
   /// At the distance `t`, m, of the interval.
   Place at(double t) const {
-    const auto after =
-        std::upper_bound(pieces_.begin(), pieces_.end(), t, [](double x, const Before& b) { return x < b.piece.t0; });
-    if (after == pieces_.begin()) return {0.0, 0.0};
-    const auto& [piece, column] = *(after - 1);
+    assert(std::isfinite(t));
+    if (pieces_.empty() || t < starts_.front()) return {0.0, 0.0};
+    const auto slot = static_cast<size_t>((t - starts_.front()) * slots_per_metre_);
+    size_t i = first_[std::min(slot, first_.size() - 1)];
+    // Seldom more than two steps on, which are taken without branches: nobody can foresee them.
+    for (int step = 0; step < 2; ++step) i += starts_[i + 1] <= t ? 1 : 0;
+    while (starts_[i + 1] <= t) ++i;
+    const auto& [piece, column] = pieces_[i];
     if (t > piece.t1) return {column + piece.column(), 0.0};  // between pieces is empty space
     const double s = t - piece.t0;
     return {column + std::max(0.0, piece.column(s)), std::max(0.0, piece.density(s))};
@@ -55,7 +63,28 @@ class ColumnsAlong {
     DensityPiece piece;
     double column;  // m, from the interval's start to the piece's
   };
+
+  /// Parts the way into as many even slots as there are pieces: a place is found by its slot, and a few steps on.
+  void make_slots() {
+    const size_t count = pieces_.size();
+    starts_.clear();
+    for (const Before& before : pieces_) starts_.push_back(before.piece.t0);
+    starts_.push_back(std::numeric_limits<double>::infinity());
+    first_.resize(count);
+    if (count == 0) return;
+    const double length = starts_[count - 1] - starts_[0];
+    slots_per_metre_ = length > 0.0 ? static_cast<double>(count) / length : 0.0;
+    for (size_t slot = 0, i = 0; slot < count; ++slot) {
+      const double from = starts_[0] + static_cast<double>(slot) * length / static_cast<double>(count);
+      while (starts_[i + 1] <= from) ++i;
+      first_[slot] = static_cast<uint32_t>(i);
+    }
+  }
+
   std::vector<Before> pieces_;
+  std::vector<double> starts_;   // of the pieces, m, and an infinite one
+  std::vector<uint32_t> first_;  // of each slot: the last piece that begins no later
+  double slots_per_metre_ = 0.0;
 };
 
 }  // namespace vpm

@@ -16,8 +16,6 @@ namespace vpm {
 
 class NearestMap {
  public:
-  using Payload = PhotonTable::Payload;
-
   NearestMap() = default;
   /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
   NearestMap(const std::vector<Photon>& photons, float scale);
@@ -28,7 +26,7 @@ class NearestMap {
   template <class Accept>
   uint32_t find(const Vec3& point, uint32_t count, float max_radius, Neighbours& neighbours, Accept&& accept) const;
 
-  const Payload& payload(size_t i) const { return photons_.payload(i); }
+  const PhotonTable& photons() const { return photons_; }
   size_t size() const { return photons_.size(); }
   const Box& bounds() const { return bounds_; }
   size_t memory_bytes() const;
@@ -78,7 +76,7 @@ uint32_t NearestMap::search(const Vec3& point, size_t of_leaf, Neighbours& neigh
   Part stack[33];
   int top = 0;
   uint32_t visited = 0;
-  const auto takes = [&](uint32_t i) { return accept(payload(i).travel, photons_.position(i) - point); };
+  const auto takes = [&](uint32_t i) { return accept(photons_.payload(i).travel, photons_.position(i) - point); };
   const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
     neighbours.add(distances2, number, first, takes);
   };

@@ -30,8 +30,8 @@ class Neighbours {
   size_t size() const { return size_; }
   /// Were `count` photons found within the largest radius?
   bool full() const { return size_ == count_; }
-  float distance2(size_t i) const { return distances2_[i]; }  // m^2
-  uint32_t photon(size_t i) const { return photons_[i]; }     // its number in the map
+  const uint32_t* photons() const { return photons_.data(); }     // their numbers in the map
+  const float* distances2() const { return distances2_.data(); }  // m^2
 
  private:
   size_t most() const { return 2 * size_t{count_} + kBlock; }

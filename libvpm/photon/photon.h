@@ -16,29 +16,29 @@ class PackedDirection {
   PackedDirection() = default;
   explicit PackedDirection(const Vec3& d) {
     const float scale = 1.0f / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
-    Vec2 p(d.x * scale, d.y * scale);
-    if (d.z < 0.0f) p = fold(p);
-    u_ = static_cast<int16_t>(std::lround(p.x * kSteps));
-    v_ = static_cast<int16_t>(std::lround(p.y * kSteps));
+    const Vec2 p = d.z < 0.0f ? fold({d.x * scale, d.y * scale}) : Vec2(d.x * scale, d.y * scale);
+    bits_ = step_of(p.x) << 16 | (step_of(p.y) & 0xffffu);
   }
   /// The direction, unit.
   Vec3 unpack() const { return glm::normalize(on_octahedron()); }
   /// The same of another length: that of |x| + |y| + |z| is 1. Costs no root.
   Vec3 on_octahedron() const {
-    Vec2 p(static_cast<float>(u_) / kSteps, static_cast<float>(v_) / kSteps);
+    const Vec2 p(static_cast<float>(static_cast<int32_t>(bits_) >> 16) / kSteps,
+                 static_cast<float>(static_cast<int32_t>(bits_ << 16) >> 16) / kSteps);
     const float z = 1.0f - std::abs(p.x) - std::abs(p.y);
-    if (z < 0.0f) p = fold(p);
-    return {p.x, p.y, z};
+    const float below = std::max(0.0f, -z);  // folds back, without a branch
+    return {p.x - std::copysign(below, p.x), p.y - std::copysign(below, p.y), z};
   }
 
  private:
   static constexpr float kSteps = 32767.0f;
-  /// Maps the octahedron's lower half to the square's corners, and back.
+  static uint32_t step_of(float x) { return static_cast<uint32_t>(std::lround(x * kSteps)); }
+  /// Maps the octahedron's lower half to the square's corners.
   static Vec2 fold(const Vec2& p) {
     return {std::copysign(1.0f - std::abs(p.y), p.x), std::copysign(1.0f - std::abs(p.x), p.y)};
   }
 
-  int16_t u_ = 0, v_ = 0;
+  uint32_t bits_ = 0;  // x in the upper half, y in the lower
 };
 
 /// A power in eight bytes: 18 bits for each channel, over a power of two that all share. Off by at most 4e-6 of the
@@ -59,10 +59,10 @@ class PackedPower {
   }
   /// The power, W.
   Rgb unpack() const {
-    const uint64_t bits = uint64_t{high_} << 32 | low_;
-    const float step = power_of_two(static_cast<int>(bits >> (3 * kBits)) + kLeastExponent - kBits);
-    const auto channel = [&](int shift) { return static_cast<float>(static_cast<int>(bits >> shift & kMost)) * step; };
-    return {channel(2 * kBits), channel(kBits), channel(0)};
+    const auto channel = [](uint32_t bits) { return static_cast<float>(static_cast<int>(bits & kMost)); };
+    const float step = power_of_two(static_cast<int>(high_ >> (3 * kBits - 32)) + kLeastExponent - kBits);
+    const Rgb steps(channel(high_ >> (2 * kBits - 32)), channel(high_ << (32 - kBits) | low_ >> kBits), channel(low_));
+    return steps * step;
   }
 
  private:

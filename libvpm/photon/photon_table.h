@@ -81,29 +81,4 @@ void PhotonTable::for_each_block(size_t begin, size_t end, const Ray& ray, const
   }
 }
 
-/// Collects photons nearer than a limit, so that what is done with each of them waits for the end of a row or two.
-class NearPhotons {
- public:
-  /// Adds those of a block that are nearer than the root of `limit2`, m^2; when there is little room left, calls
-  /// use(photon, squared distance) for all so far, in their order.
-  template <class Use>
-  void add(const float* distances2, uint32_t number, uint32_t first, float limit2, Use&& use) {
-    size_ += append_below(distances2, number, limit2, first, distances2_ + size_, photons_ + size_);
-    if (size_ > kMost) take(use);
-  }
-  /// Calls use() for those that are left.
-  template <class Use>
-  void take(Use&& use) {
-    for (size_t i = 0; i < size_; ++i) use(photons_[i], distances2_[i]);
-    size_ = 0;
-  }
-
- private:
-  static constexpr size_t kMost = 256;
-
-  size_t size_ = 0;
-  float distances2_[kMost + 2 * kBlock];
-  uint32_t photons_[kMost + 2 * kBlock];
-};
-
 }  // namespace vpm

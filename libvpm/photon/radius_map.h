@@ -11,23 +11,22 @@
 
 #include "base/count.h"
 #include "base/vec.h"
-#include "photon/photon_table.h"
+#include "photon/photon_batch.h"
 
 namespace vpm {
 
 class RadiusMap {
  public:
-  using Payload = PhotonTable::Payload;
-
   RadiusMap() = default;
   /// Sorts the photons for queries of about `radius` (m, > 0), with powers multiplied by `scale`: 1/emitted.
   RadiusMap(const std::vector<Photon>& photons, float radius, float scale);
 
-  /// Calls visit(const Payload&, offset from `point`, squared distance) for the photons nearer to `point` than
-  /// `radius`, m, in a fixed order. Returns how many photons it computed the distance of.
+  /// Calls visit(NearPhotons&) for the photons nearer to `point` than `radius`, m, so many at a time, in a fixed order.
+  /// Returns how many photons it computed the distance of.
   template <class Visit>
-  uint32_t for_each_near(const Vec3& point, float radius, Visit&& visit) const;
+  uint32_t visit_near(const Vec3& point, float radius, Visit&& visit) const;
 
+  const PhotonTable& photons() const { return photons_; }
   size_t size() const { return photons_.size(); }
   /// The box around the photons.
   const Box& bounds() const { return bounds_; }
@@ -48,16 +47,13 @@ class RadiusMap {
 };
 
 template <class Visit>
-uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit) const {
+uint32_t RadiusMap::visit_near(const Vec3& point, float radius, Visit&& visit) const {
   for (int a = 0; a < 3; ++a)
     if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return 0;
   uint32_t visited = 0;
   NearPhotons found;
-  const auto use = [&](uint32_t i, float distance2) {
-    visit(photons_.payload(i), photons_.position(i) - point, distance2);
-  };
   const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
-    found.add(distances2, number, first, radius * radius, use);
+    found.add(distances2, number, first, radius * radius, visit);
   };
   const float cell = 1.0f / per_cell_;
   const int z_end = cell_along(2, point.z + radius);
@@ -85,7 +81,7 @@ uint32_t RadiusMap::for_each_near(const Vec3& point, float radius, Visit&& visit
       count(visited, end - begin);
     }
   }
-  found.take(use);
+  found.take(visit);
   return visited;
 }
 

@@ -68,7 +68,7 @@ void SegmentMap::make_boxes() {
 
 Box SegmentMap::box_of(size_t begin, size_t end) const {
   Box box;
-  for (size_t i = begin; i < end; ++i) box.add(position(i));
+  for (size_t i = begin; i < end; ++i) box.add(photons_.position(i));
   return box;
 }
 

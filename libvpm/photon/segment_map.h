@@ -11,7 +11,7 @@
 #include "base/count.h"
 #include "base/vec.h"
 #include "photon/leaf_order.h"
-#include "photon/photon_table.h"
+#include "photon/photon_batch.h"
 
 namespace vpm {
 
@@ -22,24 +22,26 @@ struct BeamRadii {
   float scale = 1.0f;
 };
 
+/// Photons beside a ray.
+struct PhotonsBeside {
+  const PhotonBatch& batch;
+  const float* foot;    // distances along the ray, m
+  const float* radius;  // m
+};
+
 class SegmentMap {
  public:
-  using Payload = PhotonTable::Payload;
-
   SegmentMap() = default;
   /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
   SegmentMap(const std::vector<Photon>& photons, const BeamRadii& radii, float scale);
 
-  /// Calls visit(const Payload&, distance along the ray, m, squared distance from it, m^2, the photon's radius, m) for
-  /// the photons nearer to the ray than their radii whose foot on it lies in the interval, in a fixed order. Returns
-  /// how many photons it computed the distance of.
+  /// Calls visit(const PhotonsBeside&) for the photons nearer to the ray than their radii whose foot on it lies in the
+  /// interval, so many at a time, in a fixed order. Returns how many photons it computed the distance of.
   template <class Visit>
-  uint32_t for_each_beside(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  uint32_t visit_beside(const Ray& ray, const Interval& interval, Visit&& visit) const;
 
-  /// Of photon `i` in the map's order.
-  const Payload& payload(size_t i) const { return photons_.payload(i); }
-  Vec3 position(size_t i) const { return photons_.position(i); }
-  float radius(size_t i) const;  // m
+  const PhotonTable& photons() const { return photons_; }
+  float radius(size_t i) const;  // m, of photon `i` in the map's order
 
   size_t size() const { return photons_.size(); }
   const Box& bounds() const { return bounds_; }
@@ -66,6 +68,10 @@ class SegmentMap {
   /// Appends to `met` which of the `count` boxes from that place on the beam meets, numbered from `first` on. Returns
   /// how many it does.
   uint32_t meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
+
+  /// Calls visit(const PhotonsBeside&) for photons numbered by leaf and place in it.
+  template <class Visit>
+  void unpack(const Ray& ray, const Interval& interval, const NearPhotons& near, Visit&& visit) const;
 
   /// The photons' radii, leaf by leaf, and the boxes around their discs.
   void choose_radii(const BeamRadii& radii);
@@ -103,16 +109,28 @@ inline uint32_t SegmentMap::meet(const Beam& beam, size_t place, uint32_t count,
 }
 
 template <class Visit>
-uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, Visit&& visit) const {
+void SegmentMap::unpack(const Ray& ray, const Interval& interval, const NearPhotons& near, Visit&& visit) const {
+  uint32_t photons[NearPhotons::kMost];
+  float radius[NearPhotons::kMost], foot[NearPhotons::kMost];
+  for (size_t i = 0; i < near.size(); ++i) {
+    const uint32_t leaf = near.photons()[i] / kBlock;
+    photons[i] = static_cast<uint32_t>(leaf_begin(size(), leaves_, leaf)) + near.photons()[i] % kBlock;
+    radius[i] = radius_[leaf];
+    const float t = glm::dot(photons_.position(photons[i]) - ray.origin, ray.direction);
+    foot[i] = std::clamp(t, interval.t0, interval.t1);
+  }
+  const PhotonBatch batch(photons_, photons, near.distances2(), near.size());
+  std::fill(radius + near.size(), radius + batch.size(), radius[0]);
+  std::fill(foot + near.size(), foot + batch.size(), foot[0]);
+  visit(PhotonsBeside{batch, foot, radius});
+}
+
+template <class Visit>
+uint32_t SegmentMap::visit_beside(const Ray& ray, const Interval& interval, Visit&& visit) const {
   if (size() == 0) return 0;
   const Beam beam = make_beam(ray, interval);
   NearPhotons found;  // numbered by leaf and place in it
-  const auto use = [&](uint32_t number, float distance2) {
-    const uint32_t leaf = number / kBlock;
-    const size_t i = leaf_begin(size(), leaves_, leaf) + number % kBlock;
-    const float t = glm::dot(photons_.position(i) - ray.origin, ray.direction);
-    visit(photons_.payload(i), std::clamp(t, interval.t0, interval.t1), distance2, radius_[leaf]);
-  };
+  const auto use = [&](const NearPhotons& near) { unpack(ray, interval, near, visit); };
   struct Group {
     uint32_t begin, end;  // of `met`
   };
@@ -137,8 +155,8 @@ uint32_t SegmentMap::for_each_beside(const Ray& ray, const Interval& interval, V
       continue;
     }
     const auto [first, below] = children(depth, box);
-    const uint32_t begin = group.end;
-    waiting[++depth] = {begin, begin + meet(beam, begin_[depth] + first, below, first, met + begin)};
+    const uint32_t begin = group.end, hits = meet(beam, begin_[depth + 1] + first, below, first, met + begin);
+    waiting[++depth] = {begin, begin + hits};
   }
   found.take(use);
   return visited;

@@ -1,7 +1,11 @@
 // Radiance along camera rays.
 #include "render/eye_path.h"
 
+#include <optional>
+#include <span>
+
 #include "base/count.h"
+#include "base/exp_negative.h"
 #include "estimate/volume_estimate.h"
 #include "estimate/volume_region.h"
 #include "medium/columns_along.h"
@@ -21,9 +25,27 @@ float step_among(const PhotonMap& map, const Interval& interval) {
 }
 
 /// transmittance() of a finite column, as quick as photons along a ray need it: off by 1e-7 of the optical thickness.
-Rgb beam_transmittance(const Medium& medium, float column) {
-  if (is_grey(medium.sigma_t)) return Rgb(std::exp(-medium.sigma_t.r * column));
-  return glm::exp(-medium.sigma_t * column);
+inline Rgb beam_transmittance(const Rgb& sigma_t, float column) {
+  const Rgb optical = sigma_t * column;
+  return {exp_negative(-optical.r), exp_negative(-optical.g), exp_negative(-optical.b)};
+}
+
+/// beam_transmittance() from feet on a ray through a grid; times the density there and `per_density`, where that is not
+/// 0.
+void pass_grid(const ColumnsAlong& columns, const Rgb& sigma_t, float per_density, std::span<const float> feet,
+               Passed& passed) {
+  float column[PhotonBatch::kMost], share[PhotonBatch::kMost];
+  for (size_t i = 0; i < feet.size(); ++i) {
+    const ColumnsAlong::Place place = columns.at(feet[i]);
+    column[i] = static_cast<float>(place.column);
+    share[i] = per_density > 0.0f ? static_cast<float>(place.density) * per_density : 1.0f;
+  }
+  for (size_t i = 0; i < feet.size(); ++i) {
+    const Rgb kept = beam_transmittance(sigma_t, column[i]) * share[i];
+    passed.r[i] = kept.r;
+    passed.g[i] = kept.g;
+    passed.b[i] = kept.b;
+  }
 }
 
 class EyePath {
@@ -66,10 +88,8 @@ class EyePath {
   /// Adds what media scatter towards the eye along the segment, and attenuates by it.
   void cross_segment(const Interval& segment) {
     const bool at_photon = c_.stages.volume_map && c_.settings.volume_form == VolumeForm::density_at_photon;
-    if (c_.stages.beams)
-      gather_beams(segment);
-    else if (at_photon)
-      gather_photon_densities(segment);
+    if (at_photon && !c_.stages.beams) gather_photon_densities(segment);
+    const std::optional<double> crossed = c_.stages.beams ? gather_beams(segment) : std::nullopt;
     if (medium_ == kVacuum) return;
     const Medium& medium = c_.scene.media[medium_];
     if (c_.stages.equiangular)
@@ -77,7 +97,7 @@ class EyePath {
     const bool marches = c_.stages.volume_map && !c_.stages.beams && !at_photon;
     const PhotonMap* map = marches && c_.volume[medium_].size() > 0 ? &c_.volume[medium_] : nullptr;
     if (!medium.scatters() || (!map && !c_.stages.marched_shadow_rays())) {
-      throughput_ *= transmittance(medium, counted_column(medium, ray_, segment, counters_.walk));
+      throughput_ *= transmittance(medium, crossed ? *crossed : counted_column(medium, ray_, segment, counters_.walk));
       return;
     }
     // Fine steps where there are photons to gather; elsewhere only single scattering is left to find, in steps of
@@ -140,27 +160,36 @@ class EyePath {
   }
 
   /// The beam radiance estimate, in one query of each map: with the density at the query of the medium that the ray is
-  /// in, with that at the photon of all.
-  void gather_beams(const Interval& segment) {
+  /// in, with that at the photon of all. Returns the column of the segment, m, where the medium was walked along.
+  std::optional<double> gather_beams(const Interval& segment) {
     static thread_local ColumnsAlong columns;
     const bool at_query = c_.settings.volume_form == VolumeForm::density_at_query;
     const Medium* around = medium_ == kVacuum ? nullptr : &c_.scene.media[medium_];
+    std::optional<double> crossed;
     for (size_t m = 0; m < c_.beams.size(); ++m) {
       const BeamMap& map = c_.beams[m];
       const Medium& medium = c_.scene.media[m];
       if (map.photons.size() == 0 || (at_query && &medium != around)) continue;
       const Interval near = clip(segment, map.photons.bounds(), map.settings.radius);
       if (near.empty()) continue;
-      count(counters_.walk.lookups, columns.walk(around, ray_, {segment.t0, near.t1}));
       count(counters_.volume_queries);
-      const float densest = medium.max_density();
-      const auto along = [&](float t) {
-        const auto [column, density] = columns.at(t);
-        const Rgb passed = around ? beam_transmittance(*around, static_cast<float>(column)) : Rgb(1.0f);
-        return at_query ? passed * (static_cast<float>(density) / densest) : passed;
+      const Rgb scale = throughput_ * medium.albedo();
+      if (!around || around->homogeneous()) {
+        const Rgb sigma_t = around ? around->sigma_t : Rgb(0.0f);
+        const auto passed = each_foot([&](float t) { return beam_transmittance(sigma_t, t - segment.t0); });
+        radiance_ += scale * beam_sum(medium.phase, ray_, near, passed, map, counters_.gather);
+        continue;
+      }
+      if (!crossed) {
+        count(counters_.walk.lookups, columns.walk(around, ray_, segment));
+        crossed = columns.column();
+      }
+      const auto passed = [&](std::span<const float> feet, Passed& into) {
+        pass_grid(columns, around->sigma_t, at_query ? 1.0f / medium.max_density() : 0.0f, feet, into);
       };
-      radiance_ += throughput_ * medium.albedo() * beam_sum(medium.phase, ray_, near, along, map, counters_.gather);
+      radiance_ += scale * beam_sum(medium.phase, ray_, near, passed, map, counters_.gather);
     }
+    return crossed;
   }
 
   /// volume_sum() towards the eye, at a point of the medium that the ray is in.

@@ -25,7 +25,7 @@ GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, G
   const Neighbours& near = nearest(Gathering{map, from_rough.settings, counters}, hit.position, arrives);
   counters.used += near.size();
   for (size_t i = 0; i < near.size(); ++i) {
-    const NearestMap::Payload& photon = map.payload(near.photon(i));
+    const PhotonTable::Payload& photon = map.photons().payload(near.photons()[i]);
     const Vec3 travel = photon.travel.unpack();
     const Rgb scattered = scatter_value(view.material, hit, travel, -view.travel).value;
     up_to_[cell_of(-travel)] += glm::dot(Rgbd(scattered), Rgbd(photon.power.unpack()));

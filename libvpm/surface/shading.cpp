@@ -17,8 +17,6 @@ Cosines cosines(const Hit& hit, const Vec3& direction) {
   return {glm::dot(hit.normal, direction), glm::dot(hit.shading_normal, direction)};
 }
 
-bool single_normal(const Hit& hit) { return hit.shading_normal == hit.normal; }
-
 /// Does light pass from one direction of travel to the other, being transmitted or not?
 bool passes(const Cosines& in, const Cosines& out, bool transmitted) {
   return in.agree() && out.agree() && (in.geometric * out.geometric > 0.0f) == transmitted;

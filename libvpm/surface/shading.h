@@ -24,6 +24,9 @@ Scatter scatter_into(const Material& material, const Hit& hit, const Vec3& trave
 /// that arrives against `direction` is multiplied by on its way to the eye.
 ScatterValue scatter_value(const Material& material, const Hit& hit, const Vec3& travel, const Vec3& direction);
 
+/// Is there but one normal?
+inline bool single_normal(const Hit& hit) { return hit.shading_normal == hit.normal; }
+
 /// |cos_s| / |cos_g| of light that arrives along `travel`: what turns irradiance by geometric cosines, such as photons
 /// tell of, into irradiance by shading cosines. 0 where it arrives on different sides of the normals; 1 where they are
 /// equal.

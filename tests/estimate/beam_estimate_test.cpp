@@ -45,7 +45,7 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
           // Ends that part photons evenly, and an endless one.
           const Interval interval{0.31f, i % 4 == 0 ? kInfinity : 0.92f};
           GatherCounters counters;
-          const Rgb quick = beam_sum(phase, ray, interval, along, map, counters);
+          const Rgb quick = beam_sum(phase, ray, interval, each_foot(along), map, counters);
           const Rgb slow = beam_sum(phase, ray, interval, along, PhotonList{all, settings, 1000});
           // Rounding of distances changes profiles of far photons by parts of 1e-5 of the kernel's height.
           const float height = kernel_norm_2d(kernel.kind, radius) * static_cast<float>(counters.used) * 1e-3f;
@@ -80,8 +80,8 @@ TEST(BeamEstimate, IsTheIntegralThatEvenPhotonsStandFor) {
         const GatherSettings settings{
             .mode = GatherMode::beam, .radius = 0.3f, .kernel = kernel.kind, .beam_count = count};
         const BeamMap map = beam_map(even, settings, n);
-        const Rgb sum = beam_sum(
-            Isotropic{}, ray, {0.0f, 10.0f}, [&](float t) { return glm::exp(-sigma * t); }, map, counters);
+        const Rgb sum = beam_sum(Isotropic{}, ray, {0.0f, 10.0f},
+                                 each_foot([&](float t) { return glm::exp(-sigma * t); }), map, counters);
         for (int c = 0; c < 3; ++c) sums[static_cast<size_t>(c)].add(sum[c]);
       }
       for (int c = 0; c < 3; ++c) {
@@ -100,18 +100,18 @@ TEST(BeamEstimate, EqualsTheSumOverPhotonsWithRadiiOfTheirOwn) {
     for (uint64_t i = 0; i < 50; ++i) {
       const Ray ray = any_ray(photons(layout, 5000), 0.1f, i);
       GatherCounters counters;
-      const Rgb quick = beam_sum(
-          Isotropic{}, ray, {0.3f, 0.9f}, [](float t) { return Rgb(t); }, map, counters);
+      const Rgb quick =
+          beam_sum(Isotropic{}, ray, {0.3f, 0.9f}, each_foot([](float t) { return Rgb(t); }), map, counters);
       Rgbd slow(0.0);
       for (size_t k = 0; k < map.photons.size(); ++k) {
         const float radius = map.photons.radius(k);
-        const Vec3 offset = map.photons.position(k) - ray.origin;
+        const Vec3 offset = map.photons.photons().position(k) - ray.origin;
         const float t = glm::dot(offset, ray.direction), across = glm::length(offset - t * ray.direction);
         least = std::min(least, radius);
         most = std::max(most, radius);
         if (!(t >= 0.3f && t < 0.9f && across < radius)) continue;
         const float q = across * across / (radius * radius);
-        slow += Rgbd(map.photons.payload(k).power.unpack() * t * kernel_profile<KernelKind::epanechnikov>(q) *
+        slow += Rgbd(map.photons.photons().payload(k).power.unpack() * t * kernel_profile<KernelKind::epanechnikov>(q) *
                      kernel_norm_2d(KernelKind::epanechnikov, radius) / (4.0f * kPi));
       }
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(quick[c], slow[c], 2e-3 * slow[c] + 1e-3) << "ray " << i;
@@ -152,8 +152,8 @@ TEST(BeamEstimate, IsTheSameOnAnyNumberOfThreads) {
     std::vector<Rgb> result;
     for (uint64_t i = 0; i < 50; ++i) {
       GatherCounters counters;
-      result.push_back(beam_sum(
-          Isotropic{}, any_ray(all, 0.05f, i), {0.0f, 2.0f}, [](float) { return Rgb(1.0f); }, map, counters));
+      result.push_back(beam_sum(Isotropic{}, any_ray(all, 0.05f, i), {0.0f, 2.0f},
+                                each_foot([](float) { return Rgb(1.0f); }), map, counters));
     }
     return result;
   };
@@ -168,8 +168,7 @@ TEST(SegmentMap, TakesAtMost28BytesAPhotonAndAnswersWithoutAny) {
     EXPECT_LE(static_cast<double>(map.memory_bytes()) / 20'000.0, 28.0 + 0.1);  // what a map takes beside photons
   }
   const SegmentMap none(std::vector<Photon>{}, {1.0f, 50}, 1.0f);
-  const auto fail = [](const SegmentMap::Payload&, float, float, float) { ADD_FAILURE(); };
-  EXPECT_EQ(none.for_each_beside({}, {}, fail), 0u);
+  EXPECT_EQ(none.visit_beside({}, {}, [](const PhotonsBeside&) { ADD_FAILURE(); }), 0u);
 }
 
 TEST(ColumnsAlong, AreThoseOfTheMedium) {

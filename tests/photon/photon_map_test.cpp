@@ -171,9 +171,7 @@ TEST(SlowPhotonMap, KNearestIsUnbiasedInUniformPhotons) {
       std::vector<Photon> all(2000);
       for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
       const PhotonMap map = make_photon_map(all, {GatherMode::nearest, 10.0f, 12, kernel}, 2000);
-      density.add(kernel_sum<3>(
-                      map, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; })
-                      .r);
+      density.add(kernel_sum<3>(map, Vec3(0.5f), AnyPhoton{}, [](auto&&, const Rgb& p) { return p; }).r);
     }
     expect_mean(density, 1.0, 1e-6, "density");
   }
@@ -186,9 +184,7 @@ TEST(PhotonMap, FixedRadiusMeanIsTheSmoothedDensity) {
     std::vector<Photon> all(500);
     for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
     const PhotonMap map = make_photon_map(all, {GatherMode::radius, 0.3f, 0, KernelKind::biweight}, 500);
-    density.add(kernel_sum<3>(
-                    map, Vec3(0.5f), [](auto&&...) { return true; }, [](auto&&, const Rgb& p) { return p; })
-                    .r);
+    density.add(kernel_sum<3>(map, Vec3(0.5f), AnyPhoton{}, [](auto&&, const Rgb& p) { return p; }).r);
   }
   expect_mean(density, 1.0, 1e-6, "density");
 }

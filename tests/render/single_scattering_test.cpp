@@ -194,9 +194,7 @@ TEST(SingleScattering, StaysBoundedBesideALamp) {
 
 /// Segments through the box [-1, 1]^3, and the box with a medium in it.
 void expect_as_marched(const Medium& medium, const std::vector<Light>& lights, const std::string& what) {
-  Scene scene = boxed_medium(medium, lights.front());
-  scene.lights = lights;
-  finish(scene);
+  const Scene scene = boxed_medium(medium, lights);
   for (const EyeSegment& segment :
        {EyeSegment{{Vec3(-0.9f, 0.4f, -0.8f), glm::normalize(Vec3(1.0f, 0.2f, 0.9f))}, {0.0f, 2.0f}, 0, Rgb(1.0f)},
         EyeSegment{{Vec3(0.3f, -0.9f, 0.2f), Vec3(0, 1, 0)}, {0.0f, 1.8f}, 0, Rgb(0.5f, 1.0f, 2.0f)}})

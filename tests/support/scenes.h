@@ -7,15 +7,18 @@
 namespace vpm {
 
 /// A medium inside the boundary box [-1, 1]^3, vacuum around it.
-inline Scene boxed_medium(const Medium& medium, const Light& light) {
+inline Scene boxed_medium(const Medium& medium, const std::vector<Light>& lights) {
   Scene scene;
   scene.media.push_back(medium);
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
-  scene.lights.push_back(light);
+  scene.lights = lights;
   scene.geometry.commit();
   finish(scene);
   return scene;
+}
+inline Scene boxed_medium(const Medium& medium, const Light& light) {
+  return boxed_medium(medium, std::vector<Light>{light});
 }
 
 }  // namespace vpm

@@ -24,7 +24,9 @@ void compare(Bench& bench, size_t count, const Targets& targets) {
     const auto ours = [&] {
       double sum = 0.0;
       for (const Vec3& q : queries)
-        map.for_each_near(q, radius, [&](const auto&, const Vec3&, float d2) { sum += radius * radius - d2; });
+        map.visit_near(q, radius, [&](const NearPhotons& near) {
+          for (size_t i = 0; i < near.size(); ++i) sum += radius * radius - near.distances2()[i];
+        });
       return sum;
     };
     const auto theirs = [&](const PointIndex* index) -> std::function<double()> {

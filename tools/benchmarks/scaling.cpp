@@ -78,7 +78,9 @@ void measure_size(Bench& bench, const Scene& scene, size_t count) {
                   queries.size(), [&] {
                     return sum_over(queries, [&](const Vec3& q) {
                       double sum = 0.0;
-                      map.for_each_near(q, radius, [&](const auto&, const Vec3&, float d2) { sum += d2; });
+                      map.visit_near(q, radius, [&](const NearPhotons& near) {
+                        for (size_t i = 0; i < near.size(); ++i) sum += near.distances2()[i];
+                      });
                       return sum;
                     });
                   });

@@ -13,9 +13,8 @@ namespace {
 using Densities = std::array<double, kKernels.size()>;  // by kernel
 
 Rgb kernel_estimate(int dimension, const PhotonMap& map, const Vec3& point) {
-  const auto all = [](const PackedDirection&, const Vec3&) { return true; };
   const auto power = [](const Vec3&, const Rgb& p) { return p; };
-  return dimension == 2 ? kernel_sum<2>(map, point, all, power) : kernel_sum<3>(map, point, all, power);
+  return dimension == 2 ? kernel_sum<2>(map, point, AnyPhoton{}, power) : kernel_sum<3>(map, point, AnyPhoton{}, power);
 }
 
 /// Those of `count` uniform photons that lie within `reach` of the middle, along each axis.
