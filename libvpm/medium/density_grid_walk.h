@@ -188,9 +188,8 @@ uint32_t DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, 
 
 // Not part of the walk's loop: the walk keeps its registers, as long as stretches are passed.
 template <class Visit>
-[[gnu::noinline, gnu::cold]] bool DensityGrid::visit_stretch(const Brick& brick, const Vec3d& corner,
-                                                             const LatticeRay& ray, double t0, double t1,
-                                                             Visit& visit) const {
+[[gnu::noinline]] bool DensityGrid::visit_stretch(const Brick& brick, const Vec3d& corner, const LatticeRay& ray,
+                                                  double t0, double t1, Visit& visit) const {
   DensityStretch stretch{t0, t1, brick.min, brick.max};
   if (!brick.uniform()) {
     stretch.values = values_of(brick);
