@@ -100,6 +100,9 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
         sum += owned_sum(values);
       }
   values_.shrink_to_fit();
+  blocks_.resize(values_.size() / kBrickValues);
+  for (const Brick& brick : bricks_)
+    if (!brick.uniform()) blocks_[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
   const Vec3d support = support_hi() - support_lo();
   const Vec3d bricks_extent = Vec3d(brick_count_ * kCells);
   const double surplus = bricks_extent.x * bricks_extent.y * bricks_extent.z - support.x * support.y * support.z;
@@ -139,9 +142,7 @@ bool DensityGrid::is_positive(const Box& world) const {
   return true;
 }
 
-void DensityGrid::cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
-                             DensityPiece& piece) const {
-  const float* v = values + (cell.z * kValues + cell.y) * kValues + cell.x;
+void DensityGrid::cell_piece(const float* v, const Vec3& local, const Vec3& step, DensityPiece& piece) const {
   if (frame_.interpolation == Interpolation::nearest) {
     piece.c0 = *v;
     return;
@@ -193,7 +194,8 @@ Box DensityGrid::bounds() const {
 }
 
 size_t DensityGrid::memory_bytes() const {
-  return sizeof(*this) + bricks_.capacity() * sizeof(Brick) + values_.capacity() * sizeof(float);
+  return sizeof(*this) + bricks_.capacity() * sizeof(Brick) + values_.capacity() * sizeof(float) +
+         blocks_.capacity() * sizeof(BrickBlocks);
 }
 
 }  // namespace vpm

@@ -72,7 +72,13 @@ class DensityGrid {
   /// Calls visit(const DensityStretch&) for the ray's part in each brick, in order, until it returns false. Bricks of
   /// zero density are left out. Returns the number of bricks whose bounds were read, those left out among them.
   template <class Visit>
-  uint32_t visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  uint32_t visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
+    return visit_majorants(
+        ray, interval, [](double, float max) { return max == 0.0f; }, visit);
+  }
+  /// The same, but leaves out the stretches of which passes(length, max) is true: quicker than visiting them.
+  template <class Passes, class Visit>
+  uint32_t visit_majorants(const Ray& ray, const Interval& interval, Passes&& passes, Visit&& visit) const;
 
   /// The part of the interval in which the density may differ from zero: all of it where the background does.
   Interval clip(const Ray& ray, const Interval& interval) const;
@@ -120,17 +126,20 @@ class DensityGrid {
   float density_at(const Vec3d& p) const;
   /// The density where it is to be read.
   float read(const Place& place) const;
-  void cell_piece(const float* values, const Vec3i& cell, const Vec3& local, const Vec3& step,
-                  DensityPiece& piece) const;
+  void cell_piece(const float* v, const Vec3& local, const Vec3& step, DensityPiece& piece) const;
   const float* values_of(const Brick& brick) const {
     return values_.data() + static_cast<size_t>(brick.first) * kBrickValues;
   }
-  /// Calls inside(brick coordinates, lattice ray, t0, t1) for the ray's part in each brick, and outside(t0, t1) for
-  /// those outside of all where the background is not empty; in order, until one returns false.
+  /// Calls inside(walk, t0, t1) for the ray's part in each brick, where the walk is, and outside(t0, t1) for those
+  /// outside of all where the background is not empty; in order, until one returns false.
   template <class Inside, class Outside>
-  void visit_bricks(const Ray& ray, const Interval& interval, Inside&& inside, Outside&& outside) const;
+  void visit_bricks(const LatticeRay& ray, const Interval& interval, Inside&& inside, Outside&& outside) const;
   template <class Visit>
-  bool visit_brick(const Vec3i& b, const IndexRay& ray, double t0, double t1, uint32_t& read, Visit& visit) const;
+  bool visit_brick(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, double t0, double t1, uint32_t& read,
+                   Visit& visit) const;
+  template <class Visit>
+  bool visit_stretch(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, double t0, double t1,
+                     Visit& visit) const;
 
   GridFrame frame_;
   Mat4d world_to_index_{1.0};
@@ -138,6 +147,7 @@ class DensityGrid {
   Vec3d lattice_lo_{0.0}, lattice_size_{0.0};  // of all bricks: corner in index coordinates, and extent in cells
   std::vector<Brick> bricks_;
   std::vector<float> values_;
+  std::vector<BrickBlocks> blocks_;  // of the same bricks
   float max_density_ = 0.0f;
   double mean_density_ = 0.0;
   float voxel_size_ = 0.0f;

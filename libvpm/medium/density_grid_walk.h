@@ -9,58 +9,80 @@
 namespace vpm {
 
 /// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at
-/// t0. Every plane is met at its own quotient, so that no error builds up along the way. The walk stays in the cells lo
-/// to hi: whoever calls it knows where the ray leaves them, and rounding must not end it before.
+/// t0. Every plane is met at its own quotient, so that no error builds up along the way, and at the same one as by
+/// clip_to_box(): a walk that ends where the ray leaves the cells lo to hi stays in them.
 ///
 /// No processor foresees which axis is next, and a wrong guess costs more than a step: all axes are dealt with at once,
-/// in lanes that choose without branches, and where an axis meets its next plane but one is known before it is asked.
+/// by masks instead of branches, and where an axis meets its next plane but one is known before it is asked. Each axis
+/// has registers of its own: nothing waits for numbers that change lanes.
 template <int spacing>
 class LatticeWalk {
  public:
-  LatticeWalk(const Vec3d& origin, const Vec3d& direction, double t0, const Vec3i& lo, const Vec3i& hi) {
-    for (int a = 0; a < 3; ++a) {
-      const bool up = direction[a] > 0.0;
-      const auto plane = [&](int cell) { return static_cast<double>((cell + up) * spacing); };
-      const double cell = std::floor((origin[a] + t0 * direction[a]) / spacing);
-      cell_[a] = std::clamp(static_cast<int>(cell), lo[a], hi[a]);
-      step_[a] = up ? 1 : -1;
-      stride_[a] = up ? spacing : -spacing;
-      plane_[a] = plane(static_cast<int>(cell_[a]));
-      last_[a] = direction[a] == 0.0 ? plane_[a] : plane(up ? hi[a] : lo[a]);
-      origin_[a] = origin[a];
-      inverse_[a] = 1.0 / direction[a];
-    }
-    meet(exit_);
-    plane_ += stride_;
-    meet(next_);
+  /// Cells are numbered from 0 at lo; along each axis a cell's number is `strides` above that of the one before.
+  LatticeWalk(const Vec3d& origin, const Vec3d& direction, double t0, const Vec3i& lo, const Vec3i& hi,
+              const Vec3i& strides) {
+    for (int a = 0; a < 3; ++a) axes_[a] = Axis(origin[a], direction[a], t0, lo[a], hi[a], strides[a]);
   }
-  Vec3i cell() const { return {cell_[0], cell_[1], cell_[2]}; }
-  /// Where the ray leaves the present cell.
-  double exit() const { return std::min(exit_[0], std::min(exit_[1], exit_[2])); }
+  /// The number of the present cell.
+  int64_t number() const { return (axes_[0].number + axes_[1].number + axes_[2].number)[0]; }
+  /// Its lower corner.
+  Vec3d corner() const { return {axes_[0].corner(), axes_[1].corner(), axes_[2].corner()}; }
+  /// Where the ray leaves it.
+  double exit() const { return nearest_exit()[0]; }
   /// Goes on to the next cell: across an edge or a corner where the ray meets several planes at once.
   void advance() {
-    const double leaves = exit();
-    const Integers crosses = exit_ == Numbers{leaves, leaves, leaves, leaves};
-    cell_ += crosses & step_;
-    exit_ = crosses ? next_ : exit_;
-    plane_ = crosses ? plane_ + stride_ : plane_;
-    meet(next_);
+    const Double at = nearest_exit();
+    for (Axis& axis : axes_) axis.cross_at(at);
   }
 
  private:
-  // Lanes for x, y, z, and one of no meaning.
-  using Numbers = double __attribute__((vector_size(32)));
-  using Integers = int64_t __attribute__((vector_size(32)));
+  // Masks are those of vectors; the lanes are alike.
+  using Double = double __attribute__((vector_size(16)));
+  using Integer = int64_t __attribute__((vector_size(16)));
+  static Double both(double x) { return Double{x, x}; }
+  static Integer both(int64_t x) { return Integer{x, x}; }
+  static Double least(const Double& a, const Double& b) { return a < b ? a : b; }
 
-  /// Finds where the ray meets plane_: never where that is the last.
-  void meet(Numbers& where) const {
-    constexpr double kNever = std::numeric_limits<double>::infinity();
-    where = plane_ == last_ ? Numbers{kNever, kNever, kNever, kNever} : (plane_ - origin_) * inverse_;
-  }
+  struct Axis {
+    Axis() = default;
+    Axis(double from, double along, double t0, int lo, int hi, int64_t per_cell) {
+      const bool up = along > 0.0;
+      const int64_t cell = std::clamp(static_cast<int>(std::floor((from + t0 * along) / spacing)), lo, hi);
+      number = both((cell - lo) * per_cell);
+      step = both(up ? per_cell : -per_cell);
+      stride = both(up ? double{spacing} : -double{spacing});
+      to_corner = up ? -2.0 * spacing : double{spacing};
+      origin = both(from);
+      inverse = both(1.0 / along);
+      if (!std::isfinite(inverse[0])) {  // meets no plane ever
+        origin = both(-std::numeric_limits<double>::infinity());
+        inverse = both(1.0);
+      }
+      plane = both(static_cast<double>((cell + up) * spacing));
+      exit = (plane - origin) * inverse;
+      plane += stride;
+      next = (plane - origin) * inverse;
+    }
+    double corner() const { return plane[0] + to_corner; }
+    /// Goes on to the next cell if the ray leaves this one at `at`.
+    void cross_at(const Double& at) {
+      const Integer crosses = exit == at;
+      exit = Double((crosses & Integer(next)) | (~crosses & Integer(exit)));
+      plane += Double(crosses & Integer(stride));
+      next = (plane - origin) * inverse;
+      number += crosses & step;
+    }
 
-  Numbers origin_{}, inverse_{}, exit_{}, next_{};  // next_: where the planes behind those of exit_ are met
-  Numbers plane_{}, last_{}, stride_{};             // plane_: that of next_
-  Integers cell_{}, step_{};
+    Double exit{}, next{};  // where the ray meets the plane that it leaves the cell by, and the one behind that
+    Double plane{};         // the latter
+    Double origin{}, inverse{}, stride{};
+    Integer number{}, step{};
+    double to_corner = 0.0;  // from `plane` to the cell's lower end
+  };
+
+  Double nearest_exit() const { return least(axes_[0].exit, least(axes_[1].exit, axes_[2].exit)); }
+
+  Axis axes_[3];
 };
 
 /// The part of [t0, t1] in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 where there is none.
@@ -79,18 +101,42 @@ inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d
   }
 }
 
-template <class Visit>
-bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, double t1, uint32_t& read,
-                              Visit& visit) const {
-  const Brick& brick_here = brick(b - brick_lo_);
-  if (brick_here.max == 0.0f) return true;
-  if (brick_here.uniform()) {
-    count(read);
-    return visit(DensityPiece{t0, t1, brick_here.min, 0.0, 0.0, 0.0});
+template <class Inside, class Outside>
+void DensityGrid::visit_bricks(const LatticeRay& ray, const Interval& interval, Inside&& inside,
+                               Outside&& outside) const {
+  double t0 = interval.t0;
+  double t1 = interval.t1;
+  clip_to_box(ray.origin, ray.direction, Vec3d(0.0), lattice_size_, t0, t1);
+  const bool fills_outside = frame_.background > 0.0f;
+  const auto beyond = [&](double a, double b) { return !fills_outside || !(b > a) || outside(a, b); };
+  if (!(t1 > t0)) {
+    beyond(interval.t0, interval.t1);
+    return;
   }
-  const float* values = values_of(brick_here);
-  const Vec3d inside = ray.origin - Vec3d(b * kCells);  // brick coordinates: 0 to 8
-  LatticeWalk<1> walk(inside, ray.direction, t0, Vec3i(0), Vec3i(kCells - 1));
+  if (!beyond(interval.t0, t0)) return;
+  const Vec3i strides(1, brick_count_.x, brick_count_.x * brick_count_.y);
+  LatticeWalk<kCells> walk(ray.origin, ray.direction, t0, Vec3i(0), brick_count_ - 1, strides);
+  for (double t = t0; t < t1; walk.advance()) {
+    const double end = std::min(walk.exit(), t1);
+    if (end > t) {
+      if (!inside(walk, t, end)) return;
+      t = end;
+    }
+  }
+  beyond(t1, interval.t1);
+}
+
+template <class Visit>
+bool DensityGrid::visit_brick(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, double t0, double t1,
+                              uint32_t& read, Visit& visit) const {
+  if (brick.max == 0.0f) return true;
+  if (brick.uniform()) {
+    count(read);
+    return visit(DensityPiece{t0, t1, brick.min, 0.0, 0.0, 0.0});
+  }
+  const float* values = values_of(brick);
+  const Vec3i lo(corner);
+  LatticeWalk<1> walk(ray.origin, ray.direction, t0, lo, lo + (kCells - 1), {1, kValues, kValues * kValues});
   const Vec3 step(ray.direction);
   for (double t = t0; t < t1; walk.advance()) {
     const double end = std::min(walk.exit(), t1);
@@ -98,8 +144,7 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
       DensityPiece piece;
       piece.t0 = t;
       piece.t1 = end;
-      const Vec3i& cell = walk.cell();
-      cell_piece(values, cell, Vec3(inside + t * ray.direction - Vec3d(cell)), step, piece);
+      cell_piece(values + walk.number(), Vec3(ray.origin + t * ray.direction - walk.corner()), step, piece);
       count(read);
       if (!visit(piece)) return false;
       t = end;
@@ -108,69 +153,53 @@ bool DensityGrid::visit_brick(const Vec3i& b, const IndexRay& ray, double t0, do
   return true;
 }
 
-template <class Inside, class Outside>
-void DensityGrid::visit_bricks(const Ray& ray, const Interval& interval, Inside&& inside, Outside&& outside) const {
-  IndexRay lattice_ray = to_index(ray);
-  lattice_ray.origin += lattice_shift();
-  const auto& [origin, direction] = lattice_ray;
-  const Vec3d lo = Vec3d(brick_lo_ * kCells);
-  const Vec3d hi = lo + Vec3d(brick_count_ * kCells);
-  double t0 = interval.t0;
-  double t1 = interval.t1;
-  clip_to_box(origin, direction, lo, hi, t0, t1);
-  const bool fills_outside = frame_.background > 0.0f;
-  const auto beyond = [&](double a, double b) { return !fills_outside || !(b > a) || outside(a, b); };
-  if (!(t1 > t0)) {
-    beyond(interval.t0, interval.t1);
-    return;
-  }
-  if (!beyond(interval.t0, t0)) return;
-  LatticeWalk<kCells> walk(origin, direction, t0, brick_lo_, brick_lo_ + brick_count_ - 1);
-  for (double t = t0; t < t1; walk.advance()) {
-    const double end = std::min(walk.exit(), t1);
-    if (end > t) {
-      if (!inside(walk.cell(), lattice_ray, t, end)) return;
-      t = end;
-    }
-  }
-  beyond(t1, interval.t1);
-}
-
 template <class Visit>
 uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
   uint32_t read = 0;
+  const LatticeRay in = lattice_ray(ray);
   visit_bricks(
-      ray, interval,
-      [&](const Vec3i& b, const IndexRay& in, double t0, double t1) { return visit_brick(b, in, t0, t1, read, visit); },
+      in, interval,
+      [&](const LatticeWalk<kCells>& walk, double t0, double t1) {
+        return visit_brick(bricks_[walk.number()], walk.corner(), in, t0, t1, read, visit);
+      },
       [&](double t0, double t1) {
         return visit(DensityPiece{t0, t1, frame_.background, 0.0, 0.0, 0.0});
       });
   return read;
 }
 
-template <class Visit>
-uint32_t DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
-  DensityStretch stretch;
-  stretch.nearest = frame_.interpolation == Interpolation::nearest;
+template <class Passes, class Visit>
+uint32_t DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, Passes&& passes, Visit&& visit) const {
   uint32_t bricks = 0;
-  const auto inside = [&](const Vec3i& b, const IndexRay& in, double t0, double t1) {
-    count(bricks);
-    const Brick& here = brick(b - brick_lo_);
-    if (here.max == 0.0f) return true;
-    stretch.t0 = t0;
-    stretch.t1 = t1;
-    stretch.min = here.min;
-    stretch.max = here.max;
-    stretch.values = here.uniform() ? nullptr : values_of(here);
-    stretch.origin = in.origin - Vec3d(b * kCells);
-    stretch.direction = in.direction;
-    return static_cast<bool>(visit(std::as_const(stretch)));
-  };
-  const auto outside = [&](double t0, double t1) {
-    return static_cast<bool>(visit(DensityStretch{t0, t1, frame_.background, frame_.background}));
-  };
-  visit_bricks(ray, interval, inside, outside);
+  const LatticeRay in = lattice_ray(ray);
+  visit_bricks(
+      in, interval,
+      [&](const LatticeWalk<kCells>& walk, double t0, double t1) {
+        count(bricks);
+        const Brick& brick = bricks_[walk.number()];
+        return passes(t1 - t0, brick.max) || visit_stretch(brick, walk.corner(), in, t0, t1, visit);
+      },
+      [&](double t0, double t1) {
+        return passes(t1 - t0, frame_.background) ||
+               visit(DensityStretch{t0, t1, frame_.background, frame_.background});
+      });
   return bricks;
+}
+
+// Not part of the walk's loop: the walk keeps its registers, as long as stretches are passed.
+template <class Visit>
+[[gnu::noinline]] bool DensityGrid::visit_stretch(const Brick& brick, const Vec3d& corner, const LatticeRay& ray,
+                                                  double t0, double t1, Visit& visit) const {
+  DensityStretch stretch{t0, t1, brick.min, brick.max};
+  if (!brick.uniform()) {
+    stretch.values = values_of(brick);
+    stretch.blocks = &blocks_[brick.first];
+    __builtin_prefetch(stretch.blocks);
+    stretch.origin = ray.origin - corner;
+    stretch.direction = ray.direction;
+    stretch.nearest = frame_.interpolation == Interpolation::nearest;
+  }
+  return visit(std::as_const(stretch));
 }
 
 }  // namespace vpm

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/vec.h"
+#include "medium/brick_blocks.h"
 #include "medium/trilinear.h"
 
 namespace vpm {
@@ -15,22 +16,39 @@ struct DensityStretch {
 
   double t0 = 0.0, t1 = 0.0;  // m along the ray; infinite only without values
   float min = 0.0f, max = 0.0f;
-  const float* values = nullptr;  // of the brick: [(z * kValues + y) * kValues + x]
-  Vec3d origin{0.0};              // of the ray, in cells from the brick's lower corner
-  Vec3d direction{0.0};           // of the ray, cells per metre
-  bool nearest = false;           // the interpolation; else trilinear
+  const float* values = nullptr;        // of the brick: [(z * kValues + y) * kValues + x]
+  const BrickBlocks* blocks = nullptr;  // of the brick, where it has values
+  Vec3d origin{0.0};                    // of the ray, in cells from the brick's lower corner
+  Vec3d direction{0.0};                 // of the ray, cells per metre
+  bool nearest = false;                 // the interpolation; else trilinear
 
   bool uniform() const { return values == nullptr; }
 
   /// The density at t in [t0, t1]; never outside its bounds, which rounding may leave by a hair, as it may the brick.
   float density(double t) const {
     if (uniform()) return min;
-    const Vec3d p = glm::clamp(origin + t * direction, 0.0, double{kCells});
-    const Vec3i cell = glm::min(Vec3i(p), Vec3i(kCells - 1));
-    const float* v = values + (cell.z * kValues + cell.y) * kValues + cell.x;
+    const Vec3d p = place(t);
+    const Vec3i cell = cell_at(p);
+    const float* v = corner(cell);
     if (nearest) return *v;
     return std::clamp(trilinear(v, kValues, kValues * kValues, Vec3(p - Vec3d(cell))), min, max);
   }
+  /// Bounds of the density at t that are closer than those of the whole stretch, and quicker to read than the density.
+  /// Asks for the memory of the latter: if the bounds do not do, it is under way.
+  DensityBounds bounds(double t) const {
+    if (uniform()) return {min, max};
+    const Vec3i cell = cell_at(place(t));
+    for (const int edge : {0, kValues, kValues * kValues, (kValues + 1) * kValues})
+      __builtin_prefetch(corner(cell) + edge);
+    return blocks->bounds(cell, {min, max});
+  }
+
+ private:
+  /// In cells from the brick's lower corner.
+  Vec3d place(double t) const { return glm::clamp(origin + t * direction, 0.0, double{kCells}); }
+  static Vec3i cell_at(const Vec3d& place) { return glm::min(Vec3i(place), Vec3i(kCells - 1)); }
+  /// The value at the cell's lower corner.
+  const float* corner(const Vec3i& cell) const { return values + (cell.z * kValues + cell.y) * kValues + cell.x; }
 };
 
 }  // namespace vpm

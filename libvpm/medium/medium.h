@@ -79,6 +79,13 @@ struct Medium {
     visit(DensityStretch{interval.t0, interval.t1, 1.0f, 1.0f});
     return 0;
   }
+  /// The same, but leaves out stretches of which passes(length, max) is true.
+  template <class Pass, class Visit>
+  uint32_t visit_majorants(const Ray& ray, const Interval& interval, Pass&& passes, Visit&& visit) const {
+    if (grid) return grid->visit_majorants(ray, interval, passes, visit);
+    if (!passes(double{interval.t1} - interval.t0, 1.0f)) visit(DensityStretch{interval.t0, interval.t1, 1.0f, 1.0f});
+    return 0;
+  }
 };
 
 /// The column along a stretch of ray, m (the integral of density), with the look-ups it took.

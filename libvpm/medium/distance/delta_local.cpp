@@ -10,9 +10,9 @@ namespace vpm {
 Flight DeltaLocal::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                           Rng& rng) const {
   return track_bricks(
-      medium, ray, interval, power, rng, [](const DensityStretch& stretch) { return stretch.max; },
+      medium, ray, interval, power, rng, [](float max) { return max; },
       [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
-        return flight.meet(t, stretch.density(t), majorant);
+        return flight.meet(t, stretch, majorant);
       });
 }
 

@@ -40,6 +40,15 @@ class NullCollisionFlight {
     return true;
   }
 
+  /// Passes a stretch of that length if the next tentative collision is known to lie behind it. Without a branch on the
+  /// density: empty bricks and others follow each other as no processor foresees.
+  bool passes(double length, double majorant) {
+    const double reach = length * (sigma_t_ * majorant);
+    if (!(reach < left_)) return false;
+    left_ -= reach;
+    return true;
+  }
+
   /// Is the tentative collision real where the density has at least that share of the majorant?
   bool is_real(double share) const { return decision_ < chance_ * share; }
 
@@ -66,6 +75,20 @@ class NullCollisionFlight {
     count(flight_.null_collisions);
     if (!grey_) weigh_null(share);
     return false;
+  }
+
+  /// The same in a stretch, whose density is looked up only where it is needed: in grey media a collision that its
+  /// bounds tell to be null makes no look-up, and a real one does not wait for it.
+  bool meet(double t, const DensityStretch& stretch, double majorant) {
+    const DensityBounds bounds = stretch.bounds(t);
+    if (grey_ && !is_real(bounds.max / majorant)) {
+      count(flight_.null_collisions);
+      return false;
+    }
+    if (bounds.max > majorant || !is_real(bounds.min / majorant)) return meet(t, stretch.density(t), majorant);
+    count_lookup();
+    collide(t, stretch.density(t));
+    return true;
   }
 
   /// The same, but a majorant that does not bound leaves the density whole: weights make up for it, and may be
@@ -96,19 +119,20 @@ class NullCollisionFlight {
   Rgbd weight_{1.0};   // in chromatic media; the sum of shares_ times magnitudes stays as it was
 };
 
-/// Flies through the bricks on the way, in each under the majorant that majorant(stretch) says, to the first tentative
-/// collision of which meets(flight, t, stretch, majorant) is true.
+/// Flies through the bricks on the way, in each under the majorant that majorant(its largest density) says, to the
+/// first tentative collision of which meets(flight, t, stretch, majorant) is true.
 template <class Majorant, class Meets>
 Flight track_bricks(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng,
                     Majorant&& majorant, Meets&& meets) {
   NullCollisionFlight flight(medium, interval, power, rng);
-  const uint32_t bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
-    const double most = majorant(stretch);
+  const auto passes = [&](double length, float max) { return flight.passes(length, majorant(max)); };
+  const auto visit = [&](const DensityStretch& stretch) {
+    const double most = majorant(stretch.max);
     for (double t = stretch.t0; flight.advance(t, stretch.t1, most);)
       if (meets(flight, t, stretch, most)) return false;
     return true;
-  });
-  return flight.result(bricks);
+  };
+  return flight.result(medium.visit_majorants(ray, interval, passes, visit));
 }
 
 }  // namespace vpm
