@@ -34,7 +34,7 @@ class ColumnsAlong {
     double column;   // m, from the interval's start to here
     double density;  // here
   };
-  /// At the distance `t`, m, of the interval.
+  /// At the distance `t`, m, of the interval: finite.
   Place at(double t) const {
     assert(std::isfinite(t));
     if (pieces_.empty() || t < starts_.front()) return {0.0, 0.0};
@@ -69,7 +69,7 @@ class ColumnsAlong {
     const size_t count = pieces_.size();
     starts_.clear();
     for (const Before& before : pieces_) starts_.push_back(before.piece.t0);
-    starts_.push_back(std::numeric_limits<double>::infinity());
+    starts_.push_back(std::numeric_limits<double>::quiet_NaN());  // no place is beyond it
     first_.resize(count);
     if (count == 0) return;
     const double length = starts_[count - 1] - starts_[0];
@@ -82,7 +82,7 @@ class ColumnsAlong {
   }
 
   std::vector<Before> pieces_;
-  std::vector<double> starts_;   // of the pieces, m, and an infinite one
+  std::vector<double> starts_;   // of the pieces, m, and one that ends every search
   std::vector<uint32_t> first_;  // of each slot: the last piece that begins no later
   double slots_per_metre_ = 0.0;
 };
