@@ -38,8 +38,8 @@ class ColumnsAlong {
   Place at(double t) const {
     assert(std::isfinite(t));
     if (pieces_.empty() || t < starts_.front()) return {0.0, 0.0};
-    const auto slot = static_cast<size_t>((t - starts_.front()) * slots_per_metre_);
-    size_t i = first_[std::min(slot, first_.size() - 1)];
+    const double slot = std::min((t - starts_.front()) * slots_per_metre_, static_cast<double>(first_.size() - 1));
+    size_t i = first_[static_cast<size_t>(slot)];
     // Seldom more than two steps on, which are taken without branches: nobody can foresee them.
     for (int step = 0; step < 2; ++step) i += starts_[i + 1] <= t ? 1 : 0;
     while (starts_[i + 1] <= t) ++i;
