@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 namespace vpm {
 namespace {
@@ -78,31 +79,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
         "a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.25 GiB",
         brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
   bricks_.resize(static_cast<size_t>(count));
-  DistinctBricks distinct(values_);
-  double sum = 0.0;
-  float values[kBrickValues];
-  size_t i = 0;
-  for (int z = 0; z < brick_count_.z; ++z)
-    for (int y = 0; y < brick_count_.y; ++y)
-      for (int x = 0; x < brick_count_.x; ++x, ++i) {
-        fill((brick_lo_ + Vec3i(x, y, z)) * kCells, values);
-        if (all_equal(values)) {
-          assert(values[0] >= 0.0f && std::isfinite(values[0]));
-          bricks_[i] = {values[0], values[0], 0};
-          max_density_ = std::max(max_density_, values[0]);
-          sum += double(kCells * kCells * kCells) * values[0];
-          continue;
-        }
-        const auto [min, max] = std::minmax_element(values, values + kBrickValues);
-        assert(*min >= 0.0f && std::isfinite(*max));
-        bricks_[i] = {*min, *max, *min == *max ? 0 : distinct.add(values)};
-        max_density_ = std::max(max_density_, *max);
-        sum += owned_sum(values);
-      }
-  values_.shrink_to_fit();
-  blocks_.resize(values_.size() / kBrickValues);
-  for (const Brick& brick : bricks_)
-    if (!brick.uniform()) blocks_[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
+  const double sum = fill_bricks(fill);
   const Vec3d support = support_hi() - support_lo();
   const Vec3d bricks_extent = Vec3d(brick_count_ * kCells);
   const double surplus = bricks_extent.x * bricks_extent.y * bricks_extent.z - support.x * support.y * support.z;
@@ -110,6 +87,47 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
   const Mat3d axes(frame.index_to_world);
   voxel_size_ =
       static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
+}
+
+double DensityGrid::fill_bricks(const FillBrick& fill) {
+  constexpr size_t kWave = 4096, kChunk = 64;  // bricks: of 12 MB, and what one thread takes at once
+  DistinctBricks distinct(values_);
+  std::vector<float> values(std::min(kWave, bricks_.size()) * kBrickValues);
+  std::vector<double> sums(kWave);
+  double sum = 0.0;
+  for (size_t wave = 0; wave < bricks_.size(); wave += kWave) {
+    const size_t count = std::min(kWave, bricks_.size() - wave);
+    parallel_for_chunks(count, kChunk, [&](size_t begin, size_t end, size_t) {
+      const FillBrick own = fill;
+      for (size_t i = begin; i < end; ++i) {
+        float* const of_brick = &values[i * kBrickValues];
+        own(origin_of(wave + i), of_brick);
+        bricks_[wave + i] = brick_of(of_brick);
+        sums[i] = bricks_[wave + i].uniform() ? double{of_brick[0]} * (kCells * kCells * kCells) : owned_sum(of_brick);
+      }
+    });
+    for (size_t i = 0; i < count; ++i) {
+      Brick& brick = bricks_[wave + i];
+      if (!brick.uniform()) brick.first = distinct.add(&values[i * kBrickValues]);
+      max_density_ = std::max(max_density_, brick.max);
+      sum += sums[i];
+    }
+  }
+  values_.shrink_to_fit();
+  blocks_.resize(values_.size() / kBrickValues);
+  for (const Brick& brick : bricks_)
+    if (!brick.uniform()) blocks_[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
+  return sum;
+}
+
+DensityGrid::Brick DensityGrid::brick_of(const float* values) {
+  if (all_equal(values)) {
+    assert(values[0] >= 0.0f && std::isfinite(values[0]));
+    return {values[0], values[0], 0};
+  }
+  const auto [min, max] = std::minmax_element(values, values + kBrickValues);
+  assert(*min >= 0.0f && std::isfinite(*max));
+  return {*min, *max, 0};
 }
 
 Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {

@@ -35,13 +35,13 @@ class DensityGrid {
   static constexpr int kCellBits = std::countr_zero(unsigned{kCells});
   static constexpr int kBrickValues = kValues * kValues * kValues;
 
-  /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]; called from
-  /// one thread. All must be finite and >= 0.
+  /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]. All must be
+  /// finite and >= 0. Called from all threads, on copies of its own for each.
   using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
 
-  /// Builds the bricks that cover the frame's index box and its interpolation's reach. Bricks of one value store that
-  /// value only, equal bricks their values once. Throws InputError where the table of bricks alone would take over 256
-  /// MiB.
+  /// Builds, on all threads, the bricks that cover the frame's index box and its interpolation's reach. Bricks of one
+  /// value store that value only, equal bricks their values once. Throws InputError where the table of bricks alone
+  /// would take over 256 MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill);
 
   /// A line, in cells from the lower corner of all bricks; its parameter is still metres of the world.
@@ -121,6 +121,16 @@ class DensityGrid {
     const float* values;  // of the voxels from the cell's lower corner on; null: `density` is known
     Vec3 fraction;        // of the cell
   };
+  /// Fills all bricks; returns the sum of the voxels' densities. The same on any number of threads.
+  double fill_bricks(const FillBrick& fill);
+  /// Of such values; where they are is not known yet.
+  static Brick brick_of(const float* values);
+  /// The index coordinates of a brick's lower corner.
+  Vec3i origin_of(size_t number) const {
+    const auto n = static_cast<int64_t>(number), rows = n / brick_count_.x;
+    const Vec3i brick(n % brick_count_.x, rows % brick_count_.y, rows / brick_count_.y);
+    return (brick_lo_ + brick) * kCells;
+  }
   /// Both of a point in cells from the lower corner of all bricks.
   Place find(const Vec3d& p) const;
   float density_at(const Vec3d& p) const;
