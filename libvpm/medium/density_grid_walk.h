@@ -135,6 +135,9 @@ bool DensityGrid::visit_brick(const Brick& brick, const Vec3d& corner, const Lat
     return visit(DensityPiece{t0, t1, brick.min, 0.0, 0.0, 0.0});
   }
   const float* values = values_of(brick);
+  // A ray reads most of a brick's cache lines, in an order that no processor foresees: all are asked for at once.
+  constexpr int kLine = 64 / sizeof(float);
+  for (int i = 0; i < kBrickValues; i += kLine) __builtin_prefetch(values + i);
   const Vec3i lo(corner);
   LatticeWalk<1> walk(ray.origin, ray.direction, t0, lo, lo + (kCells - 1), {1, kValues, kValues * kValues});
   const Vec3 step(ray.direction);
