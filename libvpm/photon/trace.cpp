@@ -237,26 +237,44 @@ void append(TracedPhotons& all, const TracedPhotons& part) {
   all.ledger.merge(part.ledger);
 }
 
-size_t stored_count(const TracedPhotons& photons) {
-  size_t volume = 0;
-  for (const auto& map : photons.volume) volume += map.size();
-  return std::max(volume, photons.surface.size());
+/// How many photons there are by now.
+struct Tally {
+  uint64_t emitted = 0;
+  size_t volume = 0, surface = 0;  // stored
+
+  size_t stored() const { return std::max(volume, surface); }
+  void add(const TracedPhotons& part) {
+    emitted += part.ledger.emitted_count;
+    for (const auto& map : part.volume) volume += map.size();
+    surface += part.surface.size();
+  }
+};
+
+bool is_full(const Tally& tally, const TraceSettings& settings) {
+  return (settings.emitted > 0 && tally.emitted >= settings.emitted) ||
+         (settings.stored > 0 && tally.stored() >= settings.stored);
 }
 
-bool is_full(const TracedPhotons& photons, const TraceSettings& settings) {
-  return (settings.emitted > 0 && photons.ledger.emitted_count >= settings.emitted) ||
-         (settings.stored > 0 && stored_count(photons) >= settings.stored);
+/// Joins the parts of a wave in their order, up to the one that fills the maps.
+void join(TracedPhotons& all, Tally& joined, std::vector<TracedPhotons>& parts, const TraceSettings& settings) {
+  for (TracedPhotons& part : parts) {
+    if (!is_full(joined, settings)) {
+      joined.add(part);
+      append(all, part);
+    }
+    part = {};  // two copies of a part at a time, not of a wave
+  }
 }
 
 /// How many photons to trace before looking again. Any answer gives the same result: what lies beyond a full map is
 /// dropped.
-uint64_t next_wave(const TracedPhotons& photons, const TraceSettings& settings, uint64_t traced) {
-  const uint64_t most = settings.emitted > 0 ? settings.emitted - traced : kChunk * kLargestWave;
+uint64_t next_wave(const Tally& tally, const TraceSettings& settings) {
+  const uint64_t most = settings.emitted > 0 ? settings.emitted - tally.emitted : kChunk * kLargestWave;
   if (settings.stored == 0) return std::min<uint64_t>(most, kChunk * kLargestWave);
-  const size_t stored = stored_count(photons);
-  if (stored == 0) return std::min<uint64_t>(most, kChunk * (traced == 0 ? kFirstWave : kLargestWave));
+  const size_t stored = tally.stored();
+  if (stored == 0) return std::min<uint64_t>(most, kChunk * (tally.emitted == 0 ? kFirstWave : kLargestWave));
   const double missing =
-      static_cast<double>(settings.stored - stored) * static_cast<double>(traced) / static_cast<double>(stored);
+      static_cast<double>(settings.stored - stored) * static_cast<double>(tally.emitted) / static_cast<double>(stored);
   return std::min<uint64_t>(
       most, kChunk * std::clamp<uint64_t>(static_cast<uint64_t>(missing / kChunk) + 1, 1, kLargestWave));
 }
@@ -269,26 +287,30 @@ TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy
                             Progress& progress) {
   TracedPhotons all;
   all.volume.resize(scene.media.size());
-  for (uint64_t first = 0; !is_full(all, settings) && !is_stopped(settings);) {
-    const uint64_t wave = next_wave(all, settings, first);
-    std::vector<TracedPhotons> parts(chunk_count(wave, kChunk));
-    parallel_for_chunks(wave, kChunk, [&](size_t begin, size_t end, size_t chunk) {
-      parts[chunk].volume.resize(scene.media.size());
+  Tally traced, joined;
+  std::vector<TracedPhotons> parts;
+  while (!is_full(traced, settings) && !is_stopped(settings)) {
+    const uint64_t first = traced.emitted, last = first + next_wave(traced, settings);
+    std::vector<TracedPhotons> next(chunk_count(last - first, kChunk));
+    // One thread joins the wave before, while the others trace this one.
+    parallel_for_chunks(next.size() + 1, 1, [&](size_t task, size_t, size_t) {
+      if (task == 0) return join(all, joined, parts, settings);
+      TracedPhotons& part = next[task - 1];
+      part.volume.resize(scene.media.size());
       if (is_stopped(settings)) return;
-      PhotonPath path(scene, strategy, settings, parts[chunk]);
-      for (size_t i = begin; i < end; ++i) path.trace(first + i);
+      PhotonPath path(scene, strategy, settings, part);
+      const uint64_t begin = first + (task - 1) * kChunk, end = std::min(begin + kChunk, last);
+      for (uint64_t i = begin; i < end; ++i) path.trace(i);
       progress.advance(end - begin);
     });
-    for (TracedPhotons& part : parts) {
-      if (!is_full(all, settings)) append(all, part);
-      part = {};  // two copies of a part at a time, not of a wave
-    }
-    first += wave;
-    if (settings.emitted == 0 && first >= kHopeless && stored_count(all) == 0)
+    parts = std::move(next);
+    for (const TracedPhotons& part : parts) traced.add(part);
+    if (settings.emitted == 0 && traced.emitted >= kHopeless && traced.stored() == 0)
       throw InputError(fmt::format(
           "no photon map can be filled: none of the first {} photons met a medium or a surface that stores photons",
-          first));
+          traced.emitted));
   }
+  join(all, joined, parts, settings);
   return all;
 }
 
