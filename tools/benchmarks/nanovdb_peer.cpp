@@ -89,6 +89,22 @@ SumDensities nanovdb_sampler() {
   };
 }
 
+SumCombs nanovdb_along_rays() {
+  grid();
+  return [](std::span<const Comb> combs) {
+    const auto accessor = grid().getAccessor();
+    const nanovdb::SampleFromVoxels<decltype(grid().getAccessor()), 1, true> sampler(accessor);
+    double sum = 0.0;
+    for (const auto& [ray, first, count] : combs) {
+      const Vec3 &o = ray.origin, &d = ray.direction;
+      const nanovdb::Vec3f origin = grid().worldToIndexF(nanovdb::Vec3f(o.x, o.y, o.z));
+      const nanovdb::Vec3f direction = grid().worldToIndexDirF(nanovdb::Vec3f(d.x, d.y, d.z));
+      for (size_t i = 0; i < count; ++i) sum += sampler(origin + direction * (first + static_cast<float>(i)));
+    }
+    return sum;
+  };
+}
+
 SumFlights nanovdb_flights() {
   grid();
   return [](const CloudRays& rays, float sigma_t) {
@@ -109,6 +125,7 @@ SumFlights nanovdb_flights() {
 
 namespace vpm::bench {
 SumDensities nanovdb_sampler() { return {}; }
+SumCombs nanovdb_along_rays() { return {}; }
 SumFlights nanovdb_flights() { return {}; }
 }  // namespace vpm::bench
 
