@@ -22,8 +22,11 @@ struct GatherSettings {
   uint32_t count = 50;  // nearest mode: k >= 2
   KernelKind kernel = KernelKind::epanechnikov;
   BoundaryRule boundary = BoundaryRule::none;
-  uint32_t beam_count = 0;  // beam mode, > 0: photons have radii of their own, of balls of about so many photons, at
-                            // most `radius`; 0: that one
+  uint32_t beam_count = 0;  // beam mode, > 0: each photon has a radius of its own, that of a ball of about so many
+                            // photons, from a hundredth of `radius` to `radius`; 0: all have `radius`
+
+  /// Is `radius` only the largest that a gather may take, so that what it takes is told by a count of photons?
+  bool goes_by_count() const { return mode == GatherMode::nearest || (mode == GatherMode::beam && beam_count > 0); }
 };
 
 /// What gathering counts.

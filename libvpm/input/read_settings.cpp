@@ -42,6 +42,8 @@ void read_gather(TableReader& table, const std::vector<std::pair<std::string, Ga
   automatic_radius = table.says_auto("radius");
   if (!automatic_radius) gather.radius = table.number("radius", kRadius, gather.radius);
   const bool beams = gather.mode == GatherMode::beam;
+  if (gather.mode == GatherMode::radius && table.has("count"))
+    table.fail("count", "photons within a radius are not counted", "leave out 'count', or set gather = \"nearest\"");
   uint32_t& count = beams ? gather.beam_count : gather.count;
   count = static_cast<uint32_t>(table.integer("count", beams ? 0 : 2, 1'000'000, count));
   std::vector<std::pair<std::string, KernelKind>> kernels;

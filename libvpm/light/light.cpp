@@ -1,6 +1,8 @@
 // The closed set of lights: each question goes to the kind of light it is asked of.
 #include "light/light.h"
 
+#include <cassert>
+
 #include "base/overloads.h"
 #include "light/kinds.h"
 
@@ -36,7 +38,11 @@ std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng) {
 std::optional<Incident> sample_towards(const Light& light, const LightPoint& from, const Vec3& point, Rng& rng) {
   if (from.area == 0.0f) return sample_towards(light, point, rng);
   const auto incident = [&](const AreaLight auto& l) { return incident_by_area(l.radiance, from, point); };
-  return std::visit(Overloads{incident, [](const auto&) { return std::optional<Incident>(); }}, light);
+  const auto no_area = [](const auto&) -> std::optional<Incident> {
+    assert(!"a point with an area is of a light with one");
+    return std::nullopt;
+  };
+  return std::visit(Overloads{incident, no_area}, light);
 }
 
 float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen) {

@@ -200,8 +200,8 @@ struct LightPoint {
   Vec3 normal{0.0f};    // unit, outward; zero where the point does not tell what arrives from it
   float area = 0.0f;    // m^2, over which it was drawn evenly; 0 likewise
 };
-/// Draws one that nearby places get most of their light from; nothing of parallel light and of lights at infinity,
-/// which send as much to near places as to far ones.
+/// Draws a point from which places nearby get more light than those far away; nothing of parallel light and of lights
+/// at infinity, whose light does not fall off.
 std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng);
 /// sample_towards(), from a point that draw_light_point() drew of that light: the same mean over both draws.
 std::optional<Incident> sample_towards(const Light& light, const LightPoint& from, const Vec3& point, Rng& rng);

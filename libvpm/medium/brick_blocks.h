@@ -17,7 +17,7 @@ struct DensityBounds {
 class alignas(64) BrickBlocks {
  public:
   static constexpr int kCells = 2;   // along a block's edge
-  static constexpr int kBlocks = 4;  // along a brick's edge
+  static constexpr int kBlocks = 4;  // along a brick's edge: of kCells * kBlocks cells
 
   BrickBlocks() = default;
   /// Of the brick's 9^3 values and their extremes, min < max.

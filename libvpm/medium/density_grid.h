@@ -54,8 +54,8 @@ class DensityGrid {
   }
   /// Density at a point of a ray.
   float density(const LatticeRay& ray, double t) const { return density_at(ray.origin + t * ray.direction); }
-  /// Densities at kAtOnce points of a ray at the most, `step` metres apart from t on. All memory they take is asked for
-  /// before any of it is read: it is waited for once.
+  /// Densities at kAtOnce points of a ray at the most, `step` metres apart from t on. All the memory they need is
+  /// prefetched before any of it is read.
   void densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const;
   static constexpr size_t kAtOnce = 16;
   /// Density at a point of the world.

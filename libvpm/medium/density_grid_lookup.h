@@ -38,8 +38,7 @@ inline void DensityGrid::densities(const LatticeRay& ray, double t, double step,
     densities[i] = place.density;
     numbers[count] = i;
     if (!place.values) continue;
-    for (const int edge : {0, kValues, kValues * kValues, (kValues + 1) * kValues})
-      __builtin_prefetch(place.values + edge);
+    DensityStretch::prefetch_cell(place.values);
     ++count;
   }
   for (size_t i = 0; i < count; ++i) densities[numbers[i]] = read(varying[i]);

@@ -12,9 +12,9 @@ namespace vpm {
 /// t0. Every plane is met at its own quotient, so that no error builds up along the way, and at the same one as by
 /// clip_to_box(): a walk that ends where the ray leaves the cells lo to hi stays in them.
 ///
-/// No processor foresees which axis is next, and a wrong guess costs more than a step: all axes are dealt with at once,
-/// by masks instead of branches, and where an axis meets its next plane but one is known before it is asked. Each axis
-/// has registers of its own: nothing waits for numbers that change lanes.
+/// Branch prediction cannot tell which axis is next, and a wrong guess costs more than a step: all axes are dealt with
+/// at once, by masks instead of branches. Where an axis meets the plane after its next one is computed a step ahead.
+/// Each axis has registers of its own, so that no step waits for a shuffle of lanes.
 template <int spacing>
 class LatticeWalk {
  public:
@@ -135,7 +135,7 @@ bool DensityGrid::visit_brick(const Brick& brick, const Vec3d& corner, const Lat
     return visit(DensityPiece{t0, t1, brick.min, 0.0, 0.0, 0.0});
   }
   const float* values = values_of(brick);
-  // A ray reads most of a brick's cache lines, in an order that no processor foresees: all are asked for at once.
+  // A ray reads most of a brick's cache lines, in an order that hardware does not predict: all are prefetched.
   constexpr int kLine = 64 / sizeof(float);
   for (int i = 0; i < kBrickValues; i += kLine) __builtin_prefetch(values + i);
   const Vec3i lo(corner);

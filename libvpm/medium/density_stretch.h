@@ -22,7 +22,13 @@ struct DensityStretch {
   Vec3d direction{0.0};                 // of the ray, cells per metre
   bool nearest = false;                 // the interpolation; else trilinear
 
+  static_assert(kCells == BrickBlocks::kCells * BrickBlocks::kBlocks);
+
   bool uniform() const { return values == nullptr; }
+  /// Starts to fetch the eight values of a cell, of which the first is given.
+  static void prefetch_cell(const float* values) {
+    for (const int edge : {0, kValues, kValues * kValues, (kValues + 1) * kValues}) __builtin_prefetch(values + edge);
+  }
 
   /// The density at t in [t0, t1]; never outside its bounds, which rounding may leave by a hair, as it may the brick.
   float density(double t) const {
@@ -34,12 +40,11 @@ struct DensityStretch {
     return std::clamp(trilinear(v, kValues, kValues * kValues, Vec3(p - Vec3d(cell))), min, max);
   }
   /// Bounds of the density at t that are closer than those of the whole stretch, and quicker to read than the density.
-  /// Asks for the memory of the latter: if the bounds do not do, it is under way.
+  /// Starts to fetch the values around t, which are read next where the bounds leave it open what the density is.
   DensityBounds bounds(double t) const {
     if (uniform()) return {min, max};
     const Vec3i cell = cell_at(place(t));
-    for (const int edge : {0, kValues, kValues * kValues, (kValues + 1) * kValues})
-      __builtin_prefetch(corner(cell) + edge);
+    prefetch_cell(corner(cell));
     return blocks->bounds(cell, {min, max});
   }
 

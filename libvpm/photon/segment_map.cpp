@@ -25,7 +25,6 @@ SegmentMap::SegmentMap(const std::vector<Photon>& photons, const BeamRadii& radi
 // Leaves that lie side by side in the tree, together of about as many photons as are asked for, fill a box: its volume
 // over their number is what a photon has to itself. Boxes without volume would have photons of no radius.
 void SegmentMap::choose_radii(const BeamRadii& radii) {
-  constexpr float kLeast = 0.01f;  // of the largest
   radius_.assign(leaves_, radii.largest);
   if (radii.count == 0 || size() == 0) return;
   const size_t group = std::clamp<size_t>(std::bit_floor(radii.count * leaves_ / size() + 1), 1, leaves_);
@@ -37,7 +36,8 @@ void SegmentMap::choose_radii(const BeamRadii& radii) {
       const Vec3d extent = Vec3d(box_of(first, last).extent()) * (n + 1.0) / std::max(1.0, n - 1.0);
       const double volume = extent.x * extent.y * extent.z * radii.count / n;
       const auto radius = static_cast<float>(std::cbrt(0.75 / kPiD * volume)) * radii.scale;
-      std::fill_n(&radius_[g * group], group, std::clamp(radius, kLeast * radii.largest, radii.largest));
+      std::fill_n(&radius_[g * group], group,
+                  std::clamp(radius, BeamRadii::kLeastShare * radii.largest, radii.largest));
     }
   });
 }

@@ -17,8 +17,11 @@ namespace vpm {
 
 /// Over which discs photons are spread.
 struct BeamRadii {
+  static constexpr float kLeastShare = 0.01f;
+
   float largest = 0.0f;  // m, > 0
-  uint32_t count = 0;    // > 0: each photon has the radius of a ball of about so many, times `scale`; 0: the largest
+  uint32_t count = 0;    // > 0: each photon has the radius of a ball of about so many photons, times `scale`, but at
+                         // least kLeastShare of the largest (photons in a plane fill no ball); 0: the largest
   float scale = 1.0f;
 };
 

@@ -11,15 +11,14 @@
 #include "base/error.h"
 #include "render/photon_pass.h"
 #include "render/pilot.h"
+#include "render/render.h"
 
 namespace vpm {
 namespace {
 
-constexpr double kLargestRadius = 0.05;         // of the scene's diagonal
-constexpr double kLeastRadius = 0.5;            // pixels
-constexpr double kUsual = 0.01, kSearch = 0.1;  // of the diagonal: radii that nothing is known of, that bound a search
-constexpr double kPassesInTime = 8.0;           // as many as tell an error: kLeastPasses of render.h
-constexpr double kLeastShare = 0.125;           // of what the eye pass costs, for photons
+constexpr double kLargestRadius = 0.05;  // of the scene's diagonal
+constexpr double kLeastRadius = 0.5;     // pixels
+constexpr double kLeastShare = 0.125;    // of what the eye pass costs, for photons
 
 /// Of so many decimal digits: enough for a choice, and short to write down.
 double rounded(double value, int digits) {
@@ -83,10 +82,10 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
   const double diagonal = scene.bounds.diagonal();
   for (const OpenRadius& open : open_radii(scene, automatic, densities, settings)) {
     ChosenRadius chosen;
-    if (open.gather.mode == GatherMode::nearest)
-      chosen = {rounded_radius(kSearch * diagonal), "a tenth of the scene, as far as is searched: 'count' decides"};
+    if (open.gather.goes_by_count())
+      chosen = {rounded_radius(kDefaultSearch * diagonal), "a tenth of the scene at the most: 'count' decides"};
     else if (!open.density)
-      chosen = {rounded_radius(kUsual * diagonal), "a hundredth of the scene: the pilot met too few photons"};
+      chosen = {rounded_radius(kDefaultRadius * diagonal), "a hundredth of the scene: the pilot met too few photons"};
     else
       chosen = choose_radius(*open.density, open.emitted, diagonal);
     open.gather.radius = chosen.radius;
@@ -118,7 +117,7 @@ Number number_of(const std::string& key, const std::string& value) {
   const char* const end = value.data() + value.size();
   const auto [stop, error] = std::from_chars(value.data(), end, number);
   if (error != std::errc() || stop != end || !(number > Number{}))
-    throw InputError(fmt::format("'{}' cannot have been chosen for {}", value, key));
+    throw InputError(fmt::format("'{}' is no value of {}, a number above 0", value, key));
   return number;
 }
 
@@ -129,26 +128,27 @@ ChosenRadius choose_radius(const MapDensity& density, double emitted, double dia
   const double wanted = density.reach * std::pow(share, 1.0 / density.dimension);
   const double least = kLeastRadius * density.footprint, most = kLargestRadius * diagonal;
   const std::string would =
-      fmt::format("{:.3g} m would hold {:g} photons where the picture shows", wanted, kPhotonsWithin);
+      fmt::format("{:.3g} m would hold {:g} photons at a typical place of the picture", wanted, kPhotonsWithin);
   if (wanted > most) return {rounded_radius(most), "a twentieth of the scene; " + would};
-  if (wanted < least) return {rounded_radius(least), "half a pixel there; " + would};
+  if (wanted < least) return {rounded_radius(least), "half a pixel; " + would};
   return {
       rounded_radius(wanted),
-      fmt::format("{:g} photons lie within it where the picture shows, of those of the first pass", kPhotonsWithin)};
+      fmt::format("{:g} photons of the first pass lie within it at a typical place of the picture", kPhotonsWithin)};
 }
 
 ChosenCount choose_count(const PassCost& cost, double seconds) {
   const double balanced = cost.eye / cost.photon;
   double count = balanced;
   std::string reason = fmt::format("tracing and sorting them takes as long as the eye pass, {:.2g} s", cost.eye);
-  const double left = (seconds / kPassesInTime - cost.eye) / cost.photon;
+  const double left = (seconds / kLeastPasses - cost.eye) / cost.photon;
   if (seconds > 0.0 && left < balanced) {
     count = std::max(left, kLeastShare * balanced);
     reason =
         left > kLeastShare * balanced
-            ? fmt::format("{:g} passes fit into {:g} s; the eye pass takes {:.2g} s", kPassesInTime, seconds, cost.eye)
-            : fmt::format("an eighth of the time of the eye pass, {:.2g} s, of which {:g} do not fit into {:g} s",
-                          cost.eye, kPassesInTime, seconds);
+            ? fmt::format("{} passes fit into {:g} s; the eye pass takes {:.2g} s", kLeastPasses, seconds, cost.eye)
+            : fmt::format(
+                  "an eighth of the time of the eye pass, {:.2g} s; {} passes of that alone do not fit into {:g} s",
+                  cost.eye, kLeastPasses, seconds);
   }
   if (count * cost.stored_per_photon > kMostStored) {
     count = kMostStored / cost.stored_per_photon;
@@ -187,7 +187,7 @@ void set_chosen(RenderSettings& settings, const std::string& key, const std::str
   else if (key == "distance.strategy" && make_distance_strategy({.strategy = value}))
     settings.distance.strategy = value;
   else
-    throw InputError(fmt::format("'{}' cannot have been chosen for {}", value, key));
+    throw InputError(fmt::format("{} is no setting that a render chooses", key));
 }
 
 }  // namespace vpm

@@ -17,9 +17,6 @@
 namespace vpm {
 namespace {
 
-constexpr float kDefaultRadius = 0.01f;  // of the diagonal of what the map covers
-constexpr float kDefaultSearch = 0.1f;   // the same, as the largest radius of the nearest mode
-
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -87,11 +84,7 @@ std::vector<float> pixel_radii(const Scene& scene, const RenderSettings& setting
   return radii;
 }
 
-float default_share(const GatherSettings& gather) {
-  const bool is_largest =
-      gather.mode == GatherMode::nearest || (gather.mode == GatherMode::beam && gather.beam_count > 0);
-  return is_largest ? kDefaultSearch : kDefaultRadius;
-}
+float default_share(const GatherSettings& gather) { return gather.goes_by_count() ? kDefaultSearch : kDefaultRadius; }
 
 /// Adds `emitted` caustic photons that are aimed, with powers as if they were as many as the others.
 void add_caustics(const Scene& scene, const DistanceStrategy& strategy, uint64_t emitted, const TraceSettings& trace,

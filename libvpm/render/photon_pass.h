@@ -54,8 +54,10 @@ double relative_square(const RenderSettings& settings, const Stages& stages, int
 /// kernels' bias cannot be seen.
 std::vector<std::string> maps_of_unseen_bias(const RenderSettings& settings, const Stages& stages);
 
-/// The radius of a map in the first pass: the settings', or where that is 0 one hundredth (the largest radius of the
-/// nearest mode: a tenth) of the diagonal of the medium's bounds (grids) or of the scene.
+/// Radii that nothing is known of: their shares of the diagonal of the medium's bounds (grids) or of the scene. The
+/// second where gathers go by count, and the radius only bounds them.
+inline constexpr float kDefaultRadius = 0.01f, kDefaultSearch = 0.1f;
+/// The radius of a map in the first pass: the settings', or where that is 0 such a share of the diagonal.
 float first_volume_radius(const Scene& scene, const RenderSettings& settings, const Medium& medium);
 float first_surface_radius(const Scene& scene, const RenderSettings& settings);
 float first_caustic_radius(const Scene& scene, const RenderSettings& settings);

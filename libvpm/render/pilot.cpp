@@ -64,7 +64,7 @@ void follow(const Scene& scene, const DistanceStrategy& strategy, uint64_t seed,
   }
 }
 
-/// Every so manieth, to have no more than `most`.
+/// Every n-th, for the least n that leaves no more than `most`.
 template <class T>
 std::vector<T> thinned(const std::vector<T>& all, size_t most) {
   const size_t step = chunk_count(std::max<size_t>(all.size(), 1), most);
@@ -103,7 +103,9 @@ std::vector<Probe> places_of(const Camera& camera, const std::vector<Photon>& ph
   return places;
 }
 
+/// Of a seed of its own: what is chosen does not depend on the photons that the render will gather.
 RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
+  settings.seed = ~settings.seed;
   settings.photons_emitted = photons;
   settings.photons_stored = kStored;
   settings.caustics_emitted = std::min(settings.caustics_emitted, photons);
@@ -123,18 +125,18 @@ TracedPhotons trace(const Scene& scene, const RenderSettings& settings) {
   return trace_pass(scene, settings, plan_stages(scene, settings), 0, kGoOn, {}, statistics);
 }
 
-/// Renders the rays of one block of pixels of many.
+/// Renders the rays of one block of pixels of many, cut at the borders of small pictures.
 void render_block(const EyeContext& context, size_t block, EyeCounters& counters) {
   const Camera& camera = context.scene.camera;
   Marcher marcher;
   const auto pixel_of = [](int pixels, size_t part, int i) {
-    const auto of = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocks;
-    return of + static_cast<float>(i) - 0.5f * kBlockEdge + 0.5f;
+    const auto middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocks;
+    return std::clamp(middle + static_cast<float>(i) - 0.5f * kBlockEdge + 0.5f, 0.0f, static_cast<float>(pixels));
   };
   for (int i = 0; i < kBlockEdge * kBlockEdge; ++i) {
     const Vec2 film(pixel_of(camera.width, block % kBlocks, i % kBlockEdge),
                     pixel_of(camera.height, block / kBlocks, i / kBlockEdge));
-    Rng rng(context.settings.seed, rng_stream(RngUse::pilot, 2), block * kBlockEdge * kBlockEdge + i);
+    Rng rng(context.settings.seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
     eye_radiance(context, camera.ray(film), marcher, rng, counters);
   }
 }

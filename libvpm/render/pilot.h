@@ -19,7 +19,7 @@ struct MapDensities {
 /// Where the eye gathers, how near the photons are: a pure function of scene and settings.
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings);
 
-/// Times a pass: all its photons, and a few of its rays.
+/// Times the photons of a pass, a million stored ones at the most, and a sample of its rays.
 PassCost time_pass(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace vpm

@@ -16,18 +16,18 @@ std::optional<EquiangularDistances> EquiangularDistances::towards(const std::opt
   d.t0_ = interval.t0;
   d.t1_ = interval.t1;
   d.closest_ = glm::dot(to_point, direction);
-  d.off_ = glm::length(to_point - d.closest_ * direction);
+  d.beside_ = glm::length(to_point - d.closest_ * direction);
   const double a = d.t0_ - d.closest_, b = d.t1_ - d.closest_;
   // The difference of the ends' angles, with all its digits where that is small.
-  d.angle_ = std::isinf(b) ? std::atan2(d.off_, a) : std::atan2(d.off_ * (b - a), d.off_ * d.off_ + a * b);
-  if (!(d.off_ > 0.0 && d.angle_ > 0.0)) return std::nullopt;
+  d.angle_ = std::isinf(b) ? std::atan2(d.beside_, a) : std::atan2(d.beside_ * (b - a), d.beside_ * d.beside_ + a * b);
+  if (!(d.beside_ > 0.0 && d.angle_ > 0.0)) return std::nullopt;
   return d;
 }
 
 double EquiangularDistances::draw(double u) const {
-  // off tan(angle of t0 + u angle) [Kulla2012] less the same for u = 0, without their cancellation.
+  // beside tan(angle of t0 + u angle) [Kulla2012] less the same for u = 0, without their cancellation.
   const double a = t0_ - closest_, part = u * angle_;
-  const double past = (off_ * off_ + a * a) * std::sin(part) / (off_ * std::cos(part) - a * std::sin(part));
+  const double past = (beside_ * beside_ + a * a) * std::sin(part) / (beside_ * std::cos(part) - a * std::sin(part));
   return std::min(t0_ + past, t1_);
 }
 
@@ -45,16 +45,6 @@ double AttenuatedDistances::draw(double u) const {
   while (share_[channel] == 0.0) --channel;  // rounding led past the last one
   const double within = std::clamp(u / share_[channel], 0.0, 1.0 - 1e-15);
   return columns_.where(draw_attenuated(sigma_t_[channel], columns_.column(), within));
-}
-
-Rgb scattered_light(const EyeContext& context, const LightSource& source, const Receiver& point, const Vec3& travel,
-                    Rng& rng, EyeCounters& counters) {
-  count(counters.shadow_rays);
-  const DirectSample light = sample_direct({context.scene, *context.transmittance, rng, counters.walk},
-                                           source.picked.number, point, source.from);
-  if (is_black(light.irradiance)) return Rgb(0.0f);
-  const Medium& medium = context.scene.media[point.medium];
-  return light.irradiance * phase_value(medium.phase, -light.direction, -travel) / source.picked.probability;
 }
 
 Rgb single_scattering(const EyeContext& context, const EyeSegment& segment, Rng& rng, EyeCounters& counters) {

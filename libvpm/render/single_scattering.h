@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "medium/columns_along.h"
-#include "path/direct_light.h"
-#include "render/eye_context.h"
+#include "render/scattered_light.h"
 
 namespace vpm {
 
@@ -22,13 +21,13 @@ class EquiangularDistances {
   /// The density of distances, 1/m, within the interval.
   double pdf(double t) const {
     const double along = t - closest_;
-    return off_ / (angle_ * (off_ * off_ + along * along));
+    return beside_ / (angle_ * (beside_ * beside_ + along * along));
   }
 
  private:
   double t0_ = 0.0, t1_ = 0.0;  // of the interval, m
   double closest_ = 0.0;        // where the ray passes the point, m
-  double off_ = 0.0;            // of the point from the ray's line, m, > 0
+  double beside_ = 0.0;         // how far from it, m, > 0
   double angle_ = 0.0;          // under which the point sees the interval, > 0
 };
 
@@ -36,8 +35,8 @@ class EquiangularDistances {
 /// densities Tr(t) sigma_t(t) / (1 - Tr), each with the share that its channel has in all of that light.
 class AttenuatedDistances {
  public:
-  /// In a medium of extinction `sigma_t`, 1/m at density 1, walked by `columns`, which must outlive this. `weight` is
-  /// what a metre of column before the eye counts for, >= 0, and 0 where sigma_t is.
+  /// In a medium of extinction `sigma_t`, 1/m at density 1, walked by `columns`, which must outlive this. `weight`, of
+  /// each channel, is what light scattered along a metre of column at the eye counts for: >= 0, and 0 where sigma_t is.
   AttenuatedDistances(const ColumnsAlong& columns, const Rgb& sigma_t, const Rgb& weight);
   /// Is there nothing to draw: no density, or no weight?
   bool empty() const { return !(total_ > 0.0); }
@@ -67,15 +66,5 @@ struct EyeSegment {
 /// sr): settings.direct_samples pairs of distances, each pair with a point of a light of its own. Where there is such a
 /// point one of the pair is equiangular; the balance heuristic [Veach1997, ch. 9] weighs both.
 Rgb single_scattering(const EyeContext& context, const EyeSegment& segment, Rng& rng, EyeCounters& counters);
-
-/// A light, and a point of it where one is drawn beforehand.
-struct LightSource {
-  PickedLight picked;
-  std::optional<LightPoint> from;
-};
-/// What a light sends to a point of a medium, scattered there against `travel`, the direction of the ray that sees it:
-/// irradiance times phase function over the probability to pick that light, W/(m^2 sr).
-Rgb scattered_light(const EyeContext& context, const LightSource& light, const Receiver& point, const Vec3& travel,
-                    Rng& rng, EyeCounters& counters);
 
 }  // namespace vpm

@@ -103,6 +103,7 @@ TEST(BeamEstimate, EqualsTheSumOverPhotonsWithRadiiOfTheirOwn) {
       const Rgb quick =
           beam_sum(Isotropic{}, ray, {0.3f, 0.9f}, each_foot([](float t) { return Rgb(t); }), map, counters);
       Rgbd slow(0.0);
+      double height = 0.0;  // of the kernels added up, at the middle
       for (size_t k = 0; k < map.photons.size(); ++k) {
         const float radius = map.photons.radius(k);
         const Vec3 offset = map.photons.photons().position(k) - ray.origin;
@@ -111,13 +112,16 @@ TEST(BeamEstimate, EqualsTheSumOverPhotonsWithRadiiOfTheirOwn) {
         most = std::max(most, radius);
         if (!(t >= 0.3f && t < 0.9f && across < radius)) continue;
         const float q = across * across / (radius * radius);
-        slow += Rgbd(map.photons.photons().payload(k).power.unpack() * t * kernel_profile<KernelKind::epanechnikov>(q) *
-                     kernel_norm_2d(KernelKind::epanechnikov, radius) / (4.0f * kPi));
+        const Rgb middle = map.photons.photons().payload(k).power.unpack() * t *
+                           kernel_norm_2d(KernelKind::epanechnikov, radius) / (4.0f * kPi);
+        slow += Rgbd(middle * kernel_profile<KernelKind::epanechnikov>(q));
+        height += max_channel(middle);
       }
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(quick[c], slow[c], 2e-3 * slow[c] + 1e-3) << "ray " << i;
+      // Rounding of distances changes profiles of far photons by parts of 1e-5 of the kernel's height.
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(quick[c], slow[c], 1e-4 * (slow[c] + height)) << "ray " << i;
     }
     EXPECT_LE(most, 0.2f);
-    EXPECT_GE(least, 0.0019f);
+    EXPECT_GE(least, 0.999f * BeamRadii::kLeastShare * 0.2f);
   }
 }
 

@@ -74,6 +74,22 @@ Ray ray_at_grid(const GridFrame& frame, int number, Rng& rng) {
   return {origin, glm::normalize(target - origin)};
 }
 
+TEST_P(DensityGridTest, LookUpsAtOnceAreThoseOneByOne) {
+  const auto grid = noise_grid(frame_of(std::get<0>(GetParam()), std::get<1>(GetParam())));
+  const Box bounds = grid->bounds();
+  for (uint64_t i = 0; i < 200; ++i) {
+    Rng rng(7, rng_stream(RngUse::test, 0), i);
+    const Vec3 origin = bounds.lo + bounds.extent() * Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    const auto ray = grid->lattice_ray({origin, uniform_sphere(rng.uniform2())});
+    const double begin = -rng.uniform() * bounds.diagonal(), step = rng.uniform() * bounds.diagonal() / 8.0;
+    float at_once[DensityGrid::kAtOnce];
+    const size_t count = i % (DensityGrid::kAtOnce + 1);
+    grid->densities(ray, begin, step, {at_once, count});
+    for (size_t k = 0; k < count; ++k)
+      EXPECT_EQ(at_once[k], grid->density(ray, begin + static_cast<double>(k) * step)) << "ray " << i << ", " << k;
+  }
+}
+
 TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
   const GridFrame frame = frame_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
   const auto grid = noise_grid(frame);
