@@ -35,7 +35,7 @@ TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
   vpm_succeeds(again);
   EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
   EXPECT_EQ(report("auto.json")["settings"], report("again.json")["settings"]);
-  EXPECT_EQ(report("auto.json")["notes"].size(), 5u);
+  EXPECT_EQ(report("auto.json")["notes"].size(), 6u);
   EXPECT_EQ(report("again.json")["notes"].size(), 0u);
   EXPECT_EQ(read_exr_channels(path("auto.exr")).metadata.at("vpm.settings"), report("again.json")["settings"]);
 }

@@ -1,6 +1,7 @@
 // vpm render: scene file in, picture and report out.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
@@ -82,7 +83,10 @@ std::vector<Choice> choose(const RenderOptions& options, const Outputs& outputs,
     choices = choices_of(outputs.checkpoint);
     for (const Choice& choice : choices) set_chosen(loaded.settings, choice.key, choice.value);
   } else {
+    const auto start = std::chrono::steady_clock::now();
     choices = choose_settings(loaded.scene, loaded.automatic, loaded.settings);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    loaded.notes.push_back(fmt::format("choosing settings took {:.2g} s", seconds.count()));
   }
   std::string again;
   for (const Choice& choice : choices) {
