@@ -23,11 +23,9 @@ constexpr size_t kProbes = 512;             // places, of these
 constexpr uint32_t kNeighbours = 16;        // counted at a place: the density there is known to a quarter
 constexpr int kBlocks = 8, kBlockEdge = 8;  // timed rays come from that many blocks of pixels in either direction
 
-// What flights cost, in look-ups of density at random places (some 100 ns): fitted to the CPU time of photons in the
-// grids of scenes/smoke.toml and scenes/cloud.toml (2026-11-23: 75, 100 and 40 ns). Regular tracking looks cells up one
-// after the other, and inverts columns besides. Measured before bounds of blocks and quicker walks: both are in favour
-// of tracking through bricks now, more than these numbers tell.
-constexpr double kCellCost = 0.75, kLookupCost = 1.0, kBrickCost = 0.4;
+// What flights cost, in look-ups of density at random places: fitted to the CPU time of photons in the grids of
+// scenes/smoke.toml and scenes/cloud.toml (2026-11-23: 31 ns a cell of regular tracking, 36 a look-up, 18 a brick).
+constexpr double kCellCost = 0.85, kLookupCost = 1.0, kBrickCost = 0.5;
 
 /// A place at which the eye gathers.
 struct Probe {
