@@ -1,5 +1,5 @@
 // A target is always the old file or the whole new one, and what cannot be written is refused beforehand.
-#include "base/atomic_file.h"
+#include "vpm/base/atomic_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string>
 
-#include "base/error.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 namespace {

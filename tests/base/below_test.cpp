@@ -1,12 +1,12 @@
 // Picking numbers below a limit, against the plain way.
-#include "base/below.h"
+#include "vpm/base/below.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <vector>
 
-#include "base/rng.h"
+#include "vpm/base/rng.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // The exponential of what is not positive, against that of doubles.
-#include "base/exp_negative.h"
+#include "vpm/base/exp_negative.h"
 
 #include <gtest/gtest.h>
 

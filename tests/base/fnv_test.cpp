@@ -1,5 +1,5 @@
 // The fingerprint of bytes against values that its authors publish.
-#include "base/fnv.h"
+#include "vpm/base/fnv.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Chunks cover the work once and are the same for any number of threads.
-#include "base/parallel.h"
+#include "vpm/base/parallel.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/error.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 namespace {

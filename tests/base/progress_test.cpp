@@ -1,5 +1,5 @@
 // The progress line says the right thing, and a pipe sees nothing unless it is forced.
-#include "base/progress.h"
+#include "vpm/base/progress.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Random numbers: known answers, and independence of addresses.
-#include "base/rng.h"
+#include "vpm/base/rng.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Sums, moments and tails against known values (tails: 40 digits of mpmath).
-#include "base/statistics.h"
+#include "vpm/base/statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
 
-#include "base/line_fit.h"
-#include "base/rng.h"
+#include "vpm/base/line_fit.h"
+#include "vpm/base/rng.h"
 
 namespace vpm {
 namespace {

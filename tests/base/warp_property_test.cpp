@@ -1,8 +1,8 @@
 // Warps and frames for any numbers, intervals and boxes.
-#include "base/warp.h"
+#include "vpm/base/warp.h"
 
-#include "medium/density_grid.h"
 #include "support/properties.h"
+#include "vpm/medium/density_grid.h"
 
 namespace vpm {
 namespace {

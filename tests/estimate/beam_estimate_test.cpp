@@ -1,14 +1,14 @@
 // The beam radiance estimate: against its brute-force twin, against the integral that even photons stand for, and the
 // columns along a ray that it asks for.
-#include "estimate/beam_estimate.h"
+#include "vpm/estimate/beam_estimate.h"
 
 #include <gtest/gtest.h>
 
-#include "base/parallel.h"
-#include "medium/columns_along.h"
-#include "medium/make_grid.h"
 #include "support/photon_layouts.h"
 #include "support/statistics.h"
+#include "vpm/base/parallel.h"
+#include "vpm/medium/columns_along.h"
+#include "vpm/medium/make_grid.h"
 
 namespace vpm {
 namespace {

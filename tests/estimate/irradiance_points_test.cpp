@@ -1,13 +1,13 @@
 // Irradiance computed beforehand: its brute-force twin, and a cavity where the irradiance is the same everywhere.
 #include <gtest/gtest.h>
 
-#include "base/rng.h"
-#include "base/warp.h"
-#include "estimate/irradiance_points.h"
-#include "estimate/surface_estimate.h"
-#include "photon/trace.h"
-#include "scene/build.h"
 #include "support/statistics.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/estimate/irradiance_points.h"
+#include "vpm/estimate/surface_estimate.h"
+#include "vpm/photon/trace.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

@@ -2,12 +2,12 @@
 // transport theory.
 #include <gtest/gtest.h>
 
-#include "base/parallel.h"
-#include "base/warp.h"
-#include "estimate/volume_estimate.h"
-#include "photon/trace.h"
 #include "support/point_source.h"
 #include "support/statistics.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/warp.h"
+#include "vpm/estimate/volume_estimate.h"
+#include "vpm/photon/trace.h"
 
 namespace vpm {
 namespace {

@@ -1,14 +1,14 @@
 // The correction at edges of surfaces: shares of discs that are cut, even light on a floor, and light of other
 // surfaces.
-#include "estimate/surface_region.h"
+#include "vpm/estimate/surface_region.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "scene/build.h"
 #include "support/borders.h"
 #include "support/statistics.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

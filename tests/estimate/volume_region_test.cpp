@@ -1,15 +1,15 @@
 // The correction at borders of media: shares of balls that are cut, even light in a cube, and light behind walls.
-#include "estimate/volume_region.h"
+#include "vpm/estimate/volume_region.h"
 
 #include <gtest/gtest.h>
 
-#include "base/rng.h"
-#include "base/warp.h"
-#include "estimate/volume_estimate.h"
-#include "medium/make_grid.h"
-#include "scene/build.h"
 #include "support/borders.h"
 #include "support/statistics.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/estimate/volume_estimate.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

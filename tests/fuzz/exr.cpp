@@ -1,5 +1,5 @@
 // Any bytes as an OpenEXR file: its colours, then all of its channels.
-#include "image/exr.h"
+#include "vpm/image/exr.h"
 
 #include <cstring>
 #include <string_view>

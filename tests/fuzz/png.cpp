@@ -1,5 +1,5 @@
 // Any bytes as a PNG file: as they are, and with chunks whose checksums are right, past which libpng looks at nothing.
-#include "image/png.h"
+#include "vpm/image/png.h"
 
 #include "fuzz/scratch.h"
 

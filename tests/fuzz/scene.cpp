@@ -1,12 +1,12 @@
 // Any bytes as a scene file. The files that it may name lie beside it.
-#include "input/scene_file.h"
+#include "vpm/input/scene_file.h"
 
 #include <algorithm>
 #include <string_view>
 
 #include "fuzz/scratch.h"
-#include "image/exr.h"
-#include "input/grid_writer.h"
+#include "vpm/image/exr.h"
+#include "vpm/input/grid_writer.h"
 
 namespace vpm {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "base/error.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 

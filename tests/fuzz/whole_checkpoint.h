@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/fnv.h"
+#include "vpm/base/fnv.h"
 
 namespace vpm {
 

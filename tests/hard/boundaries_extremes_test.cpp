@@ -1,7 +1,7 @@
 // Where the eye, the light and the borders are: on boundaries, in media, inside solids; nested and touching glass;
 // total internal reflection at grazing angles.
 #include "hard/hard_scenes.h"
-#include "path/direct_light.h"
+#include "vpm/path/direct_light.h"
 
 namespace vpm {
 namespace {

@@ -2,9 +2,9 @@
 // holds; rays along every face and edge.
 #include <cstring>
 
-#include "base/error.h"
-#include "base/warp.h"
 #include "hard/hard_scenes.h"
+#include "vpm/base/error.h"
+#include "vpm/base/warp.h"
 
 namespace vpm {
 namespace {

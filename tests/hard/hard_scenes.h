@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "photon/trace.h"
-#include "render/path_tracer.h"
-#include "render/photon_pass.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/photon/trace.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 

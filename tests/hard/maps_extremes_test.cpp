@@ -1,9 +1,9 @@
 // Photon maps at their ends: photons that coincide by the thousand, none and one, radii beyond the scene, below the
 // spacing of floats, and far from the origin.
-#include "base/warp.h"
-#include "estimate/surface_estimate.h"
-#include "estimate/volume_estimate.h"
 #include "hard/hard_scenes.h"
+#include "vpm/base/warp.h"
+#include "vpm/estimate/surface_estimate.h"
+#include "vpm/estimate/volume_estimate.h"
 
 namespace vpm {
 namespace {

@@ -1,10 +1,10 @@
 // Media from nothing to opaque, from black to white, from forward to backward: against closed forms.
-#include "base/warp.h"
 #include "hard/hard_scenes.h"
-#include "medium/transmittance/estimator.h"
-#include "render/march.h"
-#include "render/path_tracer.h"
-#include "study/careful_settings.h"
+#include "vpm/base/warp.h"
+#include "vpm/medium/transmittance/estimator.h"
+#include "vpm/render/march.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/study/careful_settings.h"
 
 namespace vpm {
 namespace {

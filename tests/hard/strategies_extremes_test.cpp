@@ -1,10 +1,10 @@
 // Strategies and estimators where they are known to fail, and along rays that are hard for all.
 #include <fmt/format.h>
 
-#include "base/fnv.h"
 #include "hard/hard_scenes.h"
-#include "medium/transmittance/estimator.h"
-#include "study/careful_settings.h"
+#include "vpm/base/fnv.h"
+#include "vpm/medium/transmittance/estimator.h"
+#include "vpm/study/careful_settings.h"
 
 namespace vpm {
 namespace {

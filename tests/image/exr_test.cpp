@@ -1,5 +1,5 @@
 // EXR files come back bit for bit; other people's files are read as the format means them; damaged ones are refused.
-#include "image/exr.h"
+#include "vpm/image/exr.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -17,8 +17,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "base/error.h"
-#include "base/rng.h"
+#include "vpm/base/error.h"
+#include "vpm/base/rng.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // Pictures in half floats against the format's definition.
-#include "image/half_pixels.h"
+#include "vpm/image/half_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // The error measures against values worked out by hand.
-#include "image/metrics.h"
+#include "vpm/image/metrics.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "base/error.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // The preview, read back with libpng, shows the bytes that the sRGB curve asks for.
-#include "image/png.h"
+#include "vpm/image/png.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -12,7 +12,7 @@
 #include <limits>
 #include <string>
 
-#include "base/error.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // Checkpoints: back to the last bit, or refused.
-#include "input/checkpoint.h"
+#include "vpm/input/checkpoint.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "base/error.h"
-#include "base/fnv.h"
 #include "fuzz/whole_checkpoint.h"
+#include "vpm/base/error.h"
+#include "vpm/base/fnv.h"
 
 namespace vpm {
 namespace {

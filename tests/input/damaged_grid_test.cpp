@@ -5,10 +5,10 @@
 #include <limits>
 #include <random>
 
-#include "base/error.h"
 #include "input/grid_expectations.h"
 #include "input/grid_folder.h"
-#include "input/source.h"
+#include "vpm/base/error.h"
+#include "vpm/input/source.h"
 
 namespace vpm {
 namespace {

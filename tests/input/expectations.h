@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 

@@ -6,9 +6,9 @@
 #include <openvdb/tools/Interpolation.h>
 #include <string>
 
-#include "base/error.h"
-#include "base/rng.h"
-#include "input/grid_file.h"
+#include "vpm/base/error.h"
+#include "vpm/base/rng.h"
+#include "vpm/input/grid_file.h"
 
 namespace vpm {
 

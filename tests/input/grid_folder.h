@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "base/rng.h"
-#include "input/grid_file.h"
+#include "vpm/base/rng.h"
+#include "vpm/input/grid_file.h"
 
 namespace vpm {
 

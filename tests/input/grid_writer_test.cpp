@@ -1,14 +1,14 @@
 // Procedural fields in .vdb files: the values that were asked for, where they belong.
-#include "input/grid_writer.h"
+#include "vpm/input/grid_writer.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
-#include "base/error.h"
-#include "input/grid_file.h"
-#include "medium/procedural.h"
+#include "vpm/base/error.h"
+#include "vpm/input/grid_file.h"
+#include "vpm/medium/procedural.h"
 
 namespace vpm {
 namespace {

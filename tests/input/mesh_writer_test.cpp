@@ -1,5 +1,5 @@
 // Meshes that are written: the reader gives back the same bits.
-#include "input/mesh_writer.h"
+#include "vpm/input/mesh_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <iterator>
 
 #include "input/expectations.h"
-#include "input/mesh_file.h"
 #include "support/test_file.h"
-#include "surface/mesh.h"
-#include "surface/procedural_mesh.h"
+#include "vpm/input/mesh_file.h"
+#include "vpm/surface/mesh.h"
+#include "vpm/surface/procedural_mesh.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // Scene files: every mistake is refused with its place and what would be right; options and the files it names.
-#include "input/scene_file.h"
+#include "vpm/input/scene_file.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "image/exr.h"
 #include "input/expectations.h"
 #include "input/scene_text.h"
 #include "support/test_file.h"
+#include "vpm/image/exr.h"
 
 namespace vpm {
 namespace {

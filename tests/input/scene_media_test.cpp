@@ -1,5 +1,5 @@
 // Scene files: media, on both sides of shapes and in grids.
-#include "input/scene_file.h"
+#include "vpm/input/scene_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

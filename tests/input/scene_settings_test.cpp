@@ -1,5 +1,5 @@
 // Scene files: ranges, the camera, the film and how to render; defaults.
-#include "input/scene_file.h"
+#include "vpm/input/scene_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // Scene files: materials, textures, shapes where their transforms put them, and lights.
-#include "input/scene_file.h"
+#include "vpm/input/scene_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "image/exr.h"
 #include "input/expectations.h"
 #include "input/scene_text.h"
 #include "support/test_file.h"
+#include "vpm/image/exr.h"
 
 namespace vpm {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "input/scene_file.h"
 #include "support/test_file.h"
+#include "vpm/input/scene_file.h"
 
 namespace vpm {
 

@@ -1,9 +1,9 @@
 // Meshes under any transform keep their normals outward.
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "input/sections.h"
 #include "support/properties.h"
-#include "surface/mesh.h"
+#include "vpm/input/sections.h"
+#include "vpm/surface/mesh.h"
 
 namespace vpm {
 namespace {

@@ -1,11 +1,11 @@
 // Emission of photons: exact power, exact density of places and directions, and agreement with sample_towards().
 #include <gtest/gtest.h>
 
-#include "base/error.h"
-#include "base/warp.h"
 #include "light/lights.h"
 #include "support/statistics.h"
-#include "surface/mesh.h"
+#include "vpm/base/error.h"
+#include "vpm/base/warp.h"
+#include "vpm/surface/mesh.h"
 
 namespace vpm {
 namespace {

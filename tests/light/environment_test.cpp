@@ -1,9 +1,9 @@
 // The equirectangular environment: orientation, density, integral, errors.
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "light/lights.h"
 #include "support/statistics.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 namespace {

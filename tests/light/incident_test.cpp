@@ -3,7 +3,7 @@
 
 #include "light/lights.h"
 #include "support/statistics.h"
-#include "surface/mesh.h"
+#include "vpm/surface/mesh.h"
 
 namespace vpm {
 namespace {

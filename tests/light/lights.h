@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "base/rng.h"
-#include "light/light.h"
+#include "vpm/base/rng.h"
+#include "vpm/light/light.h"
 
 namespace vpm {
 

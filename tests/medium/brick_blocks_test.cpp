@@ -1,11 +1,11 @@
 // Bounds of blocks against all values in them.
-#include "medium/brick_blocks.h"
+#include "vpm/medium/brick_blocks.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "base/rng.h"
-#include "medium/density_grid.h"
+#include "vpm/base/rng.h"
+#include "vpm/medium/density_grid.h"
 
 namespace vpm {
 namespace {

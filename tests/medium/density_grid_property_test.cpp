@@ -1,8 +1,8 @@
 // Grids of any shape and transform: columns add up, are the same from both ends, follow the transform; and any piece
 // of density is inverted.
-#include "base/rng.h"
 #include "support/grids.h"
 #include "support/properties.h"
+#include "vpm/base/rng.h"
 
 namespace vpm {
 namespace {

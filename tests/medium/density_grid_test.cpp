@@ -1,12 +1,12 @@
 // Density grids: look-ups against the definition, walks against look-ups, exact columns against quadrature.
-#include "medium/density_grid.h"
+#include "vpm/medium/density_grid.h"
 
 #include <gtest/gtest.h>
 
-#include "base/parallel.h"
-#include "base/rng.h"
-#include "base/warp.h"
 #include "support/grids.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
 
 namespace vpm {
 namespace {

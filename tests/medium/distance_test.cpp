@@ -1,9 +1,9 @@
 // Every distance strategy against the exact law of free flights, in grey and in colour.
 #include <gtest/gtest.h>
 
-#include "medium/distance/strategy.h"
 #include "support/flight_fields.h"
 #include "support/statistics.h"
+#include "vpm/medium/distance/strategy.h"
 
 namespace vpm {
 namespace {

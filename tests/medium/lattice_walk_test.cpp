@@ -1,9 +1,9 @@
 // Walks through lattices against the cells of points on the ray.
 #include <gtest/gtest.h>
 
-#include "base/rng.h"
-#include "base/warp.h"
-#include "medium/density_grid.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/medium/density_grid.h"
 
 namespace vpm {
 namespace {

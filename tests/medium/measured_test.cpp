@@ -1,5 +1,5 @@
 // The measured coefficients: copied right, checked by the diffuse reflectances that were printed beside them.
-#include "medium/measured.h"
+#include "vpm/medium/measured.h"
 
 #include <gtest/gtest.h>
 

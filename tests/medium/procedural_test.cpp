@@ -1,12 +1,12 @@
 // The procedural fields: within their bounds, empty at the faces of their box, the same on every machine; noise against
 // its own definition.
-#include "medium/procedural.h"
+#include "vpm/medium/procedural.h"
 
 #include <gtest/gtest.h>
 #include <cstring>
 
-#include "base/rng.h"
-#include "medium/noise.h"
+#include "vpm/base/rng.h"
+#include "vpm/medium/noise.h"
 
 namespace vpm {
 namespace {

@@ -2,10 +2,10 @@
 // which distance_test.cpp sees to, does not tell.
 #include <gtest/gtest.h>
 
-#include "medium/distance/null_collisions.h"
-#include "medium/distance/strategy.h"
 #include "support/flight_fields.h"
 #include "support/statistics.h"
+#include "vpm/medium/distance/null_collisions.h"
+#include "vpm/medium/distance/strategy.h"
 
 namespace vpm {
 namespace {

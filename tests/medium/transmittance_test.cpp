@@ -3,9 +3,9 @@
 
 #include <complex>
 
-#include "medium/transmittance/estimator.h"
 #include "support/grids.h"
 #include "support/statistics.h"
+#include "vpm/medium/transmittance/estimator.h"
 
 namespace vpm {
 namespace {

@@ -1,11 +1,11 @@
 // Shadow rays take transmittances as estimators give them: below 0, above 1, in every medium crossed.
-#include "path/direct_light.h"
+#include "vpm/path/direct_light.h"
 
 #include <gtest/gtest.h>
 
-#include "render/path_tracer.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/render/path_tracer.h"
 
 namespace vpm {
 namespace {

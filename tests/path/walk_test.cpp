@@ -1,13 +1,13 @@
 // Media along paths: coinciding boundaries, surfaces on boundaries, lights across boundaries.
-#include "path/walk.h"
+#include "vpm/path/walk.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "path/direct_light.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/path/direct_light.h"
 
 namespace vpm {
 namespace {

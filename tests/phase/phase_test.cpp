@@ -1,11 +1,11 @@
 // Phase functions: normalisation, mean cosine, sampling against value, extreme anisotropy.
-#include "phase/phase.h"
+#include "vpm/phase/phase.h"
 
 #include <gtest/gtest.h>
 
-#include "base/rng.h"
-#include "base/warp.h"
 #include "support/statistics.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
 
 namespace vpm {
 namespace {

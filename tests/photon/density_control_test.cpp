@@ -1,10 +1,10 @@
 // Density control: what stays, and that no power is lost.
-#include "photon/density_control.h"
+#include "vpm/photon/density_control.h"
 
 #include <gtest/gtest.h>
 
-#include "base/rng.h"
-#include "base/warp.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
 
 namespace vpm {
 namespace {

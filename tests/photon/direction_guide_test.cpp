@@ -1,10 +1,10 @@
 // Directions on a grid: what tracks tell of them, and draws against their densities.
-#include "photon/direction_guide.h"
+#include "vpm/photon/direction_guide.h"
 
 #include <gtest/gtest.h>
 
-#include "base/warp.h"
 #include "support/statistics.h"
+#include "vpm/base/warp.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // The learned density of emission: that it is one, that it finds what scores, and that weights undo it.
-#include "photon/emission_guide.h"
+#include "vpm/photon/emission_guide.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Photons that a guide scatters on their way through a hole, against photons that it does not.
 #include <gtest/gtest.h>
 
-#include "base/parallel.h"
-#include "medium/make_grid.h"
-#include "photon/trace.h"
-#include "scene/build.h"
 #include "support/statistics.h"
+#include "vpm/base/parallel.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/photon/trace.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

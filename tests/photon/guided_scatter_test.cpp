@@ -1,12 +1,12 @@
 // Scattering by a guide against scattering without, one event at a time.
-#include "photon/guided_scatter.h"
+#include "vpm/photon/guided_scatter.h"
 
 #include <gtest/gtest.h>
 
-#include "base/warp.h"
-#include "medium/make_grid.h"
-#include "scene/build.h"
 #include "support/statistics.h"
+#include "vpm/base/warp.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

@@ -1,11 +1,11 @@
 // Guided photons against those that are not: the same means, from fewer; and caustics that are aimed.
 #include <gtest/gtest.h>
 
-#include "medium/make_grid.h"
-#include "photon/caustics.h"
-#include "photon/trace.h"
-#include "scene/build.h"
 #include "support/statistics.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/photon/caustics.h"
+#include "vpm/photon/trace.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

@@ -1,10 +1,10 @@
 // Importance on a grid: lengths of tracks, where it rises, and what importons make of a room.
-#include "photon/importons.h"
+#include "vpm/photon/importons.h"
 
 #include <gtest/gtest.h>
 
-#include "medium/make_grid.h"
 #include "support/scenes.h"
+#include "vpm/medium/make_grid.h"
 
 namespace vpm {
 namespace {

@@ -1,10 +1,10 @@
 // Kernels of any radius, packed directions, and both maps against the plain list, for any photons: spread, in a plane,
 // on a line, at few points, near and far.
-#include "base/rng.h"
-#include "base/warp.h"
-#include "estimate/surface_estimate.h"
-#include "estimate/volume_estimate.h"
 #include "support/properties.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/estimate/surface_estimate.h"
+#include "vpm/estimate/volume_estimate.h"
 
 namespace vpm {
 namespace {

@@ -1,12 +1,12 @@
 // Photon maps against their brute-force twins, on spread, flat, clustered and coinciding photons.
 #include <gtest/gtest.h>
 
-#include "base/rng.h"
-#include "base/warp.h"
-#include "estimate/surface_estimate.h"
-#include "estimate/volume_estimate.h"
 #include "support/photon_layouts.h"
 #include "support/statistics.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/estimate/surface_estimate.h"
+#include "vpm/estimate/volume_estimate.h"
 
 namespace vpm {
 namespace {

@@ -1,14 +1,14 @@
 // Photon tracing: the strategies against each other without a kernel, the ledger, what is stored, and reproducibility.
-#include "photon/trace.h"
+#include "vpm/photon/trace.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include "base/parallel.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/base/parallel.h"
 
 namespace vpm {
 namespace {

@@ -1,13 +1,13 @@
 // Settings that a render chooses: the rules are exact; the pilot is a pure function, and changes nothing that is given.
-#include "render/automatic.h"
+#include "vpm/render/automatic.h"
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "render/pilot.h"
-#include "render/render.h"
 #include "support/scenes.h"
+#include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
+#include "vpm/render/pilot.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {

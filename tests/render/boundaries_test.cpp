@@ -2,9 +2,9 @@
 // where they are not.
 #include <gtest/gtest.h>
 
-#include "render/photon_pass.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {

@@ -1,15 +1,15 @@
 // What the film makes of its passes.
-#include "render/film.h"
+#include "vpm/render/film.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "base/rng.h"
-#include "base/statistics.h"
-#include "image/metrics.h"
-#include "render/radius_schedule.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/statistics.h"
+#include "vpm/image/metrics.h"
+#include "vpm/render/radius_schedule.h"
 
 namespace vpm {
 namespace {

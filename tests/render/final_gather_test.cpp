@@ -1,13 +1,13 @@
 // Final gathering: closed cavities, where it is exact, and what is left to the caustic map.
 #include <gtest/gtest.h>
 
-#include "base/parallel.h"
-#include "image/metrics.h"
-#include "photon/trace.h"
-#include "render/path_tracer.h"
-#include "render/photon_pass.h"
-#include "scene/build.h"
 #include "support/statistics.h"
+#include "vpm/base/parallel.h"
+#include "vpm/image/metrics.h"
+#include "vpm/photon/trace.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

@@ -1,14 +1,14 @@
 // Rays of final gathering guided by photons: the same means as without, and less noise where light comes from one side.
 #include <gtest/gtest.h>
 
-#include "base/warp.h"
-#include "medium/make_grid.h"
-#include "photon/trace.h"
-#include "render/eye_context.h"
-#include "render/gather_guide.h"
-#include "render/photon_pass.h"
-#include "scene/build.h"
 #include "support/statistics.h"
+#include "vpm/base/warp.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/photon/trace.h"
+#include "vpm/render/eye_context.h"
+#include "vpm/render/gather_guide.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

@@ -2,10 +2,10 @@
 // light; and a ball of index 1 must leave no shadow once caustics are there.
 #include <gtest/gtest.h>
 
-#include "image/metrics.h"
-#include "render/photon_pass.h"
-#include "scene/build.h"
-#include "study/validate/check.h"
+#include "vpm/image/metrics.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/scene/build.h"
+#include "vpm/study/validate/check.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // Light maps: closed forms of irradiance, which texel is where, and what cannot be laid out.
-#include "render/light_map.h"
+#include "vpm/render/light_map.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <functional>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/parallel.h"
-#include "scene/build.h"
 #include "support/statistics.h"
+#include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 namespace {

@@ -1,12 +1,12 @@
 // The eye's march: exact where it must be, unbiased everywhere, whatever the steps.
-#include "render/march.h"
+#include "vpm/render/march.h"
 
 #include <gtest/gtest.h>
 
-#include "render/film.h"
-#include "render/radius_schedule.h"
 #include "support/grids.h"
 #include "support/statistics.h"
+#include "vpm/render/film.h"
+#include "vpm/render/radius_schedule.h"
 
 namespace vpm {
 namespace {

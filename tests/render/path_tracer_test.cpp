@@ -1,13 +1,13 @@
 // The referee against closed forms. What it says of whole scenes is compared with the photon maps by `vpm validate`.
-#include "render/path_tracer.h"
+#include "vpm/render/path_tracer.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "path/path_weight.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/path/path_weight.h"
 
 namespace vpm {
 namespace {

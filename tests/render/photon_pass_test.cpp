@@ -1,14 +1,14 @@
 // The whole path from lights to pixels: identities that need no reference, and ways to the same picture that must
 // agree.
-#include "render/photon_pass.h"
+#include "vpm/render/photon_pass.h"
 
 #include <gtest/gtest.h>
 
-#include "render/path_tracer.h"
-#include "render/radius_schedule.h"
-#include "render/render.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/radius_schedule.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {

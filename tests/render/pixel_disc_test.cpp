@@ -1,17 +1,17 @@
 // Radii of pixels' own against the textbook of stochastic progressive photon mapping: its three numbers a pixel, R, N
 // and the flux tau, kept by the rules as they are printed [Hachisuka2009].
-#include "render/pixel_disc.h"
+#include "vpm/render/pixel_disc.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 
-#include "base/parallel.h"
-#include "estimate/surface_estimate.h"
-#include "render/photon_pass.h"
-#include "render/render.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/base/parallel.h"
+#include "vpm/estimate/surface_estimate.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {

@@ -1,11 +1,11 @@
 // Rough surfaces in whole renders: uniform light from both sides, and the two integrators against each other.
 #include <gtest/gtest.h>
 
-#include "render/path_tracer.h"
-#include "render/photon_pass.h"
-#include "study/validate/lobes.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/study/validate/lobes.h"
 
 namespace vpm {
 namespace {

@@ -1,12 +1,12 @@
 // Bumpy plates: what photons carry off them is what eye paths see on them, and the ledger closes.
 #include <gtest/gtest.h>
 
-#include "base/warp.h"
-#include "photon/trace.h"
-#include "render/path_tracer.h"
-#include "render/photon_pass.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/base/warp.h"
+#include "vpm/photon/trace.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {

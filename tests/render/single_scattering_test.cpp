@@ -1,6 +1,6 @@
 // Single scattering at drawn distances: densities that are what they are said to be, exact radiance, and the march's
 // answer for every light, in fog and in grids.
-#include "render/single_scattering.h"
+#include "vpm/render/single_scattering.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@
 #include <functional>
 
 #include "light/lights.h"
-#include "render/eye_path.h"
-#include "render/march.h"
-#include "study/exact/airlight.h"
-#include "study/sample_moments.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/render/eye_path.h"
+#include "vpm/render/march.h"
+#include "vpm/study/exact/airlight.h"
+#include "vpm/study/sample_moments.h"
 
 namespace vpm {
 namespace {

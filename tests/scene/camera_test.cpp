@@ -1,11 +1,11 @@
 // The camera's rays and the pixel filters.
-#include "scene/camera.h"
+#include "vpm/scene/camera.h"
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
-#include "base/rng.h"
 #include "support/statistics.h"
+#include "vpm/base/error.h"
+#include "vpm/base/rng.h"
 
 namespace vpm {
 namespace {

@@ -1,12 +1,12 @@
 // What finish() derives, and the medium at a point among nested shapes.
-#include "scene/scene.h"
+#include "vpm/scene/scene.h"
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
-#include "base/rng.h"
-#include "base/warp.h"
 #include "support/scenes.h"
+#include "vpm/base/error.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
 
 namespace vpm {
 namespace {

@@ -1,14 +1,14 @@
 // Airlight against reference numbers, and against what holds exactly.
-#include "study/exact/airlight.h"
+#include "vpm/study/exact/airlight.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "base/vec.h"
-#include "study/exact/quadrature.h"
 #include "study/oracles.h"
+#include "vpm/base/vec.h"
+#include "vpm/study/exact/quadrature.h"
 
 namespace vpm::exact {
 namespace {

@@ -1,5 +1,5 @@
 // The statistics under the ladder: p-values, verdicts on families of checks, seeds.
-#include "study/validate/check.h"
+#include "vpm/study/validate/check.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <limits>
 #include <set>
 
-#include "base/rng.h"
-#include "study/sample_moments.h"
-#include "study/validate/ladder.h"
 #include "support/statistics.h"
+#include "vpm/base/rng.h"
+#include "vpm/study/sample_moments.h"
+#include "vpm/study/validate/ladder.h"
 
 namespace vpm {
 namespace {

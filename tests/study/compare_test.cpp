@@ -1,10 +1,10 @@
 // What comparisons of methods say, against problems whose answers are known by construction.
 #include <gtest/gtest.h>
 
-#include "base/rng.h"
-#include "study/compare/summary.h"
-#include "study/compare/verdict.h"
 #include "support/statistics.h"
+#include "vpm/base/rng.h"
+#include "vpm/study/compare/summary.h"
+#include "vpm/study/compare/verdict.h"
 
 namespace vpm {
 namespace {

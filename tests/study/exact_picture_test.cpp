@@ -1,14 +1,14 @@
 // The exact picture of a ball of fog: where it is known without any theory, against the referee, and what is refused.
-#include "study/compare/exact_picture.h"
+#include "vpm/study/compare/exact_picture.h"
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
-#include "medium/make_grid.h"
-#include "render/path_tracer.h"
-#include "scene/build.h"
-#include "study/sample_moments.h"
 #include "support/statistics.h"
+#include "vpm/base/error.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/scene/build.h"
+#include "vpm/study/sample_moments.h"
 
 namespace vpm {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "study/exact/phase_moments.h"
+#include "vpm/study/exact/phase_moments.h"
 
 namespace vpm::exact {
 

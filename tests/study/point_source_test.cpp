@@ -1,13 +1,13 @@
 // The point source against reference numbers, its two methods against each other, and what holds exactly.
-#include "study/exact/point_source.h"
+#include "vpm/study/exact/point_source.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
-#include "base/vec.h"
 #include "study/oracles.h"
+#include "vpm/base/vec.h"
 
 namespace vpm::exact {
 namespace {

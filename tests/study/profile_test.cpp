@@ -1,12 +1,12 @@
 // Free flights along a ray against reference numbers, and against what holds exactly.
-#include "study/exact/profile.h"
+#include "vpm/study/exact/profile.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "study/exact/quadrature.h"
 #include "study/oracles.h"
+#include "vpm/study/exact/quadrature.h"
 
 namespace vpm::exact {
 namespace {

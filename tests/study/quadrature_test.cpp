@@ -1,11 +1,11 @@
 // Gauss rules, the adaptive integral and special functions against closed forms.
-#include "study/exact/quadrature.h"
+#include "vpm/study/exact/quadrature.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "study/exact/special_functions.h"
+#include "vpm/study/exact/special_functions.h"
 
 namespace vpm::exact {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "study/exact/slab.h"
 #include "study/oracles.h"
+#include "vpm/study/exact/slab.h"
 
 namespace vpm::exact {
 

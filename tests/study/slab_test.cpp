@@ -1,5 +1,5 @@
 // Slabs against reference numbers, and against what holds exactly.
-#include "study/exact/slab.h"
+#include "vpm/study/exact/slab.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 
-#include "base/vec.h"
-#include "study/exact/special_functions.h"
 #include "study/slab_oracles.h"
+#include "vpm/base/vec.h"
+#include "vpm/study/exact/special_functions.h"
 
 namespace vpm::exact {
 namespace {

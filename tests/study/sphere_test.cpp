@@ -1,13 +1,13 @@
 // Spheres against reference numbers, and against what holds exactly.
-#include "study/exact/sphere.h"
+#include "vpm/study/exact/sphere.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "base/vec.h"
-#include "study/exact/quadrature.h"
 #include "study/oracles.h"
+#include "vpm/base/vec.h"
+#include "vpm/study/exact/quadrature.h"
 
 namespace vpm::exact {
 namespace {

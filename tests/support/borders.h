@@ -1,10 +1,10 @@
 // Shares of kernels that planes cut off, by adding up small cubes: what regions are compared with.
 #pragma once
 
-#include "base/rng.h"
-#include "base/warp.h"
-#include "estimate/kernel_sum.h"
-#include "surface/geometry.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/estimate/kernel_sum.h"
+#include "vpm/surface/geometry.h"
 
 namespace vpm {
 

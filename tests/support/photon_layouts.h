@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "base/rng.h"
-#include "base/warp.h"
-#include "photon/photon.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/photon/photon.h"
 
 namespace vpm {
 

@@ -7,7 +7,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include "base/vec.h"
+#include "vpm/base/vec.h"
 
 namespace glm {
 

@@ -1,8 +1,8 @@
 // Small scenes built in code, for tests.
 #pragma once
 
-#include "scene/build.h"
 #include "support/grids.h"
+#include "vpm/scene/build.h"
 
 namespace vpm {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "study/validate/check.h"
+#include "vpm/study/validate/check.h"
 
 namespace vpm {
 

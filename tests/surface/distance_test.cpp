@@ -1,12 +1,12 @@
 // Distances of points to shapes, and the search for shapes near a point, against brute force.
-#include "surface/distance.h"
+#include "vpm/surface/distance.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "base/rng.h"
-#include "base/warp.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
 
 namespace vpm {
 namespace {

@@ -1,11 +1,11 @@
 // Rays against shapes: Embree and our spheres against brute force in higher precision.
-#include "surface/geometry.h"
+#include "vpm/surface/geometry.h"
 
 #include <gtest/gtest.h>
 #include <immintrin.h>
 
-#include "base/error.h"
 #include "surface/random_shapes.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 namespace {

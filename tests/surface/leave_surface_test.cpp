@@ -1,8 +1,8 @@
 // Rays that leave surfaces, and where rays were sent to: none meets again what it left.
 #include <gtest/gtest.h>
 
-#include "surface/geometry.h"
 #include "surface/random_shapes.h"
+#include "vpm/surface/geometry.h"
 
 namespace vpm {
 namespace {

@@ -1,12 +1,12 @@
 // Materials: directions, weights, Fresnel's equations.
-#include "surface/material.h"
+#include "vpm/surface/material.h"
 
 #include <gtest/gtest.h>
 
-#include "base/rng.h"
-#include "base/warp.h"
 #include "support/statistics.h"
-#include "surface/fresnel.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/surface/fresnel.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // Procedural meshes: closed, with normals that fit them, and of the volumes and areas that their formulas have.
-#include "surface/procedural_mesh.h"
+#include "vpm/surface/procedural_mesh.h"
 
 #include <gtest/gtest.h>
 

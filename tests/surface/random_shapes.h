@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "base/rng.h"
-#include "base/warp.h"
-#include "surface/mesh.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/surface/mesh.h"
 
 namespace vpm {
 

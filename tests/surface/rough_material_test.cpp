@@ -3,14 +3,14 @@
 
 #include <complex>
 
-#include "base/rng.h"
-#include "base/warp.h"
-#include "study/validate/groups.h"
-#include "study/validate/lobes.h"
-#include "surface/facet_loss.h"
-#include "surface/fresnel.h"
-#include "surface/metals.h"
-#include "surface/microfacet.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/lobes.h"
+#include "vpm/surface/facet_loss.h"
+#include "vpm/surface/fresnel.h"
+#include "vpm/surface/metals.h"
+#include "vpm/surface/microfacet.h"
 
 namespace vpm {
 namespace {

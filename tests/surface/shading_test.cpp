@@ -1,13 +1,13 @@
 // Two normals at a hit: where they come from, which light passes, and that photons are the adjoint of eye paths.
-#include "surface/shading.h"
+#include "vpm/surface/shading.h"
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
-#include "base/rng.h"
-#include "base/warp.h"
 #include "support/statistics.h"
-#include "surface/mesh.h"
+#include "vpm/base/error.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/surface/mesh.h"
 
 namespace vpm {
 namespace {

@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/rng.h"
-#include "base/statistics.h"
-#include "base/warp.h"
-#include "input/grid_file.h"
-#include "input/scene_file.h"
-#include "render/photon_pass.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/statistics.h"
+#include "vpm/base/warp.h"
+#include "vpm/input/grid_file.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {

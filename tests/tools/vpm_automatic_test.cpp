@@ -4,8 +4,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "image/exr.h"
 #include "tools/plume.h"
+#include "vpm/image/exr.h"
 
 namespace vpm {
 namespace {

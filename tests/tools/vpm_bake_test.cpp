@@ -1,8 +1,8 @@
 // Light maps from outside: what the files hold, where texels are, and what is refused.
 #include <cstring>
 
-#include "image/exr.h"
 #include "tools/vpm_binary.h"
+#include "vpm/image/exr.h"
 
 namespace vpm {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "image/exr.h"
-#include "image/metrics.h"
 #include "tools/vpm_binary.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/metrics.h"
 
 namespace vpm {
 namespace {

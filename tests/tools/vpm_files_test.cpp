@@ -4,11 +4,11 @@
 #include <atomic>
 #include <filesystem>
 
-#include "image/exr.h"
-#include "input/scene_file.h"
-#include "render/photon_pass.h"
 #include "support/statistics.h"
 #include "tools/vpm_binary.h"
+#include "vpm/image/exr.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {

@@ -8,11 +8,11 @@
 #include <set>
 #include <sstream>
 
-#include "image/exr.h"
-#include "image/metrics.h"
-#include "image/png.h"
 #include "tools/ball_of_fog.h"
 #include "tools/vpm_binary.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/metrics.h"
+#include "vpm/image/png.h"
 
 namespace vpm {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <tuple>
 
-#include "image/exr.h"
-#include "image/png.h"
 #include "tools/plume.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/png.h"
 
 namespace vpm {
 namespace {

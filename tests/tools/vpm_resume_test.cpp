@@ -6,8 +6,8 @@
 #include <sstream>
 #include <thread>
 
-#include "image/exr.h"
 #include "tools/plume.h"
+#include "vpm/image/exr.h"
 
 namespace vpm {
 namespace {

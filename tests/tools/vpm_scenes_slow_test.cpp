@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "image/exr.h"
-#include "input/experiment_file.h"
-#include "input/scene_file.h"
-#include "study/compare/exact_picture.h"
 #include "tools/vpm_binary.h"
+#include "vpm/image/exr.h"
+#include "vpm/input/experiment_file.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/study/compare/exact_picture.h"
 
 namespace vpm {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "base/parallel.h"
 #include "benchmarks/bench.h"
 #include "benchmarks/photons.h"
 #include "benchmarks/point_peers.h"
-#include "photon/nearest_map.h"
-#include "photon/radius_map.h"
+#include "vpm/base/parallel.h"
+#include "vpm/photon/nearest_map.h"
+#include "vpm/photon/radius_map.h"
 
 namespace vpm::bench {
 

@@ -1,9 +1,9 @@
 // The cloud that media are measured in.
 #include "benchmarks/cloud.h"
 
-#include "base/warp.h"
-#include "medium/make_grid.h"
-#include "medium/procedural.h"
+#include "vpm/base/warp.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/medium/procedural.h"
 
 namespace vpm::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "base/rng.h"
-#include "base/vec.h"
-#include "medium/medium.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/vec.h"
+#include "vpm/medium/medium.h"
 
 namespace vpm::bench {
 

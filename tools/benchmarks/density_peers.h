@@ -4,8 +4,8 @@
 #include <functional>
 #include <span>
 
-#include "base/vec.h"
 #include "benchmarks/cloud.h"
+#include "vpm/base/vec.h"
 
 namespace vpm::bench {
 

@@ -1,6 +1,6 @@
 // Emitting photons, by kind of light.
 #include "benchmarks/bench.h"
-#include "light/light.h"
+#include "vpm/light/light.h"
 
 namespace vpm::bench {
 namespace {

@@ -1,7 +1,7 @@
 // Free flights through the cloud, from outside to the first collision or the far side.
 #include "benchmarks/bench.h"
 #include "benchmarks/density_peers.h"
-#include "medium/distance/strategy.h"
+#include "vpm/medium/distance/strategy.h"
 
 namespace vpm::bench {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "base/error.h"
-#include "base/parallel.h"
 #include "benchmarks/bench.h"
+#include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
 
 namespace vpm::bench {
 namespace {

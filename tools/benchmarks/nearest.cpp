@@ -4,7 +4,7 @@
 #include "benchmarks/bench.h"
 #include "benchmarks/photons.h"
 #include "benchmarks/point_peers.h"
-#include "photon/nearest_map.h"
+#include "vpm/photon/nearest_map.h"
 
 namespace vpm::bench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/rng.h"
+#include "vpm/base/rng.h"
 
 namespace vpm::bench {
 namespace {

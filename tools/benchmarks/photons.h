@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "photon/photon.h"
+#include "vpm/photon/photon.h"
 
 namespace vpm::bench {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "photon/photon.h"
+#include "vpm/photon/photon.h"
 
 namespace vpm::bench {
 

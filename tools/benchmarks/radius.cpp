@@ -1,5 +1,5 @@
 // Photons within a fixed radius: what every gather of a photon map costs.
-#include "photon/radius_map.h"
+#include "vpm/photon/radius_map.h"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
 // How the cost of a photon grows with their number, and what a second thread gives.
 #include <fmt/format.h>
 
-#include "base/parallel.h"
 #include "benchmarks/bench.h"
 #include "benchmarks/cloud.h"
 #include "benchmarks/photons.h"
-#include "photon/nearest_map.h"
-#include "photon/radius_map.h"
-#include "photon/trace.h"
+#include "vpm/base/parallel.h"
+#include "vpm/photon/nearest_map.h"
+#include "vpm/photon/radius_map.h"
+#include "vpm/photon/trace.h"
 
 namespace vpm::bench {
 namespace {

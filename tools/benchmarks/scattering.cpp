@@ -1,8 +1,8 @@
 // Scattering photons from surfaces, by material.
-#include "base/rng.h"
-#include "base/warp.h"
 #include "benchmarks/bench.h"
-#include "surface/material.h"
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+#include "vpm/surface/material.h"
 
 namespace vpm::bench {
 namespace {

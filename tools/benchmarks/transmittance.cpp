@@ -1,5 +1,5 @@
 // Transmittance estimators along rays through the whole cloud.
-#include "medium/transmittance/estimator.h"
+#include "vpm/medium/transmittance/estimator.h"
 
 #include "benchmarks/bench.h"
 #include "benchmarks/cloud.h"

@@ -2,15 +2,15 @@
 #include <fmt/format.h>
 #include <cstdio>
 
-#include "base/atomic_file.h"
-#include "base/error.h"
-#include "base/parallel.h"
 #include "commands.h"
-#include "image/exr.h"
-#include "image/png.h"
-#include "input/source.h"
 #include "pass_run.h"
 #include "report.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/png.h"
+#include "vpm/input/source.h"
 
 namespace vpm::tools {
 namespace {

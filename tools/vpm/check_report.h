@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/validate/check.h"
+#include "vpm/study/validate/check.h"
 
 namespace vpm::tools {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "vpm/base/progress.h"
 
 namespace vpm::tools {
 

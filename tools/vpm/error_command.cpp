@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "base/error.h"
-#include "base/line_fit.h"
 #include "commands.h"
-#include "image/exr.h"
-#include "image/metrics.h"
+#include "vpm/base/error.h"
+#include "vpm/base/line_fit.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/metrics.h"
 
 namespace vpm::tools {
 namespace {

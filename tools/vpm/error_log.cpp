@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "base/atomic_file.h"
-#include "base/error.h"
 #include "compare/store.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
 
 namespace vpm::tools {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "render/render.h"
-#include "study/compare/errors.h"
+#include "vpm/render/render.h"
+#include "vpm/study/compare/errors.h"
 
 namespace vpm::tools {
 

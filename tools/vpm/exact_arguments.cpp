@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.h"
 #include "exact_problems.h"
+#include "vpm/base/error.h"
 
 namespace vpm::tools {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "commands.h"
 #include "exact_problems.h"
+#include "vpm/base/error.h"
 
 namespace vpm::tools {
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/vec.h"
-#include "study/exact/airlight.h"
-#include "study/exact/point_source.h"
-#include "study/exact/profile.h"
-#include "study/exact/slab.h"
-#include "study/exact/sphere.h"
+#include "vpm/base/vec.h"
+#include "vpm/study/exact/airlight.h"
+#include "vpm/study/exact/point_source.h"
+#include "vpm/study/exact/profile.h"
+#include "vpm/study/exact/slab.h"
+#include "vpm/study/exact/sphere.h"
 
 namespace vpm::tools {
 

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 #include <filesystem>
 
-#include "base/error.h"
 #include "commands.h"
-#include "input/grid_file.h"
-#include "input/scene_file.h"
-#include "render/photon_pass.h"
 #include "stage_lines.h"
+#include "vpm/base/error.h"
+#include "vpm/input/grid_file.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm::tools {
 namespace {

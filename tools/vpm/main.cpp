@@ -7,10 +7,10 @@
 #include <limits>
 #include <new>
 
-#include "base/error.h"
-#include "base/version.h"
 #include "commands.h"
-#include "study/validate/ladder.h"
+#include "vpm/base/error.h"
+#include "vpm/base/version.h"
+#include "vpm/study/validate/ladder.h"
 
 namespace {
 

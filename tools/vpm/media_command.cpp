@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "input/grid_writer.h"
-#include "medium/procedural.h"
+#include "vpm/input/grid_writer.h"
+#include "vpm/medium/procedural.h"
 
 namespace vpm::tools {
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "input/mesh_writer.h"
-#include "surface/procedural_mesh.h"
+#include "vpm/input/mesh_writer.h"
+#include "vpm/surface/procedural_mesh.h"
 
 namespace vpm::tools {
 

@@ -6,10 +6,10 @@
 #include <csignal>
 #include <cstdio>
 
-#include "base/atomic_file.h"
-#include "base/error.h"
-#include "base/version.h"
 #include "report.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
+#include "vpm/base/version.h"
 
 namespace vpm::tools {
 namespace {

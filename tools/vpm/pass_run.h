@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "input/scene_file.h"
-#include "render/film.h"
-#include "render/photon_pass.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/render/film.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm::tools {
 

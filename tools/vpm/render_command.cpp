@@ -6,20 +6,20 @@
 #include <filesystem>
 #include <sstream>
 
-#include "base/atomic_file.h"
-#include "base/error.h"
-#include "base/parallel.h"
-#include "base/version.h"
 #include "commands.h"
 #include "error_log.h"
-#include "image/exr.h"
-#include "image/png.h"
-#include "input/checkpoint.h"
-#include "input/scene_file.h"
 #include "pass_run.h"
-#include "render/photon_pass.h"
-#include "render/render.h"
 #include "report.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/version.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/png.h"
+#include "vpm/input/checkpoint.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/render/render.h"
 
 namespace vpm::tools {
 namespace {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "base/parallel.h"
-#include "base/version.h"
-#include "render/photon_pass.h"
 #include "stage_lines.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/version.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm::tools {
 namespace {

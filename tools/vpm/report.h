@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "input/scene_file.h"
-#include "render/light_map.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/render/light_map.h"
 
 namespace vpm::tools {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/photon_pass.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm::tools {
 

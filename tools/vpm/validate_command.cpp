@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
-#include "base/parallel.h"
-#include "base/version.h"
 #include "check_report.h"
 #include "commands.h"
 #include "oracles/oracle_command.h"
-#include "study/validate/ladder.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/version.h"
+#include "vpm/study/validate/ladder.h"
 
 namespace vpm::tools {
 namespace {

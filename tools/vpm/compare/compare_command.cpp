@@ -4,24 +4,24 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/atomic_file.h"
-#include "base/error.h"
-#include "base/parallel.h"
-#include "base/progress.h"
-#include "base/version.h"
 #include "commands.h"
 #include "compare/page.h"
 #include "compare/results.h"
 #include "compare/run.h"
 #include "compare/store.h"
-#include "image/metrics.h"
-#include "input/experiment_file.h"
-#include "input/source.h"
-#include "medium/distance/strategy.h"
 #include "pass_run.h"
 #include "report.h"
-#include "study/compare/exact_picture.h"
-#include "study/validate/check.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
+#include "vpm/base/version.h"
+#include "vpm/image/metrics.h"
+#include "vpm/input/experiment_file.h"
+#include "vpm/input/source.h"
+#include "vpm/medium/distance/strategy.h"
+#include "vpm/study/compare/exact_picture.h"
+#include "vpm/study/validate/check.h"
 
 namespace vpm::tools {
 namespace {

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "compare/page_template.h"
-#include "image/half_pixels.h"
-#include "medium/distance/strategy.h"
-#include "medium/transmittance/estimator.h"
+#include "vpm/image/half_pixels.h"
+#include "vpm/medium/distance/strategy.h"
+#include "vpm/medium/transmittance/estimator.h"
 
 namespace vpm::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "vpm/image/image.h"
 
 namespace vpm::tools {
 

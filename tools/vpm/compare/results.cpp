@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "base/parallel.h"
-#include "base/version.h"
 #include "compare/store.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/version.h"
 
 namespace vpm::tools {
 namespace {

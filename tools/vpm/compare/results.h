@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "input/scene_file.h"
-#include "study/compare/summary.h"
-#include "study/compare/verdict.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/study/compare/summary.h"
+#include "vpm/study/compare/verdict.h"
 
 namespace vpm::tools {
 

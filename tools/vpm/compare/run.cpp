@@ -4,7 +4,7 @@
 #include <chrono>
 #include <ctime>
 
-#include "render/render.h"
+#include "vpm/render/render.h"
 
 namespace vpm::tools {
 namespace {

@@ -4,11 +4,11 @@
 #include <atomic>
 #include <vector>
 
-#include "base/progress.h"
-#include "image/image.h"
-#include "input/scene_file.h"
-#include "render/render.h"
-#include "study/compare/plan.h"
+#include "vpm/base/progress.h"
+#include "vpm/image/image.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/render/render.h"
+#include "vpm/study/compare/plan.h"
 
 namespace vpm::tools {
 

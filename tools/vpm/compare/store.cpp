@@ -5,10 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
-#include "base/error.h"
-#include "base/fnv.h"
-#include "image/exr.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
+#include "vpm/base/fnv.h"
+#include "vpm/image/exr.h"
 
 namespace vpm::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compare/run.h"
-#include "study/compare/errors.h"
+#include "vpm/study/compare/errors.h"
 
 namespace vpm::tools {
 

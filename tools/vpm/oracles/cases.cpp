@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "vpm/base/error.h"
 
 namespace vpm::tools {
 namespace {

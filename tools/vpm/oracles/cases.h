@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "base/error.h"
-#include "base/vec.h"
-#include "study/validate/check.h"
-#include "study/validate/ladder.h"
+#include "vpm/base/error.h"
+#include "vpm/base/vec.h"
+#include "vpm/study/validate/check.h"
+#include "vpm/study/validate/ladder.h"
 
 namespace vpm::tools {
 

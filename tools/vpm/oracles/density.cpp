@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "oracles/cases.h"
-#include "render/radius_schedule.h"
-#include "study/estimates/density.h"
+#include "vpm/render/radius_schedule.h"
+#include "vpm/study/estimates/density.h"
 
 namespace vpm::tools {
 namespace {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <optional>
 
-#include "base/error.h"
-#include "medium/make_grid.h"
-#include "medium/transmittance/estimator.h"
 #include "oracles/cases.h"
-#include "study/careful_settings.h"
-#include "study/estimates/flights.h"
-#include "study/estimates/layers.h"
+#include "vpm/base/error.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/medium/transmittance/estimator.h"
+#include "vpm/study/careful_settings.h"
+#include "vpm/study/estimates/flights.h"
+#include "vpm/study/estimates/layers.h"
 
 namespace vpm::tools {
 namespace {

@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
-#include "base/parallel.h"
-#include "base/version.h"
 #include "check_report.h"
 #include "oracles/read_folder.h"
 #include "oracles/tables.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/version.h"
 
 namespace vpm::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "vpm/base/error.h"
 
 namespace vpm::tools {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "oracles/cases.h"
-#include "study/estimates/slab.h"
-#include "study/estimates/slab_radiance.h"
+#include "vpm/base/error.h"
+#include "vpm/study/estimates/slab.h"
+#include "vpm/study/estimates/slab_radiance.h"
 
 namespace vpm::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "oracles/cases.h"
-#include "study/estimates/irradiance.h"
+#include "vpm/study/estimates/irradiance.h"
 
 namespace vpm::tools {
 namespace {

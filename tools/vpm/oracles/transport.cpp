@@ -5,9 +5,9 @@
 #include <map>
 
 #include "oracles/cases.h"
-#include "study/estimates/airlight.h"
-#include "study/estimates/point_source.h"
-#include "study/estimates/sphere.h"
+#include "vpm/study/estimates/airlight.h"
+#include "vpm/study/estimates/point_source.h"
+#include "vpm/study/estimates/sphere.h"
 
 namespace vpm::tools {
 namespace {

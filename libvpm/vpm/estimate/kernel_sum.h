@@ -1,0 +1,172 @@
+// The sum every density estimate shares: kernel-weighted photons around a point, over a map or a plain list of photons.
+//
+// Each photon's contribution is value(travel, power) K_r; what differs between volumes and surfaces is `value`, the
+// photons that count, and the dimension of the kernel. Sums are of doubles: thousands of photons that are alike would
+// round alike, and show.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <type_traits>
+#include <vector>
+
+#include "vpm/base/count.h"
+#include "vpm/estimate/photon_map.h"
+
+namespace vpm {
+
+/// How photons are gathered: of a map as it says or as its view says, of a plain list with the number emitted.
+inline const GatherSettings& settings_of(const PhotonMap& map) { return map.settings; }
+inline const GatherSettings& settings_of(const CountedMap& counted) { return counted.settings; }
+inline const GatherSettings& settings_of(const std::vector<Photon>&, const GatherSettings& settings, uint64_t) {
+  return settings;
+}
+
+/// The kernel of a space of `Dimension` 2 or 3.
+template <int Dimension>
+float kernel_norm(KernelKind kind, float r) {
+  static_assert(Dimension == 2 || Dimension == 3);
+  return Dimension == 2 ? kernel_norm_2d(kind, r) : kernel_norm_3d(kind, r);
+}
+
+/// Calls f with the kernel's profile, a function of (distance / radius)^2, as a type the inner loop can inline.
+template <class F>
+auto with_kernel(KernelKind kind, F&& f) {
+  switch (kind) {
+    case KernelKind::constant:
+      return f([](float q) { return kernel_profile<KernelKind::constant>(q); });
+    case KernelKind::cone:
+      return f([](float q) { return kernel_profile<KernelKind::cone>(q); });
+    case KernelKind::epanechnikov:
+      return f([](float q) { return kernel_profile<KernelKind::epanechnikov>(q); });
+    case KernelKind::biweight:
+      return f([](float q) { return kernel_profile<KernelKind::biweight>(q); });
+    case KernelKind::triweight:
+      break;
+  }
+  return f([](float q) { return kernel_profile<KernelKind::triweight>(q); });
+}
+
+/// One of the kinds of map, with how it is gathered from and where that is counted.
+template <class Index>
+struct Gathering {
+  const Index& index;
+  const GatherSettings& settings;
+  GatherCounters& counters;
+};
+template <class Index>
+Gathering(const Index&, const GatherSettings&, GatherCounters&) -> Gathering<Index>;  // Clang 14 does not deduce it
+
+/// Takes every photon.
+struct AnyPhoton {
+  bool operator()(const PackedDirection&, const Vec3&) const { return true; }
+};
+
+/// Sum over the photons within the radius that `accept`(travel, offset) takes.
+template <int Dimension, class Accept, class Value>
+Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
+  const float r = map.settings.radius;
+  const float inverse = 1.0f / (r * r);
+  return with_kernel(map.settings.kernel, [&](auto profile) {
+    Rgbd sum(0.0);
+    const auto visit = [&](NearPhotons& near) {
+      if constexpr (!std::is_same_v<std::decay_t<Accept>, AnyPhoton>) near.keep(map.index.photons(), point, accept);
+      map.counters.used += near.size();
+      if (near.size() == 0) return;
+      const PhotonBatch batch(map.index.photons(), near.photons(), near.distances2(), near.size());
+      sum += sum_photons(
+          batch, [&](size_t i) { return profile(batch.distance2(i) * inverse); }, value);
+    };
+    count(map.counters.searches);
+    count(map.counters.visited, map.index.visit_near(point, r, visit));
+    return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, r);
+  });
+}
+
+/// The k nearest photons that `accept`(travel, offset) takes, of those within the largest radius. Good until the
+/// thread's next call.
+template <class Accept>
+const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept) {
+  static thread_local Neighbours neighbours;
+  count(map.counters.searches);
+  const uint32_t visited = map.index.find(point, map.settings.count, map.settings.radius, neighbours, accept);
+  count(map.counters.visited, visited);
+  return neighbours;
+}
+
+/// Sum over neighbours that nearest() found. The k-th sets the radius and is not counted: k - 1 photons over the ball
+/// that reaches it, which is unbiased; kernels that vanish there leave it out by themselves. Where fewer than k lie
+/// within the largest radius, all count over that one.
+template <int Dimension, class Value>
+Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
+  const float r2 = neighbours.limit();
+  const size_t first = neighbours.full() ? 1 : 0;  // the farthest
+  map.counters.used += neighbours.size() - first;
+  return with_kernel(map.settings.kernel, [&](auto profile) {
+    Rgbd sum(0.0);
+    for (size_t begin = first; begin < neighbours.size(); begin += PhotonBatch::kMost) {
+      const size_t number = std::min(PhotonBatch::kMost, neighbours.size() - begin);
+      const PhotonBatch batch(map.index.photons(), neighbours.photons() + begin, neighbours.distances2() + begin,
+                              number);
+      sum += sum_photons(
+          batch, [&](size_t i) { return profile(batch.distance2(i) / r2); }, value);
+    }
+    return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2));
+  });
+}
+
+/// Sum over the k nearest photons that `accept` takes.
+template <int Dimension, class Accept, class Value>
+Rgb kernel_sum(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
+  return neighbour_sum<Dimension>(map, nearest(map, point, accept), value);
+}
+
+template <int Dimension, class Accept, class Value>
+Rgb kernel_sum(const CountedMap& counted, const Vec3& point, Accept&& accept, Value&& value) {
+  assert(counted.settings.mode == counted.map.settings.mode);
+  const auto sum = [&](const auto& index) {
+    return kernel_sum<Dimension>(Gathering{index, counted.settings, counted.counters}, point, accept, value);
+  };
+  return std::visit(sum, counted.map.index);
+}
+
+template <int Dimension, class Accept, class Value>
+Rgb kernel_sum(const PhotonMap& map, const Vec3& point, Accept&& accept, Value&& value) {
+  GatherCounters uncounted;
+  return kernel_sum<Dimension>(CountedMap{map, uncounted}, point, accept, value);
+}
+
+/// The radius, m, of the ball that kernel_sum() sums over.
+template <class Accept>
+float kernel_radius(const CountedMap& counted, const Vec3& point, Accept&& accept) {
+  const GatherSettings& settings = counted.settings;
+  const auto* by_count = std::get_if<NearestMap>(&counted.map.index);
+  if (!by_count) return settings.radius;
+  return std::sqrt(nearest(Gathering{*by_count, settings, counted.counters}, point, accept).limit());
+}
+
+/// The brute-force twin of both: looks at every photon of a plain list. Powers are divided by `emitted` here.
+template <int Dimension, class Accept, class Value>
+Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& settings, uint64_t emitted, const Vec3& point,
+               Accept&& accept, Value&& value) {
+  std::vector<std::pair<float, const Photon*>> near;
+  for (const Photon& p : photons) {
+    const Vec3 offset = p.position - point;
+    const float d2 = glm::dot(offset, offset);
+    if (d2 < settings.radius * settings.radius && accept(p.travel, offset)) near.emplace_back(d2, &p);
+  }
+  float r2 = settings.radius * settings.radius;
+  if (settings.mode == GatherMode::nearest && near.size() >= settings.count) {
+    std::sort(near.begin(), near.end());
+    near.resize(settings.count);
+    r2 = near.back().first;
+    near.pop_back();
+  }
+  return with_kernel(settings.kernel, [&](auto profile) {
+    Rgbd sum(0.0);
+    for (const auto& [d2, p] : near) sum += Rgbd(value(p->travel.unpack(), p->power) * profile(d2 / r2));
+    return Rgb(sum) * kernel_norm<Dimension>(settings.kernel, std::sqrt(r2)) / static_cast<float>(emitted);
+  });
+}
+
+}  // namespace vpm

@@ -1,0 +1,33 @@
+// A photon map of either kind, ready to be gathered from.
+#pragma once
+
+#include <variant>
+
+#include "vpm/estimate/gather.h"
+#include "vpm/photon/nearest_map.h"
+#include "vpm/photon/radius_map.h"
+
+namespace vpm {
+
+/// Photons sorted for the gathering of one pass, powers divided by the photons emitted.
+struct PhotonMap {
+  GatherSettings settings;  // radius > 0, as it is in this pass
+  std::variant<RadiusMap, NearestMap> index;
+
+  size_t size() const;
+  const Box& bounds() const;
+  size_t memory_bytes() const;
+};
+
+/// A photon map to be gathered from with counting, and with settings of its own where they differ from the map's in
+/// radius or kernel, but not in mode.
+struct CountedMap {
+  const PhotonMap& map;
+  GatherCounters& counters;
+  const GatherSettings& settings = map.settings;
+};
+
+/// Builds the map that the settings ask for. `emitted` > 0.
+PhotonMap make_photon_map(std::vector<Photon> photons, const GatherSettings& settings, uint64_t emitted);
+
+}  // namespace vpm

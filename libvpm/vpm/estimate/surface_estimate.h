@@ -1,0 +1,87 @@
+// The surface radiance estimate [Jarosz2008, eq. 7.5, corrected], for any photon map.
+#pragma once
+
+#include "vpm/estimate/kernel_sum.h"
+#include "vpm/surface/shading.h"
+
+namespace vpm {
+
+/// How far off the plane through the point photons may lie: a share of their distance, and where the radius is fixed a
+/// share of that. Leaves out most photons of other surfaces, and keeps those of surfaces curved with a radius of
+/// curvature above twice the gather radius.
+inline constexpr float kSlope = 0.3f;
+inline constexpr float kFlatness = 0.05f;
+
+/// The second share, m. Of the nearest photons none: the largest radius they are looked for in tells nothing of the
+/// one that they will be found in.
+inline float plane_thickness(const GatherSettings& gather) {
+  return gather.mode == GatherMode::radius ? kFlatness * gather.radius : 0.0f;
+}
+
+/// The photons that count on a surface: those near its plane that arrive at the side that `normal` (unit) points to,
+/// or, `from_both_sides`, at any.
+struct Arrives {
+  Vec3 normal{0.0f};
+  float thickness = 0.0f;  // m, plane_thickness()
+  bool from_both_sides = false;
+
+  bool near_plane(const Vec3& offset) const {
+    return std::abs(glm::dot(offset, normal)) <= thickness + kSlope * glm::length(offset);
+  }
+  bool operator()(const PackedDirection& travel, const Vec3& offset) const {
+    const bool arrives = from_both_sides | (glm::dot(travel.on_octahedron(), normal) < 0.0f);
+    return near_plane(offset) & arrives;
+  }
+};
+
+/// The sum of value(travel, power) K_r over the discs of photons that arrive at the side of a surface that `normal`
+/// (unit) points to. `Photons` are a map or a view of one, or a plain list for the brute-force twin.
+template <class Value, class... Photons>
+Rgb surface_sum(const Vec3& point, const Vec3& normal, Value&& value, const Photons&... photons) {
+  return kernel_sum<2>(photons..., point, Arrives{normal, plane_thickness(settings_of(photons...))}, value);
+}
+
+/// Irradiance, W/m^2, on the side that `normal` (unit) points to: sum_p Phi_p K_r. A Lambertian surface of that
+/// reflectance sends out reflectance/pi times it.
+template <class... Photons>
+Rgb surface_irradiance(const Vec3& point, const Vec3& normal, const Photons&... photons) {
+  return surface_sum(
+      point, normal, [](const Vec3&, const Rgb& power) { return power; }, photons...);
+}
+
+/// The same by the cosines to the shading normal of a hit: what a Lambertian surface there reflects. `normal` is the
+/// hit's geometric one, turned to the side that is asked for.
+template <class... Photons>
+Rgb shaded_irradiance(const Hit& hit, const Vec3& normal, const Photons&... photons) {
+  if (single_normal(hit)) return surface_irradiance(hit.position, normal, photons...);
+  const auto shaded = [&](const Vec3& travel, const Rgb& power) {
+    return power * shading_irradiance_scale(hit, travel);
+  };
+  return surface_sum(hit.position, normal, shaded, photons...);
+}
+
+/// Radiance, W/(m^2 sr), that a rough surface sends towards the eye, `towards_eye`: sum_p f(w_p, towards_eye) Phi_p K_r
+/// [Jarosz2008, eq. 7.5]. Photons on the eye's side count, and those on the far side where the material scatters them
+/// through. f is for flux on its way to the eye, so refraction scales nothing here.
+template <class... Photons>
+Rgb scattered_radiance(const Material& material, const Hit& hit, const Vec3& towards_eye, const Photons&... photons) {
+  const float geometric = glm::dot(hit.normal, towards_eye), shading = glm::dot(hit.shading_normal, towards_eye);
+  if (!(geometric * shading > 0.0f)) return Rgb(0.0f);  // seen edge on, or from different sides of the two normals
+  const Vec3 eye_side = geometric > 0.0f ? hit.normal : -hit.normal;
+  if (const auto* diffuse = std::get_if<Lambertian>(&material))
+    return diffuse->reflectance / kPi * shaded_irradiance(hit, eye_side, photons...);
+  const Arrives arrives{eye_side, plane_thickness(settings_of(photons...)), scatters_through(material)};
+  const auto scattered = [&](const Vec3& travel, const Rgb& power) {
+    return scatter_value(material, hit, travel, towards_eye).value * power * shading_irradiance_scale(hit, travel);
+  };
+  return kernel_sum<2>(photons..., hit.position, arrives, scattered) / std::abs(shading);
+}
+
+/// The radius of the disc, m, that scattered_radiance() gathers over.
+inline float scattered_radius(const Material& material, const Hit& hit, const Vec3& towards_eye,
+                              const CountedMap& map) {
+  const Vec3 eye_side = glm::dot(hit.normal, towards_eye) > 0.0f ? hit.normal : -hit.normal;
+  return kernel_radius(map, hit.position, Arrives{eye_side, plane_thickness(map.settings), scatters_through(material)});
+}
+
+}  // namespace vpm

@@ -1,0 +1,42 @@
+// Pictures without loss: OpenEXR files of linear float channels.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vpm/image/image.h"
+
+namespace vpm {
+
+/// A picture beside the main one in the same file, of the same size.
+struct ExrLayer {
+  std::string name;  // of its channels: name.R, name.G, name.B
+  const Image& image;
+};
+
+/// Writes the float channels R, G, B and those of the layers into one part, ZIP compressed (lossless), and each pair of
+/// `metadata` as a string attribute; the keys must be distinct and none of the format's own names. Equal arguments give
+/// equal bytes: no time stamp. The file appears whole or not at all; throws InputError where it cannot be written.
+void write_exr(const std::filesystem::path& path, const Image& radiance, const std::vector<ExrLayer>& layers,
+               const std::vector<std::pair<std::string, std::string>>& metadata);
+
+/// Reads R, G, B of the first part's default layer; a file that has Y, or one channel of any name, instead is grey. The
+/// picture is the display window: black where the file has no pixels, without those the file has outside it. Non-finite
+/// pixels are returned as they are. Throws InputError where the file is missing, damaged, over 1 GiB in memory, deep,
+/// subsampled, of integers, or has none of these channels.
+Image read_exr(const std::filesystem::path& path);
+
+/// Every channel of a file's first part, over the display window, and its string attributes.
+struct ExrChannels {
+  int width = 0, height = 0;
+  std::map<std::string, std::vector<float>> planes;  // rows from the top
+  std::map<std::string, std::string> metadata;       // among them the format's own "type"
+};
+
+/// Throws as read_exr does.
+ExrChannels read_exr_channels(const std::filesystem::path& path);
+
+}  // namespace vpm

@@ -1,0 +1,45 @@
+// Numbers that say how far one picture is from another.
+#pragma once
+
+#include "vpm/image/image.h"
+
+namespace vpm {
+
+/// Luminance of linear sRGB [ITU2015, item 3.2], in the unit of its argument.
+inline float luminance(const Rgb& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+/// The mean of each channel over the pixels.
+Rgbd channel_means(const Image& image);
+
+// The errors below are means over pixels and channels, no luminance involved. They throw InputError where the sizes
+// differ, and a non-finite pixel in either picture makes them non-finite.
+
+/// Mean of (I - R)^2.
+double mse(const Image& image, const Image& reference);
+
+/// What the relative MSE divides squared errors of a value by; `mean` is that of its channel over the picture.
+inline double relative_scale(double truth, double mean) { return truth * truth + 0.01 * mean * mean; }
+
+/// Mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over the pixels of the same channel: the second term, a tenth of
+/// the mean squared, keeps dark pixels from deciding. 0 where I = R, also in a channel that is all black.
+double relative_mse(const Image& image, const Image& reference);
+
+/// The same of pbrt's.
+inline double scale_of_pbrt(double truth) { return (truth + 0.01) * (truth + 0.01); }
+
+/// Mean of (I - R)^2 / (R + 0.01)^2, as pbrt has it under the name MRSE [Pharr2023]: the 0.01 is in the pictures'
+/// unit, so that the number changes with their exposure. Infinite where a value of the reference is -0.01.
+double relative_mse_of_pbrt(const Image& image, const Image& reference);
+
+/// A pixel with its part in the relative MSE: the mean over channels of (I - R)^2 / (R^2 + 0.01 mean(R)^2).
+struct PixelError {
+  int x = 0, y = 0;  // from the left and the top
+  double error = 0.0;
+};
+/// The `count` pixels with the largest errors, largest first, those that are not a number before all others.
+std::vector<PixelError> worst_pixels(const Image& image, const Image& reference, size_t count);
+
+/// Pixels with a channel that is infinite or no number.
+size_t non_finite_pixels(const Image& image);
+
+}  // namespace vpm

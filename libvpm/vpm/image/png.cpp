@@ -1,0 +1,122 @@
+// Pictures of bytes: tone curve and libpng.
+#include "vpm/image/png.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
+#include "vpm/image/metrics.h"
+
+namespace vpm {
+namespace {
+
+/// The nearest of 256 steps of the sRGB curve [IEC1999].
+uint8_t srgb_byte(float linear) {
+  const float c = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // black also where an infinite gain meets 0
+  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+  return static_cast<uint8_t>(std::lround(255.0f * encoded));
+}
+
+/// The linear value that a step of the sRGB curve stands for [IEC1999].
+float linear_of_srgb(int byte) {
+  const double c = byte / 255.0;
+  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
+
+/// An open picture; frees what libpng holds on every way out.
+struct OpenPng {
+  png_image png{};
+  explicit OpenPng(const std::filesystem::path& path) {
+    png.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&png, path.c_str())) fail(path);
+  }
+  ~OpenPng() { png_image_free(&png); }
+  OpenPng(const OpenPng&) = delete;
+  OpenPng& operator=(const OpenPng&) = delete;
+  [[noreturn]] void fail(const std::filesystem::path& path) const {
+    throw InputError("cannot read '" + path.string() + "': " + png.message);
+  }
+};
+
+/// The four bytes of each pixel: red, green, blue, opacity.
+std::vector<uint8_t> read_bytes(const std::filesystem::path& path, int& width, int& height) {
+  constexpr double kMostBytes = 0x1p30;
+  OpenPng open(path);
+  if (double{sizeof(Rgb)} * open.png.width * open.png.height > kMostBytes)
+    throw InputError("'" + path.string() + "' takes more than 1 GiB in memory");
+  if (open.png.format & PNG_FORMAT_FLAG_LINEAR)
+    throw InputError("'" + path.string() + "' has 16 bits a channel; write it with 8, or as an .exr");
+  width = static_cast<int>(open.png.width);
+  height = static_cast<int>(open.png.height);
+  open.png.format = PNG_FORMAT_RGBA;
+  std::vector<uint8_t> bytes(PNG_IMAGE_SIZE(open.png));
+  if (!png_image_finish_read(&open.png, nullptr, bytes.data(), 0, nullptr)) open.fail(path);
+  return bytes;
+}
+
+}  // namespace
+
+Image read_png(const std::filesystem::path& path, PngValues values) {
+  std::array<float, 256> linear{};
+  for (int i = 0; i < 256; ++i)
+    linear[static_cast<size_t>(i)] = values == PngValues::srgb ? linear_of_srgb(i) : static_cast<float>(i) / 255.0f;
+  int width = 0, height = 0;
+  const std::vector<uint8_t> bytes = read_bytes(path, width, height);
+  Image image(width, height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const uint8_t* pixel = &bytes[4 * i];
+    if (pixel[3] != 255)
+      throw InputError("'" + path.string() + "' is transparent at column " + std::to_string(i % image.width) +
+                       ", row " + std::to_string(i / image.width) + "; all of it must be opaque");
+    image.pixels[i] = Rgb(linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]);
+  }
+  return image;
+}
+
+size_t write_png(const std::filesystem::path& path, const Image& radiance, float exposure) {
+  assert(!radiance.pixels.empty() && std::isfinite(exposure));
+  const float gain = std::exp2(exposure);
+  std::vector<uint8_t> bytes;
+  bytes.reserve(3 * radiance.pixels.size());
+  size_t broken = 0;
+  for (const Rgb& pixel : radiance.pixels) {
+    const bool finite = is_finite(pixel);
+    if (!finite) ++broken;
+    const Rgb shown = finite ? gain * pixel : Rgb(1.0f, 0.0f, 1.0f);
+    for (int c = 0; c < 3; ++c) bytes.push_back(srgb_byte(shown[c]));
+  }
+
+  TemporaryFile file(path);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(radiance.width);
+  png.height = static_cast<png_uint_32>(radiance.height);
+  png.format = PNG_FORMAT_RGB;
+  if (!png_image_write_to_file(&png, file.path().c_str(), 0, bytes.data(), 0, nullptr)) {
+    throw InputError("cannot write '" + path.string() + "': " + png.message);
+  }
+  file.commit();
+  return broken;
+}
+
+float auto_exposure(const Image& radiance) {
+  std::vector<float> lit;
+  for (const Rgb& pixel : radiance.pixels) {
+    const float y = luminance(pixel);
+    if (std::isfinite(y) && y > 0.0f) lit.push_back(y);
+  }
+  if (lit.empty()) return 0.0f;
+  const auto percentile = lit.begin() + static_cast<ptrdiff_t>(0.99 * static_cast<double>(lit.size() - 1));
+  std::nth_element(lit.begin(), percentile, lit.end());
+  return std::log2(0.8f / *percentile);
+}
+
+}  // namespace vpm

@@ -1,0 +1,120 @@
+// The section [media.*]: coefficients, phase functions, grids.
+#include "vpm/input/sections.h"
+#include "vpm/medium/measured.h"
+
+namespace vpm {
+namespace {
+
+Phase read_phase(TableReader& medium) {
+  std::optional<TableReader> table = medium.table("phase", "'phase' of " + medium.title());
+  if (!table) return Isotropic{};
+  enum class Kind { isotropic, henyey_greenstein, rayleigh };
+  const Kind kind = table->choice<Kind>(
+      "type",
+      {{"isotropic", Kind::isotropic}, {"henyey-greenstein", Kind::henyey_greenstein}, {"rayleigh", Kind::rayleigh}});
+  Phase phase = Isotropic{};
+  if (kind == Kind::rayleigh) phase = Rayleigh{};
+  if (kind == Kind::henyey_greenstein) phase = HenyeyGreenstein{table->number("g", {-1.0, 1.0, true, true})};
+  table->finish();
+  return phase;
+}
+
+void read_measured(TableReader& table, Medium& medium) {
+  constexpr double kPerMetre = 1000.0;  // of 1/mm
+  const std::string name = table.string("measured");
+  const MeasuredMedium* measured = find_measured_medium(name);
+  if (!measured) {
+    Names known;
+    for (const MeasuredMedium& m : measured_media()) known.emplace_back(m.name);
+    table.fail("measured", "there is no measured medium '" + name + "'", suggest(name, known, "measured are"));
+  }
+  const double scale = table.number("scale", kPositive, 1.0f) * kPerMetre;
+  medium.sigma_s = Rgb(scale * measured->reduced_sigma_s);
+  medium.sigma_t = Rgb(scale * (measured->reduced_sigma_s + measured->sigma_a));
+  if (!std::holds_alternative<Isotropic>(medium.phase))
+    table.fail("phase",
+               "measured coefficients are reduced ones, (1 - g) sigma_s: they go with an isotropic phase function only",
+               "remove the phase function, or give sigma_s and sigma_a");
+}
+
+void read_coefficients(TableReader& table, bool grid, Medium& medium) {
+  const bool measured = table.has("measured");
+  const bool sigma_s = table.has("sigma_s"), sigma_a = table.has("sigma_a");
+  const bool sigma_t = table.has("sigma_t"), albedo = table.has("albedo");
+  const bool separate = sigma_s || sigma_a, total = sigma_t || albedo;
+  if (measured + separate + total != 1) {
+    const std::string wrong =
+        measured + separate + total == 0 ? " has no coefficients" : " gives its coefficients in two ways";
+    table.fail_here(table.title() + wrong, "give sigma_s and sigma_a (1/m), or sigma_t (1/m) and albedo, or measured");
+  }
+  if (measured) return read_measured(table, medium);
+  if (separate) {
+    medium.sigma_s = table.rgb("sigma_s", kNotNegative);
+    medium.sigma_t = medium.sigma_s + table.rgb("sigma_a", kNotNegative);
+  } else {
+    medium.sigma_t = table.rgb("sigma_t", kNotNegative, grid ? std::optional(Rgb(1.0f)) : std::nullopt);
+    medium.sigma_s = medium.sigma_t * table.rgb("albedo", kFraction);
+  }
+}
+
+GridRequest read_grid(TableReader& table) {
+  GridRequest request;
+  request.path = table.path("path");
+  request.name = table.string("grid", "density");
+  request.interpolation = table.choice<Interpolation>(
+      "interpolation", {{"trilinear", Interpolation::trilinear}, {"nearest", Interpolation::nearest}},
+      Interpolation::trilinear);
+  request.from_level_set = table.flag("from_level_set", false);
+  request.clamp_negative = table.flag("clamp_negative", false);
+  request.object_to_world = read_transform(table, "transform");
+  return request;
+}
+
+MediumPlan read_medium(TableReader& table, const std::string& name, const Names& names, MediumId world) {
+  MediumPlan plan;
+  plan.medium.name = name;
+  plan.place = table.place();
+  const bool grid = table.choice<bool>("type", {{"homogeneous", false}, {"grid", true}});
+  plan.medium.phase = read_phase(table);
+  read_coefficients(table, grid, plan.medium);
+  if (grid) {
+    plan.grid = read_grid(table);
+    plan.path_place = table.place_of("path");
+    plan.boundary = table.choice<GridBoundary>(
+        "boundary", {{"box", GridBoundary::box}, {"shapes", GridBoundary::shapes}}, GridBoundary::automatic);
+    plan.outside = read_medium_name(table, "outside", names, world);
+    const float scale = table.number("density_scale", kPositive, 1.0f);
+    plan.medium.sigma_s *= scale;
+    plan.medium.sigma_t *= scale;
+  }
+  if (!is_finite(plan.medium.sigma_t))
+    table.fail_here("the extinction of " + table.title() + " is too large for single precision");
+  table.finish();
+  return plan;
+}
+
+}  // namespace
+
+MediumId read_medium_name(TableReader& table, const std::string& key, const Names& media, MediumId fallback) {
+  if (!table.has(key)) return fallback;
+  const std::string name = table.string(key);
+  if (name == "vacuum") return kVacuum;
+  for (size_t i = 0; i < media.size(); ++i)
+    if (media[i] == name) return static_cast<MediumId>(i);
+  Names known = media;
+  known.emplace_back("vacuum");
+  table.fail(key, "there is no medium '" + name + "'", suggest(name, known, "there are"));
+}
+
+std::vector<MediumPlan> read_media(TableReader& section, const Names& names, MediumId world) {
+  std::vector<MediumPlan> plans;
+  for (auto& [name, table] : section.named_tables("media")) {
+    if (name == "vacuum") table.fail_here("no medium can be named 'vacuum': that is the empty space");
+    plans.push_back(read_medium(table, name, names, world));
+    if (plans.back().outside == static_cast<MediumId>(plans.size()) - 1 && plans.back().grid && table.has("outside"))
+      table.fail("outside", "a medium cannot be outside itself");
+  }
+  return plans;
+}
+
+}  // namespace vpm

@@ -1,0 +1,236 @@
+// The checks behind every value of a scene file.
+#include "vpm/input/table_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace vpm {
+namespace {
+
+std::string text_of(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.9g", value);
+  return buffer;
+}
+
+std::string text_of(const Range& range) {
+  if (range.lo == -kNoLimit && range.hi == kNoLimit) return "finite";
+  if (range.hi == kNoLimit) return (range.lo_open ? "> " : ">= ") + text_of(range.lo);
+  return std::string("in ") + (range.lo_open ? "(" : "[") + text_of(range.lo) + ", " + text_of(range.hi) +
+         (range.hi_open ? ")" : "]");
+}
+
+bool inside(const Range& range, double value) {
+  return (range.lo_open ? value > range.lo : value >= range.lo) &&
+         (range.hi_open ? value < range.hi : value <= range.hi);
+}
+
+/// The range as single precision has it, so that the ends of a closed one belong to it in either.
+Range in_single(const Range& range) {
+  return {static_cast<float>(range.lo), static_cast<float>(range.hi), range.lo_open, range.hi_open};
+}
+
+/// A number of the file, checked as it is and in the single precision it is going to be kept in.
+double checked_number(const Node& node, const std::string& what, const Range& range) {
+  double value = 0.0;
+  if (const auto* integer = std::get_if<int64_t>(&node.value))
+    value = static_cast<double>(*integer);
+  else if (const auto* number = std::get_if<double>(&node.value))
+    value = *number;
+  else
+    fail_at(node.place, what + " must be a number, not " + kind_of(node), "it must be " + text_of(range));
+  if (!std::isfinite(value)) fail_at(node.place, what + " must be finite, not " + text_of(value));
+  const auto single = static_cast<float>(value);
+  if (!std::isfinite(single)) fail_at(node.place, what + " is too large for single precision: " + text_of(value));
+  if (!inside(range, value) || !inside(in_single(range), single))
+    fail_at(node.place, what + " must be " + text_of(range) + ", not " + text_of(value));
+  return value;
+}
+
+std::string quoted(const std::string& key, const std::string& title) { return "'" + key + "' of " + title; }
+
+std::vector<double> checked_numbers(const Node& node, const std::string& key, const std::string& title, size_t count,
+                                    const Range& range) {
+  const std::string what = quoted(key, title);
+  const std::string wanted = std::to_string(count) + " numbers";
+  const Node::Array* array = node.array();
+  if (!array) fail_at(node.place, what + " must be an array of " + wanted + ", not " + kind_of(node));
+  if (array->size() != count)
+    fail_at(node.place, what + " must have " + wanted + ", not " + std::to_string(array->size()));
+  std::vector<double> values;
+  for (size_t i = 0; i < count; ++i)
+    values.push_back(checked_number((*array)[i], quoted(key + "[" + std::to_string(i) + "]", title), range));
+  return values;
+}
+
+}  // namespace
+
+TableReader::TableReader(const Node& node, std::string title, std::vector<std::string>& files)
+    : node_(&node), title_(std::move(title)), files_(&files) {
+  if (!node.table()) fail_at(node.place, title_ + " must be a table, not " + kind_of(node));
+}
+
+const Node* TableReader::find(const std::string& key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  const Entry* entry = find_entry(*node_->table(), key);
+  return entry ? &entry->node : nullptr;
+}
+
+bool TableReader::has(const std::string& key) { return find(key) != nullptr; }
+
+const Node& TableReader::require(const std::string& key) {
+  if (const Node* node = find(key)) return *node;
+  const std::vector<std::string> missing{key};
+  for (const Entry& entry : *node_->table()) {
+    const bool asked = std::find(known_.begin(), known_.end(), entry.key) != known_.end();
+    if (!asked && !nearest_name(entry.key, missing).empty()) refuse_unknown(entry);
+  }
+  fail_here(title_ + " lacks the key '" + key + "'", "add: " + key + " = ...");
+}
+
+float TableReader::number(const std::string& key, const Range& range, std::optional<float> fallback) {
+  if (!find(key) && fallback) return *fallback;
+  return static_cast<float>(checked_number(require(key), quoted(key, title_), range));
+}
+
+bool TableReader::says_auto(const std::string& key) {
+  const Node* node = find(key);
+  const std::string* word = node ? std::get_if<std::string>(&node->value) : nullptr;
+  if (word && *word != kAuto) refuse_word(key, *word, {"a number", kAuto});
+  return word != nullptr;
+}
+
+uint64_t TableReader::integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback) {
+  if (!find(key) && fallback) return *fallback;
+  const Node& node = require(key);
+  const std::string allowed = "from " + std::to_string(lo) + " to " + std::to_string(hi);
+  const auto* value = std::get_if<int64_t>(&node.value);
+  if (!value)
+    fail_at(node.place, quoted(key, title_) + " must be an integer, not " + kind_of(node), "it must be " + allowed);
+  if (*value < 0 || static_cast<uint64_t>(*value) < lo || static_cast<uint64_t>(*value) > hi)
+    fail_at(node.place, quoted(key, title_) + " must be " + allowed + ", not " + std::to_string(*value));
+  return static_cast<uint64_t>(*value);
+}
+
+bool TableReader::flag(const std::string& key, bool fallback) {
+  const Node* node = find(key);
+  if (!node) return fallback;
+  const bool* value = std::get_if<bool>(&node->value);
+  if (!value) fail_at(node->place, quoted(key, title_) + " must be true or false, not " + kind_of(*node));
+  return *value;
+}
+
+std::string TableReader::string(const std::string& key, std::optional<std::string> fallback) {
+  if (!find(key) && fallback) return *fallback;
+  const Node& node = require(key);
+  const auto* value = std::get_if<std::string>(&node.value);
+  if (!value)
+    fail_at(node.place, quoted(key, title_) + " must be a string, not " + kind_of(node), "write it in quotes");
+  if (value->empty()) fail_at(node.place, quoted(key, title_) + " is empty");
+  return *value;
+}
+
+std::string TableReader::path(const std::string& key) {
+  const std::filesystem::path named = string(key);
+  const Source& source = *place_of(key).source;
+  const bool from_option = source.lines.empty();
+  const std::filesystem::path folder = from_option ? "" : std::filesystem::path(source.name).parent_path();
+  std::string found = (folder / named).string();
+  std::error_code ignored;
+  if (!std::filesystem::exists(found, ignored)) fail(key, "there is no file '" + found + "'");
+  if (std::find(files_->begin(), files_->end(), found) == files_->end()) files_->push_back(found);
+  return found;
+}
+
+std::vector<double> TableReader::numbers(const std::string& key, size_t count, const Range& range) {
+  return checked_numbers(require(key), key, title_, count, range);
+}
+
+Vec3 TableReader::vector(const std::string& key, std::optional<Vec3> fallback) {
+  if (!find(key) && fallback) return *fallback;
+  const std::vector<double> v = numbers(key, 3);
+  return Vec3(v[0], v[1], v[2]);
+}
+
+Vec3 TableReader::direction(const std::string& key, std::optional<Vec3> fallback) {
+  if (!find(key) && fallback) return *fallback;
+  const std::vector<double> v = numbers(key, 3);
+  const Vec3d d(v[0], v[1], v[2]);
+  if (glm::length(d) == 0.0) fail(key, quoted(key, title_) + " must not be the zero vector");
+  return Vec3(glm::normalize(d));
+}
+
+Rgb TableReader::rgb(const std::string& key, const Range& range, std::optional<Rgb> fallback) {
+  if (!find(key) && fallback) return *fallback;
+  const Node& node = require(key);
+  if (!node.array()) {
+    if (std::holds_alternative<int64_t>(node.value) || std::holds_alternative<double>(node.value))
+      return Rgb(number(key, range));
+    fail_at(node.place, quoted(key, title_) + " must be a number or [red, green, blue], not " + kind_of(node));
+  }
+  const std::vector<double> v = checked_numbers(node, key, title_, 3, range);
+  return Rgb(v[0], v[1], v[2]);
+}
+
+std::optional<TableReader> TableReader::table(const std::string& key, const std::string& title) {
+  const Node* node = find(key);
+  return node ? std::optional<TableReader>(TableReader(*node, title, *files_)) : std::nullopt;
+}
+
+std::vector<std::pair<std::string, TableReader>> TableReader::named_tables(const std::string& title) {
+  std::vector<std::pair<std::string, TableReader>> all;
+  for (const Entry& entry : *node_->table())
+    all.emplace_back(entry.key, TableReader(entry.node, "[" + title + "." + entry.key + "]", *files_));
+  return all;
+}
+
+std::vector<TableReader> TableReader::tables(const std::string& key, const std::string& title) {
+  std::vector<TableReader> all;
+  const Node* node = find(key);
+  if (!node) return all;
+  if (!node->array())
+    fail_at(node->place, "'" + key + "' must be an array of tables, not " + kind_of(*node), "write [[" + key + "]]");
+  for (const Node& element : *node->array()) {
+    const Entry* name = element.table() ? find_entry(*element.table(), "name") : nullptr;
+    const auto* text = name ? std::get_if<std::string>(&name->node.value) : nullptr;
+    all.emplace_back(element, title + (text ? " '" + *text + "'" : " number " + std::to_string(all.size())), *files_);
+  }
+  return all;
+}
+
+void TableReader::finish() const {
+  for (const Entry& entry : *node_->table())
+    if (std::find(known_.begin(), known_.end(), entry.key) == known_.end()) refuse_unknown(entry);
+}
+
+void TableReader::refuse_unknown(const Entry& entry) const {
+  fail_at(entry.place, "unknown key '" + entry.key + "' in " + title_, suggest(entry.key, known_, "known keys"));
+}
+
+void TableReader::refuse_word(const std::string& key, const std::string& word,
+                              const std::vector<std::string>& words) const {
+  fail(key, quoted(key, title_) + " cannot be '" + word + "'", suggest(word, words, "it can be"));
+}
+
+std::vector<std::string> TableReader::keys() const {
+  std::vector<std::string> keys;
+  for (const Entry& entry : *node_->table()) keys.push_back(entry.key);
+  return keys;
+}
+
+const Place& TableReader::place_of(const std::string& key) const {
+  const Entry* entry = find_entry(*node_->table(), key);
+  return entry ? entry->node.place : node_->place;
+}
+
+void TableReader::fail(const std::string& key, const std::string& wrong, const std::string& right) const {
+  fail_at(place_of(key), wrong, right);
+}
+
+void TableReader::fail_here(const std::string& wrong, const std::string& right) const {
+  fail_at(node_->place, wrong, right);
+}
+
+}  // namespace vpm

@@ -1,0 +1,105 @@
+// Reading one table of a scene file: typed values with ranges, and no key that nobody asked for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vpm/base/vec.h"
+#include "vpm/input/toml_node.h"
+
+namespace vpm {
+
+/// The numbers a key may have. All numbers must be finite and representable in single precision besides.
+struct Range {
+  double lo, hi;
+  bool lo_open, hi_open;
+};
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+inline constexpr Range kAny{-kNoLimit, kNoLimit, true, true};
+inline constexpr Range kPositive{0.0, kNoLimit, true, true};
+inline constexpr Range kNotNegative{0.0, kNoLimit, false, true};
+inline constexpr Range kFraction{0.0, 1.0, false, false};
+
+/// The word for a value that the render chooses.
+inline constexpr const char* kAuto = "auto";
+
+/// Wraps a table. Every key asked for becomes a known key; finish() refuses all others. A reader with a default returns
+/// it where the key is missing; one without refuses that. All errors are InputErrors that tell the place.
+class TableReader {
+ public:
+  /// `title` names the table in messages, e.g. "[camera]". Refuses a node that is no table. The files that path()
+  /// finds, here and in tables inside, are added to `files`, each once.
+  TableReader(const Node& node, std::string title, std::vector<std::string>& files);
+
+  bool has(const std::string& key);
+  float number(const std::string& key, const Range& range, std::optional<float> fallback = {});
+  /// Does a key that holds a number otherwise say "auto"? Other words are refused.
+  bool says_auto(const std::string& key);
+  uint64_t integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback = {});
+  bool flag(const std::string& key, bool fallback);
+  std::string string(const std::string& key, std::optional<std::string> fallback = {});
+  /// The path of a file that is there, relative to the scene file's folder, or to the current one where a --set option
+  /// gave it.
+  std::string path(const std::string& key);
+  /// `count` finite numbers.
+  std::vector<double> numbers(const std::string& key, size_t count, const Range& range = kAny);
+  /// Three numbers: a point or a vector.
+  Vec3 vector(const std::string& key, std::optional<Vec3> fallback = {});
+  /// Three numbers, not all zero, normalised.
+  Vec3 direction(const std::string& key, std::optional<Vec3> fallback = {});
+  /// One number for all channels, or three.
+  Rgb rgb(const std::string& key, const Range& range, std::optional<Rgb> fallback = {});
+  /// One of a list of words.
+  template <class T>
+  T choice(const std::string& key, const std::vector<std::pair<std::string, T>>& words, std::optional<T> fallback = {});
+
+  /// The node of a key; null where it is missing. Marks the key as known.
+  const Node* find(const std::string& key);
+  const Node& require(const std::string& key);
+  /// A sub-table, titled `title` in messages; nothing where it is missing.
+  std::optional<TableReader> table(const std::string& key, const std::string& title);
+  /// All entries of a table whose keys are names.
+  std::vector<std::pair<std::string, TableReader>> named_tables(const std::string& title);
+  /// The elements of an array of tables, titled "<title> 'name'" or "<title> number i".
+  std::vector<TableReader> tables(const std::string& key, const std::string& title);
+
+  /// Refuses the first key that nobody asked for.
+  void finish() const;
+
+  /// Throws an error at the value of `key`, or at the table where the key is missing.
+  [[noreturn]] void fail(const std::string& key, const std::string& wrong, const std::string& right = "") const;
+  /// Throws an error at the table.
+  [[noreturn]] void fail_here(const std::string& wrong, const std::string& right = "") const;
+  /// All keys the table has, known or not.
+  std::vector<std::string> keys() const;
+  const std::string& title() const { return title_; }
+  const Place& place() const { return node_->place; }
+  const Place& place_of(const std::string& key) const;
+
+ private:
+  [[noreturn]] void refuse_unknown(const Entry& entry) const;
+  [[noreturn]] void refuse_word(const std::string& key, const std::string& word,
+                                const std::vector<std::string>& words) const;
+
+  const Node* node_;
+  std::string title_;
+  std::vector<std::string>* files_;
+  std::vector<std::string> known_;
+};
+
+template <class T>
+T TableReader::choice(const std::string& key, const std::vector<std::pair<std::string, T>>& words,
+                      std::optional<T> fallback) {
+  if (!find(key) && fallback) return *fallback;
+  const std::string word = string(key);
+  std::vector<std::string> allowed;
+  for (const auto& [name, value] : words) {
+    if (name == word) return value;
+    allowed.push_back(name);
+  }
+  refuse_word(key, word, allowed);
+}
+
+}  // namespace vpm

@@ -1,0 +1,113 @@
+// The closed set of lights: each question goes to the kind of light it is asked of.
+#include "vpm/light/light.h"
+
+#include <cassert>
+
+#include "vpm/base/overloads.h"
+#include "vpm/light/kinds.h"
+
+namespace vpm {
+
+Rgb light_power(const Light& light, const Box& scene) {
+  return std::visit([&](const auto& l) { return power_of(l, scene); }, light);
+}
+
+EmissionNumbers draw_emission_numbers(Rng& rng) {
+  return {rng.uniform_double(), rng.uniform_double(), rng.uniform2(), rng.uniform2()};
+}
+
+Emission emit(const Light& light, const Box& scene, const EmissionNumbers& u) {
+  return std::visit([&](const auto& l) { return emit_from(l, scene, u); }, light);
+}
+
+std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rng& rng) {
+  return std::visit([&](const auto& l) { return incident_from(l, point, rng); }, light);
+}
+
+std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng) {
+  using Point = std::optional<LightPoint>;
+  return std::visit(
+      Overloads{[](const PointLight& l) { return Point(LightPoint{l.position}); },
+                [](const SpotLight& l) { return Point(LightPoint{l.position}); },
+                [](const SphereLight& l) { return Point(LightPoint{l.centre}); },
+                [&](const AreaLight auto& l) { return Point(draw_place(l, rng)); },
+                [](const BeamLight&) { return Point(); }, [](const DistantLight auto&) { return Point(); }},
+      light);
+}
+
+std::optional<Incident> sample_towards(const Light& light, const LightPoint& from, const Vec3& point, Rng& rng) {
+  if (from.area == 0.0f) return sample_towards(light, point, rng);
+  const auto incident = [&](const AreaLight auto& l) { return incident_by_area(l.radiance, from, point); };
+  const auto no_area = [](const auto&) -> std::optional<Incident> {
+    assert(!"a point with an area is of a light with one");
+    return std::nullopt;
+  };
+  return std::visit(Overloads{incident, no_area}, light);
+}
+
+float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen) {
+  return std::visit(Overloads{[](const UnseenLight auto&) { return 0.0f; },
+                              [&](const AreaLight auto& l) { return pdf_of(l, point, seen); },
+                              [](const DirectionalLight&) { return 0.0f; },
+                              [&](const ConstantEnvironment& l) { return pdf_of(l, point, seen); },
+                              [&](const EnvironmentMap& l) { return pdf_of(l, point, seen); }},
+                    light);
+}
+
+size_t light_memory_bytes(const Light& light) {
+  return std::visit(
+      Overloads{[](const MeshLight& l) { return l.mesh->memory_bytes(); },
+                [](const EnvironmentMap& l) { return l.image->memory_bytes(); }, [](const auto&) { return size_t{0}; }},
+      light);
+}
+
+std::string_view light_kind(const Light& light) {
+  return std::visit(
+      Overloads{[](const PointLight&) { return "point"; }, [](const SpotLight&) { return "spot"; },
+                [](const BeamLight&) { return "beam"; }, [](const QuadLight&) { return "quad"; },
+                [](const DiscLight&) { return "disc"; }, [](const SphereLight&) { return "sphere"; },
+                [](const MeshLight&) { return "mesh"; }, [](const DirectionalLight&) { return "directional"; },
+                [](const ConstantEnvironment&) { return "constant environment"; },
+                [](const EnvironmentMap&) { return "environment map"; }},
+      light);
+}
+
+bool is_grey(const Light& light) {
+  return std::visit(Overloads{[](const PointLight& l) { return is_grey(l.intensity); },
+                              [](const SpotLight& l) { return is_grey(l.intensity); },
+                              [](const BeamLight& l) { return is_grey(l.power); },
+                              [](const QuadLight& l) { return is_grey(l.radiance); },
+                              [](const DiscLight& l) { return is_grey(l.radiance); },
+                              [](const SphereLight& l) { return is_grey(l.radiance); },
+                              [](const MeshLight& l) { return is_grey(l.radiance); },
+                              [](const DirectionalLight& l) { return is_grey(l.irradiance); },
+                              [](const ConstantEnvironment& l) { return is_grey(l.radiance); },
+                              [](const EnvironmentMap& l) { return l.image->grey(); }},
+                    light);
+}
+
+bool is_infinite(const Light& light) {
+  return std::visit(
+      Overloads{[](const UnseenLight auto&) { return false; }, [](const AreaLight auto&) { return false; },
+                [](const DistantLight auto&) { return true; }},
+      light);
+}
+
+Rgb environment_radiance(const Light& light, const Vec3& direction) {
+  return std::visit(
+      Overloads{[](const UnseenLight auto&) { return Rgb(0.0f); }, [](const AreaLight auto&) { return Rgb(0.0f); },
+                [](const DirectionalLight&) { return Rgb(0.0f); },
+                [](const ConstantEnvironment& l) { return l.radiance; },
+                [&](const EnvironmentMap& l) { return l.image->radiance(direction); }},
+      light);
+}
+
+Rgb surface_radiance(const Light& light, const Vec3& normal, const Vec3& travel) {
+  if (glm::dot(normal, travel) >= 0.0f) return Rgb(0.0f);
+  return std::visit(
+      Overloads{[](const UnseenLight auto&) { return Rgb(0.0f); }, [](const AreaLight auto& l) { return l.radiance; },
+                [](const DistantLight auto&) { return Rgb(0.0f); }},
+      light);
+}
+
+}  // namespace vpm

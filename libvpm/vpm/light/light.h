@@ -1,0 +1,225 @@
+// Light sources: the closed set. Each tells its power, emits photons, and can be sampled from a point.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vpm/base/rng.h"
+#include "vpm/base/vec.h"
+#include "vpm/surface/geometry.h"
+
+namespace vpm {
+
+struct PointLight {
+  Vec3 position{0.0f};  // m
+  Rgb intensity{1.0f};  // W/sr
+};
+/// Full intensity inside the inner cone, none outside the outer one, smoothstep in the cosine between.
+struct SpotLight {
+  Vec3 position{0.0f};                       // m
+  Vec3 direction{0.0f, -1.0f, 0.0f};         // unit
+  float cos_inner = 0.9f, cos_outer = 0.8f;  // 1 >= cos_inner >= cos_outer > -1
+  Rgb intensity{1.0f};                       // W/sr
+};
+/// Parallel light from a disc, uniform over it.
+struct BeamLight {
+  Vec3 position{0.0f};                // of the disc's centre, m
+  Vec3 direction{0.0f, -1.0f, 0.0f};  // unit
+  float radius = 0.1f;                // m, > 0
+  Rgb power{1.0f};                    // W
+};
+/// A parallelogram that emits to the side of its normal, cross(edge_u, edge_v).
+struct QuadLight {
+  Vec3 corner{0.0f}, edge_u{1.0f, 0.0f, 0.0f}, edge_v{0.0f, 1.0f, 0.0f};  // m; the edges need not be orthogonal
+  Rgb radiance{1.0f};                                                     // W/(m^2 sr)
+};
+/// A disc that emits to the side of its normal.
+struct DiscLight {
+  Vec3 centre{0.0f};              // m
+  Vec3 normal{0.0f, 1.0f, 0.0f};  // unit
+  float radius = 1.0f;            // m
+  Rgb radiance{1.0f};             // W/(m^2 sr)
+};
+/// A sphere that emits outwards.
+struct SphereLight {
+  Vec3 centre{0.0f};    // m
+  float radius = 1.0f;  // m
+  Rgb radiance{1.0f};   // W/(m^2 sr)
+};
+/// Triangles to draw points from, uniformly over all their area.
+class EmittingMesh {
+ public:
+  /// Throws InputError where no triangle has an area. The vertices that triangles name exist.
+  explicit EmittingMesh(TriangleMesh mesh);
+  /// m^2.
+  double area() const { return cumulative_.back(); }
+  struct Sample {
+    Vec3 position{0.0f};  // m
+    Vec3 normal{0.0f};    // unit, outward
+    float slack = 0.0f;   // m, as in Hit
+  };
+  /// The point that two uniform numbers yield, on the triangle that a third one picks.
+  Sample sample(double choice, const Vec2& u) const;
+  /// The box around all vertices of triangles.
+  Box bounds() const;
+  size_t memory_bytes() const {
+    return mesh_.positions.size() * sizeof(Vec3) + mesh_.triangles.size() * sizeof(glm::uvec3) +
+           mesh_.normals.size() * sizeof(Vec3) + mesh_.uvs.size() * sizeof(Vec2) + cumulative_.size() * sizeof(double);
+  }
+
+ private:
+  TriangleMesh mesh_;
+  std::vector<double> cumulative_;  // areas, m^2, one more than triangles
+};
+/// Triangles that emit to the sides of their outward normals. They may stand in each other's light.
+struct MeshLight {
+  std::shared_ptr<const EmittingMesh> mesh;
+  Rgb radiance{1.0f};  // W/(m^2 sr)
+};
+/// Parallel light from infinity.
+struct DirectionalLight {
+  Vec3 direction{0.0f, -1.0f, 0.0f};  // of travel, unit
+  Rgb irradiance{1.0f};               // on a plane perpendicular to it, W/m^2
+};
+/// The same radiance from all directions.
+struct ConstantEnvironment {
+  Rgb radiance{1.0f};  // W/(m^2 sr)
+};
+/// An equirectangular picture of radiance, piecewise constant over its pixels: column = azimuth from +z over +x,
+/// row 0 = straight up (+y). Sampled by luminance.
+class ImageEnvironment {
+ public:
+  /// `texels`: width * height radiances in W/(m^2 sr), rows from the top. Throws InputError unless all are finite
+  /// and >= 0, and not all black.
+  ImageEnvironment(int width, int height, std::vector<Rgb> texels);
+  /// Radiance that arrives from direction `d` (unit, pointing away from the scene).
+  Rgb radiance(const Vec3& d) const;
+  /// A direction away from the scene, distributed as pdf(): in the texel that a uniform number picks, where two more
+  /// tell.
+  struct Sample {
+    Vec3 direction{0.0f};  // unit
+    float pdf = 0.0f;      // of the sampled texel, 1/sr
+    Rgb radiance{0.0f};    // of the sampled texel, where rounding may put the direction into its neighbour
+  };
+  Sample sample(double choice, const Vec2& u) const;
+  /// The density of sample() at `d`, 1/sr: luminance over its integral.
+  float pdf(const Vec3& d) const;
+  /// Integral of radiance over the sphere, W/m^2.
+  Rgbd integral() const { return integral_; }
+  /// Integrals over the sphere of radiance times |cosine| to the x, y and z axes, W/m^2: what passes a plane across
+  /// each, from both sides together.
+  const std::array<Rgbd, 3>& flux_across() const { return flux_across_; }
+  /// Are all texels grey?
+  bool grey() const { return grey_; }
+  size_t memory_bytes() const { return texels_.size() * sizeof(Rgb) + cumulative_.size() * sizeof(double); }
+
+ private:
+  size_t texel_at(const Vec3& d) const;
+
+  int width_ = 0, height_ = 0;
+  std::vector<Rgb> texels_;
+  std::vector<double> cumulative_;  // of luminance times solid angle, size width * height + 1
+  Rgbd integral_{0.0};
+  std::array<Rgbd, 3> flux_across_{};
+  bool grey_ = false;
+};
+struct EnvironmentMap {
+  std::shared_ptr<const ImageEnvironment> image;
+};
+
+using Light = std::variant<PointLight, SpotLight, BeamLight, QuadLight, DiscLight, SphereLight, MeshLight,
+                           DirectionalLight, ConstantEnvironment, EnvironmentMap>;
+
+// What kinds of lights have in common; each belongs to one of three.
+template <class L, class... Kinds>
+concept OneOf = (std::same_as<L, Kinds> || ...);
+/// Those that no ray runs into.
+template <class L>
+concept UnseenLight = OneOf<L, PointLight, SpotLight, BeamLight>;
+/// Those that are shapes of the scene. They emit `radiance`.
+template <class L>
+concept AreaLight = OneOf<L, QuadLight, DiscLight, SphereLight, MeshLight>;
+/// Those at infinity.
+template <class L>
+concept DistantLight = OneOf<L, DirectionalLight, ConstantEnvironment, EnvironmentMap>;
+
+/// Power emitted into the scene, W. Lights at infinity: what enters the box `scene`, which holds all that they have to
+/// reach and has a volume.
+Rgb light_power(const Light& light, const Box& scene);
+/// What its mesh or picture takes.
+size_t light_memory_bytes(const Light& light);
+/// What kind of light it is, in a word or two.
+std::string_view light_kind(const Light& light);
+/// Does the light's emission lack any colour?
+bool is_grey(const Light& light);
+/// Is the light at infinity, so that it needs vacuum around the scene?
+bool is_infinite(const Light& light);
+
+/// The uniform numbers in [0, 1) that one emission is made of. No light uses all of them.
+struct EmissionNumbers {
+  double choice = 0.0;  // of a triangle, a texel, or a part of a cone
+  double face = 0.0;    // of the scene's box, where light from infinity enters
+  Vec2 place{0.0f};     // on the light, or on that face
+  Vec2 direction{0.0f};
+};
+EmissionNumbers draw_emission_numbers(Rng& rng);
+
+/// One emitted photon: where it starts, and the power it stands for if this light emitted this photon alone. Its
+/// expectation over photons is light_power(); for all lights but EnvironmentMap every photon carries exactly that. Area
+/// lights are shapes of the scene: their photons start just off the surface, so as not to meet it. Those of lights at
+/// infinity start where they enter the box.
+struct Emission {
+  Ray ray;
+  Rgb power{0.0f};  // W
+};
+Emission emit(const Light& light, const Box& scene, const EmissionNumbers& u);
+inline Emission emit(const Light& light, const Box& scene, Rng& rng) {
+  return emit(light, scene, draw_emission_numbers(rng));
+}
+
+/// Light that arrives at a point without obstacles.
+struct Incident {
+  Vec3 direction{0.0f};        // from the point towards the light, unit
+  float distance = kInfinity;  // m, to the light's surface: the next hit along `direction` may be that surface itself
+  Rgb irradiance{0.0f};        // on a surface that faces the light, W/m^2: an estimate whose mean over samples is the
+                               // integral of radiance
+  float pdf = 0.0f;            // of the direction, 1/sr; 0 where the light has one direction only
+};
+/// Samples the light that reaches `point`; nothing where none can. A point inside a sphere light gets nothing. Whether
+/// other parts of a mesh light stand between is not asked.
+std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rng& rng);
+
+/// A point of a light.
+struct LightPoint {
+  Vec3 position{0.0f};  // m
+  Vec3 normal{0.0f};    // unit, outward; zero where the point does not tell what arrives from it
+  float area = 0.0f;    // m^2, over which it was drawn evenly; 0 likewise
+};
+/// Draws a point from which places nearby get more light than those far away; nothing of parallel light and of lights
+/// at infinity, whose light does not fall off.
+std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng);
+/// sample_towards(), from a point that draw_light_point() drew of that light: the same mean over both draws.
+std::optional<Incident> sample_towards(const Light& light, const LightPoint& from, const Vec3& point, Rng& rng);
+
+/// A light that a ray ran into.
+struct SeenLight {
+  Vec3 direction{0.0f};        // of the ray, unit
+  float distance = kInfinity;  // m, to the light's surface
+  Vec3 normal{0.0f};           // unit, outward, of the surface there; of no meaning for environments
+};
+/// The density with which sample_towards() from `point` finds what was seen, 1/sr; 0 where it never does, and for
+/// lights of one direction only. For multiple importance sampling [Veach1997, ch. 9].
+float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen);
+
+/// Radiance of an environment seen along `direction`, W/(m^2 sr); black for other lights.
+Rgb environment_radiance(const Light& light, const Vec3& direction);
+/// Radiance that an area light's surface of outward normal `normal` emits against `travel`, the direction of the ray
+/// that sees it, W/(m^2 sr); black from behind, and for other lights.
+Rgb surface_radiance(const Light& light, const Vec3& normal, const Vec3& travel);
+
+}  // namespace vpm

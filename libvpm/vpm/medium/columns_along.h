@@ -1,0 +1,90 @@
+// The column and the density at many places of one ray, in any order, after one walk along it.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "vpm/medium/medium.h"
+
+namespace vpm {
+
+/// What a medium puts before each place of a stretch of a ray. Keeps its buffer between rays: one for each thread.
+class ColumnsAlong {
+ public:
+  /// Walks the medium along the interval, which may be endless; `medium` null: empty space. Returns the look-ups made.
+  uint32_t walk(const Medium* medium, const Ray& ray, const Interval& interval) {
+    pieces_.clear();
+    double before = 0.0;
+    uint32_t lookups = 0;
+    if (medium)
+      lookups = medium->visit_pieces(ray, interval, [&](const DensityPiece& piece) {
+        pieces_.push_back({piece, before});
+        before += piece.column();
+        return true;
+      });
+    make_slots();
+    return lookups;
+  }
+
+  struct Place {
+    double column;   // m, from the interval's start to here
+    double density;  // here
+  };
+  /// At the distance `t`, m, of the interval: finite.
+  Place at(double t) const {
+    assert(std::isfinite(t));
+    if (pieces_.empty() || t < starts_.front()) return {0.0, 0.0};
+    const double slot = std::min((t - starts_.front()) * slots_per_metre_, static_cast<double>(first_.size() - 1));
+    size_t i = first_[static_cast<size_t>(slot)];
+    // Seldom more than two steps on, which are taken without branches: nobody can foresee them.
+    for (int step = 0; step < 2; ++step) i += starts_[i + 1] <= t ? 1 : 0;
+    while (starts_[i + 1] <= t) ++i;
+    const auto& [piece, column] = pieces_[i];
+    if (t > piece.t1) return {column + piece.column(), 0.0};  // between pieces is empty space
+    const double s = t - piece.t0;
+    return {column + std::max(0.0, piece.column(s)), std::max(0.0, piece.density(s))};
+  }
+  /// The column of the whole interval, m.
+  double column() const { return pieces_.empty() ? 0.0 : pieces_.back().column + pieces_.back().piece.column(); }
+  /// The distance, m, at which the column reaches `target`, which is below that of the whole interval.
+  double where(double target) const {
+    const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), target,
+                                        [](double x, const Before& b) { return x < b.column; });
+    const auto& [piece, column] = *(after - 1);
+    return piece.t0 + piece.invert(target - column);
+  }
+
+ private:
+  struct Before {
+    DensityPiece piece;
+    double column;  // m, from the interval's start to the piece's
+  };
+
+  /// Parts the way into as many even slots as there are pieces: a place is found by its slot, and a few steps on.
+  void make_slots() {
+    const size_t count = pieces_.size();
+    starts_.clear();
+    for (const Before& before : pieces_) starts_.push_back(before.piece.t0);
+    starts_.push_back(std::numeric_limits<double>::quiet_NaN());  // no place is beyond it
+    first_.resize(count);
+    if (count == 0) return;
+    const double length = starts_[count - 1] - starts_[0];
+    slots_per_metre_ = length > 0.0 ? static_cast<double>(count) / length : 0.0;
+    for (size_t slot = 0, i = 0; slot < count; ++slot) {
+      const double from = starts_[0] + static_cast<double>(slot) * length / static_cast<double>(count);
+      while (starts_[i + 1] <= from) ++i;
+      first_[slot] = static_cast<uint32_t>(i);
+    }
+  }
+
+  std::vector<Before> pieces_;
+  std::vector<double> starts_;   // of the pieces, m, and one that ends every search
+  std::vector<uint32_t> first_;  // of each slot: the last piece that begins no later
+  double slots_per_metre_ = 0.0;
+};
+
+}  // namespace vpm

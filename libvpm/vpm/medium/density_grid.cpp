@@ -1,0 +1,219 @@
+// Building density grids and looking them up at points.
+#include "vpm/medium/density_grid.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <string_view>
+#include <unordered_map>
+
+#include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
+
+namespace vpm {
+namespace {
+
+int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+/// The most bricks a table may hold: 256 MiB of them, which span 2200^3 voxels.
+constexpr double kMaxBricks = double(1u << 28) / 12.0;
+
+/// Bit by bit, for speed: a zero of either sign beside the other counts as unequal, and its brick is found uniform by
+/// its extrema.
+bool all_equal(const float* values) {
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+  return std::memcmp(values, values + 1, (DensityGrid::kBrickValues - 1) * sizeof(float)) == 0;
+}
+
+/// The values of the bricks that vary; equal bricks are kept once. The borders of large tiles are many and alike: a
+/// file of a few kB could fill all memory with them.
+class DistinctBricks {
+ public:
+  explicit DistinctBricks(std::vector<float>& values) : values_(values) {}
+
+  /// The number of a brick of these values, in units of kBrickValues.
+  uint32_t add(const float* values) {
+    constexpr size_t kBytes = DensityGrid::kBrickValues * sizeof(float);
+    const std::hash<std::string_view> hash;
+    const auto next = static_cast<uint32_t>(values_.size() / DensityGrid::kBrickValues);
+    const auto [known, added] = numbers_.try_emplace(hash({reinterpret_cast<const char*>(values), kBytes}), next);
+    if (!added) {
+      const float* other = values_.data() + static_cast<size_t>(known->second) * DensityGrid::kBrickValues;
+      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+      if (std::memcmp(values, other, kBytes) == 0) return known->second;
+    }
+    values_.insert(values_.end(), values, values + DensityGrid::kBrickValues);
+    return next;
+  }
+
+ private:
+  std::vector<float>& values_;
+  std::unordered_map<size_t, uint32_t> numbers_;  // by hash; of two bricks with one hash, the first
+};
+
+/// The sum over the voxels that belong to the brick alone (not to its upper neighbours).
+double owned_sum(const float* values) {
+  double sum = 0.0;
+  for (int z = 0; z < DensityGrid::kCells; ++z)
+    for (int y = 0; y < DensityGrid::kCells; ++y)
+      for (int x = 0; x < DensityGrid::kCells; ++x)
+        sum += values[(z * DensityGrid::kValues + y) * DensityGrid::kValues + x];
+  return sum;
+}
+
+}  // namespace
+
+DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
+    : frame_(frame), world_to_index_(glm::inverse(frame.index_to_world)) {
+  assert(glm::all(glm::lessThanEqual(frame.lo, frame.hi)) && frame.background >= 0.0f);
+  for (int a = 0; a < 3; ++a) {
+    brick_lo_[a] = floor_div(frame.lo[a] - 1, kCells);
+    brick_count_[a] = floor_div(frame.hi[a], kCells) - brick_lo_[a] + 1;
+  }
+  lattice_lo_ = Vec3d(brick_lo_ * kCells) - lattice_shift();
+  lattice_size_ = Vec3d(brick_count_ * kCells);
+  const double count = double(brick_count_.x) * brick_count_.y * brick_count_.z;
+  if (count > kMaxBricks)
+    throw InputError(fmt::format(
+        "a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.25 GiB",
+        brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
+  bricks_.resize(static_cast<size_t>(count));
+  const double sum = fill_bricks(fill);
+  const Vec3d support = support_hi() - support_lo();
+  const Vec3d bricks_extent = Vec3d(brick_count_ * kCells);
+  const double surplus = bricks_extent.x * bricks_extent.y * bricks_extent.z - support.x * support.y * support.z;
+  mean_density_ = std::max(0.0, sum - surplus * frame.background) / (support.x * support.y * support.z);
+  const Mat3d axes(frame.index_to_world);
+  voxel_size_ =
+      static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
+}
+
+double DensityGrid::fill_bricks(const FillBrick& fill) {
+  constexpr size_t kWave = 4096, kChunk = 64;  // bricks: of 12 MB, and what one thread takes at once
+  DistinctBricks distinct(values_);
+  std::vector<float> values(std::min(kWave, bricks_.size()) * kBrickValues);
+  std::vector<double> sums(kWave);
+  double sum = 0.0;
+  for (size_t wave = 0; wave < bricks_.size(); wave += kWave) {
+    const size_t count = std::min(kWave, bricks_.size() - wave);
+    parallel_for_chunks(count, kChunk, [&](size_t begin, size_t end, size_t) {
+      const FillBrick own = fill;
+      for (size_t i = begin; i < end; ++i) {
+        float* const of_brick = &values[i * kBrickValues];
+        own(origin_of(wave + i), of_brick);
+        bricks_[wave + i] = brick_of(of_brick);
+        sums[i] = bricks_[wave + i].uniform() ? double{of_brick[0]} * (kCells * kCells * kCells) : owned_sum(of_brick);
+      }
+    });
+    for (size_t i = 0; i < count; ++i) {
+      Brick& brick = bricks_[wave + i];
+      if (!brick.uniform()) brick.first = distinct.add(&values[i * kBrickValues]);
+      max_density_ = std::max(max_density_, brick.max);
+      sum += sums[i];
+    }
+  }
+  values_.shrink_to_fit();
+  blocks_.resize(values_.size() / kBrickValues);
+  for (const Brick& brick : bricks_)
+    if (!brick.uniform()) blocks_[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
+  return sum;
+}
+
+DensityGrid::Brick DensityGrid::brick_of(const float* values) {
+  if (all_equal(values)) {
+    assert(values[0] >= 0.0f && std::isfinite(values[0]));
+    return {values[0], values[0], 0};
+  }
+  const auto [min, max] = std::minmax_element(values, values + kBrickValues);
+  assert(*min >= 0.0f && std::isfinite(*max));
+  return {*min, *max, 0};
+}
+
+Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {
+  if (frame_.background > 0.0f) return interval;
+  const auto [origin, direction] = to_index(ray);
+  double t0 = interval.t0, t1 = interval.t1;
+  clip_to_box(origin, direction, support_lo(), support_hi(), t0, t1);
+  return t1 > t0 ? Interval{static_cast<float>(t0), static_cast<float>(t1)} : Interval{interval.t0, interval.t0};
+}
+
+bool DensityGrid::is_positive(const Box& world) const {
+  Vec3d lo(kInfinity), hi(-kInfinity);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p(corner & 1 ? world.hi.x : world.lo.x, corner & 2 ? world.hi.y : world.lo.y,
+                 corner & 4 ? world.hi.z : world.lo.z);
+    const Vec3d index = Vec3d(world_to_index_ * glm::dvec4(Vec3d(p), 1.0)) + lattice_shift();
+    lo = glm::min(lo, index);
+    hi = glm::max(hi, index);
+  }
+  const Vec3d from = glm::floor(lo / double{kCells}) - Vec3d(brick_lo_);
+  const Vec3d to = glm::floor(hi / double{kCells}) - Vec3d(brick_lo_);
+  const Vec3d last = Vec3d(brick_count_ - 1);
+  const bool sticks_out = glm::any(glm::lessThan(from, Vec3d(0.0))) || glm::any(glm::greaterThan(to, last));
+  if (sticks_out && !(frame_.background > 0.0f)) return false;
+  const Vec3i first(glm::max(from, Vec3d(0.0))), end(glm::min(to, last));
+  for (int z = first.z; z <= end.z; ++z)
+    for (int y = first.y; y <= end.y; ++y)
+      for (int x = first.x; x <= end.x; ++x)
+        if (!(brick({x, y, z}).min > 0.0f)) return false;
+  return true;
+}
+
+void DensityGrid::cell_piece(const float* v, const Vec3& local, const Vec3& step, DensityPiece& piece) const {
+  if (frame_.interpolation == Interpolation::nearest) {
+    piece.c0 = *v;
+    return;
+  }
+  // The trilinear polynomial in (x, y, z), each linear in the distance s: x = local.x + s step.x, ... Multiplied out
+  // one axis at a time.
+  constexpr int kY = kValues;
+  constexpr int kZ = kValues * kValues;
+  const double x = local.x, y = local.y, z = local.z;
+  const double dx = step.x, dy = step.y, dz = step.z;
+  double a[4], b[4];  // along x, at the four (y, z) edges: a + b s
+  for (int i = 0; i < 4; ++i) {
+    const float* edge = v + (i & 1) * kY + (i >> 1) * kZ;
+    const double rise = double(edge[1]) - edge[0];
+    a[i] = edge[0] + x * rise;
+    b[i] = dx * rise;
+  }
+  double p[2][3];  // along y, at the two z faces: quadratics
+  for (int i = 0; i < 2; ++i) {
+    const double rise_a = a[2 * i + 1] - a[2 * i];
+    const double rise_b = b[2 * i + 1] - b[2 * i];
+    p[i][0] = a[2 * i] + y * rise_a;
+    p[i][1] = b[2 * i] + y * rise_b + dy * rise_a;
+    p[i][2] = dy * rise_b;
+  }
+  const double r0 = p[1][0] - p[0][0], r1 = p[1][1] - p[0][1], r2 = p[1][2] - p[0][2];
+  piece.c0 = std::max(0.0, p[0][0] + z * r0);  // rounding can leave a hair below zero at an empty corner
+  piece.c1 = p[0][1] + z * r1 + dz * r0;
+  piece.c2 = p[0][2] + z * r2 + dz * r1;
+  piece.c3 = dz * r2;
+}
+
+Vec3d DensityGrid::support_lo() const {
+  return Vec3d(frame_.lo) - (frame_.interpolation == Interpolation::nearest ? 0.5 : 1.0);
+}
+
+Vec3d DensityGrid::support_hi() const {
+  return Vec3d(frame_.hi) + (frame_.interpolation == Interpolation::nearest ? 0.5 : 1.0);
+}
+
+Box DensityGrid::bounds() const {
+  Box box;
+  const Vec3d lo = support_lo(), hi = support_hi();
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 p(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z, 1.0);
+    box.add(Vec3(frame_.index_to_world * p));
+  }
+  return box;
+}
+
+size_t DensityGrid::memory_bytes() const {
+  return sizeof(*this) + bricks_.capacity() * sizeof(Brick) + values_.capacity() * sizeof(float) +
+         blocks_.capacity() * sizeof(BrickBlocks);
+}
+
+}  // namespace vpm

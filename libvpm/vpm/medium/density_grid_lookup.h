@@ -1,0 +1,47 @@
+// Looking a density grid up at points. Included by density_grid.h only.
+#pragma once
+
+#include <algorithm>
+
+#include "vpm/medium/trilinear.h"
+
+namespace vpm {
+
+inline DensityGrid::Place DensityGrid::find(const Vec3d& p) const {
+  const bool inside = (p.x >= 0.0) & (p.y >= 0.0) & (p.z >= 0.0) & (p.x < lattice_size_.x) & (p.y < lattice_size_.y) &
+                      (p.z < lattice_size_.z);
+  if (!inside) return {frame_.background, nullptr, Vec3(0.0f)};
+  // From the corner of the bricks on nothing is negative: cells and bricks are cut off, not rounded down.
+  const Vec3i cell(p);
+  const Brick& b = brick(cell >> kCellBits);
+  const Vec3i c = cell & (kCells - 1);
+  const float* values = b.uniform() ? nullptr : values_of(b) + (c.z * kValues + c.y) * kValues + c.x;
+  return {b.min, values, Vec3(p - Vec3d(cell))};
+}
+
+inline float DensityGrid::density_at(const Vec3d& p) const {
+  const Place place = find(p);
+  return place.values ? read(place) : place.density;
+}
+
+inline float DensityGrid::read(const Place& place) const {
+  if (frame_.interpolation == Interpolation::nearest) return *place.values;
+  return std::max(0.0f, trilinear(place.values, kValues, kValues * kValues, place.fraction));
+}
+
+inline void DensityGrid::densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const {
+  assert(densities.size() <= kAtOnce);
+  Place varying[kAtOnce];
+  size_t numbers[kAtOnce], count = 0;
+  for (size_t i = 0; i < densities.size(); ++i) {
+    const Place& place = varying[count] = find(ray.origin + (t + static_cast<double>(i) * step) * ray.direction);
+    densities[i] = place.density;
+    numbers[count] = i;
+    if (!place.values) continue;
+    DensityStretch::prefetch_cell(place.values);
+    ++count;
+  }
+  for (size_t i = 0; i < count; ++i) densities[numbers[i]] = read(varying[i]);
+}
+
+}  // namespace vpm

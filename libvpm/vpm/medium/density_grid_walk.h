@@ -1,0 +1,208 @@
+// Walking a ray through a density grid: bricks first, then the cells of those that are not uniform. Included by
+// density_grid.h only.
+#pragma once
+
+#include <utility>
+
+#include "vpm/base/count.h"
+
+namespace vpm {
+
+/// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at
+/// t0. Every plane is met at its own quotient, so that no error builds up along the way, and at the same one as by
+/// clip_to_box(): a walk that ends where the ray leaves the cells lo to hi stays in them.
+///
+/// Branch prediction cannot tell which axis is next, and a wrong guess costs more than a step: all axes are dealt with
+/// at once, by masks instead of branches. Where an axis meets the plane after its next one is computed a step ahead.
+/// Each axis has registers of its own, so that no step waits for a shuffle of lanes.
+template <int spacing>
+class LatticeWalk {
+ public:
+  /// Cells are numbered from 0 at lo; along each axis a cell's number is `strides` above that of the one before.
+  LatticeWalk(const Vec3d& origin, const Vec3d& direction, double t0, const Vec3i& lo, const Vec3i& hi,
+              const Vec3i& strides) {
+    for (int a = 0; a < 3; ++a) axes_[a] = Axis(origin[a], direction[a], t0, lo[a], hi[a], strides[a]);
+  }
+  /// The number of the present cell.
+  int64_t number() const { return (axes_[0].number + axes_[1].number + axes_[2].number)[0]; }
+  /// Its lower corner.
+  Vec3d corner() const { return {axes_[0].corner(), axes_[1].corner(), axes_[2].corner()}; }
+  /// Where the ray leaves it.
+  double exit() const { return nearest_exit()[0]; }
+  /// Goes on to the next cell: across an edge or a corner where the ray meets several planes at once.
+  void advance() {
+    const Double at = nearest_exit();
+    for (Axis& axis : axes_) axis.cross_at(at);
+  }
+
+ private:
+  // Masks are those of vectors; the lanes are alike.
+  using Double = double __attribute__((vector_size(16)));
+  using Integer = int64_t __attribute__((vector_size(16)));
+  static Double both(double x) { return Double{x, x}; }
+  static Integer both(int64_t x) { return Integer{x, x}; }
+  static Double least(const Double& a, const Double& b) { return a < b ? a : b; }
+
+  struct Axis {
+    Axis() = default;
+    Axis(double from, double along, double t0, int lo, int hi, int64_t per_cell) {
+      const bool up = along > 0.0;
+      const int64_t cell = std::clamp(static_cast<int>(std::floor((from + t0 * along) / spacing)), lo, hi);
+      number = both((cell - lo) * per_cell);
+      step = both(up ? per_cell : -per_cell);
+      stride = both(up ? double{spacing} : -double{spacing});
+      to_corner = up ? -2.0 * spacing : double{spacing};
+      origin = both(from);
+      inverse = both(1.0 / along);
+      if (!std::isfinite(inverse[0])) {  // meets no plane ever
+        origin = both(-std::numeric_limits<double>::infinity());
+        inverse = both(1.0);
+      }
+      plane = both(static_cast<double>((cell + up) * spacing));
+      exit = (plane - origin) * inverse;
+      plane += stride;
+      next = (plane - origin) * inverse;
+    }
+    double corner() const { return plane[0] + to_corner; }
+    /// Goes on to the next cell if the ray leaves this one at `at`.
+    void cross_at(const Double& at) {
+      const Integer crosses = exit == at;
+      exit = Double((crosses & Integer(next)) | (~crosses & Integer(exit)));
+      plane += Double(crosses & Integer(stride));
+      next = (plane - origin) * inverse;
+      number += crosses & step;
+    }
+
+    Double exit{}, next{};  // where the ray meets the plane that it leaves the cell by, and the one behind that
+    Double plane{};         // the latter
+    Double origin{}, inverse{}, stride{};
+    Integer number{}, step{};
+    double to_corner = 0.0;  // from `plane` to the cell's lower end
+  };
+
+  Double nearest_exit() const { return least(axes_[0].exit, least(axes_[1].exit, axes_[2].exit)); }
+
+  Axis axes_[3];
+};
+
+/// The part of [t0, t1] in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 where there is none.
+inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d& lo, const Vec3d& hi, double& t0,
+                        double& t1) {
+  for (int a = 0; a < 3; ++a) {
+    if (direction[a] == 0.0) {
+      if (origin[a] < lo[a] || origin[a] > hi[a]) t1 = t0;
+      continue;
+    }
+    const double inverse = 1.0 / direction[a];
+    const double near = (lo[a] - origin[a]) * inverse;
+    const double far = (hi[a] - origin[a]) * inverse;
+    t0 = std::max(t0, std::min(near, far));
+    t1 = std::min(t1, std::max(near, far));
+  }
+}
+
+template <class Inside, class Outside>
+void DensityGrid::visit_bricks(const LatticeRay& ray, const Interval& interval, Inside&& inside,
+                               Outside&& outside) const {
+  double t0 = interval.t0;
+  double t1 = interval.t1;
+  clip_to_box(ray.origin, ray.direction, Vec3d(0.0), lattice_size_, t0, t1);
+  const bool fills_outside = frame_.background > 0.0f;
+  const auto beyond = [&](double a, double b) { return !fills_outside || !(b > a) || outside(a, b); };
+  if (!(t1 > t0)) {
+    beyond(interval.t0, interval.t1);
+    return;
+  }
+  if (!beyond(interval.t0, t0)) return;
+  const Vec3i strides(1, brick_count_.x, brick_count_.x * brick_count_.y);
+  LatticeWalk<kCells> walk(ray.origin, ray.direction, t0, Vec3i(0), brick_count_ - 1, strides);
+  for (double t = t0; t < t1; walk.advance()) {
+    const double end = std::min(walk.exit(), t1);
+    if (end > t) {
+      if (!inside(walk, t, end)) return;
+      t = end;
+    }
+  }
+  beyond(t1, interval.t1);
+}
+
+template <class Visit>
+bool DensityGrid::visit_brick(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, double t0, double t1,
+                              uint32_t& read, Visit& visit) const {
+  if (brick.max == 0.0f) return true;
+  if (brick.uniform()) {
+    count(read);
+    return visit(DensityPiece{t0, t1, brick.min, 0.0, 0.0, 0.0});
+  }
+  const float* values = values_of(brick);
+  // A ray reads most of a brick's cache lines, in an order that hardware does not predict: all are prefetched.
+  constexpr int kLine = 64 / sizeof(float);
+  for (int i = 0; i < kBrickValues; i += kLine) __builtin_prefetch(values + i);
+  const Vec3i lo(corner);
+  LatticeWalk<1> walk(ray.origin, ray.direction, t0, lo, lo + (kCells - 1), {1, kValues, kValues * kValues});
+  const Vec3 step(ray.direction);
+  for (double t = t0; t < t1; walk.advance()) {
+    const double end = std::min(walk.exit(), t1);
+    if (end > t) {
+      DensityPiece piece;
+      piece.t0 = t;
+      piece.t1 = end;
+      cell_piece(values + walk.number(), Vec3(ray.origin + t * ray.direction - walk.corner()), step, piece);
+      count(read);
+      if (!visit(piece)) return false;
+      t = end;
+    }
+  }
+  return true;
+}
+
+template <class Visit>
+uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  uint32_t read = 0;
+  const LatticeRay in = lattice_ray(ray);
+  visit_bricks(
+      in, interval,
+      [&](const LatticeWalk<kCells>& walk, double t0, double t1) {
+        return visit_brick(bricks_[walk.number()], walk.corner(), in, t0, t1, read, visit);
+      },
+      [&](double t0, double t1) {
+        return visit(DensityPiece{t0, t1, frame_.background, 0.0, 0.0, 0.0});
+      });
+  return read;
+}
+
+template <class Passes, class Visit>
+uint32_t DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, Passes&& passes, Visit&& visit) const {
+  uint32_t bricks = 0;
+  const LatticeRay in = lattice_ray(ray);
+  visit_bricks(
+      in, interval,
+      [&](const LatticeWalk<kCells>& walk, double t0, double t1) {
+        count(bricks);
+        const Brick& brick = bricks_[walk.number()];
+        return passes(t1 - t0, brick.max) || visit_stretch(brick, walk.corner(), in, t0, t1, visit);
+      },
+      [&](double t0, double t1) {
+        return passes(t1 - t0, frame_.background) ||
+               visit(DensityStretch{t0, t1, frame_.background, frame_.background});
+      });
+  return bricks;
+}
+
+// Not part of the walk's loop: the walk keeps its registers, as long as stretches are passed.
+template <class Visit>
+[[gnu::noinline]] bool DensityGrid::visit_stretch(const Brick& brick, const Vec3d& corner, const LatticeRay& ray,
+                                                  double t0, double t1, Visit& visit) const {
+  DensityStretch stretch{t0, t1, brick.min, brick.max};
+  if (!brick.uniform()) {
+    stretch.values = values_of(brick);
+    stretch.blocks = &blocks_[brick.first];
+    __builtin_prefetch(stretch.blocks);
+    stretch.origin = ray.origin - corner;
+    stretch.direction = ray.direction;
+    stretch.nearest = frame_.interpolation == Interpolation::nearest;
+  }
+  return visit(std::as_const(stretch));
+}
+
+}  // namespace vpm

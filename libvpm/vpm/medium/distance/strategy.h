@@ -1,0 +1,72 @@
+// Distance sampling: one interface, and the list of strategies. Each strategy has a file of its own in this folder.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "vpm/base/rng.h"
+#include "vpm/base/vec.h"
+#include "vpm/medium/medium.h"
+
+namespace vpm {
+
+/// A free flight through one medium.
+struct Flight {
+  float t = 0.0f;  // m along the ray: the collision's, or the interval's end
+  bool collided = false;
+  float density = 0.0f;  // that the collision was drawn from: sigma_t there is medium.sigma_t * density > 0 unless the
+                         // weight is black
+  Rgb weight{1.0f};      // the photon's power is multiplied by it
+  uint32_t lookups = 0;  // of density
+  uint32_t bricks = 0;   // of a grid, whose bounds were looked up
+  uint32_t null_collisions = 0;
+  uint32_t majorant_violations = 0;  // look-ups that found more than a majorant
+};
+
+/// Samples where a photon or a path from the eye collides next. Its weight makes the power the right one whatever the
+/// distances' density: at a collision at distance d sigma_t(x) Tr(d) / pdf(d), at the interval's end Tr(D) / P(d > D)
+/// [Jarosz2008, alg. 7.3, corrected]. Chromatic media are sampled by the mixture of the channels' densities, each with
+/// the share of the photon's power in it.
+class DistanceStrategy {
+ public:
+  virtual ~DistanceStrategy() = default;
+  virtual Flight sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
+                        Rng& rng) const = 0;
+};
+
+struct DistanceSettings {
+  std::string strategy = "regular";
+  float step = 1.0f;              // ray-march: length of a step in voxels, > 0; ray-march-adaptive: of the longest
+  float optical_step = 0.1f;      // ray-march-adaptive: optical thickness of a step, > 0
+  float majorant = 0.25f;         // weighted, and progressive-null in its first pass: the most that a majorant may be,
+                                  // as a share of the medium's largest density, in (0, 1]
+  float extinction_floor = 0.1f;  // local-extinction: the least rate, as a fraction of the mean one, > 0
+};
+
+/// What flights are for.
+struct FlightUse {
+  uint64_t pass = 0;    // of the render; progressive-null goes by it
+  bool density = true;  // is Flight::density needed? Else it may be any lower bound of it above 0
+};
+
+/// What a user should know of a strategy.
+struct StrategyInfo {
+  std::string_view name;
+  std::string_view summary;
+  std::string_view failure;   // where it costs much or errs
+  std::string_view source;    // key of papers/references.bib
+  bool heterogeneous = true;  // false: refused in grids
+  bool unbiased = true;
+  bool marches = false;  // in steps, whose length is its bias
+  bool bounded_weight = true;
+  bool positive = true;  // false: weights of either sign; refused for photons, whose power must not be negative
+};
+std::span<const StrategyInfo> distance_strategies();
+/// Of the strategy of that name, which there is.
+const StrategyInfo& strategy_info(std::string_view name);
+/// The strategy of that name; null where there is none.
+std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings, const FlightUse& use = {});
+
+}  // namespace vpm

@@ -1,0 +1,107 @@
+// A participating medium: coefficients per unit density, a density field, a phase function. It answers coefficients and
+// bounds; tracking is an algorithm outside it.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "vpm/base/vec.h"
+#include "vpm/medium/density_grid.h"
+#include "vpm/phase/phase.h"
+
+namespace vpm {
+
+/// The density at places of one ray, in any order: what depends on the ray alone is done once. Refers to the grid.
+class DensityAlong {
+ public:
+  /// `grid` null: density 1.
+  DensityAlong(const DensityGrid* grid, const Ray& ray) : grid_(grid) {
+    if (grid) ray_ = grid->lattice_ray(ray);
+  }
+  /// At the distance t, m.
+  float at(double t) const { return grid_ ? grid_->density(ray_, t) : 1.0f; }
+  /// At kAtOnce distances at the most, `step` metres apart from t on: quicker than one by one.
+  void at(double t, double step, std::span<float> densities) const {
+    if (grid_)
+      grid_->densities(ray_, t, step, densities);
+    else
+      std::fill(densities.begin(), densities.end(), 1.0f);
+  }
+  static constexpr size_t kAtOnce = DensityGrid::kAtOnce;
+
+ private:
+  const DensityGrid* grid_;
+  DensityGrid::LatticeRay ray_{};
+};
+
+struct Medium {
+  std::string name;
+  Rgb sigma_s{0.0f};  // scattering coefficient at density 1, 1/m
+  Rgb sigma_t{0.0f};  // extinction coefficient at density 1, 1/m; >= sigma_s
+  Phase phase;
+  std::shared_ptr<const DensityGrid> grid;  // null: density 1 everywhere
+
+  /// Does it send any light on?
+  bool scatters() const { return sigma_s != Rgb(0.0f); }
+  bool homogeneous() const { return grid == nullptr; }
+  float density(const Vec3& p) const { return grid ? grid->density(p) : 1.0f; }
+  DensityAlong density_along(const Ray& ray) const { return {grid.get(), ray}; }
+  /// The mean density over the grid's support, empty voxels included.
+  double mean_density() const { return grid ? grid->mean_density() : 1.0; }
+  float max_density() const { return grid ? grid->max_density() : 1.0f; }
+  /// The largest extinction coefficient anywhere, 1/m.
+  Rgb majorant() const { return sigma_t * max_density(); }
+  /// The shortest distance between voxels, m; infinite in a homogeneous medium.
+  float voxel_size() const { return grid ? grid->voxel_size() : kInfinity; }
+  /// The part of the interval in which the density may differ from zero.
+  Interval clip(const Ray& ray, const Interval& interval) const { return grid ? grid->clip(ray, interval) : interval; }
+  /// sigma_s / sigma_t per channel; 0 where sigma_t is 0.
+  Rgb albedo() const {
+    return {sigma_t.r > 0 ? sigma_s.r / sigma_t.r : 0.0f, sigma_t.g > 0 ? sigma_s.g / sigma_t.g : 0.0f,
+            sigma_t.b > 0 ? sigma_s.b / sigma_t.b : 0.0f};
+  }
+  bool grey() const { return is_grey(sigma_s) && is_grey(sigma_t); }
+
+  /// Calls visit(const DensityPiece&) along the ray until it returns false; returns the look-ups made.
+  template <class Visit>
+  uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
+    if (grid) return grid->visit_pieces(ray, interval, visit);
+    visit(DensityPiece{interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
+    return 0;
+  }
+  /// Calls visit(const DensityStretch&) along the ray until it returns false; returns the bricks whose bounds were
+  /// read.
+  template <class Visit>
+  uint32_t visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
+    if (grid) return grid->visit_majorants(ray, interval, visit);
+    visit(DensityStretch{interval.t0, interval.t1, 1.0f, 1.0f});
+    return 0;
+  }
+  /// The same, but leaves out stretches of which passes(length, max) is true.
+  template <class Pass, class Visit>
+  uint32_t visit_majorants(const Ray& ray, const Interval& interval, Pass&& passes, Visit&& visit) const {
+    if (grid) return grid->visit_majorants(ray, interval, passes, visit);
+    if (!passes(double{interval.t1} - interval.t0, 1.0f)) visit(DensityStretch{interval.t0, interval.t1, 1.0f, 1.0f});
+    return 0;
+  }
+};
+
+/// The column along a stretch of ray, m (the integral of density), with the look-ups it took.
+struct Column {
+  double value = 0.0;
+  uint32_t lookups = 0;
+};
+/// Exact for homogeneous, trilinear and nearest fields: regular tracking [Novak2018, sec. 4.1].
+Column column(const Medium& medium, const Ray& ray, const Interval& interval);
+
+/// exp(-sigma_t column) per channel; 1 where sigma_t is 0, also for an endless column.
+inline Rgb transmittance(const Medium& medium, double column) {
+  Rgb result(1.0f);
+  for (int c = 0; c < 3; ++c)
+    if (medium.sigma_t[c] > 0.0f) result[c] = static_cast<float>(std::exp(-medium.sigma_t[c] * column));
+  return result;
+}
+
+}  // namespace vpm

@@ -1,0 +1,94 @@
+// Flights between events and what happens at them.
+#include "vpm/path/walk.h"
+
+#include "vpm/base/count.h"
+#include "vpm/medium/distance/mixture.h"
+#include "vpm/surface/shading.h"
+
+namespace vpm {
+
+Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters) {
+  Encounter met = scene.geometry.encounter(ray, t_max);
+  if (!met && t_max < kInfinity) return met;
+  const MediumId known = met ? medium_before(scene, met, ray.direction, medium) : scene.world_medium;
+  if (known != medium) ++counters.medium_mismatches;
+  medium = known;
+  return met;
+}
+
+void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, MediumId& medium, WalkCounters& counters) {
+  count(counters.crossings, static_cast<uint64_t>(met.count));
+  medium = medium_after(scene, met, ray.direction, medium);
+  ray.origin = leave_surfaces(met, ray.direction);
+}
+
+Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
+                 WalkCounters& counters, float limit) {
+  bool through_medium = false;
+  for (;;) {
+    const Encounter met = meet(scene, state.ray, limit, state.medium, counters);
+    if (state.medium != kVacuum) {
+      through_medium = true;
+      const Medium& medium = scene.media[state.medium];
+      const Interval free{0.0f, met ? met.hits[0].t : limit};
+      const Flight flight = strategy.sample(medium, state.ray, free, state.power, rng);
+      count(counters.lookups, flight.lookups);
+      count(counters.bricks, flight.bricks);
+      count(counters.null_collisions, flight.null_collisions);
+      counters.majorant_violations += flight.majorant_violations;
+      state.power *= flight.weight;
+      if (flight.collided) {
+        state.ray.origin = state.ray.at(flight.t);
+        return {EventKind::collision, {}, flight.density, through_medium};
+      }
+    }
+    if (!met) {
+      if (limit == kInfinity) return {EventKind::escape, {}, 0.0f, through_medium};
+      state.ray.origin = state.ray.at(limit);
+      return {EventKind::limit, {}, 0.0f, through_medium};
+    }
+    if (!is_boundary(scene.material_of(met.hits[0]))) {
+      state.ray.origin = met.hits[0].position;
+      return {EventKind::surface, met.hits[0], 0.0f, through_medium};
+    }
+    limit -= met.hits[0].t;
+    cross_boundaries(scene, met, state.ray, state.medium, counters);
+  }
+}
+
+bool survive_roulette(double weight, PathState& state, Rng& rng) {
+  constexpr double kBelow = 0.1;
+  if (weight >= kBelow) return true;
+  const double survival = weight / kBelow;
+  if (!(rng.uniform_double() < survival)) return false;
+  state.power /= static_cast<float>(survival);
+  return true;
+}
+
+bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng) {
+  const Rgb albedo = medium.albedo();
+  const float q = is_grey(albedo) ? albedo.r : glm::dot(albedo, channel_shares(state.power));
+  if (rng.uniform() >= q) return false;
+  if (!is_grey(albedo)) state.power *= albedo / q;
+  state.ray.direction = phase_sample(medium.phase, state.ray.direction, rng.uniform2());
+  return true;
+}
+
+bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng) {
+  const Rgb after = state.power * scatter.weight;
+  const float survival = std::min(1.0f, max_channel(glm::abs(after)) / max_channel(glm::abs(state.power)));
+  if (!(rng.uniform() < survival)) return false;
+  state.power = after / survival;
+  if (scatter.transmitted)
+    state.medium = medium_beyond(scene.shapes[hit.shape], hit.normal, scatter.direction, state.medium);
+  state.ray = {leave_surface(hit, scatter.direction), scatter.direction};
+  return true;
+}
+
+bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter) {
+  const float choice = rng.uniform();
+  scatter = sample_scatter(material_at(scene, hit), hit, state.ray.direction, choice, rng.uniform2());
+  return go_on_from(scene, hit, scatter, state, rng);
+}
+
+}  // namespace vpm

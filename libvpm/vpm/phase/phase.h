@@ -1,0 +1,71 @@
+// Phase functions: how a medium scatters. Each offers value, sample and mean cosine; all are normalised over the
+// sphere.
+//
+// Convention: `cosine` is the dot product of the directions of TRAVEL before and after scattering, so g > 0 is forward.
+#pragma once
+
+#include <variant>
+
+#include "vpm/base/vec.h"
+
+namespace vpm {
+
+/// Scatters equally into all directions.
+struct Isotropic {
+  /// Density per solid angle, 1/sr: at a cosine, and from one direction of travel to the next (unit).
+  float value(float) const { return 1.0f / (4.0f * kPi); }
+  float value(const Vec3&, const Vec3&) const { return 1.0f / (4.0f * kPi); }
+  /// A direction of travel after scattering, distributed as value().
+  Vec3 sample(const Vec3& travel, const Vec2& u) const;
+  float mean_cosine() const { return 0.0f; }
+};
+
+/// The one-parameter phase function of [Henyey1941]; mean cosine g in (-1, 1).
+struct HenyeyGreenstein {
+  float g = 0.0f;
+
+  /// (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^1.5), 1/sr.
+  float value(float cosine) const { return value_away(1.0f - (g < 0.0f ? -cosine : cosine)); }
+  /// The same between unit vectors. 1 - cos is half the square of their difference, which keeps its digits where the
+  /// cosine has lost them: the peak of g = 0.9999 is 1e-4 rad wide.
+  float value(const Vec3& before, const Vec3& after) const {
+    const Vec3 apart = g < 0.0f ? after + before : after - before;
+    return value_away(0.5f * glm::dot(apart, apart));
+  }
+  Vec3 sample(const Vec3& travel, const Vec2& u) const;
+  float mean_cosine() const { return g; }
+
+ private:
+  /// By `away` = 1 - sign(g) cos. The bracket is computed as (1 - |g|)^2 + 2 |g| away, because the printed form cancels
+  /// for |g| near 1.
+  float value_away(float away) const {
+    const float a = std::abs(g);
+    const float b = (1.0f - a) * (1.0f - a) + 2.0f * a * std::max(0.0f, away);
+    return (1.0f - a) * (1.0f + a) / (4.0f * kPi * b * std::sqrt(b));
+  }
+};
+
+/// Scattering by particles much smaller than the wavelength, unpolarised: 3 (1 + cos^2) / (16 pi).
+struct Rayleigh {
+  float value(float cosine) const { return 3.0f / (16.0f * kPi) * (1.0f + cosine * cosine); }
+  float value(const Vec3& before, const Vec3& after) const { return value(glm::dot(before, after)); }
+  Vec3 sample(const Vec3& travel, const Vec2& u) const;
+  float mean_cosine() const { return 0.0f; }
+};
+
+using Phase = std::variant<Isotropic, HenyeyGreenstein, Rayleigh>;
+
+/// Density per solid angle at `cosine`, 1/sr.
+inline float phase_value(const Phase& phase, float cosine) {
+  return std::visit([&](const auto& p) { return p.value(cosine); }, phase);
+}
+/// The same between directions of travel before and after, unit.
+inline float phase_value(const Phase& phase, const Vec3& before, const Vec3& after) {
+  return std::visit([&](const auto& p) { return p.value(before, after); }, phase);
+}
+/// A direction of travel after scattering from `travel`; its density is phase_value(), so no weight is due.
+inline Vec3 phase_sample(const Phase& phase, const Vec3& travel, const Vec2& u) {
+  return std::visit([&](const auto& p) { return p.sample(travel, u); }, phase);
+}
+
+}  // namespace vpm

@@ -1,0 +1,64 @@
+// Scouts, then photons, both followed from mirror to mirror.
+#include "vpm/photon/caustics.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "vpm/base/parallel.h"
+#include "vpm/photon/emission.h"
+
+namespace vpm {
+namespace {
+
+constexpr size_t kChunk = 4096;  // photons traced one after another
+// Scouts for each photon, and at most: enough for ten to find what a ten thousandth of all emission meets.
+constexpr uint64_t kScouts = 4, kMostScouts = 100'000;
+
+/// The photon that an emission leads to, if it is a caustic one.
+std::optional<Photon> follow(const Scene& scene, const DistanceStrategy& strategy, const EmissionPoint& point,
+                             int max_events, Rng& rng) {
+  PathState state = emit_photon(scene, point);
+  WalkCounters counters;
+  for (int events = 0; events < max_events; ++events) {
+    const Event event = next_event(scene, strategy, state, rng, counters);
+    if (event.kind != EventKind::surface || !is_finite(state.power) || is_black(state.power)) return std::nullopt;
+    if (is_rough(scene.material_of(event.hit))) {
+      if (events == 0) return std::nullopt;
+      return Photon{event.hit.position, PackedDirection(state.ray.direction), state.power};
+    }
+    Scatter scatter;
+    if (!scatter_at_surface(scene, event.hit, state, rng, scatter)) return std::nullopt;
+    state.power *= scatter.flux_scale;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& strategy,
+                                   const CausticSettings& settings) {
+  const auto score = [&](const EmissionPoint& point, Rng& rng) {
+    const std::optional<Photon> photon = follow(scene, strategy, point, settings.max_events, rng);
+    if (!photon) return 0.0f;
+    return sum_channels(photon->power) * (settings.importance ? settings.importance->at(photon->position) : 1.0f);
+  };
+  const EmissionGuide guide = EmissionGuide::learn(std::min(kScouts * settings.emitted, kMostScouts), settings.seed,
+                                                   rng_stream(RngUse::caustic_scout, settings.pass), score);
+  std::vector<std::vector<Photon>> parts(chunk_count(settings.emitted, kChunk));
+  parallel_for_chunks(settings.emitted, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+    if (settings.stop && *settings.stop) return;
+    for (size_t i = begin; i < end; ++i) {
+      Rng rng(settings.seed, rng_stream(RngUse::caustic, settings.pass), i);
+      const EmissionGuide::Sample drawn = guide.sample(rng);
+      std::optional<Photon> photon = follow(scene, strategy, drawn.point, settings.max_events, rng);
+      if (!photon) continue;
+      photon->power /= drawn.density;
+      parts[chunk].push_back(*photon);
+    }
+  });
+  std::vector<Photon> all;
+  for (const std::vector<Photon>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace vpm

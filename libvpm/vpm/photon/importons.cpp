@@ -1,0 +1,81 @@
+// Importons in fixed chunks, their tracks added in the chunks' order.
+#include "vpm/photon/importons.h"
+
+#include <algorithm>
+
+#include "vpm/base/parallel.h"
+#include "vpm/path/walk.h"
+
+namespace vpm {
+namespace {
+
+constexpr int kResolution = 32;           // cubes of importance along the scene's longest edge
+constexpr int kDirectionResolution = 16;  // those of directions: each takes the memory of many
+constexpr size_t kChunk = 4096;           // importons traced one after another
+constexpr uint64_t kWave = 32 * kChunk;   // those whose tracks wait to be added
+
+void merge(Importance& all, const Importance& part) {
+  all.map.merge(part.map);
+  if (all.directions) all.directions->merge(*part.directions);
+}
+
+/// Follows one importon and adds its tracks. Those from the camera to what it sees, by mirrors and glass or straight,
+/// tell of no direction for photons: what a photon leaves where the camera sees it is seen from there.
+void trace_importon(const Scene& scene, const DistanceStrategy& strategy, Rng& rng, int max_events,
+                    Importance& importance) {
+  const Camera& camera = scene.camera;
+  const Vec2 film = rng.uniform2() * Vec2(camera.width, camera.height);
+  const Ray seen = camera.ray(film);
+  PathState state{seen, medium_of_ray(scene, scene.camera_medium, seen), Rgb(1.0f)};
+  WalkCounters counters;
+  bool scattered = false;
+  for (int events = 0; events < max_events; ++events) {
+    const Ray from = state.ray;
+    const float weight = mean_channel(state.power);
+    const Event event = next_event(scene, strategy, state, rng, counters);
+    if (!is_finite(state.power)) return;
+    const bool escaped = event.kind == EventKind::escape;
+    const float length = escaped ? kInfinity : glm::distance(from.origin, state.ray.origin);
+    if (length > 0.0f) {
+      importance.map.add_track(from, length, weight);
+      if (importance.directions && scattered) importance.directions->add_track(from, length, weight);
+    }
+    const double now = mean_channel(state.power);
+    if (escaped || !(now > 0.0) || !survive_roulette(now, state, rng)) return;
+    scattered |= event.kind == EventKind::collision || is_rough(scene.material_of(event.hit));
+    if (event.kind == EventKind::collision) {
+      if (!scatter_in_medium(scene.media[state.medium], state, rng)) return;
+    } else {
+      Scatter scatter;
+      if (!scatter_at_surface(scene, event.hit, state, rng, scatter)) return;
+      state.power *= scatter.radiance_scale;
+    }
+  }
+}
+
+}  // namespace
+
+Importance trace_importons(const Scene& scene, const DistanceStrategy& strategy, const GuideSettings& settings,
+                           uint64_t seed, uint64_t pass, int max_events) {
+  Box box = scene.bounds;
+  box.add(scene.camera.position);
+  Importance all{ImportanceMap(box, kResolution), {}};
+  if (settings.scatter) all.directions.emplace(box, kDirectionResolution);
+  const Importance none = all;
+  for (uint64_t first = 0; first < settings.importons; first += kWave) {
+    const uint64_t wave = std::min(kWave, settings.importons - first);
+    std::vector<Importance> parts(chunk_count(wave, kChunk), none);
+    parallel_for_chunks(wave, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+      for (uint64_t i = first + begin; i < first + end; ++i) {
+        Rng rng(seed, rng_stream(RngUse::importon, pass), i);
+        trace_importon(scene, strategy, rng, max_events, parts[chunk]);
+      }
+    });
+    for (const Importance& part : parts) merge(all, part);
+  }
+  all.map.finish();
+  if (all.directions) all.directions->finish();
+  return all;
+}
+
+}  // namespace vpm

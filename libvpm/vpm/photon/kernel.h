@@ -1,0 +1,77 @@
+// Density estimation kernels in two and three dimensions, normalised over the unit ball.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "vpm/base/vec.h"
+
+namespace vpm {
+
+/// Cone: [Jensen2001, sec. 7.2]; the others: [Silverman1986, sec. 4.2].
+enum class KernelKind { constant, cone, epanechnikov, biweight, triweight };
+
+struct KernelInfo {
+  KernelKind kind;
+  const char* name;
+  float disc, ball;  // pi times what the profile is multiplied by for its integral over the unit disc, or ball, to be 1
+};
+
+/// All kernels, in the order of KernelKind.
+inline constexpr std::array<KernelInfo, 5> kKernels{{{KernelKind::constant, "constant", 1.0f, 0.75f},
+                                                     {KernelKind::cone, "cone", 3.0f, 3.0f},
+                                                     {KernelKind::epanechnikov, "epanechnikov", 2.0f, 1.875f},
+                                                     {KernelKind::biweight, "biweight", 3.0f, 3.28125f},
+                                                     {KernelKind::triweight, "triweight", 4.0f, 4.921875f}}};
+
+inline const KernelInfo& kernel_info(KernelKind kind) { return kKernels[static_cast<size_t>(kind)]; }
+
+/// The kernels' profiles in q = (distance / radius)^2, q <= 1, without their normalisation: (1 - q)^n, and 1 - sqrt(q).
+template <KernelKind K>
+float kernel_profile(float q) {
+  if constexpr (K == KernelKind::constant) return 1.0f;
+  if constexpr (K == KernelKind::cone) return 1.0f - std::sqrt(q);
+  if constexpr (K == KernelKind::epanechnikov) return 1.0f - q;
+  if constexpr (K == KernelKind::biweight) return (1.0f - q) * (1.0f - q);
+  if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (1.0f - q);
+}
+
+/// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m^2 or 1/m^3.
+inline float kernel_norm_2d(KernelKind kind, float r) { return kernel_info(kind).disc / (kPi * r * r); }
+inline float kernel_norm_3d(KernelKind kind, float r) { return kernel_info(kind).ball / (kPi * r * r * r); }
+
+/// The integral of the normalised kernel over the disc, or ball, of `t` <= 1 times its radius; 1 at 1, exactly.
+inline double kernel_within_2d(KernelKind kind, double t) {
+  const double q = t * t, rest = 1.0 - q;
+  switch (kind) {
+    case KernelKind::constant:
+      return q;
+    case KernelKind::cone:
+      return q * (3.0 - 2.0 * t);
+    case KernelKind::epanechnikov:
+      return 1.0 - rest * rest;
+    case KernelKind::biweight:
+      return 1.0 - rest * rest * rest;
+    case KernelKind::triweight:
+      break;
+  }
+  return 1.0 - rest * rest * rest * rest;
+}
+inline double kernel_within_3d(KernelKind kind, double t) {
+  const double q = t * t, cube = q * t;
+  switch (kind) {
+    case KernelKind::constant:
+      return cube;
+    case KernelKind::cone:
+      return cube * (4.0 - 3.0 * t);
+    case KernelKind::epanechnikov:
+      return cube * (5.0 - 3.0 * q) / 2.0;
+    case KernelKind::biweight:
+      return cube * (35.0 + q * (15.0 * q - 42.0)) / 8.0;
+    case KernelKind::triweight:
+      break;
+  }
+  return cube * (105.0 + q * (q * (135.0 - 35.0 * q) - 189.0)) / 16.0;
+}
+
+}  // namespace vpm

@@ -1,0 +1,107 @@
+// The photon map for k nearest neighbours: a balanced kd-tree over leaves of up to 16 photons that lie side by side.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "vpm/base/count.h"
+#include "vpm/base/vec.h"
+#include "vpm/photon/leaf_order.h"
+#include "vpm/photon/neighbours.h"
+#include "vpm/photon/photon_table.h"
+
+namespace vpm {
+
+class NearestMap {
+ public:
+  NearestMap() = default;
+  /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
+  NearestMap(const std::vector<Photon>& photons, float scale);
+
+  /// The `count` nearest photons within `max_radius` (m; may be infinite) of `point` among those for which
+  /// accept(const PackedDirection& travel, offset from `point`) holds. Returns how many photons it computed the
+  /// distance of.
+  template <class Accept>
+  uint32_t find(const Vec3& point, uint32_t count, float max_radius, Neighbours& neighbours, Accept&& accept) const;
+
+  const PhotonTable& photons() const { return photons_; }
+  size_t size() const { return photons_.size(); }
+  const Box& bounds() const { return bounds_; }
+  size_t memory_bytes() const;
+
+ private:
+  static constexpr size_t kLeaf = 16;     // photons of a leaf, at most
+  static constexpr uint32_t kMany = 512;  // neighbours
+
+  /// The nearest of the first `of_leaf` photons of each leaf, as the neighbours were started.
+  template <class Accept>
+  uint32_t search(const Vec3& point, size_t of_leaf, Neighbours& neighbours, Accept&& accept) const;
+
+  size_t leaves_ = 1;
+  std::vector<Split> splits_;  // numbered as LeafOrder says
+  PhotonTable photons_;        // leaf by leaf
+  Box bounds_;
+};
+
+template <class Accept>
+uint32_t NearestMap::find(const Vec3& point, uint32_t count, float max_radius, Neighbours& neighbours,
+                          Accept&& accept) const {
+  uint32_t visited = 0;
+  if (count >= kMany && count < size()) {
+    // The first photons of the leaves tell the radius well enough to look at little beyond it.
+    const auto of_leaves = static_cast<uint32_t>(count * leaves_ / size());
+    neighbours.start(of_leaves, max_radius);
+    visited += search(point, 1, neighbours, accept);
+    const float margin = 1.0f + 3.0f / std::sqrt(static_cast<float>(of_leaves));  // three standard deviations
+    const float likely = std::sqrt(neighbours.limit() * margin);
+    neighbours.start(count, std::min(max_radius, likely));
+    visited += search(point, kLeaf, neighbours, accept);
+    if (neighbours.full() || likely >= max_radius) return visited;
+  }
+  neighbours.start(count, max_radius);
+  return visited + search(point, kLeaf, neighbours, accept);
+}
+
+template <class Accept>
+uint32_t NearestMap::search(const Vec3& point, size_t of_leaf, Neighbours& neighbours, Accept&& accept) const {
+  // What lies on the far side of splits waits on a stack, with how far the point is from it along each axis; depth is
+  // at most 32 for 2^32 photons.
+  struct Part {
+    size_t node;
+    Vec3 gap;
+    float distance2;
+  };
+  Part stack[33];
+  int top = 0;
+  uint32_t visited = 0;
+  const auto takes = [&](uint32_t i) { return accept(photons_.payload(i).travel, photons_.position(i) - point); };
+  const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
+    neighbours.add(distances2, number, first, takes);
+  };
+  for (Part part{1, Vec3(0.0f), 0.0f};; part = stack[--top]) {
+    if (part.distance2 < neighbours.limit()) {
+      while (part.node < leaves_) {
+        const Split& split = splits_[part.node];
+        const float across = point[split.axis] - split.at;  // > 0: the point lies above
+        const size_t near = 2 * part.node + (across > 0.0f ? 1 : 0);
+        Part far{near ^ 1, part.gap, 0.0f};
+        far.gap[split.axis] = across;
+        far.distance2 = glm::dot(far.gap, far.gap);
+        stack[top] = far;
+        top += far.distance2 < neighbours.limit() ? 1 : 0;
+        part.node = near;
+      }
+      const size_t leaf = part.node - leaves_, begin = leaf_begin(size(), leaves_, leaf);
+      const size_t end = std::min(begin + of_leaf, leaf_begin(size(), leaves_, leaf + 1));
+      photons_.for_each_block(begin, end, point, add);
+      count(visited, end - begin);
+    }
+    if (top == 0) break;
+  }
+  neighbours.finish();
+  return visited;
+}
+
+}  // namespace vpm

@@ -1,0 +1,107 @@
+// What a query finds, so many photons at a time and side by side: what is done with each of them is a loop that
+// compilers turn into vector instructions.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "vpm/base/below.h"
+#include "vpm/photon/photon_table.h"
+
+namespace vpm {
+
+/// Collects photons nearer than a limit, and hands them on when there is little room left.
+class NearPhotons {
+ public:
+  static constexpr size_t kMost = 256;
+
+  /// Adds those of a block of `number` <= kBlock photons, numbered from `first` on, that are nearer than the root of
+  /// `limit2`, m^2. Calls use(NearPhotons&) before there is no room left, and forgets them.
+  template <class Use>
+  void add(const float* distances2, uint32_t number, uint32_t first, float limit2, Use&& use) {
+    size_ += append_below(distances2, number, limit2, first, distances2_ + size_, photons_ + size_);
+    if (size_ > kMost - kBlock) take(use);
+  }
+  /// Calls use(NearPhotons&) for those that are left.
+  template <class Use>
+  void take(Use&& use) {
+    if (size_ > 0) use(*this);
+    size_ = 0;
+  }
+  /// Drops those that accept(PackedDirection travel, offset from `point`) does not take.
+  template <class Accept>
+  void keep(const PhotonTable& table, const Vec3& point, Accept&& accept);
+
+  size_t size() const { return size_; }
+  const uint32_t* photons() const { return photons_; }     // their numbers
+  const float* distances2() const { return distances2_; }  // m^2
+
+ private:
+  size_t size_ = 0;
+  float distances2_[kMost];
+  uint32_t photons_[kMost];
+};
+
+/// Photons out of a table, in whole blocks: the last is filled up with photons of no power.
+class PhotonBatch {
+ public:
+  static constexpr size_t kMost = NearPhotons::kMost;
+
+  /// The photons of those numbers, 1 to kMost of them, at those distances.
+  PhotonBatch(const PhotonTable& table, const uint32_t* photons, const float* distances2, size_t count);
+
+  uint32_t number() const { return number_; }  // of photons
+  size_t size() const { return (number_ + kBlock - 1) / kBlock * kBlock; }
+  Vec3 travel(size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  Rgb power(size_t i) const { return {r_[i], g_[i], b_[i]}; }
+  float distance2(size_t i) const { return distance2_[i]; }  // m^2
+
+ private:
+  uint32_t number_;
+  float distance2_[kMost];
+  float x_[kMost], y_[kMost], z_[kMost];
+  float r_[kMost], g_[kMost], b_[kMost];
+};
+
+template <class Accept>
+void NearPhotons::keep(const PhotonTable& table, const Vec3& point, Accept&& accept) {
+  uint32_t travel[kMost];
+  float x[kMost], y[kMost], z[kMost];
+  for (size_t i = 0; i < size_; ++i) {
+    const uint32_t photon = photons_[i];
+    travel[i] = std::bit_cast<uint32_t>(table.payload(photon).travel);
+    const Vec3 offset = table.position(photon) - point;
+    x[i] = offset.x;
+    y[i] = offset.y;
+    z[i] = offset.z;
+  }
+  for (size_t i = 0; i < size_; ++i) {
+    const bool accepted = accept(std::bit_cast<PackedDirection>(travel[i]), Vec3(x[i], y[i], z[i]));
+    distances2_[i] = accepted ? distances2_[i] : kInfinity;
+  }
+  size_ = keep_up_to(distances2_, photons_, size_, std::numeric_limits<float>::max());
+}
+
+/// The sum of value(travel, power) weight(number in the batch), where weights are floats or Rgb. Lanes are summed in
+/// floats, of which each adds up kMost / kBlock values at the most.
+template <class Weight, class Value>
+Rgbd sum_photons(const PhotonBatch& batch, Weight&& weight, Value&& value) {
+  float r[kBlock] = {0.0f}, g[kBlock] = {0.0f}, b[kBlock] = {0.0f};
+  for (size_t block = 0; block < batch.size(); block += kBlock)
+    for (size_t lane = 0; lane < kBlock; ++lane) {
+      const size_t i = block + lane;
+      const Rgb v = value(batch.travel(i), batch.power(i)) * weight(i);
+      r[lane] += v.r;
+      g[lane] += v.g;
+      b[lane] += v.b;
+    }
+  Rgbd sum(0.0);
+  for (size_t lane = 0; lane < kBlock; ++lane) sum += Rgbd(r[lane], g[lane], b[lane]);
+  return sum;
+}
+
+}  // namespace vpm

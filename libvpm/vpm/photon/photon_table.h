@@ -1,0 +1,84 @@
+// Photons in the order of a map, laid out for gathering: positions side by side for the loop that computes distances,
+// the rest apart for the few that are near.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "vpm/base/below.h"
+#include "vpm/base/vec.h"
+#include "vpm/photon/photon.h"
+
+namespace vpm {
+
+class PhotonTable {
+ public:
+  /// What a gather reads of a photon beside its position.
+  struct Payload {
+    PackedDirection travel;
+    PackedPower power;
+  };
+  static_assert(sizeof(Payload) == 12);
+
+  PhotonTable() = default;
+  /// The photons in that order, with powers multiplied by `scale`.
+  PhotonTable(const std::vector<Photon>& photons, const std::vector<uint32_t>& order, float scale);
+
+  /// Calls visit(squared distances from `point`, how many, number of the first) for the photons of [begin, end), in
+  /// blocks of at most kBlock; behind the last distance there are as many as make a block.
+  template <class Visit>
+  void for_each_block(size_t begin, size_t end, const Vec3& point, Visit&& visit) const;
+
+  /// The same of squared distances from the ray, infinite for photons whose foot on it lies outside the interval.
+  template <class Visit>
+  void for_each_block(size_t begin, size_t end, const Ray& ray, const Interval& interval, Visit&& visit) const;
+
+  Vec3 position(size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  const Payload& payload(size_t i) const { return payload_[i]; }
+  size_t size() const { return payload_.size(); }
+  size_t memory_bytes() const { return 3 * x_.capacity() * sizeof(float) + payload_.capacity() * sizeof(Payload); }
+
+ private:
+  // Of kBlock photons beyond the last, too, so that whole blocks can be read.
+  std::vector<float> x_, y_, z_;
+  std::vector<Payload> payload_;
+};
+
+/// The box around the photons.
+Box bounds_of(const std::vector<Photon>& photons);
+
+template <class Visit>
+void PhotonTable::for_each_block(size_t begin, size_t end, const Vec3& point, Visit&& visit) const {
+  for (size_t block = begin; block < end; block += kBlock) {
+    const float *x = &x_[block], *y = &y_[block], *z = &z_[block];
+    float d2[kBlock];
+    for (uint32_t i = 0; i < kBlock; ++i) {
+      const float dx = x[i] - point.x, dy = y[i] - point.y, dz = z[i] - point.z;
+      d2[i] = dx * dx + dy * dy + dz * dz;
+    }
+    visit(d2, static_cast<uint32_t>(std::min<size_t>(kBlock, end - block)), static_cast<uint32_t>(block));
+  }
+}
+
+template <class Visit>
+void PhotonTable::for_each_block(size_t begin, size_t end, const Ray& ray, const Interval& interval,
+                                 Visit&& visit) const {
+  const Vec3 o = ray.origin, w = ray.direction;
+  const auto [t0, t1] = interval;
+  for (size_t block = begin; block < end; block += kBlock) {
+    const float *x = &x_[block], *y = &y_[block], *z = &z_[block];
+    float d2[kBlock];
+    for (uint32_t i = 0; i < kBlock; ++i) {
+      const float dx = x[i] - o.x, dy = y[i] - o.y, dz = z[i] - o.z;
+      const float t = dx * w.x + dy * w.y + dz * w.z;
+      const float ex = dx - t * w.x, ey = dy - t * w.y, ez = dz - t * w.z;
+      const float across = ex * ex + ey * ey + ez * ez;
+      const float beyond = std::max(t0 - t, t < t1 ? -1.0f : 1.0f);  // > 0 outside; no branch, so that it is one loop
+      d2[i] = beyond > 0.0f ? kInfinity : across;
+    }
+    visit(d2, static_cast<uint32_t>(std::min<size_t>(kBlock, end - block)), static_cast<uint32_t>(block));
+  }
+}
+
+}  // namespace vpm

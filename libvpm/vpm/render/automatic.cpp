@@ -1,0 +1,193 @@
+// The rules, and the order in which they are asked: the strategy, the photons, the radii.
+#include "vpm/render/automatic.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+
+#include "vpm/base/count.h"
+#include "vpm/base/error.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/render/pilot.h"
+#include "vpm/render/render.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kLargestRadius = 0.05;  // of the scene's diagonal
+constexpr double kLeastRadius = 0.5;     // pixels
+constexpr double kLeastShare = 0.125;    // of what the eye pass costs, for photons
+
+/// Of so many decimal digits: enough for a choice, and short to write down.
+double rounded(double value, int digits) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
+  return unit >= 1.0 ? std::round(value / unit) * unit : std::round(value / unit) / std::round(1.0 / unit);
+}
+
+float rounded_radius(double radius) { return static_cast<float>(rounded(radius, 3)); }
+
+/// The photons that a pass emits: the settings', or as many as fill the maps.
+double emitted_of(const RenderSettings& settings, const MapDensities& densities) {
+  const auto limit = static_cast<double>(settings.photons_emitted);
+  if (settings.photons_stored == 0) return limit;
+  const double full = static_cast<double>(settings.photons_stored) / densities.stored_per_photon;
+  return settings.photons_emitted == 0 ? full : std::min(limit, full);
+}
+
+/// A gather radius to be chosen.
+struct OpenRadius {
+  const char* key;
+  GatherSettings& gather;
+  const std::optional<MapDensity>& density;
+  double emitted;
+};
+
+/// Those of maps that the render has.
+std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& automatic,
+                                   const MapDensities& densities, RenderSettings& s) {
+  const Stages stages = plan_stages(scene, s);
+  const double emitted = emitted_of(s, densities);
+  const double aimed = s.caustics_emitted > 0 ? static_cast<double>(s.caustics_emitted) : emitted;
+  std::vector<OpenRadius> open;
+  if (automatic.volume_radius && stages.volume_map)
+    open.push_back({"volume.radius", s.volume, densities.volume, emitted});
+  if (automatic.surface_radius && stages.surface_map)
+    open.push_back({"surface.radius", s.surface, densities.surface, emitted});
+  if (automatic.caustic_radius && stages.final_gather)
+    open.push_back({"caustics.radius", s.caustics, densities.caustics, aimed});
+  return open;
+}
+
+Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
+  const bool grids = std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grid; });
+  std::string reason = "no medium is a grid: exact there, and nothing to look up";
+  settings.distance.strategy = "homogeneous";
+  if (grids) {
+    if (!kCounts)
+      throw InputError("distance.strategy: this program does not count look-ups, and cannot choose: name a strategy");
+    const std::vector<StrategyCost> costs = strategy_costs(scene, settings);
+    settings.distance.strategy = cheapest(costs).name;
+    reason = "of exact strategies the cheapest in a pilot, in look-ups for a photon:";
+    for (const StrategyCost& each : costs) reason += fmt::format(" {} {:.3g}", each.name, each.cost);
+  }
+  return {"distance.strategy", settings.distance.strategy, reason};
+}
+
+/// Sets the radii that are chosen, for the settings' number of photons.
+std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
+                                 RenderSettings& settings) {
+  std::vector<Choice> choices;
+  const double diagonal = scene.bounds.diagonal();
+  for (const OpenRadius& open : open_radii(scene, automatic, densities, settings)) {
+    ChosenRadius chosen;
+    if (open.gather.goes_by_count())
+      chosen = {rounded_radius(kDefaultSearch * diagonal), "a tenth of the scene at the most: 'count' decides"};
+    else if (!open.density)
+      chosen = {rounded_radius(kDefaultRadius * diagonal), "a hundredth of the scene: the pilot met too few photons"};
+    else
+      chosen = choose_radius(*open.density, open.emitted, diagonal);
+    open.gather.radius = chosen.radius;
+    choices.push_back({open.key, fmt::format("{}", chosen.radius), chosen.reason});
+  }
+  return choices;
+}
+
+/// Costs a pass under radii as they would be: they are the same for any number of photons but where they are given.
+Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
+                      RenderSettings& settings) {
+  constexpr uint64_t kFirst = 20'000;    // photons
+  constexpr uint64_t kMost = 1'000'000;  // of a pilot that asks again with the number found
+  RenderSettings tried = settings;
+  tried.photons_emitted = kFirst;
+  ChosenCount chosen;
+  for (int round = 0; round < 2; ++round) {
+    choose_radii(scene, automatic, densities, tried);
+    chosen = choose_count(time_pass(scene, tried), settings.seconds);
+    tried.photons_emitted = std::min(chosen.count, kMost);
+  }
+  settings.photons_emitted = chosen.count;
+  return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
+}
+
+template <class Number>
+Number number_of(const std::string& key, const std::string& value) {
+  Number number{};
+  const char* const end = value.data() + value.size();
+  const auto [stop, error] = std::from_chars(value.data(), end, number);
+  if (error != std::errc() || stop != end || !(number > Number{}))
+    throw InputError(fmt::format("'{}' is no value of {}, a number above 0", value, key));
+  return number;
+}
+
+}  // namespace
+
+ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal) {
+  const double share = kPhotonsWithin / density.within * density.emitted / emitted;
+  const double wanted = density.reach * std::pow(share, 1.0 / density.dimension);
+  const double least = kLeastRadius * density.footprint, most = kLargestRadius * diagonal;
+  const std::string would =
+      fmt::format("{:.3g} m would hold {:g} photons at a typical place of the picture", wanted, kPhotonsWithin);
+  if (wanted > most) return {rounded_radius(most), "a twentieth of the scene; " + would};
+  if (wanted < least) return {rounded_radius(least), "half a pixel; " + would};
+  return {
+      rounded_radius(wanted),
+      fmt::format("{:g} photons of the first pass lie within it at a typical place of the picture", kPhotonsWithin)};
+}
+
+ChosenCount choose_count(const PassCost& cost, double seconds) {
+  const double balanced = cost.eye / cost.photon;
+  double count = balanced;
+  std::string reason = fmt::format("tracing and sorting them takes as long as the eye pass, {:.2g} s", cost.eye);
+  const double left = (seconds / kLeastPasses - cost.eye) / cost.photon;
+  if (seconds > 0.0 && left < balanced) {
+    count = std::max(left, kLeastShare * balanced);
+    reason =
+        left > kLeastShare * balanced
+            ? fmt::format("{} passes fit into {:g} s; the eye pass takes {:.2g} s", kLeastPasses, seconds, cost.eye)
+            : fmt::format(
+                  "an eighth of the time of the eye pass, {:.2g} s; {} passes of that alone do not fit into {:g} s",
+                  cost.eye, kLeastPasses, seconds);
+  }
+  if (count * cost.stored_per_photon > kMostStored) {
+    count = kMostStored / cost.stored_per_photon;
+    reason = fmt::format("maps of {:g} photons, the most", kMostStored);
+  }
+  if (count < kLeastCount) return {kLeastCount, "the least; " + reason};
+  return {static_cast<uint64_t>(rounded(count, 2)), reason};
+}
+
+StrategyCost cheapest(std::span<const StrategyCost> costs) {
+  assert(!costs.empty());
+  return *std::min_element(costs.begin(), costs.end(),
+                           [](const StrategyCost& a, const StrategyCost& b) { return a.cost < b.cost; });
+}
+
+std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
+  std::vector<Choice> choices;
+  if (automatic.strategy && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
+  const bool radii = automatic.volume_radius || automatic.surface_radius || automatic.caustic_radius;
+  if (!plan_stages(scene, settings).photons() || !(radii || automatic.photons)) return choices;
+  const MapDensities densities = map_densities(scene, settings);
+  if (automatic.photons) choices.push_back(choose_photons(scene, automatic, densities, settings));
+  for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
+  return choices;
+}
+
+void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value) {
+  if (key == "volume.radius")
+    settings.volume.radius = number_of<float>(key, value);
+  else if (key == "surface.radius")
+    settings.surface.radius = number_of<float>(key, value);
+  else if (key == "caustics.radius")
+    settings.caustics.radius = number_of<float>(key, value);
+  else if (key == "photons.emitted")
+    settings.photons_emitted = number_of<uint64_t>(key, value);
+  else if (key == "distance.strategy" && make_distance_strategy({.strategy = value}))
+    settings.distance.strategy = value;
+  else
+    throw InputError(fmt::format("{} is no setting that a render chooses", key));
+}
+
+}  // namespace vpm

@@ -1,0 +1,82 @@
+// Settings that a newcomer can leave alone: the rules by which a render chooses them, and the choosing itself.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// Which settings are to be chosen. What is not is never changed.
+struct AutomaticSettings {
+  bool volume_radius = false, surface_radius = false, caustic_radius = false;
+  bool photons = false;   // emitted per pass
+  bool strategy = false;  // of distances
+
+  bool any() const { return volume_radius || surface_radius || caustic_radius || photons || strategy; }
+};
+
+/// A setting that was chosen.
+struct Choice {
+  std::string key;    // of scene files: "volume.radius"
+  std::string value;  // as --set takes it, to the last bit
+  std::string reason;
+};
+
+/// Chooses what is asked for, after a short pilot, and puts it into the settings. Radii and the strategy are a pure
+/// function of scene and settings: the strategy's cost is counted, not timed. The number of photons is not, it rests on
+/// times; radii go by it. What the scene has no use for is left alone. Throws InputError where this program counts
+/// nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
+std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings);
+
+/// Puts a choice made earlier into the settings. Throws InputError where it is none.
+void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value);
+
+// The rules, each a pure function.
+
+/// How dense photons lie where they are gathered.
+struct MapDensity {
+  double reach = 0.0;      // m: at a typical place as many photons as `within` lie within it ...
+  double within = 0.0;     // > 0
+  double emitted = 0.0;    // ... of this many emitted
+  int dimension = 3;       // of the kernel
+  double footprint = 0.0;  // m: of a pixel at a typical place
+};
+struct ChosenRadius {
+  float radius = 0.0f;  // m, of three digits
+  std::string reason;
+};
+/// The radius within which kPhotonsWithin of `emitted` photons lie, but no less than half a pixel, as finer kernels
+/// show as noise, and no more than a twentieth of `diagonal` (m), as wider ones blur the scene.
+ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal);
+inline constexpr double kPhotonsWithin = 50.0;
+
+/// What a pass costs, s.
+struct PassCost {
+  double photon = 0.0;             // tracing and sorting, of one emitted photon; > 0
+  double eye = 0.0;                // the eye pass
+  double stored_per_photon = 0.0;  // by all maps
+};
+struct ChosenCount {
+  uint64_t count = 0;  // of two digits
+  std::string reason;
+};
+/// As many photons as cost what the eye pass costs; fewer, down to an eighth, where kLeastPasses passes would not fit
+/// into `seconds` (0: no limit); and no more than fill maps of kMostStored.
+ChosenCount choose_count(const PassCost& cost, double seconds);
+inline constexpr uint64_t kLeastCount = 1000;
+inline constexpr double kMostStored = 2e7;
+
+/// What flights of a pilot have counted, by strategy.
+struct StrategyCost {
+  std::string_view name;
+  double cost = 0.0;  // of flights of one photon, in look-ups of density
+};
+/// The cheapest; of equals the first.
+StrategyCost cheapest(std::span<const StrategyCost> costs);
+
+}  // namespace vpm

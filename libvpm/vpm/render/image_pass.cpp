@@ -1,0 +1,55 @@
+// Tiles of pixels, each pixel sample with random numbers of its own.
+#include "vpm/render/image_pass.h"
+
+#include <chrono>
+
+#include "vpm/base/parallel.h"
+
+namespace vpm {
+namespace {
+
+constexpr int kTile = 16;  // pixels along an edge; a tile is a chunk of parallel work
+
+Rgb render_pixel(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
+                 const glm::ivec2& pixel, EyeCounters& counters) {
+  const Camera& camera = scene.camera;
+  const int samples = settings.samples_per_pixel;
+  const size_t number = static_cast<size_t>(pixel.y) * camera.width + pixel.x;
+  return mean_of_samples(samples, counters, [&](int s) {
+    Rng rng(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)), number * samples + s);
+    const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(camera.filter, rng.uniform2());
+    return radiance(camera.ray(film), number, rng, counters);
+  });
+}
+
+}  // namespace
+
+uint64_t tile_count(const Camera& camera) {
+  return chunk_count(static_cast<size_t>(camera.width), kTile) * chunk_count(static_cast<size_t>(camera.height), kTile);
+}
+
+Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
+                  const std::atomic<bool>& stop, const PassProgress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const Camera& camera = scene.camera;
+  Pass result{.image = Image(camera.width, camera.height), .found = {}, .statistics = {}};
+  result.statistics.passes = 1;
+  const int tiles_x = static_cast<int>(chunk_count(static_cast<size_t>(camera.width), kTile));
+  const uint64_t tiles = tile_count(camera);
+  std::vector<EyeCounters> counters(tiles);
+  Progress bar("image", tiles, progress.stages);
+  parallel_for_chunks(tiles, 1, [&](size_t tile, size_t, size_t) {
+    if (stop) return;
+    const int x0 = static_cast<int>(tile % tiles_x) * kTile, y0 = static_cast<int>(tile / tiles_x) * kTile;
+    for (int y = y0; y < std::min(y0 + kTile, camera.height); ++y)
+      for (int x = x0; x < std::min(x0 + kTile, camera.width); ++x)
+        result.image.at(x, y) = render_pixel(scene, settings, pass, radiance, {x, y}, counters[tile]);
+    bar.advance();
+    if (progress.tiles) progress.tiles->advance();
+  });
+  for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
+  result.statistics.eye_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace vpm

@@ -1,0 +1,58 @@
+// One pass over the pixels, in tiles, whatever estimates a ray's radiance.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+#include "vpm/base/count.h"
+#include "vpm/base/progress.h"
+#include "vpm/base/rng.h"
+#include "vpm/image/image.h"
+#include "vpm/render/settings.h"
+#include "vpm/render/statistics.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+struct Pass {
+  Image image;                   // radiance, W/(m^2 sr)
+  double relative_square = 0.0;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
+  std::vector<uint64_t> found;   // under Stages::pixel_discs: photons in each pixel's disc, over its samples
+  RenderStatistics statistics;
+};
+
+/// Where a pass tells how far it is. Either may be missing.
+struct PassProgress {
+  bool stages = false;        // a bar for each stage of the pass
+  Progress* tiles = nullptr;  // advanced by tile_count() in the course of the pass
+};
+/// The units of work of a pass's image.
+uint64_t tile_count(const Camera& camera);
+
+/// Estimates the radiance along a camera ray of a pixel (numbered row by row), W/(m^2 sr). Called from many threads,
+/// for each pixel from one.
+using RayRadiance = std::function<Rgb(const Ray& ray, size_t pixel, Rng& rng, EyeCounters& counters)>;
+
+/// The mean of sample(0), sample(1), ... sample(samples - 1). Those that are not finite are counted and left out as
+/// black.
+template <class Sample>
+Rgb mean_of_samples(int samples, EyeCounters& counters, Sample&& sample) {
+  Rgbd sum(0.0);
+  for (int s = 0; s < samples; ++s) {
+    const Rgb value = sample(s);
+    count(counters.rays);
+    if (is_finite(value))
+      sum += Rgbd(value);
+    else
+      ++counters.non_finite;
+  }
+  return Rgb(sum / static_cast<double>(samples));
+}
+
+/// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel, by mean_of_samples(). Once
+/// `stop` is set it returns as soon as it can, with an image of no use.
+Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
+                  const std::atomic<bool>& stop, const PassProgress& progress = {});
+
+}  // namespace vpm

@@ -1,0 +1,30 @@
+// Light maps: the irradiance on a mesh or a quad, texel by texel of its texture coordinates, from photon maps and
+// shadow rays.
+#pragma once
+
+#include "vpm/render/photon_pass.h"
+#include "vpm/render/render.h"
+#include "vpm/render/uv_layout.h"
+
+namespace vpm {
+
+/// What a light map needs of the stages of a render: none of the eye's in media.
+Stages light_map_stages(const Scene& scene, const RenderSettings& settings);
+
+/// Lays out the light map of a shape. Throws InputError, which names no shape, as lay_out() does, and where the shape's
+/// material stores no photons.
+UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution);
+
+/// One pass with photon maps: a pure function of its arguments, on any number of threads. Texels have no radii of their
+/// own: `settings.radii` is another. Its image holds the mean
+/// irradiance, W/m^2, on the side of the outward normal, over what each texel shows of the surface, by
+/// samples_per_pixel points uniform over its area; black where that is nothing. Cosines are to the geometric normal:
+/// irradiance times area is the power that arrives.
+Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int pass,
+                    const std::atomic<bool>& stop, const PassProgress& progress = {});
+
+/// Passes until the settings' limit, as render() (the error's also counts texels that show nothing); not dilated().
+RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
+                            const std::atomic<bool>& stop, ProgressMode progress);
+
+}  // namespace vpm

@@ -1,0 +1,169 @@
+// Marching an eye ray through a medium, so that the step size may change cost and noise but never exposure.
+//
+// The integral of Tr(t) density(t) f(t) over the ray is cut into steps. Each step takes ONE sample of f, at a point
+// drawn inside the step in proportion to the transmitted density, and weighs it with the step's exact integral. Columns
+// come from the exact quartics of the cells, so the result is unbiased for any step, and f = 1 gives (1 - Tr)/sigma_t
+// with no noise at all.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vpm/base/count.h"
+#include "vpm/base/rng.h"
+#include "vpm/medium/medium.h"
+
+namespace vpm {
+
+/// How fine steps are.
+struct StepLimits {
+  float length = kInfinity;   // m, > 0; finite in endless media
+  float optical = kInfinity;  // optical thickness of the thickest channel, > 0
+};
+
+/// The outcome of a march.
+struct Marched {
+  double column = 0.0;   // of the whole interval, m: exact
+  uint32_t lookups = 0;  // of density
+  uint32_t steps = 0;
+};
+
+/// Marches eye rays. Keeps its buffers between calls: one for each thread.
+class Marcher {
+ public:
+  /// Calls add(point, weight) for each step; the sum of weight * f(point), per channel, estimates the integral of Tr
+  /// density f over the interval (weights are in m). `matters` tells the channels whose f is not 0: where the
+  /// transmittance of all of these is below 1 % the march goes on by Russian roulette, so that it ends in endless
+  /// media.
+  template <class Add>
+  Marched march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits,
+                const glm::bvec3& matters, Rng& rng, Add&& add);
+
+ private:
+  /// The stretch of a piece that lies in the present step.
+  struct Part {
+    DensityPiece piece;
+    double s0;      // m from the piece's start
+    double column;  // m
+  };
+
+  /// Adds to the step the stretch of a piece from `s` on, of no more than `length`, m, and no more than fills the
+  /// step's column to `most_column`, m. Returns where it ends, m from the piece's start.
+  double extend(const DensityPiece& piece, double s, double length, double most_column);
+  /// Where along the ray the step's column reaches `column`, m.
+  double locate(double column) const;
+
+  std::vector<Part> parts_;
+  double column_ = 0.0;  // of the step so far, m
+};
+
+/// The integral of exp(-sigma c) over c in [0, column]: (1 - exp(-sigma column))/sigma, whose limit for sigma -> 0 is
+/// the column.
+inline double attenuated_column(double sigma, double column) {
+  return sigma * column > 1e-8 ? -std::expm1(-sigma * column) / sigma : column;
+}
+
+/// A column in [0, column] with density proportional to exp(-sigma c), for a uniform number u in [0, 1).
+inline double draw_attenuated(double sigma, double column, double u) {
+  return sigma * column > 1e-8 ? -std::log1p(u * std::expm1(-sigma * column)) / sigma : u * column;
+}
+
+/// Calls add(point, weight) for one point in each stretch of `length` m of the interval, drawn uniformly; the sum of
+/// weight * f(point) estimates the integral of Tr f over the interval (which must be finite). `column_before`, m, is
+/// what lies between the eye and the interval's start.
+template <class Add>
+uint32_t march_evenly(const Medium* medium, const Ray& ray, const Interval& interval, double column_before,
+                      float length, Rng& rng, Add&& add) {
+  const auto strata = static_cast<uint32_t>(std::max(1.0f, std::ceil(interval.length() / length)));
+  const double width = static_cast<double>(interval.length()) / strata;
+  const Rgb sigma_t = medium ? medium->sigma_t : Rgb(0.0f);
+  uint32_t next = 0;
+  double t = interval.t0 + rng.uniform_double() * width;
+  const auto take = [&](double column) {
+    add(ray.at(static_cast<float>(t)), glm::exp(-sigma_t * static_cast<float>(column)) * static_cast<float>(width));
+    t = interval.t0 + (++next + rng.uniform_double()) * width;
+  };
+  double crossed = column_before;
+  uint32_t lookups = 0;
+  if (medium)
+    lookups = medium->visit_pieces(ray, interval, [&](const DensityPiece& piece) {
+      while (next < strata && t < piece.t1) take(crossed + (t > piece.t0 ? piece.column(t - piece.t0) : 0.0));
+      crossed += piece.column();
+      return next < strata;
+    });
+  while (next < strata) take(crossed);
+  return lookups;
+}
+
+inline double Marcher::extend(const DensityPiece& piece, double s, double length, double most_column) {
+  double end = std::min(piece.length(), s + length);
+  const double before = piece.column(s);
+  double here = std::max(0.0, piece.column(end) - before);
+  if (column_ + here >= most_column) {
+    here = most_column - column_;
+    end = std::max(s, piece.invert(before + here));
+  }
+  parts_.push_back({piece, s, here});
+  column_ += here;
+  return end;
+}
+
+inline double Marcher::locate(double column) const {
+  for (const Part& part : parts_) {
+    if (column <= part.column || &part == &parts_.back())
+      return part.piece.t0 + part.piece.invert(part.piece.column(part.s0) + std::min(column, part.column));
+    column -= part.column;
+  }
+  return 0.0;
+}
+
+template <class Add>
+Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits,
+                       const glm::bvec3& matters, Rng& rng, Add&& add) {
+  constexpr double kRouletteBelow = 0.01;
+  const Rgbd sigma_t(medium.sigma_t);
+  const double thickest = std::max(sigma_t.r, std::max(sigma_t.g, sigma_t.b));
+  double thinnest = thickest;
+  for (int c = 0; c < 3; ++c)
+    if (matters[c]) thinnest = std::min(thinnest, sigma_t[c]);
+  const double most_column = thickest > 0.0 ? limits.optical / thickest : static_cast<double>(kInfinity);
+  Marched result;
+  double crossed = 0.0;  // column before the present step, m
+  double scale = 1.0;    // of what survived roulette
+  double start = 0.0;    // of the present step
+  parts_.clear();
+  column_ = 0.0;
+  const auto finish_step = [&] {
+    if (column_ > 0.0) {
+      const double c = draw_attenuated(thickest, column_, rng.uniform_double());
+      const double per_density = attenuated_column(thickest, column_) * scale;
+      add(ray.at(static_cast<float>(locate(c))), Rgb(glm::exp(-sigma_t * (crossed + c) + thickest * c) * per_density));
+      count(result.steps);
+      crossed += column_;
+    }
+    parts_.clear();
+    column_ = 0.0;
+    if (std::exp(-thinnest * crossed) * scale >= kRouletteBelow) return;
+    scale = rng.uniform() < 0.5f ? 2.0 * scale : 0.0;
+  };
+  result.lookups = medium.visit_pieces(ray, interval, [&](const DensityPiece& piece) {
+    result.column += piece.column();
+    for (double s = 0.0; s < piece.length() && scale > 0.0;) {
+      const double t = piece.t0 + s;
+      if (parts_.empty()) start = t;
+      const double left = start + limits.length - t;
+      if (!(s + left > s)) {  // the step is used up: by empty space, or to the last bit
+        finish_step();
+        continue;
+      }
+      s = extend(piece, s, left, most_column);
+      if (column_ >= most_column || piece.t0 + s - start >= limits.length) finish_step();
+    }
+    return true;
+  });
+  if (scale > 0.0) finish_step();
+  return result;
+}
+
+}  // namespace vpm

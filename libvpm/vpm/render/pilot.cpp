@@ -1,0 +1,192 @@
+// Pilot photons, and the places at which the eye gathers them.
+#include "vpm/render/pilot.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "vpm/base/parallel.h"
+#include "vpm/photon/nearest_map.h"
+#include "vpm/photon/trace.h"
+#include "vpm/render/eye_path.h"
+
+namespace vpm {
+namespace {
+
+const std::atomic<bool> kGoOn{false};
+
+constexpr uint64_t kFlights = 20'000;       // photons that compare strategies
+constexpr uint64_t kPhotons = 100'000;      // that tell of densities
+constexpr uint64_t kStored = 1'000'000;     // of these, at the most
+constexpr size_t kEyePaths = 4096;          // that find where the eye gathers
+constexpr size_t kProbes = 512;             // places, of these
+constexpr uint32_t kNeighbours = 16;        // counted at a place: the density there is known to a quarter
+constexpr int kBlocks = 8, kBlockEdge = 8;  // timed rays come from that many blocks of pixels in either direction
+
+// What flights cost, in look-ups of density at random places: fitted to the CPU time of photons in the grids of
+// scenes/smoke.toml and scenes/cloud.toml (2026-11-23: 31 ns a cell of regular tracking, 36 a look-up, 18 a brick).
+constexpr double kCellCost = 0.85, kLookupCost = 1.0, kBrickCost = 0.5;
+
+/// A place at which the eye gathers.
+struct Probe {
+  Vec3 place{0.0f};    // m
+  float pixel = 0.0f;  // m, the edge of a pixel there
+};
+/// Probes of the maps.
+struct Probes {
+  std::vector<Probe> volume, surface;
+};
+
+float pixel_at(const Camera& camera, float distance) {
+  return distance * 2.0f * camera.tan_half_fov / static_cast<float>(camera.height);
+}
+
+/// Follows a path from the eye to where it first gathers.
+void follow(const Scene& scene, const DistanceStrategy& strategy, uint64_t seed, uint64_t number, Probes& probes) {
+  constexpr int kMostEvents = 32;
+  Rng rng(seed, rng_stream(RngUse::pilot, 0), number);
+  const Ray seen = scene.camera.ray(rng.uniform2() * Vec2(scene.camera.width, scene.camera.height));
+  PathState state{seen, medium_of_ray(scene, scene.camera_medium, seen), Rgb(1.0f)};
+  WalkCounters counters;
+  float length = 0.0f;
+  for (int events = 0; events < kMostEvents; ++events) {
+    const Vec3 from = state.ray.origin;
+    const Event event = next_event(scene, strategy, state, rng, counters);
+    if (event.kind == EventKind::escape) return;
+    length += glm::distance(from, state.ray.origin);
+    const Probe probe{state.ray.origin, pixel_at(scene.camera, length)};
+    if (event.kind == EventKind::collision) return probes.volume.push_back(probe);
+    if (is_rough(scene.material_of(event.hit))) return probes.surface.push_back(probe);
+    Scatter scatter;
+    if (!scatter_at_surface(scene, event.hit, state, rng, scatter)) return;
+  }
+}
+
+/// Every n-th, for the least n that leaves no more than `most`.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, size_t most) {
+  const size_t step = chunk_count(std::max<size_t>(all.size(), 1), most);
+  std::vector<T> some;
+  for (size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+  return some;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// How far from places the photons are; nothing where either are too few.
+std::optional<MapDensity> density_around(const std::vector<Probe>& all, const std::vector<Photon>& photons,
+                                         double emitted, int dimension) {
+  const std::vector<Probe> probes = thinned(all, kProbes);
+  if (probes.size() < kNeighbours || photons.size() < 2 * kNeighbours) return std::nullopt;
+  const NearestMap map(photons, 1.0f);
+  Neighbours neighbours;
+  std::vector<double> reaches, pixels;
+  for (const Probe& probe : probes) {
+    map.find(probe.place, kNeighbours, kInfinity, neighbours, [](const auto&, const auto&) { return true; });
+    reaches.push_back(std::sqrt(neighbours.limit()));
+    pixels.push_back(probe.pixel);
+  }
+  return MapDensity{median(reaches), kNeighbours, emitted, dimension, median(pixels)};
+}
+
+/// Places on caustics: where the photons are, seen straight.
+std::vector<Probe> places_of(const Camera& camera, const std::vector<Photon>& photons) {
+  std::vector<Probe> places;
+  for (const Photon& photon : thinned(photons, kProbes))
+    places.push_back({photon.position, pixel_at(camera, glm::distance(camera.position, photon.position))});
+  return places;
+}
+
+/// Of a seed of its own: what is chosen does not depend on the photons that the render will gather.
+RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
+  settings.seed = ~settings.seed;
+  settings.photons_emitted = photons;
+  settings.photons_stored = kStored;
+  settings.caustics_emitted = std::min(settings.caustics_emitted, photons);
+  settings.radii = RadiusSchedule::constant;
+  return settings;
+}
+
+std::vector<Photon> joined(const std::vector<std::vector<Photon>>& maps) {
+  std::vector<Photon> all;
+  for (const std::vector<Photon>& map : maps) all.insert(all.end(), map.begin(), map.end());
+  return all;
+}
+
+/// The photons of the pilot's only pass.
+TracedPhotons trace(const Scene& scene, const RenderSettings& settings) {
+  RenderStatistics statistics;
+  return trace_pass(scene, settings, plan_stages(scene, settings), 0, kGoOn, {}, statistics);
+}
+
+/// Renders the rays of one block of pixels of many, cut at the borders of small pictures.
+void render_block(const EyeContext& context, size_t block, EyeCounters& counters) {
+  const Camera& camera = context.scene.camera;
+  Marcher marcher;
+  const auto pixel_of = [](int pixels, size_t part, int i) {
+    const auto middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocks;
+    return std::clamp(middle + static_cast<float>(i) - 0.5f * kBlockEdge + 0.5f, 0.0f, static_cast<float>(pixels));
+  };
+  for (int i = 0; i < kBlockEdge * kBlockEdge; ++i) {
+    const Vec2 film(pixel_of(camera.width, block % kBlocks, i % kBlockEdge),
+                    pixel_of(camera.height, block / kBlocks, i / kBlockEdge));
+    Rng rng(context.settings.seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
+    eye_radiance(context, camera.ray(film), marcher, rng, counters);
+  }
+}
+
+}  // namespace
+
+std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSettings& settings) {
+  std::vector<StrategyCost> costs;
+  for (const StrategyInfo& info : distance_strategies()) {
+    if (!info.heterogeneous || !info.unbiased || !info.bounded_weight || !info.positive) continue;
+    RenderSettings tried = pilot_settings(settings, kFlights);
+    tried.distance.strategy = info.name;
+    const Ledger ledger = trace(scene, tried).ledger;
+    const double lookup = info.name == "regular" ? kCellCost : kLookupCost;
+    const double cost =
+        lookup * static_cast<double>(ledger.walk.lookups) + kBrickCost * static_cast<double>(ledger.walk.bricks);
+    costs.push_back({info.name, cost / static_cast<double>(ledger.emitted_count)});
+  }
+  return costs;
+}
+
+MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
+  const RenderSettings pilot = pilot_settings(settings, kPhotons);
+  const TracedPhotons photons = trace(scene, pilot);
+  const std::vector<Photon> volume = joined(photons.volume);
+  const auto emitted = static_cast<double>(photons.ledger.emitted_count);
+  const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
+  Probes probes;
+  for (uint64_t i = 0; i < kEyePaths; ++i) follow(scene, *strategy, settings.seed, i, probes);
+  MapDensities densities;
+  densities.stored_per_photon = static_cast<double>(std::max(volume.size(), photons.surface.size())) / emitted;
+  densities.volume = density_around(probes.volume, volume, emitted, 3);
+  densities.surface = density_around(probes.surface, photons.surface, static_cast<double>(photons.surface_emitted), 2);
+  const double aimed = pilot.caustics_emitted > 0 ? static_cast<double>(pilot.caustics_emitted) : emitted;
+  densities.caustics = density_around(places_of(scene.camera, photons.caustics), photons.caustics, aimed, 2);
+  return densities;
+}
+
+PassCost time_pass(const Scene& scene, const RenderSettings& settings) {
+  const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
+  RenderStatistics s;
+  const EyeContext context = make_eye_context(scene, pilot, plan_stages(scene, pilot), 0, kGoOn, {}, s);
+  std::array<EyeCounters, size_t{kBlocks} * kBlocks> counters;
+  const auto start = std::chrono::steady_clock::now();
+  parallel_for_chunks(counters.size(), 1,
+                      [&](size_t block, size_t, size_t) { render_block(context, block, counters[block]); });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const double rays = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
+  const auto emitted = static_cast<double>(s.ledger.emitted_count);
+  const auto stored = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons);
+  return {(s.trace_seconds + s.build_seconds) / emitted,
+          seconds.count() * rays / static_cast<double>(counters.size() * kBlockEdge * kBlockEdge), stored / emitted};
+}
+
+}  // namespace vpm

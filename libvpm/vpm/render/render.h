@@ -1,0 +1,46 @@
+// A render: a sum of passes, one after the other, until a count, a time, an error, or a stop.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "vpm/base/progress.h"
+#include "vpm/render/film.h"
+#include "vpm/render/image_pass.h"
+#include "vpm/render/pixel_disc.h"
+#include "vpm/render/settings.h"
+#include "vpm/render/statistics.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// What is rendered so far, and all that the next pass needs to know of it.
+struct RenderResult {
+  Film film;
+  RenderStatistics statistics;
+  double seconds = 0.0;  // wall clock, of all runs together where a render was resumed
+  PixelDiscs discs;      // under Stages::pixel_discs, once there is a pass
+};
+
+/// Renders passes until settings.passes are done; or, where asked for, until settings.seconds are over or the estimated
+/// error is down to settings.error, whichever is first (at least one pass then). Once `stop` is set the pass under way
+/// is dropped, those finished are kept. `result` is nothing_rendered() or what an earlier run has left off with, for
+/// the same scene and settings: passes go on where it ended. `finished` is told of each further pass.
+RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
+                    const std::atomic<bool>& stop, ProgressMode progress,
+                    const std::function<void(const RenderResult&)>& finished = {});
+/// The same loop over any passes of a film: `run` makes the next one, and advances the bar by `work` units in its
+/// course.
+using RunPass = std::function<Pass(const RenderResult& so_far, const PassProgress& progress)>;
+RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint64_t work, RenderResult result,
+                        const std::atomic<bool>& stop, ProgressMode progress,
+                        const std::function<void(const RenderResult&)>& finished = {});
+/// A render of the camera's film before its first pass.
+RenderResult nothing_rendered(const Camera& camera);
+
+/// The relative MSE that passes so far are estimated to have: variance and squared bias (where noise makes the latter's
+/// estimate negative: none) by Film::errors(). Infinite below kLeastPasses passes, which say too little.
+double estimated_error(const Film& film);
+inline constexpr int kLeastPasses = 8;
+
+}  // namespace vpm

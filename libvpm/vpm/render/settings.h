@@ -1,0 +1,76 @@
+// Everything a render can be told besides the scene. Plain values; the defaults here are the defaults of scene files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "vpm/estimate/gather.h"
+#include "vpm/medium/distance/strategy.h"
+#include "vpm/medium/transmittance/estimator.h"
+#include "vpm/photon/guide_settings.h"
+
+namespace vpm {
+
+/// Where light that has not scattered yet comes from: the photon map, or rays towards the lights. In media these start
+/// at every step of the eye rays' march, or equiangular, which is for media alone: at a few distances drawn for that.
+enum class DirectLight { photons, shadow_rays, equiangular };
+
+/// Where light comes from that surfaces have scattered on: the photon map itself, or final gathering, rays over the
+/// hemisphere that end in the map. Light that only mirrors, glass and media have led to a surface has a map of its own
+/// then, the caustic map.
+enum class IndirectLight { photons, final_gather };
+
+/// How gather radii change from pass to pass. They must shrink for the mean of passes to converge to the truth: those
+/// of all maps as the pass number tells [Knaus2011], or those of the surface map pixel by pixel, as the photons tell
+/// that the pixel has found [Hachisuka2009], and of other maps as before.
+enum class RadiusSchedule { constant, per_pass, per_pixel };
+
+/// How final gathering draws its rays: as the material scatters, or up to half of them to where photons came from.
+enum class GatherBy { material, photons };
+
+/// What rays of final gathering find at diffuse surfaces: an estimate from all photons around their ends, or one
+/// computed beforehand at a place nearby.
+enum class EndIrradiance { estimate, precomputed };
+
+/// What estimates radiance: photon maps, or the path tracer that referees them.
+enum class Integrator { photon, path };
+
+struct RenderSettings {
+  Integrator integrator = Integrator::photon;
+  uint64_t seed = 1;
+  int passes = 16;            // >= 1; ignored where seconds or error > 0
+  double seconds = 0.0;       // > 0: passes start until that time is over
+  double error = 0.0;         // > 0: passes start until the estimated relative MSE is no more than that
+  int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
+
+  uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
+  uint64_t photons_stored =
+      0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
+  uint32_t photons_in_cube = 0;  // > 0: the most in a cube of half a radius that fly into one octant, see
+                                 // control_density()
+  int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
+
+  GuideSettings guide;  // of photons, by importance
+
+  DistanceSettings distance;            // how photons fly
+  TransmittanceSettings transmittance;  // towards lights
+
+  GatherSettings volume;          // volumetric radiance estimate
+  GatherSettings surface;         // surface radiance estimate
+  GatherSettings caustics;        // that of the caustic map, under final gathering
+  uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
+                                  // what the others bring
+  RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode
+  VolumeForm volume_form = VolumeForm::density_at_query;
+  float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]
+  DirectLight volume_direct = DirectLight::photons;  // single scattering
+  int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
+  DirectLight surface_direct = DirectLight::shadow_rays;
+  IndirectLight surface_indirect = IndirectLight::photons;
+  int gather_rays = 8;  // of final gathering, at each point of a surface that the eye sees, >= 1
+  GatherBy gather_by = GatherBy::material;
+  EndIrradiance end_irradiance = EndIrradiance::estimate;
+  float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0
+};
+
+}  // namespace vpm

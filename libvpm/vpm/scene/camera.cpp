@@ -1,0 +1,50 @@
+// The perspective camera.
+#include "vpm/scene/camera.h"
+
+#include <cassert>
+#include <string>
+
+#include "vpm/base/error.h"
+
+namespace vpm {
+
+Ray Camera::ray(const Vec2& film) const {
+  const auto w = static_cast<float>(width), h = static_cast<float>(height);
+  const float x = (2.0f * film.x - w) / h * tan_half_fov;  // square pixels
+  const float y = (h - 2.0f * film.y) / h * tan_half_fov;
+  return {position, glm::normalize(forward + x * right + y * up)};
+}
+
+Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, int width, int height,
+                   const Filter& filter) {
+  if (!is_finite(position) || !is_finite(target) || !is_finite(up))
+    throw InputError("camera: a coordinate is not finite");
+  if (!(fov > 0.0f && fov < 180.0f)) {
+    throw InputError("camera: the field of view is " + std::to_string(fov) + " degrees, it must lie between 0 and 180");
+  }
+  if (width < 1 || height < 1) {
+    throw InputError("camera: the film has " + std::to_string(width) + " x " + std::to_string(height) +
+                     " pixels, at least one is needed");
+  }
+  if (!(filter.radius > 0.0f) || std::isinf(filter.radius))
+    throw InputError("camera: the filter's radius must be positive");
+  const Vec3d ahead = Vec3d(target) - Vec3d(position);
+  if (ahead == Vec3d(0.0)) throw InputError("camera: the target is the position, it must lie ahead of it");
+  const Vec3d forward = glm::normalize(ahead);
+  const Vec3d across = glm::cross(forward, Vec3d(up));
+  if (!(glm::length(across) > 1e-6 * glm::length(Vec3d(up)))) {
+    throw InputError("camera: up is 0 or along the line of sight, it must point to a side of it");
+  }
+  Camera camera;
+  camera.position = position;
+  camera.forward = Vec3(forward);
+  camera.right = Vec3(glm::normalize(across));
+  camera.up = Vec3(glm::cross(glm::normalize(across), forward));
+  camera.tan_half_fov = static_cast<float>(std::tan(glm::radians(0.5 * fov)));
+  camera.width = width;
+  camera.height = height;
+  camera.filter = filter;
+  return camera;
+}
+
+}  // namespace vpm

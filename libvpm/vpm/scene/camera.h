@@ -1,0 +1,37 @@
+// The perspective camera and the pixel filters.
+#pragma once
+
+#include "vpm/base/vec.h"
+
+namespace vpm {
+
+enum class FilterKind { box, tent, gaussian };
+
+/// The reconstruction filter of a pixel. Pixels draw their samples from it, so that every sample has weight 1 and
+/// pixels stay independent [Ernst2006].
+struct Filter {
+  FilterKind kind = FilterKind::box;
+  float radius = 0.5f;  // half width, pixels; a gaussian's standard deviation is a third of it
+};
+/// An offset from the pixel's centre in pixels, distributed as the filter over the square |x|, |y| <= radius. `u` is
+/// uniform in [0, 1)^2.
+Vec2 sample_filter(const Filter& filter, const Vec2& u);
+
+struct Camera {
+  Vec3 position{0.0f};                                                             // m
+  Vec3 forward{0.0f, 0.0f, -1.0f}, right{1.0f, 0.0f, 0.0f}, up{0.0f, 1.0f, 0.0f};  // orthonormal
+  float tan_half_fov = 0.5f;      // of the full vertical angle; pixels are square
+  int width = 256, height = 256;  // pixels
+  Filter filter;
+
+  /// The ray through film coordinates in pixels: (0, 0) is the image's upper left corner, (width, height) the lower
+  /// right.
+  Ray ray(const Vec2& film) const;
+};
+
+/// A camera at `position` (m) that looks at `target`. `fov` is the full vertical angle in degrees, in (0, 180). Throws
+/// InputError where these define no camera, and for a film without pixels or a filter without width.
+Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, int width, int height,
+                   const Filter& filter);
+
+}  // namespace vpm

@@ -1,0 +1,186 @@
+// What a scene derives from its parts, and which medium fills a point.
+#include "vpm/scene/scene.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "vpm/base/error.h"
+#include "vpm/base/overloads.h"
+#include "vpm/base/rng.h"
+#include "vpm/surface/disc.h"
+
+namespace vpm {
+
+namespace {
+
+/// Directions of no symmetry, so that they do not run along the faces and edges that scenes are made of.
+const Vec3 kProbes[] = {glm::normalize(Vec3(0.5470f, 0.7316f, 0.4071f)),
+                        glm::normalize(Vec3(-0.6133f, 0.3319f, 0.7168f)),
+                        glm::normalize(Vec3(0.2843f, -0.8429f, -0.4567f))};
+
+/// The near side of a shape that is no other one's far side: what a ray of unknown past comes out of.
+MediumId came_from(const Scene& scene, const Encounter& met, const Vec3& direction) {
+  const auto side = [&](int i, const Vec3& d) {
+    return medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, d, kVacuum);
+  };
+  for (int i = 0; i < met.count; ++i) {
+    bool entered = false;
+    for (int j = 0; j < met.count; ++j) entered = entered || (j != i && side(j, direction) == side(i, -direction));
+    if (!entered) return side(i, -direction);
+  }
+  return side(0, -direction);
+}
+
+MediumId medium_along(const Scene& scene, const Ray& ray) {
+  const Encounter met = scene.geometry.division(ray);
+  return met ? came_from(scene, met, ray.direction) : scene.world_medium;
+}
+
+Box wider_box(const Box& box) {
+  if (box.empty()) return {Vec3(-std::sqrt(1.0f / 3.0f)), Vec3(std::sqrt(1.0f / 3.0f))};
+  // A little wider than the shapes, so that light from infinity starts outside in spite of rounding, and a floor alone
+  // has a volume to enter.
+  const float margin = 1e-6f * glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
+  return {box.lo - margin, box.hi + margin};
+}
+
+bool all_grey(const Scene& scene) {
+  return std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return is_grey(l); }) &&
+         std::all_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grey(); }) &&
+         std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return is_grey(m); }) &&
+         std::all_of(scene.textures.begin(), scene.textures.end(), [](const auto& t) { return !t || t->grey(); });
+}
+
+std::vector<double> probability_by_power(const std::vector<Light>& lights, const Box& bounds) {
+  std::vector<double> power;
+  double total = 0.0;
+  for (const Light& light : lights) total += power.emplace_back(mean_channel(light_power(light, bounds)));
+  if (lights.empty()) return {};
+  if (!(total > 0.0) || std::isinf(total)) {
+    throw InputError("lights: their power is " + std::to_string(total) + " W in all, it must be positive and finite");
+  }
+  std::vector<double> probability;
+  probability.reserve(power.size());
+  for (const double p : power) probability.push_back(p / total);
+  return probability;
+}
+
+/// The box around a finite light's surface: a point for point lights.
+Box bounds_of(const UnseenLight auto& light) {
+  Box box;
+  box.add(light.position);
+  return box;
+}
+Box bounds_of(const BeamLight& light) { return {light.position - light.radius, light.position + light.radius}; }
+Box bounds_of(const QuadLight& light) {
+  Box box;
+  for (const Vec3& p : {Vec3(0.0f), light.edge_u, light.edge_v, light.edge_u + light.edge_v}) box.add(light.corner + p);
+  return box;
+}
+Box bounds_of(const DiscLight& light) { return disc_bounds({light.centre, light.normal, light.radius}); }
+Box bounds_of(const SphereLight& light) { return {light.centre - light.radius, light.centre + light.radius}; }
+Box bounds_of(const MeshLight& light) { return light.mesh->bounds(); }
+
+/// A point of a finite light, for area lights just before their surface.
+Vec3 point_before(const UnseenLight auto& light) { return light.position; }
+Vec3 point_before(const QuadLight& light) {
+  const Vec3 across = glm::cross(light.edge_u, light.edge_v);
+  const Vec3 normal = glm::normalize(across);
+  const Vec3 reach = glm::abs(light.edge_u) + glm::abs(light.edge_v);
+  return leave_surface_at(light.corner + 0.5f * (light.edge_u + light.edge_v), normal, normal,
+                          flat_slack(normal, reach, glm::length(across)));
+}
+Vec3 point_before(const DiscLight& light) {
+  return leave_surface_at(light.centre, light.normal, light.normal,
+                          disc_slack({light.centre, light.normal, light.radius}));
+}
+Vec3 point_before(const SphereLight& light) {
+  const SphereShape shape{light.centre, light.radius};
+  const Vec3 normal = kProbes[0];
+  return leave_surface_at(point_on(shape, normal), normal, normal, sphere_slack(shape));
+}
+Vec3 point_before(const MeshLight& light) {
+  Rng rng(0, rng_stream(RngUse::probe, 0), 0);
+  const double choice = rng.uniform_double();
+  const EmittingMesh::Sample at = light.mesh->sample(choice, rng.uniform2());
+  return leave_surface_at(at.position, at.normal, at.normal, at.slack);
+}
+
+/// Does a boundary between media cut the box? Judged by segments between random points in it: a cut that parts off a
+/// share f of the box is overlooked with probability about (1 - 2 f)^256.
+bool is_cut(const Scene& scene, const Box& box) {
+  constexpr uint64_t kSegments = 256;
+  for (uint64_t i = 0; i < kSegments; ++i) {
+    Rng rng(0, rng_stream(RngUse::probe, 0), i);
+    const auto point = [&] { return glm::mix(box.lo, box.hi, Vec3(rng.uniform(), rng.uniform(), rng.uniform())); };
+    const Vec3 from = point(), to = point();
+    if (from == to) return false;
+    const Ray ray{from, glm::normalize(to - from)};
+    const Encounter met = scene.geometry.division(ray);
+    if (met && met.hits[0].t < glm::distance(from, to)) return true;
+  }
+  return false;
+}
+
+/// The medium that all photons of a light start in: one where no boundary cuts the light.
+MediumId medium_of(const Scene& scene, const Light& light) {
+  const auto of_finite = [&](const auto& l) {
+    return is_cut(scene, bounds_of(l)) ? kSeveralMedia : medium_around(scene, point_before(l));
+  };
+  return std::visit(Overloads{[&](const DistantLight auto&) { return scene.world_medium; },
+                              [&](const UnseenLight auto& l) { return of_finite(l); },
+                              [&](const AreaLight auto& l) { return of_finite(l); }},
+                    light);
+}
+
+}  // namespace
+
+MediumId medium_before(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current) {
+  for (int i = 0; i < (met.surface ? 1 : met.count); ++i)
+    if (medium_beyond(scene.shapes[met.hits[i].shape], met.hits[i].normal, -direction, current) == current)
+      return current;
+  return came_from(scene, met, direction);
+}
+
+MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& direction, MediumId current) {
+  bool crossed[Encounter::kMost] = {};
+  for (int round = 0; round < met.count; ++round)
+    for (int i = 0; i < met.count; ++i) {
+      const Shape& shape = scene.shapes[met.hits[i].shape];
+      if (crossed[i] || medium_beyond(shape, met.hits[i].normal, -direction, current) != current) continue;
+      crossed[i] = true;
+      current = medium_beyond(shape, met.hits[i].normal, direction, current);
+    }
+  return current;
+}
+
+void finish(Scene& scene) {
+  assert(scene.light_probability.empty() && scene.light_medium.empty());
+  assert(scene.textures.size() <= scene.materials.size());
+  scene.bounds = wider_box(scene.geometry.bounds());
+  scene.grey = all_grey(scene);
+  scene.light_probability = probability_by_power(scene.lights, scene.bounds);
+  for (Material& material : scene.materials)
+    set_facet_loss(material, scene.facet_losses.emplace_back(facet_loss_of(material)).get());
+  for (const Light& light : scene.lights) scene.light_medium.push_back(medium_of(scene, light));
+}
+
+MediumId medium_at(const Scene& scene, const Vec3& point) {
+  const MediumId a = medium_along(scene, {point, kProbes[0]});
+  const MediumId b = medium_along(scene, {point, kProbes[1]});
+  const MediumId c = medium_along(scene, {point, kProbes[2]});
+  return b == c ? b : a;
+}
+
+MediumId medium_around(const Scene& scene, const Vec3& point) {
+  // On a boundary, rays to its two sides tell different media.
+  for (const Vec3& probe : kProbes)
+    if (medium_along(scene, {point, probe}) != medium_along(scene, {point, -probe})) return kSeveralMedia;
+  return medium_at(scene, point);
+}
+
+MediumId medium_of_ray(const Scene& scene, MediumId place, const Ray& ray) {
+  return place == kSeveralMedia ? medium_along(scene, ray) : place;
+}
+
+}  // namespace vpm

@@ -1,0 +1,17 @@
+// Settings under which the bias of a distance strategy, where it has one, is far below the noise of any study; of the
+// one that needs no majorants that bound, under some that do not.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "vpm/medium/distance/strategy.h"
+
+namespace vpm {
+
+inline DistanceSettings careful_settings(std::string_view strategy) {
+  const float majorant = strategy_info(strategy).positive ? 1.0f : 0.5f;
+  return {.strategy = std::string(strategy), .step = 0.1f, .optical_step = 0.02f, .majorant = majorant};
+}
+
+}  // namespace vpm

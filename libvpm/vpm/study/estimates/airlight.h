@@ -1,0 +1,29 @@
+// Airlight: what an infinite homogeneous medium lit by a point source sends towards the eye after one scattering.
+#pragma once
+
+#include <cstdint>
+
+#include "vpm/base/statistics.h"
+#include "vpm/render/settings.h"
+
+namespace vpm {
+
+/// The eye looks along a ray from t = 0; the light is nearest to the ray at t_light, `distance` away, and sends out
+/// 1 W/sr. Scattering counts between t0 and t1; attenuation from the eye on.
+struct Airlight {
+  double sigma_t = 1.0;  // 1/m
+  double albedo = 1.0;
+  double g = 0.0;                        // of Henyey and Greenstein's phase function
+  double distance = 1.0, t_light = 0.0;  // m
+  double t0 = 0.0, t1 = 0.0;             // m; t1 may be infinite
+};
+
+/// Radiance times 10^-log10_scale, W/(m^2 sr): a radiance far below what floats can hold is estimated by the logarithms
+/// of transmittances. The ray is marched in stretches that grow away from the light; a sample is a march over all.
+Moments estimate_airlight(const Airlight& airlight, double log10_scale, uint64_t samples, uint64_t seed);
+
+/// Radiance over all of an endless ray (t0 = 0, t1 infinite) as a render's eye path finds it, by shadow rays from its
+/// steps or equiangularly, W/(m^2 sr).
+Moments estimate_airlight_by_eye_path(const Airlight& airlight, DirectLight direct, uint64_t samples, uint64_t seed);
+
+}  // namespace vpm

@@ -1,0 +1,31 @@
+// Gauss rules from their Jacobi matrices, and an adaptive integral built from them.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "vpm/study/exact/bounded.h"
+
+namespace vpm::exact {
+
+/// sum_i weights[i] f(nodes[i]) stands for an integral of f; nodes ascend.
+struct GaussRule {
+  std::vector<double> nodes, weights;
+};
+
+/// The rule of the measure (of total 1) whose orthonormal polynomials have this symmetric tridiagonal Jacobi matrix:
+/// nodes are its eigenvalues, weights the squared first components of its eigenvectors [Golub1969].
+/// `off` has one element less than `diagonal`.
+GaussRule jacobi_rule(std::vector<double> diagonal, std::vector<double> off);
+
+/// Exact over [0, 1] for polynomials of degree 2n - 1.
+GaussRule gauss_legendre(int n);
+
+/// Exact over [0, 1] for polynomials of degree 2n - 2; its last node is 1.
+GaussRule gauss_radau(int n);
+
+/// The integral of f over [a, b], halving the worst piece until the pieces' errors sum to less than `tolerance` times
+/// the integral of |f|. Endpoints are never evaluated, so f may have integrable singularities there.
+Bounded integrate(const std::function<double(double)>& f, double a, double b, double tolerance = 1e-14);
+
+}  // namespace vpm::exact

@@ -1,0 +1,311 @@
+// Level 3: every way to the same picture. The mean radiance of a small film, by the referee and by photon maps with
+// every strategy, form and gathering, must agree.
+//
+// Photon maps have a kernel's bias, which is no error of theirs. Each pass is rendered with two radii and extrapolated
+// to radius 0: where the photons' density is smooth the bias goes with r^2, where a sphere sticks out of the medium
+// with r [Silverman1986, sec. 3.3; Jarosz2008, sec. 7.5.3].
+#include <fmt/format.h>
+
+#include "vpm/base/parallel.h"
+#include "vpm/image/metrics.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/study/careful_settings.h"
+#include "vpm/study/sample_moments.h"
+#include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/ladder.h"
+#include "vpm/study/validate/small_scenes.h"
+
+namespace vpm {
+namespace {
+
+/// A way to the mean radiance of the film: per channel, with the effective number of samples.
+struct Measured {
+  std::vector<Moments> channels;
+  double effective = 0.0;
+};
+
+/// Rays through random places of the film.
+Measured by_referee(const Scene& scene, const RenderSettings& settings, uint64_t rays) {
+  const PathContext context = make_path_context(scene, settings);
+  // The last quantity is the sum over channels, for the effective sample size.
+  Measured measured{sample_moments(4, rays, settings.seed, [&](Rng& rng, double* out) {
+    const Vec2 film = rng.uniform2() * Vec2(scene.camera.width, scene.camera.height);
+    EyeCounters counters;
+    const Rgb radiance = path_radiance(context, scene.camera.ray(film), scene.camera_medium, rng, counters);
+    for (int c = 0; c < 3; ++c) out[c] = radiance[c];
+    out[3] = sum_channels(radiance);
+  })};
+  measured.effective = effective_sample_size(measured.channels[3]);
+  measured.channels.pop_back();
+  return measured;
+}
+
+/// How a kernel's bias vanishes with its radius, for the extrapolation to radius 0.
+enum class BiasOrder { edges = 1, smooth = 2 };
+
+/// Photon maps: extrapolated passes.
+Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order, int passes) {
+  static const std::atomic<bool> kGoOn{false};
+  const double half = order == BiasOrder::smooth ? 4.0 / 3.0 : 2.0;  // the weight of half the radius
+  settings.radii = RadiusSchedule::constant;
+  RenderSettings halved = settings;
+  halved.volume.radius *= 0.5f;
+  halved.surface.radius *= 0.5f;
+  halved.caustics.radius *= 0.5f;
+  std::vector<Rgbd> means(static_cast<size_t>(passes));
+  std::vector<double> effective(means.size());
+  parallel_for_chunks(means.size(), 1, [&](size_t i, size_t, size_t) {
+    const int pass = static_cast<int>(i);
+    const Pass coarse = render_photon_pass(scene, settings, 2 * pass, kGoOn);
+    const Pass fine = render_photon_pass(scene, halved, 2 * pass + 1, kGoOn);
+    means[i] = half * channel_means(fine.image) + (1.0 - half) * channel_means(coarse.image);
+    const Ledger& ledger = fine.statistics.ledger;
+    effective[i] = ledger.weights.sum > 0.0 ? ledger.weights.effective_sample_size() : kLeastSampleSize;
+  });
+  Measured measured{std::vector<Moments>(3)};
+  for (size_t i = 0; i < means.size(); ++i) {
+    for (int c = 0; c < 3; ++c) measured.channels[c].add(means[i][c]);
+    measured.effective += effective[i];
+  }
+  return measured;
+}
+
+/// One check per channel (one where all are alike); none determined where the effective sample size is small.
+void compare(std::vector<Check>& checks, const std::string& name, const Measured& measured, const Measured& reference,
+             bool grey) {
+  for (size_t c = 0; c < (grey ? 1 : 3); ++c) {
+    const std::string full = name + (grey ? "" : kOfChannel[c]);
+    const Moments &value = measured.channels[c], &exact = reference.channels[c];
+    if (measured.effective < kLeastSampleSize)
+      checks.push_back(not_determined(full, value.mean(), exact.mean(),
+                                      fmt::format("effective sample size {:.0f}", measured.effective)));
+    else
+      checks.push_back(check_same(full, value, exact));
+  }
+}
+
+/// A scene with the radius its photon maps need.
+struct Subject {
+  std::string name;
+  std::function<Scene()> make;
+  BiasOrder order;
+  float radius;        // m, of the coarser map
+  uint64_t times = 1;  // as many photons as for others: more where few come near the camera
+};
+
+RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
+  RenderSettings settings;
+  settings.photons_emitted = photons * subject.times;
+  settings.volume.radius = settings.surface.radius = settings.caustics.radius = subject.radius;
+  return settings;
+}
+
+using NamedSettings = std::vector<std::pair<std::string, RenderSettings>>;
+
+/// How a map can be asked: of media in both forms; with direct light by photons and by shadow rays.
+NamedSettings forms(const RenderSettings& base, bool media) {
+  NamedSettings all;
+  for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
+    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+      if (!media && form == VolumeForm::density_at_photon) continue;
+      RenderSettings settings = base;
+      settings.volume_direct = settings.surface_direct = direct;
+      settings.volume_form = form;
+      const char* name = !media                                 ? "surface map"
+                         : form == VolumeForm::density_at_query ? "density at the query"
+                                                                : "density at the photon";
+      all.emplace_back(
+          fmt::format("{}, direct light by {}", name, direct == DirectLight::photons ? "photons" : "shadow rays"),
+          settings);
+    }
+  return all;
+}
+
+/// The ways of gathering: in all forms, also with single scattering at drawn distances; with k nearest; in media along
+/// rays; from photons that are guided; on surfaces corrected at borders, and by final gathering, whose rays are guided
+/// or not.
+NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) {
+  NamedSettings all = forms(base, media);
+  if (media)
+    for (auto [name, settings] : forms(base, media)) {
+      if (settings.volume_direct != DirectLight::shadow_rays) continue;
+      settings.volume_direct = DirectLight::equiangular;
+      all.emplace_back(name + ", equiangular in media", settings);
+    }
+  RenderSettings nearest = base;
+  for (GatherSettings* gather : {&nearest.volume, &nearest.surface}) {
+    gather->mode = GatherMode::nearest;
+    gather->count = 200'000;  // more than lie within the radius, so that this is what bounds the search
+  }
+  all.emplace_back("k nearest within the radius", nearest);
+  if (media) {
+    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+      RenderSettings beams = base;
+      beams.volume.mode = GatherMode::beam;
+      beams.volume_form = form;
+      all.emplace_back(fmt::format("photons beside rays, density at the {}",
+                                   form == VolumeForm::density_at_query ? "query" : "photon"),
+                       beams);
+      beams.volume_direct = DirectLight::equiangular;
+      all.emplace_back(all.back().first + ", single scattering equiangular", beams);
+    }
+    RenderSettings own_radii = base;
+    own_radii.volume.mode = GatherMode::beam;
+    own_radii.volume.beam_count = 30;
+    all.emplace_back("photons beside rays, with radii of their own", own_radii);
+  }
+  RenderSettings guided = base;
+  guided.guide.importons = 1'000;
+  all.emplace_back("photons guided by importance", guided);
+  guided.guide.scatter = true;
+  all.emplace_back("photons guided by importance, where they scatter, too", guided);
+  if (surfaces) {
+    RenderSettings corrected = base;
+    corrected.volume.boundary = corrected.surface.boundary = corrected.caustics.boundary = BoundaryRule::corrected;
+    all.emplace_back("estimates corrected at borders", corrected);
+    RenderSettings gathering = base;
+    gathering.surface_indirect = IndirectLight::final_gather;
+    all.emplace_back("final gathering", gathering);
+    RenderSettings guided_rays = gathering;
+    guided_rays.gather_by = GatherBy::photons;
+    all.emplace_back("final gathering, guided", guided_rays);
+    gathering.surface_direct = DirectLight::photons;
+    gathering.caustics_emitted = base.photons_emitted;
+    all.emplace_back("final gathering, direct light by photons, caustics aimed", gathering);
+  }
+  return all;
+}
+
+std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effort) {
+  const Scene scene = subject.make();
+  const bool media = !scene.media.empty(), surfaces = plan_stages(scene, {}).surface_map;
+  RenderSettings referee;
+  referee.seed = effort.seed_of(subject.name + " referee");
+  const Measured reference = by_referee(scene, referee, effort.count(40'000, 300'000));
+  std::vector<Check> checks;
+  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces)) {
+    settings.seed = effort.seed_of(subject.name + name);
+    const int passes = static_cast<int>(effort.count(20, 64));
+    compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
+  }
+  return checks;
+}
+
+/// Every strategy, for the referee's paths and for photons if it is for them, and every estimator of transmittance.
+std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
+  const Scene scene = subject.make();
+  RenderSettings base = photon_settings(subject, effort.count(3'000, 8'000));
+  base.distance = careful_settings(base.distance.strategy);
+  base.transmittance.step = base.distance.step;
+  base.seed = effort.seed_of(subject.name + " reference");
+  const uint64_t rays = effort.count(40'000, 300'000);
+  const Measured reference = by_referee(scene, base, rays);
+  bool grids = false;
+  for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
+  std::vector<Check> checks;
+  for (const StrategyInfo& strategy : distance_strategies()) {
+    if (grids && !strategy.heterogeneous) continue;
+    if (!grids && !strategy.positive) continue;  // in an endless medium the variance has no bound
+    RenderSettings settings = base;
+    settings.distance = careful_settings(strategy.name);
+    settings.distance.extinction_floor = 1.0f;
+    settings.seed = effort.seed_of(fmt::format("{} {} paths", subject.name, strategy.name));
+    compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
+            scene.grey);
+    if (!strategy.positive) continue;
+    settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
+    const int passes = static_cast<int>(effort.count(20, 64));
+    compare(checks, fmt::format("photons by {}", strategy.name), by_photons(scene, settings, subject.order, passes),
+            reference, scene.grey);
+  }
+  for (const EstimatorInfo& estimator : transmittance_estimators()) {
+    RenderSettings settings = base;
+    settings.transmittance.estimator = estimator.name;
+    settings.seed = effort.seed_of(fmt::format("{} {}", subject.name, estimator.name));
+    compare(checks, fmt::format("shadow rays by {}", estimator.name), by_referee(scene, settings, rays), reference,
+            scene.grey);
+  }
+  return checks;
+}
+
+/// Every strategy with every estimator of transmittance, by the referee, and in every form of the photon map.
+std::vector<Check> combinations(const Effort& effort) {
+  const Scene scene = puff(Viewpoint::outside, Rgb(0.8f, 1.0f, 1.3f));
+  RenderSettings base = photon_settings({"", {}, BiasOrder::smooth, 0.3f}, effort.count(3'000, 8'000));
+  base.seed = effort.seed_of("combinations reference");
+  const Measured reference = by_referee(scene, base, effort.count(80'000, 600'000));
+  std::vector<Check> checks;
+  for (const StrategyInfo& strategy : distance_strategies()) {
+    if (!strategy.heterogeneous) continue;
+    base.distance = careful_settings(strategy.name);
+    base.distance.extinction_floor = 1.0f;
+    const uint64_t rays = effort.count(10'000, 80'000) * (strategy.bounded_weight ? 1 : 4);
+    for (const EstimatorInfo& estimator : transmittance_estimators()) {
+      RenderSettings settings = base;
+      settings.transmittance.estimator = estimator.name;
+      settings.transmittance.step = settings.distance.step;
+      const std::string name = fmt::format("paths by {}, shadow rays by {}", strategy.name, estimator.name);
+      settings.seed = effort.seed_of("combinations " + name);
+      compare(checks, name, by_referee(scene, settings, rays), reference, scene.grey);
+    }
+    if (!strategy.positive) continue;
+    for (auto& [form, settings] : forms(base, true)) {
+      const std::string name = fmt::format("photons by {}, {}", strategy.name, form);
+      settings.seed = effort.seed_of("combinations " + name);
+      const int passes = static_cast<int>(effort.count(10, 32));
+      compare(checks, name, by_photons(scene, settings, BiasOrder::smooth, passes), reference, scene.grey);
+    }
+  }
+  return checks;
+}
+
+/// The same box as a homogeneous medium and as a constant grid.
+std::vector<Check> constant_grid(const Effort& effort) {
+  const Scene plain = filled_box(false), grid = filled_box(true);
+  std::vector<Check> checks;
+  RenderSettings settings = photon_settings({"", {}, BiasOrder::edges, 0.1f}, effort.count(3'000, 8'000));
+  const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
+    settings.seed = effort.seed_of(name);
+    return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(20, 64)))
+                   : by_referee(scene, settings, effort.count(40'000, 300'000));
+  };
+  const Measured reference = measure(plain, "plain", false);
+  compare(checks, "constant grid, paths", measure(grid, "grid", false), reference, false);
+  compare(checks, "constant grid, photons", measure(grid, "grid photons", true), measure(plain, "plain photons", true),
+          false);
+  compare(checks, "homogeneous, photons", measure(plain, "plain photons again", true), reference, false);
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Experiment> agreement_experiments() {
+  const auto seen_from = [](Viewpoint viewpoint) { return [=] { return puff(viewpoint, Rgb(2.0f)); }; };
+  const std::vector<Subject> by_gathering{
+      {"a lamp in chromatic fog, seen from inside", foggy_lamp, BiasOrder::smooth, 0.25f, 4},
+      {"a puff from outside", seen_from(Viewpoint::outside), BiasOrder::smooth, 0.3f},
+      {"a puff from its border", seen_from(Viewpoint::border), BiasOrder::smooth, 0.3f},
+      {"a puff from inside", seen_from(Viewpoint::inside), BiasOrder::smooth, 0.3f},
+      {"a floor beside a wall", [] { return lit_corner(); }, BiasOrder::smooth, 0.08f},
+      {"a floor under a ball of glass", [] { return lit_corner(1.5f); }, BiasOrder::smooth, 0.03f},
+      {"a floor under a ball of IOR 1", [] { return lit_corner(1.0f); }, BiasOrder::smooth, 0.08f},
+      {"a floor shaded as if leaning towards a wall", leaning_wall, BiasOrder::smooth, 0.1f},
+      {"rough glass beside rough metal", rough_corner, BiasOrder::smooth, 0.2f},
+      {"a floor in fog", foggy_floor, BiasOrder::edges, 0.06f},
+      {"a hollow cube", hollow_cube, BiasOrder::edges, 0.1f}};
+  const std::vector<Subject> by_strategy{
+      {"strategies in a puff", [] { return puff(Viewpoint::outside, Rgb(1.0f)); }, BiasOrder::smooth, 0.3f},
+      {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.25f, 4}};
+  std::vector<Experiment> all;
+  for (const Subject& s : by_gathering)
+    all.push_back({3, s.name, [s](const Effort& effort) { return compare_gatherings(s, effort); }});
+  for (const Subject& s : by_strategy)
+    all.push_back({3, s.name, [s](const Effort& effort) { return compare_strategies(s, effort); }});
+  all.push_back({3, "every strategy with every estimator and form", combinations});
+  all.push_back({3, "a constant grid is a homogeneous medium", constant_grid});
+  for (const Experiment& e : light_map_experiments()) all.push_back(e);
+  return all;
+}
+
+}  // namespace vpm

@@ -1,0 +1,268 @@
+// The white furnace: where nothing absorbs and radiance 1 comes from everywhere, the radiance is 1 everywhere, whatever
+// scatters. By paths from the eye, and by photons through the volume map: fluence 4 pi, and phase-weighted sums that
+// give the radiance 1 back.
+#include <fmt/format.h>
+#include <array>
+
+#include "vpm/base/warp.h"
+#include "vpm/estimate/surface_region.h"
+#include "vpm/estimate/volume_estimate.h"
+#include "vpm/estimate/volume_region.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/scene/build.h"
+#include "vpm/study/careful_settings.h"
+#include "vpm/study/sample_moments.h"
+#include "vpm/study/validate/fields.h"
+#include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/lit_body.h"
+#include "vpm/study/validate/small_pass.h"
+
+namespace vpm {
+
+namespace {
+
+/// Radiance along rays from a point inside, into random directions.
+Check check_radiance(const std::string& name, const Scene& scene, const Vec3& eye, const StrategyInfo& strategy,
+                     const Effort& effort) {
+  const uint64_t tight = strategy.bounded_weight ? 700'000 : 1'700'000;
+  RenderSettings settings;
+  settings.distance = careful_settings(strategy.name);
+  const PathContext context = make_path_context(scene, settings);
+  const MediumId medium = medium_at(scene, eye);
+  const auto samples =
+      sample_moments(1, effort.count(20'000, tight), effort.seed_of("radiance, " + name), [&](Rng& rng, double* out) {
+        EyeCounters counters;
+        out[0] = path_radiance(context, {eye, uniform_sphere(rng.uniform2())}, medium, rng, counters).g;
+      });
+  return check_weighted_mean(name, samples[0], 1.0);
+}
+
+/// White surfaces in the box: a sphere that scatters, one that mirrors, one of glass.
+Scene furnished_box(const Medium& medium) {
+  Scene scene;
+  scene.media.push_back(medium);
+  const Interface media{0, kVacuum};
+  add_shape(scene, field_box(), Boundary{}, &media);
+  add_shape(scene, SphereShape{field_point({-3.0, -2.0, 0.5}), 0.3f}, Lambertian{Rgb(1.0f)});
+  add_shape(scene, SphereShape{field_point({3.0, -2.0, 1.0}), 0.3f}, Mirror{Rgb(1.0f)});
+  add_shape(scene, SphereShape{field_point({0.0, 4.0, -1.0}), 0.25f}, Dielectric{1.5f});
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+/// A room whose walls glow evenly, six lights of three sizes, and in it a white ball: shadow rays and paths that run
+/// into walls share what they find, by the lights' densities and probabilities.
+Scene glowing_room(const Medium& medium) {
+  const Vec3 half(1.5f, 1.0f, 0.75f);
+  const Interface media{kVacuum, 0};
+  Scene scene;
+  scene.media.push_back(medium);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true}) {
+      Vec3 corner = -half, u(0.0f), v(0.0f);
+      u[(axis + 1) % 3] = 2.0f * half[(axis + 1) % 3];
+      v[(axis + 2) % 3] = 2.0f * half[(axis + 2) % 3];
+      if (upper) {
+        corner[axis] = half[axis];
+        std::swap(u, v);
+      }
+      add_shape(scene, quad_mesh(corner, u, v), Lambertian{Rgb(0.0f)}, &media, static_cast<int>(scene.lights.size()));
+      scene.lights.push_back(QuadLight{corner, u, v, Rgb(1.0f)});
+    }
+  add_shape(scene, SphereShape{Vec3(-0.6f, 0.1f, 0.0f), 0.3f}, Lambertian{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+/// A room and a box in it, both glowing, as one mesh: points of it stand in each other's light.
+Scene glowing_mesh(const Medium& medium) {
+  TriangleMesh mesh = box_mesh(Vec3d(-1.5, -1.0, -0.75), Vec3d(1.5, 1.0, 0.75));
+  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // the walls face inwards
+  const TriangleMesh box = box_mesh(Vec3d(-0.2, -0.6, -0.3), Vec3d(0.2, 0.1, 0.2));
+  for (const glm::uvec3& t : box.triangles) mesh.triangles.push_back(t + static_cast<uint32_t>(mesh.positions.size()));
+  mesh.positions.insert(mesh.positions.end(), box.positions.begin(), box.positions.end());
+  const Interface media{kVacuum, 0};
+  Scene scene;
+  scene.media.push_back(medium);
+  scene.lights.push_back(MeshLight{std::make_shared<EmittingMesh>(mesh), Rgb(1.0f)});
+  add_shape(scene, mesh, Lambertian{Rgb(0.0f)}, &media, 0);
+  add_shape(scene, SphereShape{Vec3(-0.8f, 0.1f, 0.0f), 0.3f}, Lambertian{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+/// A ball of glass, seen from within: there radiance is ior^2, along every ray. Near the middle of a ball none is
+/// totally reflected, and caught.
+std::vector<Check> check_inside_glass(const Effort& effort) {
+  constexpr float kIor = 1.5f;
+  static const std::atomic<bool> kGoOn{false};
+  Scene scene;
+  add_shape(scene, SphereShape{Vec3(0.3f, -0.2f, 0.5f), 1.0f}, Dielectric{kIor});
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.5f, 0.0f, 0.4f), Vec3(0.0f), Vec3(0, 1, 0), 100.0f, 16, 16, {});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings settings;
+  settings.seed = effort.seed_of("inside glass");
+  const auto check = [&](std::string name, const Image& image) {
+    double sum = 0.0;
+    for (const Rgb& pixel : image.pixels) sum += pixel.g;
+    return check_bound(std::move(name), sum / 256.0, double{kIor} * kIor, 1e-4);
+  };
+  return {check("inside a ball of glass, by paths", render_path_pass(scene, settings, 0, kGoOn).image),
+          check("inside a ball of glass, by rays that gather", render_photon_pass(scene, settings, 0, kGoOn).image)};
+}
+
+std::vector<Check> check_radiances(const Effort& effort) {
+  const StrategyInfo &regular = strategy_info("regular"), &homogeneous = strategy_info("homogeneous");
+  const auto fields = test_fields();
+  const Rgb sigma_t(1.5f);
+  const Vec3 eye = field_point({0.5, -1.5, -2.5});
+  std::vector<Check> checks;
+  for (const auto& [name, phase] : {std::pair<const char*, Phase>("isotropic", Isotropic{}),
+                                    {"Rayleigh", Rayleigh{}},
+                                    {"g = 0.9", HenyeyGreenstein{0.9f}},
+                                    {"g = -0.6", HenyeyGreenstein{-0.6f}}}) {
+    const LitBody body = lit_box("", white_medium(nullptr, sigma_t, phase));
+    checks.push_back(check_radiance(fmt::format("homogeneous, {}", name), body.scene, eye, homogeneous, effort));
+  }
+  for (const TestField& field : fields)
+    for (const StrategyInfo& info : distance_strategies()) {
+      if (!info.heterogeneous || !info.unbiased) continue;
+      // Weights without bound, from event to event across empty layers: their variance is beyond any number of samples.
+      if (!info.bounded_weight && field.name == "sparse grid") continue;
+      const LitBody body =
+          lit_box("", white_medium(field.grid, tested_extinction(info, *field.grid), HenyeyGreenstein{0.5f}));
+      checks.push_back(check_radiance(fmt::format("{}, {}", field.name, info.name), body.scene, eye, info, effort));
+    }
+  const Scene furnished = furnished_box(white_medium(fields[5].grid, sigma_t, HenyeyGreenstein{0.5f}));
+  checks.push_back(check_radiance("white surfaces in a random grid", furnished, eye, regular, effort));
+  append(checks, check_inside_glass(effort));
+  const Scene room = glowing_room(white_medium(nullptr, sigma_t, HenyeyGreenstein{0.5f}));
+  checks.push_back(check_radiance("a room of glowing walls", room, Vec3(0.4f, -0.2f, 0.1f), homogeneous, effort));
+  const Scene mesh = glowing_mesh(white_medium(nullptr, sigma_t, HenyeyGreenstein{0.5f}));
+  checks.push_back(
+      check_radiance("a glowing mesh in its own light", mesh, Vec3(0.4f, -0.2f, 0.1f), homogeneous, effort));
+  return checks;
+}
+
+/// Photon maps of few photons each, many times: their means are those of one large map, and their errors known.
+std::vector<Check> check_map(const LitBody& body, const Vec3& inside, std::string_view strategy_name, VolumeForm form,
+                             const Effort& effort) {
+  const Medium& medium = body.scene.media[0];
+  const auto strategy = make_distance_strategy(careful_settings(strategy_name));
+  const std::string name = fmt::format("{}, {}", body.name, strategy_name);
+  const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
+  const auto samples =
+      sample_moments(2, effort.count(2'400, 30'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
+        TracedPhotons photons = small_pass(body.scene, *strategy, rng, 100, form);
+        const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
+        out[0] = fluence(medium.majorant(), inside, map).g;
+        out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).g / medium.majorant().g;
+      });
+  return {check_weighted_mean(name + ", fluence", samples[0], 4.0 * kPiD * body.radiance),
+          check_weighted_mean(name + ", radiance scattered", samples[1], body.radiance)};
+}
+
+std::vector<Check> check_maps(const Effort& effort) {
+  const auto fields = test_fields();
+  const Rgb sigma_t(1.5f);
+  const HenyeyGreenstein phase{0.5f};
+  std::vector<Check> checks;
+  const LitBody sphere = lit_sphere("sphere", white_medium(nullptr, sigma_t, phase));
+  const Vec3 off_centre(0.5f, -0.3f, 0.4f);
+  append(checks, check_map(sphere, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
+  const LitBody glass = lit_glass("sphere behind glass", white_medium(nullptr, sigma_t, phase), 1.5f);
+  append(checks, check_map(glass, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
+  const LitBody again = lit_sphere("sphere, density at the photon", white_medium(nullptr, sigma_t, phase));
+  append(checks, check_map(again, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
+  const LitBody room{"a room of glowing walls", glowing_room(white_medium(nullptr, sigma_t, phase))};
+  append(checks, check_map(room, Vec3(0.6f, 0.0f, 0.0f), "homogeneous", VolumeForm::density_at_query, effort));
+  const LitBody mesh{"a glowing mesh", glowing_mesh(white_medium(nullptr, sigma_t, phase))};
+  append(checks, check_map(mesh, Vec3(0.85f, 0.2f, 0.0f), "homogeneous", VolumeForm::density_at_query, effort));
+  for (const size_t i : {size_t{1}, size_t{2}, size_t{5}})
+    for (const StrategyInfo& strategy : distance_strategies())
+      if (strategy.heterogeneous && strategy.positive)
+        append(checks, check_map(lit_box(fields[i].name, white_medium(fields[i].grid, sigma_t, phase)),
+                                 field_point({0.5, 0.2, 0.5}), strategy.name, VolumeForm::density_at_query, effort));
+  return checks;
+}
+
+/// How far shares of kernels may be off, over the shares.
+constexpr double kShareError = 0.02;
+
+/// The volume map where the medium ends, corrected.
+std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point, const Effort& effort) {
+  const Medium& medium = body.scene.media[0];
+  const auto strategy = make_distance_strategy({});
+  const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
+  const VolumeRegion region(body.scene, 0, point, gather.kernel);
+  const auto samples = sample_moments(
+      2, effort.count(3'000, 40'000), effort.seed_of("border, " + body.name), [&](Rng& rng, double* out) {
+        TracedPhotons photons = small_pass(body.scene, *strategy, rng);
+        const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
+        GatherCounters counters;
+        const BoundedMap bounded{map, region, counters};
+        out[0] = fluence(medium.majorant(), point, bounded).g;
+        out[1] = volume_sum(medium.phase, point, uniform_sphere(rng.uniform2()), bounded).g / medium.majorant().g;
+      });
+  const double fluence = 4.0 * kPiD * body.radiance;
+  return {check_within(body.name + ", fluence", samples[0], fluence, kShareError * fluence),
+          check_within(body.name + ", radiance scattered", samples[1], body.radiance, kShareError * body.radiance)};
+}
+
+/// What a white sheet sends out by its map, in its middle, at its edge and at its corner, corrected.
+std::vector<Check> check_sheet(const Effort& effort) {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1, 0.2, 1), Vec3d(2, 0, 0), Vec3d(0, 0, -2)), Lambertian{Rgb(1.0f)});
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  const auto strategy = make_distance_strategy({});
+  const GatherSettings gather{GatherMode::radius, 0.5f, 0, KernelKind::epanechnikov};
+  const Vec3 up(0.0f, 1.0f, 0.0f);
+  std::vector<Check> checks;
+  for (const auto& [name, x, z] : {std::tuple("a white sheet, its middle", 0.1f, 0.0f),
+                                   {"a white sheet, its edge", 0.9999f, 0.0f},
+                                   {"a white sheet, its corner", -0.9999f, 0.9999f}}) {
+    const Hit hit = scene.geometry.intersect({Vec3(x, 1.0f, z), -up}).value();
+    const SurfaceRegion region(scene, hit, up, gather);
+    const auto samples =
+        sample_moments(1, effort.count(4'000, 100'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+          const TracedPhotons photons = small_pass(scene, *strategy, rng);
+          const PhotonMap map = make_photon_map(photons.surface, gather, photons.ledger.emitted_count);
+          GatherCounters counters;
+          out[0] = scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, counters}).g;
+        });
+    checks.push_back(region.share(gather.radius).inside < 1.0f ? check_within(name, samples[0], 1.0, kShareError)
+                                                               : check_mean(name, samples[0], 1.0));
+  }
+  return checks;
+}
+
+std::vector<Check> check_borders(const Effort& effort) {
+  const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
+  const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
+  std::vector<Check> checks =
+      check_border_of_medium(lit_sphere("the border of a sphere", white), centre + Vec3(0.0f, 0.9999f, 0.0f), effort);
+  append(checks, check_border_of_medium(lit_box("a face of a box", white), field_point({6.999, 0.1, 0.3}), effort));
+  append(checks,
+         check_border_of_medium(lit_box("near a corner of a box", white), field_point({6.4, 6.2, -6.5}), effort));
+  append(checks, check_sheet(effort));
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Experiment> furnace_experiments() {
+  return {{1, "white furnace: radiance by paths from the eye", check_radiances},
+          {1, "white furnace: photon maps", check_maps},
+          {1, "white furnace: photon maps at borders, corrected", check_borders}};
+}
+
+}  // namespace vpm

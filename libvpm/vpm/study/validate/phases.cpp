@@ -1,0 +1,96 @@
+// Phase functions: drawn directions against values, normalisation, mean cosine.
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "vpm/phase/phase.h"
+#include "vpm/study/sample_moments.h"
+#include "vpm/study/validate/directions.h"
+#include "vpm/study/validate/groups.h"
+
+namespace vpm {
+
+namespace {
+
+struct NamedPhase {
+  std::string name;
+  Phase phase;
+  double mean_cosine = 0.0;
+};
+
+std::vector<NamedPhase> phases() {
+  std::vector<NamedPhase> all{{"isotropic", Isotropic{}, 0.0}, {"Rayleigh", Rayleigh{}, 0.0}};
+  for (const float g : {-0.9f, -0.4f, 0.0f, 0.3f, 0.8f, 0.99f})
+    all.push_back({fmt::format("Henyey-Greenstein, g = {:.2g}", g), HenyeyGreenstein{g}, g});
+  return all;
+}
+
+/// The integral over the sphere of a phase function, summed from the side its peak is on.
+struct PhaseLaw {
+  bool backward = false;
+  std::vector<double> away;        // 1 - |cosine to the peak|, at the ends of the pieces
+  std::vector<double> cumulative;  // probability up to there
+  double mean_cosine = 0.0;
+};
+
+PhaseLaw phase_law(const NamedPhase& named) {
+  constexpr int kPieces = 40'000;
+  PhaseLaw law;
+  law.backward = named.mean_cosine < 0.0;
+  double sum = 0.0;
+  for (int i = 0; i < kPieces; ++i) {
+    // The midpoint rule in x, away = 2 x^4: pieces gather at the peak.
+    const double x = (i + 0.5) / kPieces, end = (i + 1.0) / kPieces;
+    const double cosine = (law.backward ? -1.0 : 1.0) * (1.0 - 2.0 * x * x * x * x);
+    const double share = 2.0 * kPiD * phase_value(named.phase, static_cast<float>(cosine)) * 8.0 * x * x * x / kPieces;
+    law.away.push_back(2.0 * end * end * end * end);
+    law.cumulative.push_back(sum += share);
+    law.mean_cosine += share * cosine;
+  }
+  return law;
+}
+
+constexpr size_t kRings = 12;  // cells of the cosine, about equally probable
+
+std::vector<Check> check_phase(const NamedPhase& named, const Effort& effort) {
+  const PhaseLaw law = phase_law(named);
+  const double total = law.cumulative.back();
+  std::vector<double> ends, shares;  // of the rings
+  double before = 0.0;
+  for (size_t ring = 1; ring <= kRings; ++ring) {
+    const double target = total * static_cast<double>(ring) / kRings;
+    const auto place = std::lower_bound(law.cumulative.begin(), law.cumulative.end() - 1, target);
+    const auto i = static_cast<size_t>(place - law.cumulative.begin());
+    ends.push_back(law.away[i]);
+    shares.push_back((law.cumulative[i] - before) / total);
+    before = law.cumulative[i];
+  }
+  const Vec3 travel = glm::normalize(Vec3(0.3f, -0.8f, 0.5f)), peak = law.backward ? -travel : travel;
+  constexpr size_t kCells = kRings * kSectors;
+  const auto samples = sample_moments(
+      kCells + 1, effort.count(100'000, 10'000'000), effort.seed_of(named.name), [&](Rng& rng, double* out) {
+        const Vec3 direction = phase_sample(named.phase, travel, rng.uniform2());
+        const double away = away_from(peak, direction);
+        const auto ring = std::lower_bound(ends.begin(), ends.end() - 1, away) - ends.begin();
+        out[static_cast<size_t>(ring) * kSectors + sector_about(peak, direction)] = 1.0;
+        out[kCells] = law.backward ? away - 1.0 : 1.0 - away;
+      });
+  std::vector<double> probabilities;
+  for (const double share : shares) probabilities.insert(probabilities.end(), kSectors, share / kSectors);
+  return {check_weights(named.name + ", directions", {samples.begin(), samples.end() - 1}, probabilities),
+          check_mean(named.name + ", mean cosine", samples.back(), named.mean_cosine),
+          check_bound(named.name + ", integral of values", total, 1.0, 1e-5),
+          check_bound(named.name + ", mean cosine of values", law.mean_cosine, named.mean_cosine, 1e-5)};
+}
+
+}  // namespace
+
+std::vector<Experiment> phase_experiments() {
+  return {{0, "phase functions", [](const Effort& effort) {
+             std::vector<Check> checks;
+             for (const NamedPhase& phase : phases()) append(checks, check_phase(phase, effort));
+             return checks;
+           }}};
+}
+
+}  // namespace vpm

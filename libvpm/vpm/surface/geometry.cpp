@@ -1,0 +1,363 @@
+// Shapes in Embree: triangle meshes as they are, spheres and discs as user geometry with our own intersection.
+#include "vpm/surface/geometry.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <deque>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "vpm/surface/check_shapes.h"
+#include "vpm/surface/disc.h"
+#include "vpm/surface/distance.h"
+#include "vpm/surface/locate.h"
+#include "vpm/surface/mesh.h"
+#include "vpm/surface/sphere.h"
+
+namespace vpm {
+
+static_assert(sizeof(Vec3) == 3 * sizeof(float) && sizeof(glm::uvec3) == 3 * sizeof(uint32_t),
+              "Embree's buffer layout");
+
+namespace {
+
+constexpr uint32_t kAllLayers = ~0u;
+using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
+
+double first_meeting(const SphereShape& s, const Ray& ray, float t_min) { return intersect_sphere(s, ray, t_min); }
+double first_meeting(const DiscShape& d, const Ray& ray, float t_min) { return intersect_disc(d, ray, t_min); }
+Box bounds_of(const SphereShape& s) { return {s.centre - s.radius, s.centre + s.radius}; }
+Box bounds_of(const DiscShape& d) { return disc_bounds(d); }
+
+/// Embree's callbacks for a shape of our own.
+template <class S>
+void own_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto& s = *static_cast<const S*>(args->geometryUserPtr);
+  const Box box = bounds_of(s);
+  const Vec3 margin = 0x1p-22f * (glm::abs(s.centre) + s.radius);  // rounding must not cut the shape
+  const Vec3 lo = box.lo - margin, hi = box.hi + margin;
+  *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
+}
+
+/// What Embree hands to callbacks: the shapes that a query leaves out stand behind the context.
+struct Query {
+  RTCIntersectContext context;
+  const Encounter& without;
+
+  bool leaves_out(unsigned shape) const {
+    return std::any_of(without.hits.begin(), without.hits.begin() + without.count,
+                       [&](const Hit& h) { return h.shape == shape; });
+  }
+};
+
+void leave_out(const RTCFilterFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (reinterpret_cast<const Query*>(args->context)->leaves_out(RTCHitN_geomID(args->hit, 1, 0))) args->valid[0] = 0;
+}
+
+/// How far along the ray others may coincide with a hit, m: as far as leave_surface() takes the ray past it, and the
+/// rounding of distances.
+float coincidence(const Hit& hit, const Vec3& direction) {
+  const float skipped = glm::distance(leave_surface(hit, direction), hit.position);
+  return skipped / std::max(1e-6f, std::abs(glm::dot(hit.normal, direction))) + 0x1p-20f * hit.t;
+}
+
+template <class S>
+void own_intersect(const RTCIntersectFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (args->valid[0] == 0) return;
+  if (args->context->filter && reinterpret_cast<const Query*>(args->context)->leaves_out(args->geomID)) return;
+  auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const auto& s = *static_cast<const S*>(args->geometryUserPtr);
+  RTCRay& r = ray_hit.ray;
+  const auto t = static_cast<float>(
+      first_meeting(s, Ray{Vec3(r.org_x, r.org_y, r.org_z), Vec3(r.dir_x, r.dir_y, r.dir_z)}, r.tnear));
+  if (!(t <= r.tfar) || std::isinf(t)) return;
+  r.tfar = t;
+  ray_hit.hit.geomID = args->geomID;
+  ray_hit.hit.primID = args->primID;
+  ray_hit.hit.instID[0] = args->context->instID[0];
+}
+
+/// A search for a shape near a point, as Embree hands it to is_within_reach().
+struct Search {
+  const std::deque<ShapeData>& shapes;
+  Vec3 point;
+  float radius;  // m
+  bool found = false;
+};
+
+/// Looks at one primitive whose box Embree found near the point; ends the search where it is near itself.
+bool is_within_reach(RTCPointQueryFunctionArguments* args) {
+  auto& search = *static_cast<Search*>(args->userPtr);
+  if (search.found) return false;
+  const ShapeData& shape = search.shapes[args->geomID];
+  double distance = kInfinity;
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
+    const glm::uvec3& v = mesh->triangles[args->primID];
+    distance = distance_to_triangle(search.point, mesh->positions[v.x], mesh->positions[v.y], mesh->positions[v.z]);
+  }
+  if (const auto* sphere = std::get_if<SphereShape>(&shape)) distance = distance_to(*sphere, search.point);
+  if (const auto* disc = std::get_if<DiscShape>(&shape)) distance = distance_to(*disc, search.point);
+  search.found = distance <= search.radius;
+  if (search.found) args->query->radius = 0.0f;
+  return search.found;
+}
+
+}  // namespace
+
+struct Geometry::Impl {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::deque<ShapeData> shapes;  // a deque, because Embree keeps pointers to its elements
+  std::vector<double> areas;     // m^2
+  std::vector<Box> bounds;
+  std::vector<Layer> layers;
+  float largest_boundary = 0.0f;  // diagonal of its box, m
+  bool committed = false;
+  std::atomic<int64_t> bytes{0};
+  std::string error;
+
+  Impl() : device(rtcNewDevice(nullptr)) {
+    if (!device) throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
+    rtcSetDeviceErrorFunction(device, on_error, this);
+    rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    check();
+  }
+  ~Impl() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  /// Embree calls this from C code, through which no exception may pass: check() throws later.
+  static void on_error(void* self, RTCError code, const char* message) {
+    static_cast<Impl*>(self)->error =
+        "Embree: " + std::string(message ? message : "") + ", error " + std::to_string(code);
+  }
+  static bool on_memory(void* self, ssize_t change, bool) {
+    static_cast<Impl*>(self)->bytes += change;
+    return true;
+  }
+  void check() const {
+    if (!error.empty()) throw std::runtime_error(error);
+  }
+
+  template <class S>
+  uint32_t add_own(const S& shape, double area, Layer layer);
+  uint32_t attach(RTCGeometry geometry, double area, const Box& box, Layer layer) {
+    const auto number = static_cast<uint32_t>(areas.size());
+    layers.push_back(layer);
+    if (layer == Layer::boundary) largest_boundary = std::max(largest_boundary, box.diagonal());
+    rtcSetGeometryMask(geometry, static_cast<uint32_t>(layer));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, number);
+    rtcReleaseGeometry(geometry);
+    check();
+    areas.push_back(area);
+    bounds.push_back(box);
+    return number;
+  }
+};
+
+Geometry::Geometry() : impl_(std::make_unique<Impl>()) {}
+Geometry::~Geometry() = default;
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry& Geometry::operator=(Geometry&&) noexcept = default;
+
+uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
+  assert(!impl_->committed);
+  const std::vector<glm::uvec3> proper = checked_triangles(mesh);
+  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               sizeof(Vec3), mesh.positions.size()));
+  auto* triangles = static_cast<glm::uvec3*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), proper.size()));
+  impl_->check();
+  std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
+  std::copy(proper.begin(), proper.end(), triangles);
+  double area = 0.0;
+  Box box;
+  for (const glm::uvec3& v : proper) {
+    area += 0.5 * glm::length(area_vector(positions[v.x], positions[v.y], positions[v.z]));
+    for (int corner = 0; corner < 3; ++corner) box.add(positions[v[corner]]);
+  }
+  MeshShape shape{positions, triangles, proper.size(), mesh.normals, mesh.uvs};
+  for (Vec3& normal : shape.normals) normal = Vec3(glm::normalize(Vec3d(normal)));
+  impl_->bytes += static_cast<int64_t>(shape.normals.size() * sizeof(Vec3) + shape.uvs.size() * sizeof(Vec2));
+  impl_->shapes.emplace_back(std::move(shape));
+  return impl_->attach(geometry, area, box, layer);
+}
+
+template <class S>
+uint32_t Geometry::Impl::add_own(const S& shape, double area, Layer layer) {
+  assert(!committed);
+  shapes.emplace_back(shape);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryUserData(geometry, &std::get<S>(shapes.back()));
+  rtcSetGeometryBoundsFunction(geometry, own_bounds<S>, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, own_intersect<S>);
+  return attach(geometry, area, bounds_of(shape), layer);
+}
+
+uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
+  check_round("sphere", sphere.centre, sphere.radius);
+  return impl_->add_own(sphere, 4.0 * kPiD * double{sphere.radius} * sphere.radius, layer);
+}
+
+uint32_t Geometry::add(const DiscShape& disc, Layer layer) {
+  check_round("disc", disc.centre, disc.radius);
+  assert(std::abs(glm::length(disc.normal) - 1.0f) < 1e-5f);
+  return impl_->add_own(disc, kPiD * double{disc.radius} * disc.radius, layer);
+}
+
+void Geometry::commit() {
+  rtcCommitScene(impl_->scene);
+  impl_->check();
+  impl_->committed = true;
+}
+
+std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
+  return intersect(ray, t_max, kAllLayers, {});
+}
+
+std::optional<Hit> Geometry::intersect_surface(const Ray& ray, float t_max) const {
+  return intersect(ray, t_max, kAllLayers & ~static_cast<uint32_t>(Layer::boundary), {});
+}
+
+bool Geometry::is_near(const Vec3& point, float radius) const {
+  assert(impl_->committed && is_finite(point));
+  RTCPointQuery query{point.x, point.y, point.z, 0.0f, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  Search search{impl_->shapes, point, radius};
+  rtcPointQuery(impl_->scene, &query, &context, is_within_reach, &search);
+  return search.found;
+}
+
+Encounter Geometry::encounter(const Ray& ray, float t_max) const {
+  Encounter found;
+  std::optional<Hit> hit = intersect(ray, t_max);
+  // A large boundary may be found behind a small one by its own rounding: the search reaches further than the hits so
+  // far do.
+  const float margin = 0x1p-18f * impl_->largest_boundary;
+  for (float beyond = kInfinity; hit; hit = intersect(ray, std::min(t_max, beyond + margin), kAllLayers, found)) {
+    if (hit->t - coincidence(*hit, ray.direction) > beyond) break;
+    found.hits[found.count++] = *hit;
+    if (impl_->layers[hit->shape] != Layer::boundary) {
+      found.surface = true;
+      found.hits[found.count - 1].t = found.hits[0].t;  // rounding may have put it behind the boundaries
+      std::swap(found.hits[0], found.hits[found.count - 1]);
+      break;
+    }
+    if (found.count == Encounter::kMost) break;
+    const float reach = hit->t + coincidence(*hit, ray.direction);
+    beyond = found.count == 1 ? reach : std::max(beyond, reach);
+  }
+  return found;
+}
+
+Encounter Geometry::division(const Ray& ray) const {
+  constexpr uint32_t kBetweenMedia =
+      static_cast<uint32_t>(Layer::dividing_surface) | static_cast<uint32_t>(Layer::boundary);
+  return faces(ray, kBetweenMedia);
+}
+
+Encounter Geometry::faces(const Ray& ray) const { return faces(ray, kAllLayers); }
+
+Encounter Geometry::faces(const Ray& ray, uint32_t layers) const {
+  Encounter found;
+  float beyond = kInfinity;
+  while (const std::optional<Hit> hit = intersect(ray, beyond, layers, found)) {
+    const float reach = hit->t + coincidence(*hit, ray.direction);
+    beyond = found ? std::max(beyond, reach) : reach;
+    found.hits[found.count++] = *hit;
+    if (found.count == Encounter::kMost) break;
+  }
+  return found;
+}
+
+std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const {
+  assert(impl_->committed);
+  assert(is_finite(ray.origin) && is_finite(ray.direction));
+  RTCRayHit found{};
+  found.ray.org_x = ray.origin.x;
+  found.ray.org_y = ray.origin.y;
+  found.ray.org_z = ray.origin.z;
+  found.ray.dir_x = ray.direction.x;
+  found.ray.dir_y = ray.direction.y;
+  found.ray.dir_z = ray.direction.z;
+  found.ray.tnear = kMinT;
+  found.ray.tfar = std::isinf(t_max) ? t_max : std::nextafter(t_max, 0.0f);
+  found.ray.mask = layers;
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  if (!(found.ray.tfar >= kMinT)) return std::nullopt;
+  Query query{{}, without};
+  rtcInitIntersectContext(&query.context);
+  if (without) query.context.filter = leave_out;
+  rtcIntersect1(impl_->scene, &query.context, &found);
+  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  Hit hit;
+  hit.t = found.ray.tfar;
+  hit.shape = found.hit.geomID;
+  const ShapeData& shape = impl_->shapes[hit.shape];
+  if (const auto* mesh = std::get_if<MeshShape>(&shape))
+    locate(*mesh, found.hit.primID, {found.hit.u, found.hit.v}, hit);
+  if (const auto* sphere = std::get_if<SphereShape>(&shape)) locate(*sphere, ray, hit);
+  if (const auto* disc = std::get_if<DiscShape>(&shape)) locate(*disc, ray, hit);
+  return hit;
+}
+
+Box Geometry::bounds() const {
+  Box all;
+  for (const Box& box : impl_->bounds) all.add(box);
+  return all;
+}
+
+const Box& Geometry::bounds(uint32_t shape) const { return impl_->bounds[shape]; }
+
+Vec2 Geometry::uv(const Hit& hit) const {
+  assert(has_uvs(hit.shape));
+  const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[hit.shape]);
+  return mesh ? interpolated(mesh->uvs, mesh->triangles[hit.triangle], hit.barycentric) : sphere_uv(hit.normal);
+}
+
+bool Geometry::has_uvs(uint32_t shape) const {
+  const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);
+  return mesh ? !mesh->uvs.empty() : std::holds_alternative<SphereShape>(impl_->shapes[shape]);
+}
+
+std::optional<SphereShape> Geometry::sphere(uint32_t shape) const {
+  const auto* sphere = std::get_if<SphereShape>(&impl_->shapes[shape]);
+  return sphere ? std::optional(*sphere) : std::nullopt;
+}
+
+size_t Geometry::triangle_count(uint32_t shape) const {
+  const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);
+  return mesh ? mesh->count : 0;
+}
+
+Hit Geometry::point_of_triangle(uint32_t shape, uint32_t triangle, const Vec2& barycentric) const {
+  assert(triangle < triangle_count(shape));
+  Hit hit;
+  hit.shape = shape;
+  locate(std::get<MeshShape>(impl_->shapes[shape]), triangle, barycentric, hit);
+  return hit;
+}
+
+double Geometry::area(uint32_t shape) const {
+  assert(shape < impl_->areas.size());
+  return impl_->areas[shape];
+}
+
+size_t Geometry::memory_bytes() const { return static_cast<size_t>(impl_->bytes.load()); }
+
+}  // namespace vpm

@@ -1,0 +1,147 @@
+// Where rays meet shapes: triangles and quads through Embree, spheres and discs by our own intersection. Every offset
+// of a ray's origin is made in this folder.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "vpm/base/vec.h"
+
+namespace vpm {
+
+/// Triangles; counter-clockwise seen from outside, so that (b - a) x (c - a) is the outward normal.
+struct TriangleMesh {
+  std::vector<Vec3> positions;  // m
+  std::vector<glm::uvec3> triangles;
+  std::vector<Vec3> normals{};  // of the vertices, of any length but 0, for shading; empty: the triangles' own
+  std::vector<Vec2> uvs{};      // of the vertices, coordinates in a texture; empty: none
+};
+struct SphereShape {
+  Vec3 centre{0.0f};    // m
+  float radius = 1.0f;  // m, > 0
+};
+/// One flat disc.
+struct DiscShape {
+  Vec3 centre{0.0f};              // m
+  Vec3 normal{0.0f, 1.0f, 0.0f};  // unit, outward
+  float radius = 1.0f;            // m, > 0
+};
+
+/// The point where a ray meets a shape.
+struct Hit {
+  float t = 0.0f;       // m along the ray
+  uint32_t shape = 0;   // as returned by add()
+  Vec3 position{0.0f};  // m, on the surface but for the rounding of its coordinates
+  Vec3 normal{0.0f};    // unit, outward, geometric: not turned towards the ray
+  float slack = 0.0f;   // m, by how much rounding may displace the surface from `position` in later queries
+  /// Unit: interpolated between those of the vertices, and turned to the side of `normal` where it points to the other
+  /// one. Equal to `normal` where the shape has no others, or where they cancel.
+  Vec3 shading_normal{0.0f};
+  uint32_t triangle = 0;   // of a mesh, counted without those that add() left out
+  Vec2 barycentric{0.0f};  // of a mesh: weights of the triangle's second and third vertex
+};
+
+/// What a shape is to a ray: a surface that light scatters at, with one medium around it or with different ones on its
+/// two sides, or a boundary between media that light passes.
+enum class Layer : uint32_t { surface = 1, dividing_surface = 2, boundary = 4 };
+
+/// The hits of a ray at one place; none: the ray meets nothing. Boundaries stand in the order of distance, a surface
+/// that coincides with them stands first.
+struct Encounter {
+  static constexpr int kMost = 4;
+  std::array<Hit, kMost> hits;
+  int count = 0;
+  bool surface = false;  // the first hit is of a surface: the ray goes no further
+
+  explicit operator bool() const { return count > 0; }
+};
+
+/// Shapes of the scene. Add all, then commit(); from then on it is immutable and all queries are thread-safe.
+/// Failures of Embree itself (out of memory) throw std::runtime_error.
+class Geometry {
+ public:
+  Geometry();
+  ~Geometry();
+  Geometry(Geometry&&) noexcept;
+  Geometry& operator=(Geometry&&) noexcept;
+
+  /// Adds a shape and returns its number: 0, 1, 2, ... Triangles without area are left out, as no ray can meet them.
+  /// Throws InputError where a mesh has no other, where a triangle names a vertex that does not exist, and for
+  /// coordinates or radii that are not finite or beyond 1e9 m, radii not positive; and for normals or uvs that are not
+  /// as many as the vertices, not finite, zero (normals) or beyond 1e6 (uvs).
+  uint32_t add(const TriangleMesh& mesh, Layer layer = Layer::surface);
+  uint32_t add(const SphereShape& sphere, Layer layer = Layer::surface);
+  uint32_t add(const DiscShape& disc, Layer layer = Layer::surface);
+  void commit();
+
+  /// The nearest hit with 0 < t < t_max, seen from either side. Allocates nothing.
+  std::optional<Hit> intersect(const Ray& ray, float t_max = kInfinity) const;
+
+  /// The nearest hit of a surface that is no boundary.
+  std::optional<Hit> intersect_surface(const Ray& ray, float t_max) const;
+  /// Does any shape come as near to a point as `radius` (m)?
+  bool is_near(const Vec3& point, float radius) const;
+
+  /// The nearest hit, and where it is of a boundary all others within the distance by which the ray is moved off it:
+  /// what the ray meets at one place. A surface among them stops the ray, so that smoke can stand on a floor.
+  Encounter encounter(const Ray& ray, float t_max = kInfinity) const;
+  /// The same of the shapes between media alone, none of which stops the ray: for finding out which medium is where.
+  Encounter division(const Ray& ray) const;
+  /// The same of all shapes, none of which stops the ray: for finding out which of them coincide.
+  Encounter faces(const Ray& ray) const;
+
+  /// The box around all shapes; empty without any.
+  Box bounds() const;
+  /// The box around one shape.
+  const Box& bounds(uint32_t shape) const;
+  /// The coordinates of a hit in a texture, of a shape that has them.
+  Vec2 uv(const Hit& hit) const;
+  /// Has a shape coordinates in a texture? Spheres do, and meshes with uvs.
+  bool has_uvs(uint32_t shape) const;
+  /// The sphere that a shape is; nothing where it is another.
+  std::optional<SphereShape> sphere(uint32_t shape) const;
+  /// How many triangles a shape has, counted as in Hit::triangle; 0 where it is no mesh.
+  size_t triangle_count(uint32_t shape) const;
+  /// The point of a mesh with these barycentric coordinates, as a ray finds it; `t` is 0.
+  Hit point_of_triangle(uint32_t shape, uint32_t triangle, const Vec2& barycentric) const;
+  /// The area of a shape, m^2.
+  double area(uint32_t shape) const;
+  /// What Embree holds, its copy of the shapes included, and their normals and uvs.
+  size_t memory_bytes() const;
+
+ private:
+  struct Impl;
+  std::optional<Hit> intersect(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const;
+  Encounter faces(const Ray& ray, uint32_t layers) const;
+
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The origin of a ray that leaves the surface at `hit` along `direction`: moved along the normal, to the side the ray
+/// travels to, by as little as keeps it from meeting the same surface again. As in [Wachter2019], the offset follows
+/// the spacing of floats; a bound for each shape stands in place of its constants. A triangle may still be met again
+/// where |cos| of the direction to the normal is below 1e-6.
+Vec3 leave_surface(const Hit& hit, const Vec3& direction);
+/// The origin of a ray that goes on straight through everything it meets at one place.
+Vec3 leave_surfaces(const Encounter& met, const Vec3& direction);
+/// The same for a point on a surface found without a ray: `normal` unit, `slack` as in Hit.
+Vec3 leave_surface_at(const Vec3& position, const Vec3& normal, const Vec3& direction, float slack = 0.0f);
+
+/// Slack of a triangle at a point of it, m: bounds the rounding of Embree's intersection. `reach` holds, for each axis,
+/// the largest distance from the point to the vertices (m); `twice_area` > 0 is in m^2. For needles (length over width
+/// above about 1000, not across an axis) it stops at a thousandth of their length, and they may be met again.
+float flat_slack(const Vec3& normal, const Vec3& reach, double twice_area);
+/// Slack of a disc, m.
+float disc_slack(const DiscShape& disc);
+/// Does a surface that the ray met lie at `distance` (m) along it, or beyond, as far as rounding can tell?
+bool stands_at(const Hit& hit, const Ray& ray, float distance);
+/// Slack of a sphere, m, at its points as point_on() gives them.
+float sphere_slack(const SphereShape& sphere);
+/// The point of a sphere where its outward normal is `normal` (of any length but 0), off it by the rounding of its
+/// coordinates only.
+Vec3 point_on(const SphereShape& sphere, const Vec3d& normal);
+
+}  // namespace vpm

@@ -1,0 +1,38 @@
+// What each kind of material answers; material.cpp picks the overload. Included by this folder's .cpp files only.
+#pragma once
+
+#include "vpm/surface/incidence.h"
+#include "vpm/surface/material.h"
+
+namespace vpm {
+
+// sample_scatter()
+Scatter sample(const Lambertian& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const Phong& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const Mirror& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const Conductor& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const RoughConductor& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const Dielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const ThinDielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const RoughDielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+Scatter sample(const Boundary& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+
+// scatter_value()
+ScatterValue value(const Lambertian& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Phong& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Mirror& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Conductor& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const RoughConductor& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Dielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const ThinDielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const RoughDielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+ScatterValue value(const Boundary& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+
+/// What a rough material scatters into the direction drawn; absorbed where it scatters nothing there.
+inline Scatter scattered(const Vec3& direction, const ScatterValue& v, bool transmitted) {
+  return {direction, v.pdf > 0.0f ? v.value / v.pdf : Rgb(0.0f), transmitted, v.radiance_scale, v.pdf};
+}
+/// A path that ends; its direction is of no use.
+inline Scatter absorbed(const Incidence& in) { return {in.normal, Rgb(0.0f), false, 1.0f, 0.0f}; }
+
+}  // namespace vpm

@@ -1,0 +1,29 @@
+// Boxes and quads as triangles; triangles without area.
+#include "vpm/surface/mesh.h"
+
+namespace vpm {
+
+TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.emplace_back(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
+  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+  return mesh;
+}
+
+TriangleMesh quad_mesh(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
+  TriangleMesh mesh;
+  mesh.positions = {Vec3(corner), Vec3(corner + u), Vec3(corner + u + v), Vec3(corner + v)};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.uvs = {{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}};
+  return mesh;
+}
+
+uint64_t drop_flat_triangles(TriangleMesh& mesh) {
+  return std::erase_if(mesh.triangles, [&p = mesh.positions](const glm::uvec3& t) {
+    return area_vector(p[t.x], p[t.y], p[t.z]) == Vec3d(0.0);
+  });
+}
+
+}  // namespace vpm
