@@ -8,9 +8,9 @@
 #include "vpm/base/count.h"
 #include "vpm/base/progress.h"
 #include "vpm/base/rng.h"
+#include "vpm/estimate/statistics.h"
 #include "vpm/image/image.h"
 #include "vpm/render/settings.h"
-#include "vpm/render/statistics.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {

@@ -1,5 +1,5 @@
 // Merging of counts.
-#include "vpm/render/statistics.h"
+#include "vpm/estimate/statistics.h"
 
 #include <algorithm>
 
