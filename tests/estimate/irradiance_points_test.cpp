@@ -4,7 +4,7 @@
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/estimate/irradiance_points.h"
+#include "vpm/estimate/surface/irradiance_points.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/photon/trace.h"
 #include "vpm/scene/build.h"

@@ -1,8 +1,8 @@
 // Media from nothing to opaque, from black to white, from forward to backward: against closed forms.
 #include "hard/hard_scenes.h"
 #include "vpm/base/warp.h"
+#include "vpm/estimate/volume/march.h"
 #include "vpm/medium/transmittance/estimator.h"
-#include "vpm/render/march.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/study/careful_settings.h"
 

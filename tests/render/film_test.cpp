@@ -8,8 +8,8 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/statistics.h"
+#include "vpm/estimate/radius_schedule.h"
 #include "vpm/image/metrics.h"
-#include "vpm/render/radius_schedule.h"
 
 namespace vpm {
 namespace {

@@ -3,10 +3,10 @@
 
 #include "support/statistics.h"
 #include "vpm/base/warp.h"
+#include "vpm/estimate/surface/gather_guide.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_context.h"
-#include "vpm/render/gather_guide.h"
 #include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
 

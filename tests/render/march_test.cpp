@@ -1,12 +1,12 @@
 // The eye's march: exact where it must be, unbiased everywhere, whatever the steps.
-#include "vpm/render/march.h"
+#include "vpm/estimate/volume/march.h"
 
 #include <gtest/gtest.h>
 
 #include "support/grids.h"
 #include "support/statistics.h"
+#include "vpm/estimate/radius_schedule.h"
 #include "vpm/render/film.h"
-#include "vpm/render/radius_schedule.h"
 
 namespace vpm {
 namespace {

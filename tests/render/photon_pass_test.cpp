@@ -6,8 +6,8 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/estimate/radius_schedule.h"
 #include "vpm/render/path_tracer.h"
-#include "vpm/render/radius_schedule.h"
 #include "vpm/render/render.h"
 
 namespace vpm {

@@ -10,8 +10,8 @@
 #include "light/lights.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/estimate/volume/march.h"
 #include "vpm/render/eye_path.h"
-#include "vpm/render/march.h"
 #include "vpm/study/exact/airlight.h"
 #include "vpm/study/sample_moments.h"
 

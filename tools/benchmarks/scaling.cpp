@@ -6,8 +6,8 @@
 #include "benchmarks/photons.h"
 #include "vpm/base/parallel.h"
 #include "vpm/photon/nearest_map.h"
+#include "vpm/photon/photon_lists.h"
 #include "vpm/photon/radius_map.h"
-#include "vpm/photon/trace.h"
 
 namespace vpm::bench {
 namespace {
@@ -56,10 +56,9 @@ double sum_over(const std::vector<Vec3>& queries, Query&& query) {
 void measure_size(Bench& bench, const Scene& scene, size_t count) {
   const auto strategy = make_distance_strategy({});
   compare_threads(bench, "Tracing photons into a cloud, stored:", "photon", count, [&] {
-    Progress progress("", 0, false);
-    TraceSettings settings;
+    ListSettings settings;
     settings.stored = count;
-    return static_cast<double>(trace_photons(scene, *strategy, settings, progress).volume[0].size());
+    return static_cast<double>(list_photons(scene, *strategy, settings).volume[0].size());
   });
 
   const std::vector<Photon> photons = random_photons(count);

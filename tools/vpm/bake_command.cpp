@@ -95,7 +95,7 @@ int bake_command(const BakeOptions& options) {
   print_notes(loaded);
   const std::atomic<bool>& stop = stop_on_signals();
   const RenderResult result = bake_light_map(loaded.scene, loaded.settings, layout, stop, options.progress);
-  print_warnings(light_map_stages(loaded.scene, loaded.settings), loaded.settings, result.statistics);
+  print_warnings({.surfaces = true}, loaded.settings, result.statistics);
   if (layout.flat_triangles > 0)
     fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
                layout.flat_triangles);

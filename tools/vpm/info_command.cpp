@@ -5,9 +5,10 @@
 #include "commands.h"
 #include "stage_lines.h"
 #include "vpm/base/error.h"
+#include "vpm/estimate/pass_map.h"
 #include "vpm/input/grid_file.h"
 #include "vpm/input/scene_file.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/render/plan.h"
 
 namespace vpm::tools {
 namespace {
@@ -55,7 +56,7 @@ void print_medium(const Medium& m, const Scene& scene, const RenderSettings& set
       "  mean free path {:.6g} m at the mean density, {:.6g} m at the largest\n  gather radius of the first pass "
       "{:.6g} m\n",
       1.0 / (mean_channel(m.sigma_t) * m.mean_density()), 1.0 / (mean_channel(m.sigma_t) * densest),
-      first_volume_radius(scene, settings, m));
+      first_radius(settings.volume, scene, m));
 }
 
 std::string medium_text(const Scene& scene, MediumId medium) {
@@ -83,8 +84,7 @@ void print_scene(const InfoOptions& options) {
   for (const Medium& m : scene.media) print_medium(m, scene, loaded.settings);
   if (loaded.automatic.any())
     fmt::print("settings that are \"auto\" are chosen by vpm render; defaults are told here\n");
-  const Stages stages = plan_stages(scene, loaded.settings);
-  for (const std::string& line : stage_lines(scene, loaded.settings, stages)) fmt::print("{}\n", line);
+  for (const std::string& line : stage_lines(scene, loaded.settings, scattering_of(scene))) fmt::print("{}\n", line);
 }
 
 }  // namespace

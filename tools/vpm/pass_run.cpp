@@ -35,13 +35,14 @@ void print_notes(const LoadedScene& loaded) {
   for (const std::string& note : loaded.notes) fmt::print(stderr, "note: {}\n", note);
 }
 
-void print_warnings(const Stages& stages, const RenderSettings& settings, const RenderStatistics& s) {
+void print_warnings(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& s) {
   const auto warn = [](uint64_t count, const char* what) {
     if (count > 0) fmt::print(stderr, "warning: {} {}\n", count, what);
   };
-  if (stages.volume_map && s.volume_photons == 0)
+  const bool photons = settings.integrator == Integrator::photon;
+  if (photons && shown.media && s.volume_photons == 0)
     fmt::print(stderr, "warning: the volume photon map is empty: no photon scattered in a medium\n");
-  if (stages.surface_map && s.surface_photons == 0)
+  if (photons && shown.surfaces && s.surface_photons == 0)
     fmt::print(stderr, "warning: the surface photon map is empty: no photon to store met a rough surface\n");
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
@@ -72,7 +73,7 @@ Outputs output_paths(const PassOptions& options, const std::string& name) {
 void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const PassOptions& options,
                    const LoadedScene& loaded) {
   constexpr uint64_t kReportBytes = 1 << 16;
-  const bool discs = plan_stages(loaded.scene, loaded.settings).pixel_discs;
+  const bool discs = loaded.settings.radii == RadiusSchedule::per_pixel && scattering_of(loaded.scene).surfaces;
   const uint64_t pixel = 6 * sizeof(Rgbd) + (discs ? sizeof(PixelDisc) : 0);
   const uint64_t film = checkpoint ? 2 * pixels * pixel : 0;                      // the checkpoint, and its successor
   const uint64_t bytes = pixels * (9 * sizeof(float) + 3) + film + kReportBytes;  // of all, which share a folder

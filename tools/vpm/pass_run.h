@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/render/film.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/render/plan.h"
 
 namespace vpm::tools {
 
@@ -44,6 +44,6 @@ Metadata provenance(const PassOptions& options, const LoadedScene& loaded, const
 /// What a user should know before the run; on stderr, so that it is seen.
 void print_notes(const LoadedScene& loaded);
 /// What went wrong without stopping the run; on stderr, too.
-void print_warnings(const Stages& stages, const RenderSettings& settings, const RenderStatistics& statistics);
+void print_warnings(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& statistics);
 
 }  // namespace vpm::tools

@@ -18,7 +18,7 @@
 #include "vpm/image/png.h"
 #include "vpm/input/checkpoint.h"
 #include "vpm/input/scene_file.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/render/plan.h"
 #include "vpm/render/render.h"
 
 namespace vpm::tools {
@@ -101,8 +101,7 @@ std::vector<Choice> choose(const RenderOptions& options, const Outputs& outputs,
 std::string error_text(const LoadedScene& loaded, const Film& film) {
   if (film.passes() < kLeastPasses) return "";
   const FilmErrors errors = film.errors();
-  const std::vector<std::string> unseen =
-      maps_of_unseen_bias(loaded.settings, plan_stages(loaded.scene, loaded.settings));
+  const std::vector<std::string> unseen = maps_of_unseen_bias(loaded.scene, loaded.settings);
   return fmt::format(
       "; estimated relative MSE {:.2g} (variance {:.2g}, {}{})", estimated_error(film), errors.variance_part,
       film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen",
@@ -142,7 +141,7 @@ int render_command(const RenderOptions& options) {
         if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
         if (log) log->add(so_far);
       });
-  print_warnings(plan_stages(loaded.scene, loaded.settings), loaded.settings, result.statistics);
+  print_warnings(scattering_of(loaded.scene), loaded.settings, result.statistics);
   if (result.film.passes() == 0) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;

@@ -9,7 +9,8 @@
 #include "stage_lines.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/estimate/pass_map.h"
+#include "vpm/render/plan.h"
 
 namespace vpm::tools {
 namespace {
@@ -137,13 +138,13 @@ Json errors(const LoadedScene& loaded, const Film& film) {
           {"estimated", estimated_error(film)},
           {"variance", e.variance_part},
           {"squared_bias", film.shows_bias() ? Json(e.bias_part) : Json()},
-          {"bias_not_seen_of", maps_of_unseen_bias(loaded.settings, plan_stages(loaded.scene, loaded.settings))}};
+          {"bias_not_seen_of", maps_of_unseen_bias(loaded.scene, loaded.settings)}};
 }
 
 /// Of the discs of pixels, for the next pass; null where pixels have none.
 Json disc_radii(const LoadedScene& loaded, const PixelDiscs& discs) {
   if (discs.empty()) return nullptr;
-  const float first = first_surface_radius(loaded.scene, loaded.settings);
+  const float first = first_radius(loaded.settings.surface, loaded.scene);
   Moments radii;
   float smallest = first, largest = 0.0f;
   for (const PixelDisc& disc : discs) {
@@ -180,7 +181,7 @@ Json memory(const Scene& scene, const RenderResult& result) {
 
 /// What the report of a render and of a light map have in common.
 Json report_of(const std::string& scene_path, const std::string& image, const std::string& quantity,
-               const LoadedScene& loaded, const Stages& stages, const RenderResult& result) {
+               const LoadedScene& loaded, const Scattering& shown, const RenderResult& result) {
   const RenderStatistics& s = result.statistics;
   return {{"program", fmt::format("vpm {}", version())},
           {"scene", scene_path},
@@ -193,7 +194,7 @@ Json report_of(const std::string& scene_path, const std::string& image, const st
           {"threads", thread_count()},
           {"passes", s.passes},
           {"settings", settings_line(loaded.settings)},
-          {"stages", stage_lines(loaded.scene, loaded.settings, stages)},
+          {"stages", stage_lines(loaded.scene, loaded.settings, shown)},
           {"notes", loaded.notes},
           {"clamped_density_values", loaded.clamped_density_values},
           {"times", times(result)},
@@ -210,8 +211,7 @@ Json report_of(const std::string& scene_path, const std::string& image, const st
 
 std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded,
                           const RenderResult& result) {
-  const Stages stages = plan_stages(loaded.scene, loaded.settings);
-  Json report = report_of(scene_path, image, "radiance, W/(m^2 sr)", loaded, stages, result);
+  Json report = report_of(scene_path, image, "radiance, W/(m^2 sr)", loaded, scattering_of(loaded.scene), result);
   report["error"] = errors(loaded, result.film);
   report["eye"] = eye(result.statistics);
   report["radii_of_pixels"] = disc_radii(loaded, result.discs);
@@ -220,8 +220,7 @@ std::string render_report(const std::string& scene_path, const std::string& imag
 
 std::string light_map_report(const std::string& scene_path, const std::string& image, const std::string& mesh,
                              const LoadedScene& loaded, const UvLayout& layout, const RenderResult& result) {
-  const Stages stages = light_map_stages(loaded.scene, loaded.settings);
-  Json report = report_of(scene_path, image, "irradiance, W/m^2", loaded, stages, result);
+  Json report = report_of(scene_path, image, "irradiance, W/m^2", loaded, {.surfaces = true}, result);
   report["texels"] = points_of_texels(result.statistics);
   report["light_map"] = {{"mesh", mesh},
                          {"covered_texels", layout.covered_texels()},

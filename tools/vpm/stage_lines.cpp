@@ -27,11 +27,11 @@ std::string guided(const GuideSettings& guide) {
 
 }  // namespace
 
-std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Stages& stages) {
-  const bool scatters = plan_stages(scene, settings).volume_map;
-  const std::string no_medium = scene.media.empty() ? "no medium"
-                                : scatters          ? "a light map shows no medium"
-                                                    : "no medium scatters";
+std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Scattering& shown) {
+  const auto [media, surfaces] = shown;
+  const std::string no_medium = scene.media.empty()          ? "no medium"
+                                : scattering_of(scene).media ? "a light map shows no medium"
+                                                             : "no medium scatters";
   const auto line = [](bool runs, const std::string& what, const std::string& how, const std::string& why_not) {
     return runs ? "runs " + what + how : "skips " + what + ": " + why_not;
   };
@@ -40,34 +40,38 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
       ", transmittance by " + described(settings.transmittance.estimator, transmittance_estimators());
   bool grids = false;
   for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
-  const std::string no_gathering = stages.surface_map ? "indirect light comes from the photon map" : "no rough surface";
+  const std::string no_gathering = surfaces ? "indirect light comes from the photon map" : "no rough surface";
   const std::string channels = scene.grey ? "all coefficients are grey" : "coefficients differ between channels";
   if (settings.integrator == Integrator::path)
     return {line(true, "path tracing", distances + transmittance, ""),
             line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
+  const bool photons = media || surfaces,
+             gathers = surfaces && settings.surface_indirect == IndirectLight::final_gather;
   const auto corrected = [](const GatherSettings& gather) { return gather.boundary == BoundaryRule::corrected; };
-  return {line(stages.photons(), "photon tracing", distances, "nothing stores photons"),
-          line(stages.photons() && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
-               stages.photons() ? "photons go where power does" : "nothing stores photons"),
-          line(stages.volume_map, "volume photon map", stages.beams ? ", gathered from along rays" : "", no_medium),
-          line(stages.surface_map, "surface photon map", "", "no rough surface"),
-          line(stages.pixel_discs, "radii of pixels' own", ", on surfaces",
-               stages.surface_map ? "radii do not depend on what pixels find" : "no rough surface"),
-          line(stages.volume_map && corrected(settings.volume), "corrections at borders of media", "",
-               stages.volume_map ? "whole balls are summed over" : no_medium),
-          line(stages.surface_map && corrected(settings.surface), "corrections at edges of surfaces", "",
-               stages.surface_map ? "whole discs are summed over" : "no rough surface"),
-          line(stages.volume_shadow_rays, "shadow rays in media",
-               transmittance + (stages.equiangular ? ", from distances drawn equiangularly" : ""),
-               stages.volume_map ? "single scattering comes from the photon map" : no_medium),
-          line(stages.surface_shadow_rays, "shadow rays at surfaces", transmittance,
-               stages.surface_map ? "direct light comes from the photon map" : "no rough surface"),
-          line(stages.final_gather, "final gathering and a caustic map",
-               fmt::format(", {} rays at a point", settings.gather_rays), no_gathering),
-          line(stages.guided_gather, "a photon map to guide its rays", "",
-               stages.final_gather ? "materials draw them" : no_gathering),
-          line(stages.irradiance_points, "irradiance computed beforehand for their ends", "",
-               stages.final_gather ? "they ask the photon map" : no_gathering),
+  return {line(photons, "photon tracing", distances, "nothing stores photons"),
+          line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
+               photons ? "photons go where power does" : "nothing stores photons"),
+          line(media, "volume photon map", settings.volume.mode == GatherMode::beam ? ", gathered from along rays" : "",
+               no_medium),
+          line(surfaces, "surface photon map", "", "no rough surface"),
+          line(surfaces && settings.radii == RadiusSchedule::per_pixel, "radii of pixels' own", ", on surfaces",
+               surfaces ? "radii do not depend on what pixels find" : "no rough surface"),
+          line(media && corrected(settings.volume), "corrections at borders of media", "",
+               media ? "whole balls are summed over" : no_medium),
+          line(surfaces && corrected(settings.surface), "corrections at edges of surfaces", "",
+               surfaces ? "whole discs are summed over" : "no rough surface"),
+          line(media && settings.volume_direct != DirectLight::photons, "shadow rays in media",
+               transmittance +
+                   (settings.volume_direct == DirectLight::equiangular ? ", from distances drawn equiangularly" : ""),
+               media ? "single scattering comes from the photon map" : no_medium),
+          line(surfaces && settings.surface_direct == DirectLight::shadow_rays, "shadow rays at surfaces",
+               transmittance, surfaces ? "direct light comes from the photon map" : "no rough surface"),
+          line(gathers, "final gathering and a caustic map", fmt::format(", {} rays at a point", settings.gather_rays),
+               no_gathering),
+          line(gathers && settings.gather_by == GatherBy::photons, "a photon map to guide its rays", "",
+               gathers ? "materials draw them" : no_gathering),
+          line(gathers && settings.end_irradiance == EndIrradiance::precomputed,
+               "irradiance computed beforehand for their ends", "", gathers ? "they ask the photon map" : no_gathering),
           line(grids, "grid look-ups", "", "all media are homogeneous"),
           channels};
 }

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "vpm/render/photon_pass.h"
+#include "vpm/render/plan.h"
 
 namespace vpm::tools {
 
 /// Which of the stages run, of a render or a light map, which are skipped, and why: one line each, "runs ..." or
-/// "skips ...".
-std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Stages& stages);
+/// "skips ...". `shown`: what of the scene's scattering the picture shows.
+std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Scattering& shown);
 
 }  // namespace vpm::tools

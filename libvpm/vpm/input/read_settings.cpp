@@ -295,7 +295,7 @@ RenderSettings read_settings(TableReader& root, const SceneContents& contents, A
     read_gather(table, kAroundPoints, s.caustics, automatic.caustic_radius);
     s.caustics_emitted = table.integer("emitted", 0, kMaxInteger, s.caustics_emitted);
   });
-  const bool shadow_rays = s.integrator == Integrator::path || plan_stages(contents.scattering, s).shadow_rays();
+  const bool shadow_rays = casts_shadow_rays(contents.scattering, s);
   read_section(root, "transmittance",
                [&](TableReader& table) { read_transmittance(table, s.transmittance, shadow_rays); });
   return s;

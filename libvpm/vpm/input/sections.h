@@ -10,7 +10,7 @@
 #include "vpm/input/grid_file.h"
 #include "vpm/input/table_reader.h"
 #include "vpm/render/automatic.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/render/plan.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
 #include "vpm/surface/mesh.h"

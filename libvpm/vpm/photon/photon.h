@@ -87,11 +87,4 @@ struct Photon {
 
 static_assert(sizeof(Photon) == 28);
 
-/// A place on a surface that a photon found, seen from the side on which it arrived.
-struct SurfaceSite {
-  Vec3 position{0.0f};             // m
-  PackedDirection normal;          // geometric, to that side
-  PackedDirection shading_normal;  // the same, for shading
-};
-
 }  // namespace vpm

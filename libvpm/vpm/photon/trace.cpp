@@ -21,10 +21,16 @@ constexpr double kWorthSplitting = 2.0;  // photons: what a path is worth at lea
 constexpr int kMostBranches = 64;        // that one event makes of a path
 constexpr uint64_t kHopeless = 1 << 22;  // photons emitted without storing one
 
+/// A chunk of photons, traced.
+struct Part {
+  Ledger ledger;
+  std::vector<std::unique_ptr<PhotonRecorder>> recorders;
+};
+
 /// One photon on its way, with the branches it is followed by, and where it leaves its traces.
 class PhotonPath {
  public:
-  PhotonPath(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, TracedPhotons& out)
+  PhotonPath(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, Part& out)
       : scene_(scene), strategy_(strategy), settings_(settings), out_(out) {
     if (settings.guide && settings.guide->directions) directions_ = &*settings.guide->directions;
   }
@@ -32,7 +38,7 @@ class PhotonPath {
   /// Emits and follows photon number `index`.
   void trace(uint64_t index) {
     Rng rng(settings_.seed, rng_stream(RngUse::photon, settings_.pass), index);
-    for_sites_ = settings_.keep_sites && index % kSiteStep == kSiteStep - 1;
+    number_ = index;
     emit(rng);
     if (alive_) fly(rng);
     for (; !waiting_.empty(); fly(rng)) {
@@ -68,8 +74,8 @@ class PhotonPath {
     weight_ = {};
     alive_ = emitted_power_ > 0.0f;
     ++out_.ledger.emitted_count;
-    if (!for_sites_) ++out_.surface_emitted;
     out_.ledger.emitted += Rgbd(at_.state.power);
+    for (const auto& recorder : out_.recorders) recorder->emitted(number_);
   }
 
   /// Flies from event to event, to the path's end.
@@ -77,12 +83,14 @@ class PhotonPath {
     while (alive_) {
       if (at_.events == settings_.max_events) return cut();
       ++at_.events;
+      const PathState from = at_.state;
       at_.event = next_event(scene_, strategy_, at_.state, rng, out_.ledger.walk, limit());
       if (!is_finite(at_.state.power)) {
         ++out_.ledger.non_finite;
         return;
       }
       weight_.meet(sum_channels(at_.state.power) / emitted_power_, at_.event);
+      for (const auto& recorder : out_.recorders) recorder->flew(from, arriving());
       arrive(rng);
       if (!alive_) return;
       split(rng);
@@ -122,24 +130,10 @@ class PhotonPath {
     count(out_.ledger.collisions);
     alive_ = weight > 0.0 && survive_roulette(worth(), at_.state, rng);
     if (!alive_) return;
+    for (const auto& recorder : out_.recorders) recorder->collided(arriving());
     const Medium& medium = scene_.media[at_.state.medium];
-    const Rgb& power = at_.state.power;
-    if (settings_.keep_volume && medium.scatters() && (settings_.keep_direct_volume || !at_.direct)) {
-      const bool at_query = settings_.volume_form == VolumeForm::density_at_query;
-      const float divided = at_query ? divisor(medium, at_.event.density) : 1.0f;
-      out_.volume[at_.state.medium].push_back(
-          {at_.state.ray.origin, PackedDirection(at_.state.ray.direction), power / divided});
-    }
-    deposit(out_.ledger.absorbed_in_media, Rgbd(power * (Rgb(1.0f) - medium.albedo())));
+    deposit(out_.ledger.absorbed_in_media, Rgbd(at_.state.power * (Rgb(1.0f) - medium.albedo())));
     at_.direct = at_.specular = at_.from_rough = false;
-  }
-
-  /// What a photon's power is divided by: its density over the medium's largest, or the floor. Counts the floor's use.
-  float divisor(const Medium& medium, float density) {
-    const float relative = density / medium.max_density();
-    if (relative >= settings_.density_floor) return relative;
-    count(out_.ledger.floored);
-    return settings_.density_floor;
   }
 
   void meet_surface() {
@@ -147,32 +141,10 @@ class PhotonPath {
     alive_ = max_channel(at_.state.power) > 0.0f;
     if (!alive_) return;
     const bool rough = is_rough(scene_.material_of(at_.event.hit));
-    if (rough) store(at_.event.hit);
+    for (const auto& recorder : out_.recorders) recorder->hit(arriving());
     at_.direct = false;
     at_.from_rough |= rough;
     at_.specular &= !rough;
-  }
-
-  void store(const Hit& hit) {
-    const Photon photon{hit.position, PackedDirection(at_.state.ray.direction), at_.state.power};
-    if (for_sites_)
-      store_site(hit);
-    else if (settings_.keep_surface && (settings_.keep_direct_surface || !at_.direct))
-      out_.surface.push_back(photon);
-    if (settings_.keep_from_rough && at_.from_rough) out_.from_rough.push_back(photon);
-    if (settings_.keep_caustics && !at_.from_rough && is_kept_caustic()) out_.caustics.push_back(photon);
-  }
-
-  void store_site(const Hit& hit) {
-    if (!std::holds_alternative<Lambertian>(scene_.material_of(hit))) return;
-    const float side = glm::dot(hit.normal, at_.state.ray.direction) < 0.0f ? 1.0f : -1.0f;
-    out_.sites.push_back(
-        {hit.position, PackedDirection(side * hit.normal), PackedDirection(side * hit.shading_normal)});
-  }
-
-  bool is_kept_caustic() const {
-    if (at_.direct) return settings_.keep_direct_caustics;
-    return !at_.specular || settings_.keep_specular_caustics;
   }
 
   void scatter_in(const Medium& medium, Rng& rng) {
@@ -188,6 +160,8 @@ class PhotonPath {
     at_.state.power *= scatter.flux_scale;
     deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale)));
   }
+
+  ArrivingPhoton arriving() const { return {number_, at_.state, at_.event, at_.direct, at_.specular, at_.from_rough}; }
 
   /// What the path is worth next to others: its importance, or without any its power.
   double worth() const {
@@ -215,7 +189,7 @@ class PhotonPath {
   const Scene& scene_;
   const DistanceStrategy& strategy_;
   const TraceSettings& settings_;
-  TracedPhotons& out_;
+  Part& out_;
   const DirectionGuide* directions_ = nullptr;  // null: scattering is not guided
   Branch at_;
   std::vector<Branch> waiting_;
@@ -223,30 +197,19 @@ class PhotonPath {
   double balance_ = 0.0;  // gone minus emitted, W
   PathWeight weight_;     // of all branches
   bool alive_ = true;
-  bool for_sites_ = false;
+  uint64_t number_ = 0;  // of the photon
 };
-
-void append(TracedPhotons& all, const TracedPhotons& part) {
-  for (size_t m = 0; m < all.volume.size(); ++m)
-    all.volume[m].insert(all.volume[m].end(), part.volume[m].begin(), part.volume[m].end());
-  all.surface.insert(all.surface.end(), part.surface.begin(), part.surface.end());
-  all.caustics.insert(all.caustics.end(), part.caustics.begin(), part.caustics.end());
-  all.from_rough.insert(all.from_rough.end(), part.from_rough.begin(), part.from_rough.end());
-  all.sites.insert(all.sites.end(), part.sites.begin(), part.sites.end());
-  all.surface_emitted += part.surface_emitted;
-  all.ledger.merge(part.ledger);
-}
 
 /// How many photons there are by now.
 struct Tally {
   uint64_t emitted = 0;
-  size_t volume = 0, surface = 0;  // stored
+  std::vector<size_t> by_recorder;
 
-  size_t stored() const { return std::max(volume, surface); }
-  void add(const TracedPhotons& part) {
+  explicit Tally(size_t recorders) : by_recorder(recorders) {}
+  size_t stored() const { return by_recorder.empty() ? 0 : *std::max_element(by_recorder.begin(), by_recorder.end()); }
+  void add(const Part& part) {
     emitted += part.ledger.emitted_count;
-    for (const auto& map : part.volume) volume += map.size();
-    surface += part.surface.size();
+    for (size_t i = 0; i < by_recorder.size(); ++i) by_recorder[i] += part.recorders[i]->stored();
   }
 };
 
@@ -255,19 +218,27 @@ bool is_full(const Tally& tally, const TraceSettings& settings) {
          (settings.stored > 0 && tally.stored() >= settings.stored);
 }
 
-/// Joins the parts of a wave in their order, up to the one that fills the maps.
-void join(TracedPhotons& all, Tally& joined, std::vector<TracedPhotons>& parts, const TraceSettings& settings) {
-  for (TracedPhotons& part : parts) {
-    if (!is_full(joined, settings)) {
-      joined.add(part);
-      append(all, part);
-    }
-    part = {};  // two copies of a part at a time, not of a wave
-  }
-}
+/// What is joined so far.
+struct Joined {
+  const Recorders& recorders;
+  Ledger ledger{};
+  Tally tally{recorders.size()};
 
-/// How many photons to trace before looking again. Any answer gives the same result: what lies beyond a full map is
-/// dropped.
+  /// Joins the parts of a wave in their order, up to the one that fills the recorders.
+  void add(std::vector<Part>& parts, const TraceSettings& settings) {
+    for (Part& part : parts) {
+      if (!is_full(tally, settings)) {
+        tally.add(part);
+        ledger.merge(part.ledger);
+        for (size_t i = 0; i < recorders.size(); ++i) recorders[i]->join(*part.recorders[i]);
+      }
+      part = {};  // two copies of a part at a time, not of a wave
+    }
+  }
+};
+
+/// How many photons to trace before looking again. Any answer gives the same result: what lies beyond a full recorder
+/// is dropped.
 uint64_t next_wave(const Tally& tally, const TraceSettings& settings) {
   const uint64_t most = settings.emitted > 0 ? settings.emitted - tally.emitted : kChunk * kLargestWave;
   if (settings.stored == 0) return std::min<uint64_t>(most, kChunk * kLargestWave);
@@ -281,22 +252,26 @@ uint64_t next_wave(const Tally& tally, const TraceSettings& settings) {
 
 bool is_stopped(const TraceSettings& settings) { return settings.stop && *settings.stop; }
 
+Part empty_part(const Recorders& recorders) {
+  Part part;
+  for (const PhotonRecorder* recorder : recorders) part.recorders.push_back(recorder->part());
+  return part;
+}
+
 }  // namespace
 
-TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,
-                            Progress& progress) {
-  TracedPhotons all;
-  all.volume.resize(scene.media.size());
-  Tally traced, joined;
-  std::vector<TracedPhotons> parts;
+Ledger trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,
+                     const Recorders& recorders, Progress& progress) {
+  Joined joined{recorders};
+  Tally traced(recorders.size());
+  std::vector<Part> parts;
   while (!is_full(traced, settings) && !is_stopped(settings)) {
     const uint64_t first = traced.emitted, last = first + next_wave(traced, settings);
-    std::vector<TracedPhotons> next(chunk_count(last - first, kChunk));
+    std::vector<Part> next(chunk_count(last - first, kChunk));
     // One thread joins the wave before, while the others trace this one.
     parallel_for_chunks(next.size() + 1, 1, [&](size_t task, size_t, size_t) {
-      if (task == 0) return join(all, joined, parts, settings);
-      TracedPhotons& part = next[task - 1];
-      part.volume.resize(scene.media.size());
+      if (task == 0) return joined.add(parts, settings);
+      Part& part = next[task - 1] = empty_part(recorders);
       if (is_stopped(settings)) return;
       PhotonPath path(scene, strategy, settings, part);
       const uint64_t begin = first + (task - 1) * kChunk, end = std::min(begin + kChunk, last);
@@ -304,14 +279,14 @@ TracedPhotons trace_photons(const Scene& scene, const DistanceStrategy& strategy
       progress.advance(end - begin);
     });
     parts = std::move(next);
-    for (const TracedPhotons& part : parts) traced.add(part);
+    for (const Part& part : parts) traced.add(part);
     if (settings.emitted == 0 && traced.emitted >= kHopeless && traced.stored() == 0)
       throw InputError(fmt::format(
           "no photon map can be filled: none of the first {} photons met a medium or a surface that stores photons",
           traced.emitted));
   }
-  join(all, joined, parts, settings);
-  return all;
+  joined.add(parts, settings);
+  return joined.ledger;
 }
 
 }  // namespace vpm

@@ -9,8 +9,9 @@
 
 #include "vpm/base/count.h"
 #include "vpm/base/error.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/estimate/pass_map.h"
 #include "vpm/render/pilot.h"
+#include "vpm/render/plan.h"
 #include "vpm/render/render.h"
 
 namespace vpm {
@@ -47,15 +48,19 @@ struct OpenRadius {
 /// Those of maps that the render has.
 std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& automatic,
                                    const MapDensities& densities, RenderSettings& s) {
-  const Stages stages = plan_stages(scene, s);
+  const Estimators planned = plan_estimators(scene, s, 0);
+  const auto has = [&](std::string_view section) {
+    for (const MapInfo& map : planned.maps())
+      if (map.section == section) return true;
+    return false;
+  };
   const double emitted = emitted_of(s, densities);
   const double aimed = s.caustics_emitted > 0 ? static_cast<double>(s.caustics_emitted) : emitted;
   std::vector<OpenRadius> open;
-  if (automatic.volume_radius && stages.volume_map)
-    open.push_back({"volume.radius", s.volume, densities.volume, emitted});
-  if (automatic.surface_radius && stages.surface_map)
+  if (automatic.volume_radius && has("volume")) open.push_back({"volume.radius", s.volume, densities.volume, emitted});
+  if (automatic.surface_radius && has("surface"))
     open.push_back({"surface.radius", s.surface, densities.surface, emitted});
-  if (automatic.caustic_radius && stages.final_gather)
+  if (automatic.caustic_radius && has("caustics"))
     open.push_back({"caustics.radius", s.caustics, densities.caustics, aimed});
   return open;
 }
@@ -168,7 +173,7 @@ std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings&
   std::vector<Choice> choices;
   if (automatic.strategy && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
   const bool radii = automatic.volume_radius || automatic.surface_radius || automatic.caustic_radius;
-  if (!plan_stages(scene, settings).photons() || !(radii || automatic.photons)) return choices;
+  if (plan_estimators(scene, settings, 0).maps().empty() || !(radii || automatic.photons)) return choices;
   const MapDensities densities = map_densities(scene, settings);
   if (automatic.photons) choices.push_back(choose_photons(scene, automatic, densities, settings));
   for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));

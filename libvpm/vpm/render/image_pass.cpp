@@ -10,15 +10,22 @@ namespace {
 
 constexpr int kTile = 16;  // pixels along an edge; a tile is a chunk of parallel work
 
+/// What the rays of a tile share.
+struct TileWork {
+  EyeCounters& counters;
+  EyeScratch scratch;
+};
+
 Rgb render_pixel(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
-                 const glm::ivec2& pixel, EyeCounters& counters) {
+                 const glm::ivec2& pixel, TileWork& tile) {
   const Camera& camera = scene.camera;
   const int samples = settings.samples_per_pixel;
   const size_t number = static_cast<size_t>(pixel.y) * camera.width + pixel.x;
-  return mean_of_samples(samples, counters, [&](int s) {
+  return mean_of_samples(samples, tile.counters, [&](int s) {
     Rng rng(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)), number * samples + s);
     const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(camera.filter, rng.uniform2());
-    return radiance(camera.ray(film), number, rng, counters);
+    EyeWork work{rng, tile.counters, tile.scratch, number};
+    return radiance(camera.ray(film), work);
   });
 }
 
@@ -41,9 +48,10 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
   parallel_for_chunks(tiles, 1, [&](size_t tile, size_t, size_t) {
     if (stop) return;
     const int x0 = static_cast<int>(tile % tiles_x) * kTile, y0 = static_cast<int>(tile / tiles_x) * kTile;
+    TileWork work{counters[tile], {}};
     for (int y = y0; y < std::min(y0 + kTile, camera.height); ++y)
       for (int x = x0; x < std::min(x0 + kTile, camera.width); ++x)
-        result.image.at(x, y) = render_pixel(scene, settings, pass, radiance, {x, y}, counters[tile]);
+        result.image.at(x, y) = render_pixel(scene, settings, pass, radiance, {x, y}, work);
     bar.advance();
     if (progress.tiles) progress.tiles->advance();
   });

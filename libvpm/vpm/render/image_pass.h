@@ -7,8 +7,7 @@
 
 #include "vpm/base/count.h"
 #include "vpm/base/progress.h"
-#include "vpm/base/rng.h"
-#include "vpm/estimate/statistics.h"
+#include "vpm/estimate/eye_work.h"
 #include "vpm/image/image.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
@@ -18,7 +17,7 @@ namespace vpm {
 struct Pass {
   Image image;                   // radiance, W/(m^2 sr)
   double relative_square = 0.0;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
-  std::vector<uint64_t> found;   // under Stages::pixel_discs: photons in each pixel's disc, over its samples
+  std::vector<uint64_t> found;   // photons in each pixel's disc, over its samples, where pixels have discs of their own
   RenderStatistics statistics;
 };
 
@@ -30,9 +29,8 @@ struct PassProgress {
 /// The units of work of a pass's image.
 uint64_t tile_count(const Camera& camera);
 
-/// Estimates the radiance along a camera ray of a pixel (numbered row by row), W/(m^2 sr). Called from many threads,
-/// for each pixel from one.
-using RayRadiance = std::function<Rgb(const Ray& ray, size_t pixel, Rng& rng, EyeCounters& counters)>;
+/// Estimates the radiance along a camera ray, W/(m^2 sr). Called from many threads, for each pixel from one.
+using RayRadiance = std::function<Rgb(const Ray& ray, EyeWork& work)>;
 
 /// The mean of sample(0), sample(1), ... sample(samples - 1). Those that are not finite are counted and left out as
 /// black.

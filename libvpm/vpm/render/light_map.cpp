@@ -6,7 +6,6 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/render/surface_light.h"
 
 namespace vpm {
 namespace {
@@ -19,36 +18,45 @@ MediumId medium_outside(const Scene& scene, const Hit& point) {
   return medium_of_ray(scene, kSeveralMedia, {leave_surface(point, point.normal), point.normal});
 }
 
+/// What the texels of a pass read.
+struct TexelContext {
+  const Scene& scene;
+  const RenderSettings& settings;
+  const UvLayout& layout;
+  const SurfaceEstimator& estimator;
+  int pass;
+};
+
 /// Irradiance, W/m^2, on the side of the outward normal: pi times the radiance of a white Lambertian surface in the
 /// place of the real one.
-Rgb irradiance(const EyeContext& context, const Hit& point, Rng& rng, EyeCounters& counters) {
+Rgb irradiance(const TexelContext& context, const Hit& point, EyeWork& work) {
   Hit flat = point;
   flat.shading_normal = flat.normal;
   const Material white = Lambertian{Rgb(1.0f)};
   const SurfaceView view{flat, white, -flat.normal, medium_outside(context.scene, flat)};
-  return kPi * surface_light(context, view, context.settings.gather_rays, rng, counters);
+  return kPi * context.estimator.sent(view, work);
 }
 
-Rgb bake_texel(const EyeContext& context, const UvLayout& layout, int pass, size_t texel, std::vector<UvPiece>& pieces,
-               EyeCounters& counters) {
-  if (!layout.covers(texel)) return Rgb(0.0f);
-  find_pieces(layout, texel, pieces);
+/// What a chunk of texels works with.
+struct TexelWork {
+  EyeCounters& counters;
+  EyeScratch scratch;
+  std::vector<UvPiece> pieces;
+};
+
+Rgb bake_texel(const TexelContext& context, size_t texel, TexelWork& chunk) {
+  if (!context.layout.covers(texel)) return Rgb(0.0f);
+  find_pieces(context.layout, texel, chunk.pieces);
   const int samples = context.settings.samples_per_pixel;
-  return mean_of_samples(samples, counters, [&](int s) {
-    Rng rng(context.settings.seed, rng_stream(RngUse::texel, static_cast<uint64_t>(pass)),
+  return mean_of_samples(samples, chunk.counters, [&](int s) {
+    Rng rng(context.settings.seed, rng_stream(RngUse::texel, static_cast<uint64_t>(context.pass)),
             static_cast<uint64_t>(texel) * samples + s);
-    const Hit point = sample_pieces(context.scene.geometry, layout, pieces, rng);
-    return irradiance(context, point, rng, counters);
+    EyeWork work{rng, chunk.counters, chunk.scratch};
+    return irradiance(context, sample_pieces(context.scene.geometry, context.layout, chunk.pieces, rng), work);
   });
 }
 
 }  // namespace
-
-Stages light_map_stages(const Scene& scene, const RenderSettings& settings) {
-  Stages stages = plan_stages(scene, settings);
-  stages.volume_map = stages.volume_shadow_rays = stages.equiangular = false;
-  return stages;
-}
 
 UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution) {
   if (!is_rough(scene.materials[scene.shapes[shape].material]))
@@ -60,27 +68,27 @@ UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution) {
 
 Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int pass,
                     const std::atomic<bool>& stop, const PassProgress& progress) {
-  const Stages stages = light_map_stages(scene, settings);
-  assert(settings.integrator == Integrator::photon && !stages.pixel_discs);
+  assert(settings.integrator == Integrator::photon && settings.radii != RadiusSchedule::per_pixel);
   Pass result{.image = Image(layout.resolution, layout.resolution), .found = {}, .statistics = {}};
   result.statistics.passes = 1;
-  const EyeContext context = make_eye_context(scene, settings, stages, pass, stop, progress, result.statistics);
+  const Estimators estimators = plan_surface_estimators(scene, settings, pass);
+  result.relative_square = relative_square(estimators.maps(), pass);
+  prepare_pass(scene, settings, estimators, {pass, stop, progress}, result.statistics);
+  const TexelContext context{scene, settings, layout, *estimators.surface, pass};
   const auto start = std::chrono::steady_clock::now();
   const size_t chunks = chunk_count(layout.texels(), kChunk);
   std::vector<EyeCounters> counters(chunks);
   Progress bar("texels", chunks, progress.stages);
   parallel_for_chunks(layout.texels(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
     if (stop) return;
-    std::vector<UvPiece> pieces;
-    for (size_t texel = begin; texel < end; ++texel)
-      result.image.pixels[texel] = bake_texel(context, layout, pass, texel, pieces, counters[chunk]);
+    TexelWork work{counters[chunk], {}, {}};
+    for (size_t texel = begin; texel < end; ++texel) result.image.pixels[texel] = bake_texel(context, texel, work);
     bar.advance();
     if (progress.tiles) progress.tiles->advance();
   });
   bar.finish();
   for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
   result.statistics.eye_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.relative_square = relative_square(settings, stages, pass);
   return result;
 }
 

@@ -8,9 +8,6 @@
 
 namespace vpm {
 
-/// What a light map needs of the stages of a render: none of the eye's in media.
-Stages light_map_stages(const Scene& scene, const RenderSettings& settings);
-
 /// Lays out the light map of a shape. Throws InputError, which names no shape, as lay_out() does, and where the shape's
 /// material stores no photons.
 UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution);

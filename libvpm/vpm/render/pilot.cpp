@@ -7,8 +7,8 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/photon/nearest_map.h"
-#include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {
@@ -111,22 +111,30 @@ RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
   return settings;
 }
 
-std::vector<Photon> joined(const std::vector<std::vector<Photon>>& maps) {
+/// A map's photons before it is sorted, those of media together.
+std::vector<Photon> photons_of(const MapInfo& map) {
+  if (map.surfaces) return *map.surfaces;
   std::vector<Photon> all;
-  for (const std::vector<Photon>& map : maps) all.insert(all.end(), map.begin(), map.end());
+  for (const std::vector<Photon>& medium : *map.media) all.insert(all.end(), medium.begin(), medium.end());
   return all;
 }
 
-/// The photons of the pilot's only pass.
-TracedPhotons trace(const Scene& scene, const RenderSettings& settings) {
+/// The pilot's only pass, traced.
+struct PilotPass {
+  Estimators estimators;
+  Ledger ledger;
+};
+PilotPass trace(const Scene& scene, const RenderSettings& settings) {
   RenderStatistics statistics;
-  return trace_pass(scene, settings, plan_stages(scene, settings), 0, kGoOn, {}, statistics);
+  Estimators estimators = plan_estimators(scene, settings, 0);
+  trace_pass(scene, settings, estimators, {.stop = kGoOn}, statistics);
+  return {std::move(estimators), statistics.ledger};
 }
 
 /// Renders the rays of one block of pixels of many, cut at the borders of small pictures.
-void render_block(const EyeContext& context, size_t block, EyeCounters& counters) {
+void render_block(const EyeContext& context, uint64_t seed, size_t block, EyeCounters& counters) {
   const Camera& camera = context.scene.camera;
-  Marcher marcher;
+  EyeScratch scratch;
   const auto pixel_of = [](int pixels, size_t part, int i) {
     const auto middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocks;
     return std::clamp(middle + static_cast<float>(i) - 0.5f * kBlockEdge + 0.5f, 0.0f, static_cast<float>(pixels));
@@ -134,8 +142,9 @@ void render_block(const EyeContext& context, size_t block, EyeCounters& counters
   for (int i = 0; i < kBlockEdge * kBlockEdge; ++i) {
     const Vec2 film(pixel_of(camera.width, block % kBlocks, i % kBlockEdge),
                     pixel_of(camera.height, block / kBlocks, i / kBlockEdge));
-    Rng rng(context.settings.seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
-    eye_radiance(context, camera.ray(film), marcher, rng, counters);
+    Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
+    EyeWork work{rng, counters, scratch};
+    eye_radiance(context, camera.ray(film), work);
   }
 }
 
@@ -158,29 +167,37 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
 
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
   const RenderSettings pilot = pilot_settings(settings, kPhotons);
-  const TracedPhotons photons = trace(scene, pilot);
-  const std::vector<Photon> volume = joined(photons.volume);
-  const auto emitted = static_cast<double>(photons.ledger.emitted_count);
+  const PilotPass pass = trace(scene, pilot);
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Probes probes;
   for (uint64_t i = 0; i < kEyePaths; ++i) follow(scene, *strategy, settings.seed, i, probes);
   MapDensities densities;
-  densities.stored_per_photon = static_cast<double>(std::max(volume.size(), photons.surface.size())) / emitted;
-  densities.volume = density_around(probes.volume, volume, emitted, 3);
-  densities.surface = density_around(probes.surface, photons.surface, static_cast<double>(photons.surface_emitted), 2);
-  const double aimed = pilot.caustics_emitted > 0 ? static_cast<double>(pilot.caustics_emitted) : emitted;
-  densities.caustics = density_around(places_of(scene.camera, photons.caustics), photons.caustics, aimed, 2);
+  for (const MapInfo& map : pass.estimators.maps()) {
+    const std::vector<Photon> photons = photons_of(map);
+    const auto emitted = static_cast<double>(map.emitted > 0 ? map.emitted : pass.ledger.emitted_count);
+    if (map.section == "caustics") {
+      densities.caustics = density_around(places_of(scene.camera, photons), photons, emitted, 2);
+      continue;
+    }
+    densities.stored_per_photon =
+        std::max(densities.stored_per_photon,
+                 static_cast<double>(photons.size()) / static_cast<double>(pass.ledger.emitted_count));
+    if (map.section == "volume") densities.volume = density_around(probes.volume, photons, emitted, 3);
+    if (map.section == "surface") densities.surface = density_around(probes.surface, photons, emitted, 2);
+  }
   return densities;
 }
 
 PassCost time_pass(const Scene& scene, const RenderSettings& settings) {
   const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
   RenderStatistics s;
-  const EyeContext context = make_eye_context(scene, pilot, plan_stages(scene, pilot), 0, kGoOn, {}, s);
+  const Estimators estimators = plan_estimators(scene, pilot, 0);
+  prepare_pass(scene, pilot, estimators, {.stop = kGoOn}, s);
+  const EyeContext context{scene, estimators, pilot.max_events};
   std::array<EyeCounters, size_t{kBlocks} * kBlocks> counters;
   const auto start = std::chrono::steady_clock::now();
   parallel_for_chunks(counters.size(), 1,
-                      [&](size_t block, size_t, size_t) { render_block(context, block, counters[block]); });
+                      [&](size_t block, size_t, size_t) { render_block(context, pilot.seed, block, counters[block]); });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const double rays = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
   const auto emitted = static_cast<double>(s.ledger.emitted_count);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vpm/render/radius_schedule.h"
+#include "vpm/estimate/radius_schedule.h"
 
 namespace vpm {
 

@@ -40,7 +40,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
     const int pass = so_far.film.passes();
     return settings.integrator == Integrator::path
                ? render_path_pass(scene, settings, pass, stop, shown)
-               : render_photon_pass_after(so_far.discs, scene, settings, pass, stop, shown);
+               : render_photon_pass_after(so_far.discs, scene, settings, {pass, stop, shown});
   };
   return run_passes(settings, run, tile_count(scene.camera), std::move(result), stop, progress, finished);
 }

@@ -19,7 +19,7 @@ struct RenderResult {
   Film film;
   RenderStatistics statistics;
   double seconds = 0.0;  // wall clock, of all runs together where a render was resumed
-  PixelDiscs discs;      // under Stages::pixel_discs, once there is a pass
+  PixelDiscs discs;      // where pixels have radii of their own, once there is a pass
 };
 
 /// Renders passes until settings.passes are done; or, where asked for, until settings.seconds are over or the estimated

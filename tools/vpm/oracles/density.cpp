@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "oracles/cases.h"
-#include "vpm/render/radius_schedule.h"
+#include "vpm/estimate/radius_schedule.h"
 #include "vpm/study/estimates/density.h"
 
 namespace vpm::tools {

@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <vector>
 
+#include "vpm/estimate/volume/single_equiangular.h"
+#include "vpm/estimate/volume/single_marched.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/render/eye_path.h"
-#include "vpm/render/march.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 
 namespace vpm {
 namespace {
+
+constexpr float kOpticalStep = 0.5f;  // of a march
+constexpr int kPairs = 8;             // of distances
 
 /// Coordinates along the ray are measured from the point next to the light, where they need their digits.
 Scene airlight_scene(const Airlight& a) {
@@ -92,7 +96,7 @@ Moments estimate_airlight(const Airlight& a, double log10_scale, uint64_t sample
       // A ray of its own for each stretch: distances along it are short, as behind a boundary.
       const double before = log_transmittance(scene, *estimator, from(-a.t_light), ends[i] + a.t_light, rng);
       const Interval stretch{0.0f, static_cast<float>(ends[i + 1] - ends[i])};
-      marcher.march(medium, from(ends[i]), stretch, {kInfinity, 0.5f}, glm::bvec3(true), rng,
+      marcher.march(medium, from(ends[i]), stretch, {kInfinity, kOpticalStep}, glm::bvec3(true), rng,
                     [&](const Vec3& point, const Rgb& weight) {
                       Vec3 towards(0.0f);
                       const double irradiance = log_irradiance(scene, *estimator, point, rng, towards);
@@ -106,14 +110,21 @@ Moments estimate_airlight(const Airlight& a, double log10_scale, uint64_t sample
 
 Moments estimate_airlight_by_eye_path(const Airlight& a, DirectLight direct, uint64_t samples, uint64_t seed) {
   const Scene scene = airlight_scene(a);
-  RenderSettings settings;
-  settings.volume_direct = direct;
-  const Stages stages{.volume_shadow_rays = true, .equiangular = direct == DirectLight::equiangular};
-  const EyeContext context{scene, settings, stages, {}, {}, {}, {}, {}, {}, make_transmittance_estimator({})};
+  const std::shared_ptr<const TransmittanceEstimator> transmittance = make_transmittance_estimator({});
+  Estimators estimators;
+  if (direct == DirectLight::equiangular) {
+    estimators.volume.push_back(std::make_unique<SingleEquiangular>(scene, transmittance, kPairs));
+  } else {
+    std::vector<std::unique_ptr<MarchedSource>> sources;
+    sources.push_back(std::make_unique<SingleMarched>(scene, transmittance));
+    estimators.volume.push_back(std::make_unique<MarchedLight>(std::move(sources), kOpticalStep));
+  }
+  const EyeContext context{scene, estimators};
   return sample_moments(1, samples, seed, [&](Rng& rng, double* out) {
-    Marcher marcher;
     EyeCounters counters;
-    out[0] = eye_radiance(context, from(-a.t_light), marcher, rng, counters).r;
+    EyeScratch scratch;
+    EyeWork work{rng, counters, scratch};
+    out[0] = eye_radiance(context, from(-a.t_light), work).r;
   })[0];
 }
 

@@ -2,7 +2,7 @@
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/estimates/irradiance.h"
@@ -48,15 +48,14 @@ Moments estimate_wall_irradiance(const Cavity& sphere, bool reflected_only, uint
   const auto strategy = make_distance_strategy({});
   const auto radius = static_cast<float>(kCapRadius * sphere.size);
   const GatherSettings gather{GatherMode::radius, radius, 0, KernelKind::epanechnikov};
-  Progress silent("photons", 0, false);
   Moments result;
   for (int batch = 0; batch < kBatches; ++batch) {
-    TraceSettings trace;
+    ListSettings trace;
     trace.seed = seed;
     trace.pass = static_cast<uint64_t>(batch);
     trace.emitted = photons / kBatches;
-    trace.keep_direct_surface = !reflected_only;
-    TracedPhotons traced = trace_photons(scene, *strategy, trace, silent);
+    trace.direct_hits = !reflected_only;
+    PhotonLists traced = list_photons(scene, *strategy, trace);
     const PhotonMap map = make_photon_map(std::move(traced.surface), gather, traced.ledger.emitted_count);
     Rng rng(seed, rng_stream(RngUse::probe, static_cast<uint64_t>(batch)), 0);
     double sum = 0.0;

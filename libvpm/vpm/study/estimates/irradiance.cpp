@@ -5,7 +5,7 @@
 
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 
@@ -53,16 +53,15 @@ MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& rece
   finish(scene);
   const auto strategy = make_distance_strategy({});
   MappedIrradiance result;
-  Progress silent("photons", 0, false);
   for (int batch = 0; batch < kBatches; ++batch) {
-    TraceSettings trace;
+    ListSettings trace;
     trace.seed = seed;
     trace.pass = static_cast<uint64_t>(batch);
     trace.emitted = photons;
     std::optional<PhotonGuide> guide;
     if (aimed) guide = learn_guide(scene, *strategy, {.importons = 2000}, seed, trace.pass, trace.max_events);
     trace.guide = guide ? &*guide : nullptr;
-    const TracedPhotons traced = trace_photons(scene, *strategy, trace, silent);
+    const PhotonLists traced = list_photons(scene, *strategy, trace);
     const auto through = [&](double radius) {
       const GatherSettings gather{GatherMode::radius, static_cast<float>(radius), 0, KernelKind::epanechnikov};
       const PhotonMap map = make_photon_map(traced.surface, gather, traced.ledger.emitted_count);

@@ -7,7 +7,7 @@
 #include "vpm/base/warp.h"
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/photon_walk.h"
 #include "vpm/study/sample_moments.h"
@@ -124,15 +124,14 @@ std::vector<MapFluence> estimate_map_fluence(const PointSource& source, const st
   const auto strategy = make_distance_strategy({});
   std::vector<MapFluence> result(distances.size());
   std::vector<std::array<double, 3>> found(distances.size());  // wide, narrow, photons
-  Progress silent("photons", 0, false);
   for (int batch = 0; batch < effort.batches; ++batch) {
-    TraceSettings trace;
+    ListSettings trace;
     trace.seed = effort.seed;
     trace.pass = static_cast<uint64_t>(batch);
     trace.emitted = effort.photons;
     trace.max_events = kMaxEvents;
-    trace.keep_direct_volume = !collided_only;
-    const TracedPhotons photons = trace_photons(scene, *strategy, trace, silent);
+    trace.direct_collisions = !collided_only;
+    const PhotonLists photons = list_photons(scene, *strategy, trace);
     parallel_for_chunks(distances.size(), 1, [&](size_t i, size_t, size_t) {
       Rng rng(effort.seed, rng_stream(RngUse::probe, static_cast<uint64_t>(batch)), i);
       for (int half = 0; half < 2; ++half) {

@@ -179,7 +179,7 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
 
 std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
-  const bool media = !scene.media.empty(), surfaces = plan_stages(scene, {}).surface_map;
+  const bool media = !scene.media.empty(), surfaces = scattering_of(scene).surfaces;
   RenderSettings referee;
   referee.seed = effort.seed_of(subject.name + " referee");
   const Measured reference = by_referee(scene, referee, effort.count(40'000, 300'000));

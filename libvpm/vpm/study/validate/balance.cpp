@@ -89,10 +89,9 @@ Check check_ledger(const Scene& scene, std::string_view strategy_name, const Eff
   TraceSettings settings;
   settings.seed = effort.seed_of(name);
   settings.emitted = effort.count(20'000, 4'000'000);
-  settings.keep_volume = settings.keep_surface = false;
   const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name)});
   Progress progress("", 0, false);
-  const Ledger ledger = trace_photons(scene, *strategy, settings, progress).ledger;
+  const Ledger ledger = trace_photons(scene, *strategy, settings, {}, progress);
   const double size = ledger.weights.effective_sample_size();
   const double emitted = sum_channels(Rgb(ledger.emitted)) / static_cast<double>(ledger.emitted_count);
   Check check = size < kLeastSampleSize ? not_determined(name, ledger.imbalance.mean(), 0.0, "")
@@ -146,7 +145,7 @@ Check check_wall(float radius, float reflectance, const Effort& effort) {
   const std::string name = fmt::format("sphere, reflectance {:.1g}, irradiance by the surface map", reflectance);
   const auto samples =
       sample_moments(1, effort.count(2'000, 200'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-        TracedPhotons photons = small_pass(scene, *strategy, rng);
+        PhotonLists photons = small_pass(scene, *strategy, rng);
         const PhotonMap map = make_photon_map(std::move(photons.surface), gather, photons.ledger.emitted_count);
         const Vec3 outward = glm::normalize(Vec3(0.6f, -0.5f, 0.3f));
         out[0] = surface_irradiance(radius * outward, -outward, map).g;

@@ -8,13 +8,13 @@
 
 #include "vpm/base/line_fit.h"
 #include "vpm/base/parallel.h"
+#include "vpm/estimate/radius_schedule.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/medium/make_grid.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 #include "vpm/render/film.h"
 #include "vpm/render/path_tracer.h"
-#include "vpm/render/radius_schedule.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/validate/groups.h"
 
@@ -165,13 +165,12 @@ std::vector<Check> density_estimation(const Field& field, const std::string& nam
   return checks;
 }
 
-TracedPhotons trace(const Scene& scene, uint64_t seed, int pass) {
-  TraceSettings settings;
+PhotonLists trace(const Scene& scene, uint64_t seed, int pass) {
+  ListSettings settings;
   settings.seed = seed;
   settings.pass = static_cast<uint64_t>(pass);
   settings.emitted = kPhotons;
-  Progress quiet("", 1, false);
-  return trace_photons(scene, *make_distance_strategy({}), settings, quiet);
+  return list_photons(scene, *make_distance_strategy({}), settings);
 }
 
 /// First collisions around an isotropic source of 1 W in a medium of sigma_t = 1/m: fluence exp(-r) / (4 pi r^2).

@@ -160,7 +160,7 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, std::strin
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   const auto samples =
       sample_moments(2, effort.count(2'400, 30'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
-        TracedPhotons photons = small_pass(body.scene, *strategy, rng, 100, form);
+        PhotonLists photons = small_pass(body.scene, *strategy, rng, 100, form);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         out[0] = fluence(medium.majorant(), inside, map).g;
         out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).g / medium.majorant().g;
@@ -204,7 +204,7 @@ std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point
   const VolumeRegion region(body.scene, 0, point, gather.kernel);
   const auto samples = sample_moments(
       2, effort.count(3'000, 40'000), effort.seed_of("border, " + body.name), [&](Rng& rng, double* out) {
-        TracedPhotons photons = small_pass(body.scene, *strategy, rng);
+        PhotonLists photons = small_pass(body.scene, *strategy, rng);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         GatherCounters counters;
         const BoundedMap bounded{map, region, counters};
@@ -234,7 +234,7 @@ std::vector<Check> check_sheet(const Effort& effort) {
     const SurfaceRegion region(scene, hit, up, gather);
     const auto samples =
         sample_moments(1, effort.count(4'000, 100'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-          const TracedPhotons photons = small_pass(scene, *strategy, rng);
+          const PhotonLists photons = small_pass(scene, *strategy, rng);
           const PhotonMap map = make_photon_map(photons.surface, gather, photons.ledger.emitted_count);
           GatherCounters counters;
           out[0] = scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, counters}).g;

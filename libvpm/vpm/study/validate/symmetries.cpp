@@ -75,7 +75,7 @@ std::vector<Moments> measure(const Change& change, const Effort& effort) {
   const GatherSettings gather{GatherMode::radius, static_cast<float>(0.5 * change.scale), 0, KernelKind::epanechnikov};
   return sample_moments(
       quantities, effort.count(1'000, 24'000), effort.seed_of("change: " + change.name), [&](Rng& rng, double* out) {
-        TracedPhotons photons = small_pass(scene, *strategy, rng, change.photons);
+        PhotonLists photons = small_pass(scene, *strategy, rng, change.photons);
         const Ledger& ledger = photons.ledger;
         const auto emitted = static_cast<double>(ledger.emitted_count);
         out[in_fog] = ledger.absorbed_in_media.r / emitted;

@@ -4,9 +4,9 @@
 #include <complex>
 #include <optional>
 
+#include "vpm/estimate/volume/march.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/medium/transmittance/estimator.h"
-#include "vpm/render/march.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/fields.h"
 #include "vpm/study/validate/groups.h"

@@ -1,5 +1,5 @@
 // Filling and drawing from the histogram.
-#include "vpm/render/gather_guide.h"
+#include "vpm/estimate/surface/gather_guide.h"
 
 #include <algorithm>
 #include <numeric>

@@ -13,7 +13,7 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/estimate/photon_map.h"
-#include "vpm/render/surface_light.h"
+#include "vpm/estimate/surface/estimator.h"
 
 namespace vpm {
 

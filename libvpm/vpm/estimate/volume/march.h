@@ -12,7 +12,7 @@
 
 #include "vpm/base/count.h"
 #include "vpm/base/rng.h"
-#include "vpm/medium/medium.h"
+#include "vpm/medium/columns_along.h"
 
 namespace vpm {
 
@@ -69,31 +69,25 @@ inline double draw_attenuated(double sigma, double column, double u) {
   return sigma * column > 1e-8 ? -std::log1p(u * std::expm1(-sigma * column)) / sigma : u * column;
 }
 
+/// A ray, and the medium that its light passes on the way to the eye.
+struct SeenThrough {
+  const Ray& ray;
+  const ColumnsAlong& columns;  // along it
+  Rgb sigma_t{0.0f};            // 1/m at density 1
+};
+
 /// Calls add(point, weight) for one point in each stretch of `length` m of the interval, drawn uniformly; the sum of
-/// weight * f(point) estimates the integral of Tr f over the interval (which must be finite). `column_before`, m, is
-/// what lies between the eye and the interval's start.
+/// weight * f(point) estimates the integral of Tr f over the interval (which must be finite).
 template <class Add>
-uint32_t march_evenly(const Medium* medium, const Ray& ray, const Interval& interval, double column_before,
-                      float length, Rng& rng, Add&& add) {
+void march_evenly(const SeenThrough& seen, const Interval& interval, float length, Rng& rng, Add&& add) {
   const auto strata = static_cast<uint32_t>(std::max(1.0f, std::ceil(interval.length() / length)));
   const double width = static_cast<double>(interval.length()) / strata;
-  const Rgb sigma_t = medium ? medium->sigma_t : Rgb(0.0f);
-  uint32_t next = 0;
   double t = interval.t0 + rng.uniform_double() * width;
-  const auto take = [&](double column) {
-    add(ray.at(static_cast<float>(t)), glm::exp(-sigma_t * static_cast<float>(column)) * static_cast<float>(width));
+  for (uint32_t next = 0; next < strata;) {
+    const auto column = static_cast<float>(seen.columns.at(t).column);
+    add(seen.ray.at(static_cast<float>(t)), glm::exp(-seen.sigma_t * column) * static_cast<float>(width));
     t = interval.t0 + (++next + rng.uniform_double()) * width;
-  };
-  double crossed = column_before;
-  uint32_t lookups = 0;
-  if (medium)
-    lookups = medium->visit_pieces(ray, interval, [&](const DensityPiece& piece) {
-      while (next < strata && t < piece.t1) take(crossed + (t > piece.t0 ? piece.column(t - piece.t0) : 0.0));
-      crossed += piece.column();
-      return next < strata;
-    });
-  while (next < strata) take(crossed);
-  return lookups;
+  }
 }
 
 inline double Marcher::extend(const DensityPiece& piece, double s, double length, double most_column) {

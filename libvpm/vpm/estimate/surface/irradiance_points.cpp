@@ -1,5 +1,5 @@
 // Computing the points, and finding the nearest.
-#include "vpm/estimate/irradiance_points.h"
+#include "vpm/estimate/surface/irradiance_points.h"
 
 #include "vpm/base/parallel.h"
 #include "vpm/estimate/surface_estimate.h"

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "vpm/estimate/photon_map.h"
+#include "vpm/photon/records.h"
 #include "vpm/surface/geometry.h"
 
 namespace vpm {

@@ -1,11 +1,10 @@
-// Single scattering along a segment of an eye ray, found at a few distances: each drawn either equiangularly towards
-// the light or as what scatters there reaches the eye, and weighed as if both had drawn it.
+// Distances along a ray at which to look for single scattering.
 #pragma once
 
 #include <optional>
 
+#include "vpm/light/light.h"
 #include "vpm/medium/columns_along.h"
-#include "vpm/render/scattered_light.h"
 
 namespace vpm {
 
@@ -53,18 +52,5 @@ class AttenuatedDistances {
   Rgbd share_{0.0};     // of each channel in the total
   double total_ = 0.0;  // integral of density times weight times transmittance, m
 };
-
-/// A stretch of an eye ray in a medium that scatters, and what a radiance that enters its near end counts for.
-struct EyeSegment {
-  Ray ray;
-  Interval interval;
-  MediumId medium = kVacuum;
-  Rgb throughput{1.0f};
-};
-
-/// Estimates the light that the medium scatters once into the segment, attenuated and times its throughput, W/(m^2
-/// sr): settings.direct_samples pairs of distances, each pair with a point of a light of its own. Where there is such a
-/// point one of the pair is equiangular; the balance heuristic [Veach1997, ch. 9] weighs both.
-Rgb single_scattering(const EyeContext& context, const EyeSegment& segment, Rng& rng, EyeCounters& counters);
 
 }  // namespace vpm

@@ -1,0 +1,49 @@
+// A stretch of an eye ray between two events or boundaries.
+#pragma once
+
+#include <optional>
+
+#include "vpm/base/count.h"
+#include "vpm/estimate/eye_work.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// The part of the ray in the box grown by `margin`, m.
+Interval clip(const Ray& ray, const Interval& interval, const Box& box, float margin);
+
+/// The column of the medium over an interval of a ray, m.
+inline double counted_column(const Medium& medium, const Ray& ray, const Interval& interval, WalkCounters& counters) {
+  const Column crossed = column(medium, ray, interval);
+  count(counters.lookups, crossed.lookups);
+  return crossed.value;
+}
+
+/// Lies in one medium. The column along it (the integral of density, from its start) is walked along once, however many
+/// estimators ask.
+class EyeSegment {
+ public:
+  EyeSegment(const Scene& scene_of_ray, const Ray& along, const Interval& from_to, MediumId in, const Rgb& counts_for)
+      : scene(scene_of_ray), ray(along), interval(from_to), number(in), throughput(counts_for) {}
+
+  /// Null in vacuum.
+  const Medium* medium() const { return number == kVacuum ? nullptr : &scene.media[number]; }
+  /// The columns at all places of the segment.
+  const ColumnsAlong& columns(EyeWork& work) const;
+  /// An estimator has walked along the whole segment by itself, and found this column, m.
+  void set_column(double column) const { column_ = column; }
+  /// Of the whole segment.
+  Rgb transmittance(EyeWork& work) const;
+
+  const Scene& scene;
+  const Ray ray;
+  const Interval interval;  // m
+  const MediumId number;    // of the medium
+  const Rgb throughput;     // what radiance that enters its near end counts for
+
+ private:
+  mutable bool walked_ = false;           // by columns()
+  mutable std::optional<double> column_;  // m
+};
+
+}  // namespace vpm

@@ -1,0 +1,24 @@
+// What goes with an eye ray: its random numbers, what it counts, and room to work in.
+#pragma once
+
+#include "vpm/base/rng.h"
+#include "vpm/estimate/statistics.h"
+#include "vpm/estimate/volume/march.h"
+#include "vpm/medium/columns_along.h"
+
+namespace vpm {
+
+/// Buffers that outlive rays, so that these allocate nothing: one for each thread.
+struct EyeScratch {
+  ColumnsAlong columns;  // of the segment under way
+  Marcher marcher;
+};
+
+struct EyeWork {
+  Rng& rng;
+  EyeCounters& counters;
+  EyeScratch& scratch;
+  size_t pixel = 0;  // that the ray belongs to, numbered row by row
+};
+
+}  // namespace vpm

@@ -1,0 +1,46 @@
+// Radii of passes, and the making of maps.
+#include "vpm/estimate/pass_map.h"
+
+#include "vpm/estimate/radius_schedule.h"
+#include "vpm/photon/density_control.h"
+
+namespace vpm {
+namespace {
+
+float default_share(const GatherSettings& gather) { return gather.goes_by_count() ? kDefaultSearch : kDefaultRadius; }
+
+}  // namespace
+
+float first_radius(const GatherSettings& gather, const Scene& scene) {
+  return gather.radius > 0.0f ? gather.radius : default_share(gather) * scene.bounds.diagonal();
+}
+
+float first_radius(const GatherSettings& gather, const Scene& scene, const Medium& medium) {
+  if (gather.radius > 0.0f || !medium.grid) return first_radius(gather, scene);
+  return default_share(gather) * medium.grid->bounds().diagonal();
+}
+
+bool shrinks(const GatherSettings& gather, const PassOfMaps& pass) {
+  return pass.shrinks && gather.mode != GatherMode::nearest;
+}
+
+GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dimension, const PassOfMaps& pass) {
+  gather.radius = shrinks(gather, pass) ? radius_of_pass(first_radius, dimension, pass.number) : first_radius;
+  return gather;
+}
+
+void merge_photons(std::vector<Photon>& photons, const GatherSettings& gather, const PassOfMaps& pass,
+                   RenderStatistics& statistics) {
+  if (pass.photons_in_cube > 0 && gather.mode != GatherMode::nearest)
+    statistics.merged_photons += control_density(photons, 0.5f * gather.radius, pass.photons_in_cube);
+}
+
+PhotonMap make_map(std::vector<Photon>& photons, const GatherSettings& gather, uint64_t emitted, const PassOfMaps& pass,
+                   RenderStatistics& statistics) {
+  merge_photons(photons, gather, pass, statistics);
+  PhotonMap map = make_photon_map(std::move(photons), gather, emitted);
+  statistics.photon_map_bytes += map.memory_bytes();
+  return map;
+}
+
+}  // namespace vpm

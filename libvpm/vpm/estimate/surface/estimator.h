@@ -1,0 +1,27 @@
+// The open set of estimators of the light that rough surfaces send towards the eye: one file each, one virtual call for
+// each surface that an eye ray ends on.
+#pragma once
+
+#include "vpm/estimate/estimator.h"
+#include "vpm/estimate/eye_work.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// A rough surface as a path that travels along `travel` in `medium` meets it.
+struct SurfaceView {
+  const Hit& hit;
+  const Material& material;
+  Vec3 travel{0.0f};  // unit
+  MediumId medium = kVacuum;
+};
+
+class SurfaceEstimator : public Estimator {
+ public:
+  /// Estimates the radiance that leaves the surface against `travel`, W/(m^2 sr), but for what it emits.
+  virtual Rgb sent(const SurfaceView& view, EyeWork& work) const = 0;
+  /// Photons found in the discs of pixels, over their samples; empty where pixels have no discs of their own.
+  virtual std::vector<uint64_t> take_found() { return {}; }
+};
+
+}  // namespace vpm

@@ -1,0 +1,46 @@
+// Discs of pixels, and what is found in them.
+#include "vpm/estimate/surface/pixel_radii.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "vpm/base/count.h"
+#include "vpm/estimate/surface_estimate.h"
+
+namespace vpm {
+
+PixelRadii::PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, std::vector<float> radii,
+                       std::optional<SurfaceShadowRays> direct)
+    : gather_(settings.gather),
+      radii_(std::move(radii)),
+      direct_(std::move(direct)),
+      map_(scene, settings, direct_ ? indirect_photon : any_photon),
+      found_(radii_.size()) {
+  assert(gather_.mode == GatherMode::radius && gather_.boundary == BoundaryRule::none);
+}
+
+/// Its radii do not go by the number of the pass.
+std::vector<MapInfo> PixelRadii::maps() const {
+  MapInfo info = map_.info();
+  info.shrinks = false;
+  return {info};
+}
+
+void PixelRadii::build(uint64_t, RenderStatistics& statistics) {
+  map_.build(statistics);
+  statistics.last_surface_radius = *std::max_element(radii_.begin(), radii_.end());
+}
+
+Rgb PixelRadii::sent(const SurfaceView& view, EyeWork& work) const {
+  GatherCounters& counters = work.counters.gather;
+  const Rgb direct = direct_ ? direct_->sent(view, work) : Rgb(0.0f);
+  GatherSettings own = gather_;
+  own.radius = radii_[work.pixel];
+  count(work.counters.surface_queries);
+  const uint64_t before = counters.used;
+  const Rgb radiance = scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map_.map(), counters, own});
+  found_[work.pixel] += counters.used - before;
+  return direct + radiance;
+}
+
+}  // namespace vpm

@@ -1,0 +1,33 @@
+// Light of surfaces from their photon map by radii of the pixels' own, which shrink as pixels find photons
+// [Hachisuka2009].
+#pragma once
+
+#include <optional>
+
+#include "vpm/estimate/surface/surface_map.h"
+#include "vpm/estimate/surface/surface_shadow_rays.h"
+
+namespace vpm {
+
+class PixelRadii final : public SurfaceEstimator {
+ public:
+  /// `radii`: of the pixels in this pass, m. The map is gathered by radius, with no correction at borders. Without
+  /// `direct` it holds the light, too, that comes straight from lights.
+  PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, std::vector<float> radii,
+             std::optional<SurfaceShadowRays> direct);
+
+  std::vector<MapInfo> maps() const override;
+  Recorders recorders() override { return {map_.recorder()}; }
+  void build(uint64_t emitted, RenderStatistics& statistics) override;
+  Rgb sent(const SurfaceView& view, EyeWork& work) const override;
+  std::vector<uint64_t> take_found() override { return std::move(found_); }
+
+ private:
+  GatherSettings gather_;
+  std::vector<float> radii_;
+  std::optional<SurfaceShadowRays> direct_;
+  SurfaceMap map_;
+  mutable std::vector<uint64_t> found_;  // by pixel, each written by the one thread that renders that pixel
+};
+
+}  // namespace vpm

@@ -1,0 +1,26 @@
+// Building the surface map, and gathering from it.
+#include "vpm/estimate/surface/surface_map.h"
+
+#include "vpm/base/count.h"
+#include "vpm/estimate/surface_region.h"
+
+namespace vpm {
+
+Rgb gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work) {
+  GatherCounters& counters = work.counters.gather;
+  count(work.counters.surface_queries);
+  if (map.settings.boundary == BoundaryRule::none)
+    return scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map, counters});
+  const SurfaceRegion region(scene, view.hit, -view.travel, map.settings);
+  return scattered_radiance(view.material, view.hit, -view.travel, BoundedMap{map, region, counters});
+}
+
+void SurfaceMap::build(RenderStatistics& statistics) {
+  statistics.surface_photons = hits_.photons.size();
+  const GatherSettings gather =
+      gather_in_pass(settings_.gather, first_radius(settings_.gather, scene_), 2, settings_.pass);
+  map_ = make_map(hits_.photons, gather, hits_.emitted_count, settings_.pass, statistics);
+  statistics.last_surface_radius = map_.settings.radius;
+}
+
+}  // namespace vpm

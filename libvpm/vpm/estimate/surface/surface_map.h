@@ -1,0 +1,44 @@
+// The photon map of surfaces, as estimators gather from it.
+#pragma once
+
+#include "vpm/estimate/pass_map.h"
+#include "vpm/estimate/surface/estimator.h"
+#include "vpm/photon/records.h"
+
+namespace vpm {
+
+/// What estimators by the photons of surfaces are told.
+struct SurfaceMapSettings {
+  GatherSettings gather;  // its radius, m, is that of the first pass; 0: chosen by the size of the scene
+  PassOfMaps pass;
+};
+
+/// The surface radiance estimate [Jarosz2008, eq. 7.5, corrected] at a hit: by the map's gather, with or without the
+/// correction at borders.
+Rgb gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work);
+
+/// Photons on rough surfaces: recorded, sorted, gathered.
+class SurfaceMap {
+ public:
+  /// Of the photons that the filter takes.
+  SurfaceMap(const Scene& scene, const SurfaceMapSettings& settings, PhotonFilter filter,
+             HitUse use = HitUse::surface_map)
+      : scene_(scene), settings_(settings), hits_(scene, std::move(filter), use) {}
+
+  /// Those of `section` in the scene file.
+  MapInfo info() const {
+    return {"surface", 2, shrinks(settings_.gather, settings_.pass), nullptr, &hits_.photons, hits_.emitted_count};
+  }
+  PhotonRecorder* recorder() { return &hits_; }
+  void build(RenderStatistics& statistics);
+  Rgb gather(const SurfaceView& view, EyeWork& work) const { return gather_from(map_, scene_, view, work); }
+  const PhotonMap& map() const { return map_; }
+
+ private:
+  const Scene& scene_;
+  SurfaceMapSettings settings_;
+  HitRecorder hits_;
+  PhotonMap map_;
+};
+
+}  // namespace vpm

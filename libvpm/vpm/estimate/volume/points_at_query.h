@@ -1,0 +1,28 @@
+// The volumetric radiance estimate [Jarosz2008, eq. 7.10, corrected] at points of a march, with the density at the
+// query.
+#pragma once
+
+#include "vpm/estimate/volume/marched.h"
+#include "vpm/estimate/volume/volume_maps.h"
+
+namespace vpm {
+
+/// Photons around a point, by radius or by count, with or without the correction at borders.
+class PointsAtQuery final : public MarchedSource {
+ public:
+  /// The gather is none beside whole rays.
+  PointsAtQuery(const Scene& scene, const VolumeMapSettings& settings) : scene_(scene), maps_(scene, settings, 3) {}
+
+  ScatteredLight finds() const override { return maps_.finds(); }
+  std::vector<MapInfo> maps() const override { return maps_.maps(); }
+  Recorders recorders() override { return maps_.recorders(); }
+  void build(uint64_t emitted, RenderStatistics& statistics) override;
+  Reach reach(const EyeSegment& segment) const override;
+  Rgb at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const override;
+
+ private:
+  const Scene& scene_;
+  VolumeMaps<PhotonMap> maps_;
+};
+
+}  // namespace vpm

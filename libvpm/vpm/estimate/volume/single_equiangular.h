@@ -1,0 +1,26 @@
+// Single scattering along a segment of an eye ray, found at a few distances: each drawn either equiangularly towards
+// the light or as what scatters there reaches the eye, and weighed as if both had drawn it.
+#pragma once
+
+#include "vpm/estimate/volume/estimator.h"
+#include "vpm/estimate/volume/scattered_light.h"
+
+namespace vpm {
+
+/// Pairs of distances, each pair with a point of a light of its own. Where there is such a point one of the pair is
+/// equiangular [Kulla2012]; the balance heuristic [Veach1997, ch. 9] weighs both.
+class SingleEquiangular final : public VolumeEstimator {
+ public:
+  /// `pairs` >= 1, on each segment.
+  SingleEquiangular(const Scene& scene, std::shared_ptr<const TransmittanceEstimator> transmittance, int pairs)
+      : light_(scene, std::move(transmittance)), pairs_(pairs) {}
+
+  ScatteredLight finds() const override { return {.once = true}; }
+  Rgb along(const EyeSegment& segment, EyeWork& work) const override;
+
+ private:
+  ScatteredOnce light_;
+  int pairs_;
+};
+
+}  // namespace vpm

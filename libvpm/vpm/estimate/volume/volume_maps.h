@@ -1,0 +1,67 @@
+// The photons of media that an estimator gathers, one map for each medium.
+#pragma once
+
+#include "vpm/estimate/pass_map.h"
+#include "vpm/estimate/volume/estimator.h"
+#include "vpm/photon/records.h"
+
+namespace vpm {
+
+/// What an estimator by photons of media is told.
+struct VolumeMapSettings {
+  GatherSettings gather;  // its radius, m, is that of the first pass; 0: chosen by the size of the medium
+  VolumeForm form = VolumeForm::density_at_query;
+  float density_floor = 0.0f;  // in [0, 1], see stored_power()
+  bool once = true;            // gather photons, too, that come straight from lights
+  PassOfMaps pass;
+};
+
+/// Map: made by `make`(photons, settings in this pass, radius over that of the first pass, emitted, statistics).
+template <class Map>
+class VolumeMaps {
+ public:
+  /// `dimension` of the kernel.
+  VolumeMaps(const Scene& scene, const VolumeMapSettings& settings, int dimension)
+      : scene_(scene),
+        settings_(settings),
+        dimension_(dimension),
+        collisions_(scene, settings.form, settings.density_floor, settings.once ? any_photon : indirect_photon) {}
+
+  ScatteredLight finds() const { return {settings_.once, true}; }
+  std::vector<MapInfo> maps() const {
+    return {{"volume", dimension_, shrinks(settings_.gather, settings_.pass), &collisions_.photons}};
+  }
+  Recorders recorders() { return {&collisions_}; }
+  const VolumeMapSettings& settings() const { return settings_; }
+  const Map& operator[](size_t medium) const { return by_medium_[medium]; }
+  size_t size() const { return by_medium_.size(); }
+
+  template <class Make>
+  void build(uint64_t emitted, RenderStatistics& statistics, Make&& make) {
+    count(statistics.ledger.floored, collisions_.floored);
+    for (size_t m = 0; m < scene_.media.size(); ++m) {
+      std::vector<Photon>& photons = collisions_.photons[m];
+      const float first = first_radius(settings_.gather, scene_, scene_.media[m]);
+      const GatherSettings gather = gather_in_pass(settings_.gather, first, dimension_, settings_.pass);
+      statistics.volume_photons += photons.size();
+      statistics.last_volume_radius = std::max(statistics.last_volume_radius, gather.radius);
+      by_medium_.push_back(make(photons, gather, gather.radius / first, emitted, statistics));
+    }
+  }
+
+ private:
+  const Scene& scene_;
+  VolumeMapSettings settings_;
+  int dimension_;
+  CollisionRecorder collisions_;
+  std::vector<Map> by_medium_;
+};
+
+/// How long steps among photons are, m: a gather radius, so that none is passed by. Where that would make too many
+/// steps of a stretch (thin media that extend very far) steps are longer: noisier then, but no less right.
+inline float step_among(const PhotonMap& map, const Interval& interval) {
+  constexpr float kMostSteps = 10'000.0f;  // in one stretch of a ray
+  return std::max(map.settings.radius, interval.length() / kMostSteps);
+}
+
+}  // namespace vpm

@@ -1,0 +1,25 @@
+// The photons of a pass as plain lists: for studies of what photons tell, and for what compares maps with brute force.
+#pragma once
+
+#include "vpm/photon/records.h"
+#include "vpm/photon/trace.h"
+
+namespace vpm {
+
+/// How photons are traced, and what is listed of them.
+struct ListSettings : TraceSettings {
+  VolumeForm volume_form = VolumeForm::density_at_query;
+  float density_floor = 0.0f;                         // density at the query: see stored_power()
+  bool direct_collisions = true, direct_hits = true;  // list photons that have not scattered yet, too
+};
+
+/// Powers are those of the photons, not yet divided by `ledger.emitted_count`.
+struct PhotonLists {
+  std::vector<std::vector<Photon>> volume;  // photons that collided, by medium
+  std::vector<Photon> surface;              // photons on rough surfaces
+  Ledger ledger;
+};
+
+PhotonLists list_photons(const Scene& scene, const DistanceStrategy& strategy, const ListSettings& settings);
+
+}  // namespace vpm

@@ -1,0 +1,82 @@
+// What is kept of collisions and of hits.
+#include "vpm/photon/records.h"
+
+#include "vpm/base/count.h"
+#include "vpm/photon/stored_power.h"
+
+namespace vpm {
+namespace {
+
+/// Appends what a part has, and leaves that empty.
+template <class T>
+void append(std::vector<T>& all, std::vector<T>& part) {
+  all.insert(all.end(), part.begin(), part.end());
+  part = {};
+}
+
+Photon as_photon(const ArrivingPhoton& arriving, const Rgb& power) {
+  return {arriving.state.ray.origin, PackedDirection(arriving.state.ray.direction), power};
+}
+
+}  // namespace
+
+CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter)
+    : photons(scene.media.size()),
+      scene_(scene),
+      form_(form),
+      density_floor_(density_floor),
+      filter_(std::move(filter)) {}
+
+std::unique_ptr<PhotonRecorder> CollisionRecorder::part() const {
+  return std::make_unique<CollisionRecorder>(scene_, form_, density_floor_, filter_);
+}
+
+void CollisionRecorder::join(PhotonRecorder& part) {
+  auto& other = static_cast<CollisionRecorder&>(part);
+  for (size_t m = 0; m < photons.size(); ++m) append(photons[m], other.photons[m]);
+  floored += other.floored;
+}
+
+size_t CollisionRecorder::stored() const {
+  size_t all = 0;
+  for (const std::vector<Photon>& map : photons) all += map.size();
+  return all;
+}
+
+void CollisionRecorder::collided(const ArrivingPhoton& photon) {
+  const Medium& medium = scene_.media[photon.state.medium];
+  if (!medium.scatters() || !filter_(photon)) return;
+  const float density = photon.event.density / medium.max_density();
+  if (form_ == VolumeForm::density_at_query && density < density_floor_) count(floored);
+  photons[photon.state.medium].push_back(
+      as_photon(photon, stored_power(photon.state.power, form_, density, density_floor_)));
+}
+
+HitRecorder::HitRecorder(const Scene& scene, PhotonFilter filter, HitUse use)
+    : scene_(scene), filter_(std::move(filter)), use_(use) {}
+
+std::unique_ptr<PhotonRecorder> HitRecorder::part() const {
+  return std::make_unique<HitRecorder>(scene_, filter_, use_);
+}
+
+void HitRecorder::join(PhotonRecorder& part) {
+  auto& other = static_cast<HitRecorder&>(part);
+  append(photons, other.photons);
+  emitted_count += other.emitted_count;
+}
+
+void HitRecorder::hit(const ArrivingPhoton& photon) {
+  if (leaves_out(photon.number) || !is_rough(scene_.material_of(photon.event.hit)) || !filter_(photon)) return;
+  photons.push_back(as_photon(photon, photon.state.power));
+}
+
+void SiteRecorder::join(PhotonRecorder& part) { append(sites, static_cast<SiteRecorder&>(part).sites); }
+
+void SiteRecorder::hit(const ArrivingPhoton& photon) {
+  const Hit& hit = photon.event.hit;
+  if (!finds_sites(photon.number) || !std::holds_alternative<Lambertian>(scene_.material_of(hit))) return;
+  const float side = glm::dot(hit.normal, photon.state.ray.direction) < 0.0f ? 1.0f : -1.0f;
+  sites.push_back({hit.position, PackedDirection(side * hit.normal), PackedDirection(side * hit.shading_normal)});
+}
+
+}  // namespace vpm
