@@ -1,12 +1,13 @@
 // Irradiance computed beforehand: its brute-force twin, and a cavity where the irradiance is the same everywhere.
 #include <gtest/gtest.h>
 
+#include "support/recorders.h"
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface/irradiance_points.h"
 #include "vpm/estimate/surface_estimate.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/records.h"
 #include "vpm/scene/build.h"
 
 namespace vpm {
@@ -121,18 +122,17 @@ TEST(SlowIrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
   finish(scene);
   TraceSettings settings;
   settings.emitted = 2'000;
-  settings.keep_sites = true;
   Moments means;
   uint64_t found = 0, missed = 0;
   for (uint64_t pass = 0; pass < 300; ++pass) {
     settings.pass = pass;
-    Progress silent("photons", 0, false);
-    TracedPhotons photons = trace_photons(scene, *make_distance_strategy({}), settings, silent);
-    EXPECT_EQ(photons.surface_emitted, settings.emitted - settings.emitted / kSiteStep);
-    const PhotonMap map =
-        make_photon_map(std::move(photons.surface), {GatherMode::radius, 0.08f}, photons.surface_emitted);
+    HitRecorder hits(scene, any_photon, HitUse::surface_map_beside_sites);
+    SiteRecorder sites(scene);
+    trace_into(scene, settings, {&hits, &sites});
+    EXPECT_EQ(hits.emitted_count, settings.emitted - settings.emitted / kSiteStep);
+    const PhotonMap map = make_photon_map(std::move(hits.photons), {GatherMode::radius, 0.08f}, hits.emitted_count);
     GatherCounters counters;
-    const IrradiancePoints points(photons.sites, map, counters);
+    const IrradiancePoints points(sites.sites, map, counters);
     Moments pass_mean;
     for (uint64_t i = 0; i < 500; ++i) {
       Rng rng(5, rng_stream(RngUse::test, 3 + pass), i);

@@ -7,7 +7,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/volume_estimate.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 
 namespace vpm {
 namespace {
@@ -63,13 +63,12 @@ TEST_P(PointSource, FluenceThroughTheVolumeMapIsExact) {
   const Scene scene = point_source_scene(c.albedo);
   const auto strategy = make_distance_strategy({.strategy = "homogeneous"});
   std::vector<std::array<double, 4>> batches(c.batches);
-  Progress silent("photons", 0, false);
   for (int batch = 0; batch < c.batches; ++batch) {
-    TraceSettings settings;
+    ListSettings settings;
     settings.seed = 3;
     settings.pass = static_cast<uint64_t>(batch);
     settings.emitted = c.photons;
-    const TracedPhotons photons = trace_photons(scene, *strategy, settings, silent);
+    const PhotonLists photons = list_photons(scene, *strategy, settings);
     parallel_for_chunks(4, 1, [&](size_t i, size_t, size_t) {
       const GatherSettings gather{GatherMode::radius, kPlaces[i].radius, 0, KernelKind::epanechnikov};
       batches[batch][i] =

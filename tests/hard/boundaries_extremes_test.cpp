@@ -142,7 +142,7 @@ TEST(BoundariesExtremes, GrazingTotalInternalReflectionKeepsEveryPhoton) {
     finish(scene);
     // At the bar's ends the angle to their normal is the complement: where that is beyond the critical angle too, the
     // light circles for ever, and is cut and counted; nothing escapes sideways in any case.
-    TraceSettings settings;
+    ListSettings settings;
     settings.emitted = 1000;
     settings.max_events = 2000;
     const Ledger ledger = trace_with(scene, "regular", settings).ledger;

@@ -5,7 +5,7 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
 
@@ -59,15 +59,14 @@ inline Moments clean_means(const Scene& scene, const RenderSettings& settings, i
   return means;
 }
 
-inline TracedPhotons trace_with(const Scene& scene, const std::string& strategy, const TraceSettings& settings) {
-  Progress silent("photons", 0, false);
-  return trace_photons(scene, *make_distance_strategy({.strategy = strategy}), settings, silent);
+inline PhotonLists trace_with(const Scene& scene, const std::string& strategy, const ListSettings& settings) {
+  return list_photons(scene, *make_distance_strategy({.strategy = strategy}), settings);
 }
 
 /// The ledger of `emitted` photons. Of a grey scene whose strategy gives no weights, every photon's energy is accounted
 /// for in full but for albedos' expectations, so that only statistics are left of the imbalance.
 inline Ledger clean_ledger(const Scene& scene, const std::string& strategy, uint64_t emitted) {
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = emitted;
   const Ledger ledger = trace_with(scene, strategy, settings).ledger;
   EXPECT_EQ(ledger.non_finite, 0u);

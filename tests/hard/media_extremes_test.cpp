@@ -196,10 +196,10 @@ TEST(MediaExtremes, AnAlbedoOfOneLosesNothingAndOfZeroSendsNothingOn) {
     EXPECT_EQ(white.absorbed_in_media, Rgbd(0.0));
     EXPECT_NEAR(white.escaped.r / white.emitted.r, 1.0, 1e-6);
     const Scene black = boxed_medium(make_medium(nullptr, Rgb(sigma), 0.0f), light);
-    EXPECT_FALSE(plan_stages(black, {}).volume_map);
+    EXPECT_FALSE(scattering_of(black).media);
     const Ledger gone = clean_ledger(black, "regular", 3000);
     EXPECT_NEAR((gone.absorbed_in_media.r + gone.escaped.r) / gone.emitted.r, 1.0, 1e-6);
-    EXPECT_EQ(trace_with(black, "regular", {.emitted = 100}).volume[0].size(), 0u);
+    EXPECT_EQ(trace_with(black, "regular", {{.emitted = 100}}).volume[0].size(), 0u);
   }
 }
 
@@ -210,7 +210,7 @@ TEST(MediaExtremes, AnAlbedoNextToOneAbsorbsWhatFloatKeepsOfIt) {
   const Scene scene = boxed_medium(make_medium(nullptr, Rgb(4.0f), albedo), PointLight{Vec3(0.0f), Rgb(1.0f)});
   EXPECT_EQ(scene.media[0].albedo(), Rgb(albedo));
   // So rarely that none of these photons is: their imbalance is all that absorption, which is as it must be.
-  const Ledger ledger = trace_with(scene, "regular", {.emitted = 20000}).ledger;
+  const Ledger ledger = trace_with(scene, "regular", {{.emitted = 20000}}).ledger;
   const double collided = static_cast<double>(ledger.collisions) * ledger.emitted.r / 20000.0;
   EXPECT_NEAR(ledger.absorbed_in_media.r / collided / 0x1p-23, 1.0, 1e-5);
 }

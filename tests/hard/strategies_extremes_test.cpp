@@ -63,7 +63,7 @@ TEST(StrategiesExtremes, TheLedgerReportsHeavyTails) {
   const Ledger analog = clean_ledger(scene, "regular", 20000);
   EXPECT_FLOAT_EQ(static_cast<float>(analog.weights.largest), 1.0f);
   EXPECT_NEAR(analog.weights.effective_sample_size() / 20000.0, 1.0, 1e-6);
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 20000;
   const Ledger weighted = trace_with(scene, "mean-extinction", settings).ledger;
   EXPECT_EQ(weighted.non_finite, 0u);

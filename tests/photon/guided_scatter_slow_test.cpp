@@ -4,7 +4,7 @@
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/medium/make_grid.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 #include "vpm/scene/build.h"
 
 namespace vpm {
@@ -67,15 +67,14 @@ PhotonGuide learned(const Scene& scene, const GuideSettings& settings) {
   return learn_guide(scene, *make_distance_strategy({}), settings, 1, 0, 1000);
 }
 
-TracedPhotons photons_of(const Scene& scene, const PhotonGuide* guide, bool split, uint64_t emitted, uint64_t pass) {
-  TraceSettings settings;
+PhotonLists photons_of(const Scene& scene, const PhotonGuide* guide, bool split, uint64_t emitted, uint64_t pass) {
+  ListSettings settings;
   settings.pass = pass;
   settings.emitted = emitted;
   settings.volume_form = VolumeForm::density_at_photon;
   settings.guide = guide;
   settings.split = split;
-  Progress silent("photons", 0, false);
-  return trace_photons(scene, *make_distance_strategy({}), settings, silent);
+  return list_photons(scene, *make_distance_strategy({}), settings);
 }
 
 /// By pass, from the first on: the power behind the hole that collides in each box, then that which comes to surfaces
@@ -85,7 +84,7 @@ std::vector<Moments> tally(const Scene& scene, const PhotonGuide* guide, bool sp
   std::vector<Moments> result(2 * kBoxes + 3);
   for (uint64_t pass = first; pass < first + passes; ++pass) {
     const uint64_t number = pass + (guide ? 1000 : 0);
-    const TracedPhotons photons = photons_of(scene, guide, split, emitted, number);
+    const PhotonLists photons = photons_of(scene, guide, split, emitted, number);
     std::vector<double> sums(result.size(), 0.0);
     for (const Photon& p : photons.volume[0])
       if (p.position.z > 0.0f) sums[box_of(p.position)] += sum_channels(p.power);

@@ -1,10 +1,12 @@
 // Guided photons against those that are not: the same means, from fewer; and caustics that are aimed.
 #include <gtest/gtest.h>
 
+#include "support/recorders.h"
 #include "support/statistics.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/photon/caustics.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 #include "vpm/scene/build.h"
 
 namespace vpm {
@@ -32,9 +34,8 @@ Scene foggy_box() {
 std::vector<Moments> tally(const Scene& scene, GuideSettings guided, uint64_t emitted, int passes) {
   const auto strategy = make_distance_strategy({});
   std::vector<Moments> result(kBoxes * kBoxes * kBoxes + 3);
-  Progress silent("photons", 0, false);
   for (int pass = 0; pass < passes; ++pass) {
-    TraceSettings settings;
+    ListSettings settings;
     settings.pass = static_cast<uint64_t>(pass) + (guided.importons > 0 ? 1000 : 0);
     settings.emitted = emitted;
     settings.volume_form = VolumeForm::density_at_photon;
@@ -44,7 +45,7 @@ std::vector<Moments> tally(const Scene& scene, GuideSettings guided, uint64_t em
       settings.guide = &*guide;
       settings.split = guided.split;
     }
-    const TracedPhotons photons = trace_photons(scene, *strategy, settings, silent);
+    const PhotonLists photons = list_photons(scene, *strategy, settings);
     std::vector<double> sums(result.size(), 0.0);
     for (const Photon& p : photons.volume[0]) {
       const Vec3i box = glm::clamp(Vec3i((p.position + 1.0f) * (0.5f * kBoxes)), Vec3i(0), Vec3i(kBoxes - 1));
@@ -89,15 +90,14 @@ TEST(GuidedPhotons, CarryLessWhereMoreAreEmitted) {
   };
   const PhotonGuide guide{ImportanceMap(scene.bounds, 1), std::nullopt, EmissionGuide::learn(5'000, 1, 0, is_aimed),
                           0.0};
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 20'000;
   settings.guide = &guide;
-  Progress silent("photons", 0, false);
   Moments received;
   size_t stored = 0;
   for (settings.pass = 0; settings.pass < 20; ++settings.pass) {
     double power = 0.0;
-    for (const Photon& p : trace_photons(scene, *make_distance_strategy({}), settings, silent).surface) {
+    for (const Photon& p : list_photons(scene, *make_distance_strategy({}), settings).surface) {
       power += p.power.g / static_cast<double>(settings.emitted);
       ++stored;
     }
@@ -120,12 +120,11 @@ TEST(GuidedPhotons, KeepTheLedgerBalanced) {
   const Scene scene = foggy_box();
   const auto strategy = make_distance_strategy({});
   const PhotonGuide guide = learn_guide(scene, *strategy, {.importons = 2000}, 1, 0, 1000);
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 50'000;
   settings.guide = &guide;
   settings.split = true;
-  Progress silent("photons", 0, false);
-  const Ledger ledger = trace_photons(scene, *strategy, settings, silent).ledger;
+  const Ledger ledger = list_photons(scene, *strategy, settings).ledger;
   expect_mean(ledger.imbalance, 0.0, kFalseAlarms);
   EXPECT_EQ(ledger.non_finite, 0u);
 }
@@ -149,13 +148,10 @@ TEST(Caustics, AimedPhotonsBringThePowerOfAll) {
   Moments all, aimed;
   size_t of_all = 0, of_aimed = 0;
   for (uint64_t pass = 0; pass < 10; ++pass) {
-    TraceSettings settings;
-    settings.pass = pass;
-    settings.emitted = kAll;
-    settings.keep_caustics = true;
-    Progress silent("photons", 0, false);
+    HitRecorder caustics(scene, caustic_photons(false, true), HitUse::other_map);
+    trace_into(scene, {.pass = pass, .emitted = kAll}, {&caustics});
     double power = 0.0;
-    for (const Photon& p : trace_photons(scene, *strategy, settings, silent).caustics) {
+    for (const Photon& p : caustics.photons) {
       power += p.power.g / kAll;
       ++of_all;
     }
@@ -176,12 +172,9 @@ TEST(Caustics, AimedPhotonsBringThePowerOfAll) {
 /// The photons that are left to the other tracing are those that media scattered: here none.
 TEST(Caustics, LeaveNothingTwice) {
   const Scene scene = small_ball();
-  TraceSettings settings;
-  settings.emitted = 100'000;
-  settings.keep_caustics = true;
-  settings.keep_specular_caustics = false;
-  Progress silent("photons", 0, false);
-  EXPECT_TRUE(trace_photons(scene, *make_distance_strategy({}), settings, silent).caustics.empty());
+  HitRecorder caustics(scene, caustic_photons(false, false), HitUse::other_map);
+  trace_into(scene, {.emitted = 100'000}, {&caustics});
+  EXPECT_TRUE(caustics.photons.empty());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Photon tracing: the strategies against each other without a kernel, the ledger, what is stored, and reproducibility.
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 
 #include <gtest/gtest.h>
 
@@ -21,10 +21,9 @@ constexpr int kBatches = 100;
 const Light kSpot =
     SpotLight{Vec3(-1.5f, 2.5f, 0.4f), glm::normalize(Vec3(0.5f, -1.0f, -0.1f)), 0.97f, 0.9f, Rgb(4.0f, 2.0f, 1.0f)};
 
-TracedPhotons trace(const Scene& scene, const std::string& strategy, TraceSettings settings) {
-  Progress silent("photons", 0, false);
+PhotonLists trace(const Scene& scene, const std::string& strategy, ListSettings settings) {
   settings.volume_form = VolumeForm::density_at_photon;
-  return trace_photons(scene, *make_distance_strategy({.strategy = strategy}), settings, silent);
+  return list_photons(scene, *make_distance_strategy({.strategy = strategy}), settings);
 }
 
 /// The power that collides in each box and channel, and what escapes, over independent batches.
@@ -37,11 +36,11 @@ Tally tally(const Scene& scene, const std::string& strategy, uint64_t seed) {
   Tally result{std::vector<Moments>(kBoxes * kBoxes * kBoxes * 3 + 3), 0.0};
   Ledger all;
   for (int batch = 0; batch < kBatches; ++batch) {
-    TraceSettings settings;
+    ListSettings settings;
     settings.seed = seed;
     settings.pass = static_cast<uint64_t>(batch);
     settings.emitted = 1000;
-    const TracedPhotons photons = trace(scene, strategy, settings);
+    const PhotonLists photons = trace(scene, strategy, settings);
     std::vector<double> sums(result.values.size(), 0.0);
     for (const Photon& p : photons.volume[0]) {
       const Vec3i box = glm::clamp(Vec3i((p.position + 1.0f) * (0.5f * kBoxes)), Vec3i(0), Vec3i(kBoxes - 1));
@@ -136,7 +135,7 @@ TEST(PhotonTracing, TheLedgerCloses) {
     Moments emitted;                    // green, W
     std::array<Moments, 3> difference;  // of what went and what came, W
     for (int batch = 0; batch < kBatches; ++batch) {
-      TraceSettings settings;
+      ListSettings settings;
       settings.pass = static_cast<uint64_t>(batch);
       settings.emitted = 500;
       const Ledger ledger = trace(*scene, strategy, settings).ledger;
@@ -159,9 +158,9 @@ TEST(PhotonTracing, TheLedgerCloses) {
 
 TEST(PhotonTracing, IsTheSameForAnyNumberOfThreads) {
   const Scene scene = full_scene();
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 30001;
-  std::vector<TracedPhotons> results;
+  std::vector<PhotonLists> results;
   for (const int threads : {1, 2, 5}) {
     set_threads(threads);
     results.push_back(trace(scene, "homogeneous", settings));
@@ -186,10 +185,10 @@ TEST(SlowPhotonTracing, FillsTheMapAndDividesByTheEmitted) {
   std::array<Moments, 2> stored;
   for (uint64_t pass = 0; pass < 40; ++pass)
     for (const int many : {0, 1}) {
-      TraceSettings settings;
+      ListSettings settings;
       settings.pass = pass + 1000u * many;
       settings.stored = many ? 40000 : 10000;
-      const TracedPhotons photons = trace(scene, "homogeneous", settings);
+      const PhotonLists photons = trace(scene, "homogeneous", settings);
       EXPECT_GE(photons.volume[0].size(), settings.stored);
       double sum = 0.0;
       for (const Photon& p : photons.volume[0]) sum += p.power.g;
@@ -200,10 +199,10 @@ TEST(SlowPhotonTracing, FillsTheMapAndDividesByTheEmitted) {
 }
 
 TEST(PhotonTracing, StopsWhenEitherMapIsFullAndTracesNoPhotonTwice) {
-  TraceSettings settings;
+  ListSettings settings;
   settings.stored = 100000;
   for (const bool fog_in_glass : {false, true}) {  // fills the volume map, the surface map
-    const TracedPhotons photons = trace(full_scene(fog_in_glass), "homogeneous", settings);
+    const PhotonLists photons = trace(full_scene(fog_in_glass), "homogeneous", settings);
     EXPECT_GE((fog_in_glass ? photons.surface : photons.volume[0]).size(), settings.stored);
     EXPECT_LT((fog_in_glass ? photons.volume[0] : photons.surface).size(), settings.stored);
     std::vector<std::array<float, 3>> places;
@@ -217,9 +216,9 @@ TEST(PhotonTracing, LightPhotonsEndOrBecomeATenth) {
   // The photons' power alone tells: without the division by the survival some would stay lighter.
   const auto checker = grid_over_box([](int x, int y, int z) { return ((x ^ y ^ z) & 4) ? 4.0 : 0.1; });
   const Scene scene = boxed_medium(make_medium(checker, Rgb(1.5f), 0.9f), kSpot);
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 5000;
-  const TracedPhotons photons = trace(scene, "mean-extinction", settings);
+  const PhotonLists photons = trace(scene, "mean-extinction", settings);
   const double tenth = 0.1 * sum_channels(light_power(kSpot, scene.bounds));
   int at_the_limit = 0;
   double collided = 0.0;
@@ -237,32 +236,84 @@ TEST(PhotonTracing, LightPhotonsEndOrBecomeATenth) {
 
 TEST(PhotonTracing, LeavesOutWhatIsNotAskedFor) {
   const Scene scene = full_scene();
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 5000;
-  const TracedPhotons all = trace(scene, "homogeneous", settings);
-  settings.keep_direct_volume = false;
-  settings.keep_direct_surface = false;
-  const TracedPhotons indirect = trace(scene, "homogeneous", settings);
+  const PhotonLists all = trace(scene, "homogeneous", settings);
+  settings.direct_collisions = false;
+  settings.direct_hits = false;
+  const PhotonLists indirect = trace(scene, "homogeneous", settings);
   EXPECT_LT(indirect.volume[0].size(), all.volume[0].size());
   EXPECT_LT(indirect.surface.size(), all.surface.size());
   EXPECT_EQ(indirect.ledger.collisions, all.ledger.collisions);
   for (const Photon& p : all.surface) EXPECT_NEAR(p.position.y, -1.0f, 1e-6f);  // the mirror keeps none
-  settings.keep_volume = false;
-  settings.keep_surface = false;
-  const TracedPhotons none = trace(scene, "homogeneous", settings);
-  EXPECT_TRUE(none.volume[0].empty() && none.surface.empty());
+}
+
+/// Notes what it is told.
+class Notes : public PhotonRecorder {
+ public:
+  explicit Notes(const Box& box) : box_(box) {}
+  std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<Notes>(box_); }
+  void join(PhotonRecorder& part) override {
+    auto& other = static_cast<Notes&>(part);
+    numbers.insert(numbers.end(), other.numbers.begin(), other.numbers.end());
+    track += other.track;
+    tracks.merge(other.tracks);
+    collisions.merge(other.collisions);
+    collided_ += other.collided_;
+  }
+  void emitted(uint64_t number) override {
+    numbers.push_back(number);
+    tracks.add(track);
+    collisions.add(collided_);
+    track = collided_ = 0.0;
+  }
+  void flew(const PathState& from, const ArrivingPhoton& photon) override {
+    const double length = glm::distance(from.ray.origin, photon.state.ray.origin);
+    double t0 = 0.0, t1 = length;
+    clip_to_box(Vec3d(from.ray.origin), Vec3d(from.ray.direction), Vec3d(box_.lo), Vec3d(box_.hi), t0, t1);
+    if (t1 > t0) track += from.power.g * (t1 - t0);
+  }
+  void collided(const ArrivingPhoton& photon) override {
+    if (glm::all(glm::lessThan(box_.lo, photon.state.ray.origin)) &&
+        glm::all(glm::lessThan(photon.state.ray.origin, box_.hi)))
+      collided_ += photon.state.power.g;
+  }
+
+  std::vector<uint64_t> numbers;  // of photons, in the order in which they were told of
+  Moments tracks, collisions;     // W m and W in the box, of each photon but the last of a chunk
+  double track = 0.0;
+
+ private:
+  Box box_;
+  double collided_ = 0.0;
+};
+
+// In any box the fluence by the length of flights is that by collisions, in expectation: no kernel, no map.
+TEST(PhotonTracing, TellsRecordersOfPhotonsInOrderAndOfFlightsAsOfCollisions) {
+  const Scene scene = full_scene();
+  const Medium& medium = scene.media[0];
+  ASSERT_TRUE(medium.homogeneous());
+  Notes notes({Vec3(-0.4f), Vec3(0.4f)});
+  Progress silent("photons", 0, false);
+  const Ledger ledger = trace_photons(scene, *make_distance_strategy({}), {.emitted = 200'000}, {&notes}, silent);
+  ASSERT_EQ(notes.numbers.size(), ledger.emitted_count);
+  for (uint64_t i = 0; i < notes.numbers.size(); ++i) ASSERT_EQ(notes.numbers[i], i);
+  const double by_length = notes.tracks.mean() * medium.sigma_t.g, by_collisions = notes.collisions.mean();
+  const double error = std::sqrt(notes.tracks.variance_of_mean() * medium.sigma_t.g * medium.sigma_t.g +
+                                 notes.collisions.variance_of_mean());
+  EXPECT_NEAR(by_length, by_collisions, 5.0 * error);  // false alarms: below 1e-6
+  EXPECT_LT(error, 0.02 * by_collisions);
 }
 
 TEST(PhotonTracing, ADensityFloorBoundsThePowersAndNothingElse) {
   const auto sparse = grid_over_box([](int x, int y, int z) { return std::pow(lattice_noise(x, y, z), 8.0); });
   const Scene scene = boxed_medium(make_medium(sparse, Rgb(4.0f)), kSpot);
   const auto strategy = make_distance_strategy({});
-  Progress silent("photons", 0, false);
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 20000;
-  const std::vector<Photon> bare = trace_photons(scene, *strategy, settings, silent).volume[0];
+  const std::vector<Photon> bare = list_photons(scene, *strategy, settings).volume[0];
   settings.density_floor = 0.05f;
-  const TracedPhotons with_floor = trace_photons(scene, *strategy, settings, silent);
+  const PhotonLists with_floor = list_photons(scene, *strategy, settings);
   const std::vector<Photon>& floored = with_floor.volume[0];
   ASSERT_EQ(bare.size(), floored.size());
   const float emitted = light_power(kSpot, scene.bounds).r;
@@ -281,10 +332,10 @@ TEST(PhotonTracing, PhotonsThroughABoundaryStayDirect) {
   Medium medium =
       make_medium(nullptr, Rgb(100.0f), 1e-6f);  // all but black: every stored photon is at its first collision
   const Scene scene = boxed_medium(medium, kSpot);
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 2000;
   EXPECT_GT(trace(scene, "homogeneous", settings).volume[0].size(), 500u);
-  settings.keep_direct_volume = false;
+  settings.direct_collisions = false;
   EXPECT_EQ(trace(scene, "homogeneous", settings).volume[0].size(), 0u);
 }
 
@@ -292,7 +343,7 @@ TEST(PhotonTracing, PowerStaysEvenInColour) {
   // The channel mixture keeps the sum over channels as it was, flight by flight and collision by collision.
   const Scene scene =
       boxed_medium(colourful(grid_over_box([](int x, int y, int z) { return lattice_noise(x, y, z); })), kSpot);
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 20000;
   for (const char* strategy : {"regular", "ray-march", "ray-march-adaptive", "delta", "delta-local", "decomposition"}) {
     const Ledger ledger = trace(scene, strategy, settings).ledger;
@@ -310,7 +361,7 @@ TEST(PhotonTracing, CutsEndlessPathsAndCountsThem) {
   scene.lights.push_back(PointLight{});
   scene.geometry.commit();
   finish(scene);
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 50;
   settings.max_events = 500;
   const Ledger ledger = trace(scene, "homogeneous", settings).ledger;

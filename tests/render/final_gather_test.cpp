@@ -1,10 +1,11 @@
 // Final gathering: closed cavities, where it is exact, and what is left to the caustic map.
 #include <gtest/gtest.h>
 
+#include "support/recorders.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/image/metrics.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/records.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
@@ -175,43 +176,40 @@ TEST(FinalGather, CountsItsRays) {
   EXPECT_GT(s.surface_photons, 30'000u);                           // direct ones, too
 }
 
-TracedPhotons trace(const Scene& scene, const TraceSettings& settings) {
-  Progress silent("photons", 0, false);
-  return trace_photons(scene, *make_distance_strategy({}), settings, silent);
+/// What 10,000 photons leave to all maps of surfaces and to a caustic map.
+struct Hits {
+  std::vector<Photon> surface, caustics;
+};
+Hits hits_in(const Scene& scene, bool direct_caustics, const PhotonFilter& surface = any_photon) {
+  HitRecorder all(scene, surface, HitUse::surface_map),
+      caustics(scene, caustic_photons(direct_caustics, true), HitUse::other_map);
+  trace_into(scene, {.emitted = 10'000}, {&all, &caustics});
+  return {all.photons, caustics.photons};
 }
 
 TEST(CausticMap, KeepsWhatNoRoughSurfaceScatteredLast) {
-  TraceSettings settings;
-  settings.emitted = 10'000;
-  settings.keep_caustics = true;
   // Between diffuse walls the direct photons are all there are, one for each emitted.
   const Scene cube = hollow_cube();
-  EXPECT_TRUE(trace(cube, settings).caustics.empty());
-  settings.keep_direct_caustics = true;
-  EXPECT_EQ(trace(cube, settings).caustics.size(), 10'000u);
+  EXPECT_TRUE(hits_in(cube, false).caustics.empty());
+  EXPECT_EQ(hits_in(cube, true).caustics.size(), 10'000u);
   // Fog makes more: of every photon that it scatters on its way from wall to wall one that was not stored before.
-  settings.keep_direct_caustics = false;
   Medium fog;
   fog.sigma_t = fog.sigma_s = Rgb(0.5f);
-  const TracedPhotons in_fog = trace(hollow_cube(&fog), settings);
+  const Hits in_fog = hits_in(hollow_cube(&fog), false);
   EXPECT_GT(in_fog.caustics.size(), 5'000u);
   EXPECT_LT(in_fog.caustics.size(), in_fog.surface.size());
 }
 
 TEST(CausticMap, HoldsTheLightThatGlassAndMirrorsLead) {
-  TraceSettings settings;
-  settings.emitted = 10'000;
-  settings.keep_caustics = true;
-  settings.keep_direct_surface = false;
   Scene scene;
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Lambertian{Rgb(kReflectance)});
   add_shape(scene, SphereShape{Vec3(0.0f), 0.2f}, Dielectric{1.0f});  // all light passes it, and is indirect from there
   scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
   scene.geometry.commit();
   finish(scene);
-  const TracedPhotons photons = trace(scene, settings);
-  EXPECT_EQ(photons.caustics.size(), 10'000u);
-  EXPECT_GT(photons.surface.size(), 15'000u);  // these, and what the walls reflected
+  const Hits hits = hits_in(scene, false, indirect_photon);
+  EXPECT_EQ(hits.caustics.size(), 10'000u);
+  EXPECT_GT(hits.surface.size(), 15'000u);  // these, and what the walls reflected
 }
 
 }  // namespace

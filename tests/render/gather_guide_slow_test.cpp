@@ -1,12 +1,13 @@
 // Rays of final gathering guided by photons: the same means as without, and less noise where light comes from one side.
 #include <gtest/gtest.h>
 
+#include "support/recorders.h"
 #include "support/statistics.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface/gather_guide.h"
 #include "vpm/medium/make_grid.h"
-#include "vpm/photon/trace.h"
-#include "vpm/render/eye_context.h"
+#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 #include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
 
@@ -116,19 +117,26 @@ RenderSettings guided_gathering() {
   settings.surface.radius = settings.caustics.radius = 0.15f;
   settings.surface_indirect = IndirectLight::final_gather;
   settings.gather_by = GatherBy::photons;
+  settings.gather_rays = 1;
   return settings;
 }
 
 /// What the surface that a ray from vacuum meets sends back, green, one gathering ray a sample.
-Moments gathered(EyeContext& context, bool guided, const Ray& ray, int samples, EyeCounters& counters) {
-  context.stages.guided_gather = guided;
-  const Hit hit = *context.scene.geometry.intersect(ray);
-  const Material material = material_at(context.scene, hit);
+Moments gathered(const Scene& scene, bool guided, const Ray& ray, int samples, EyeCounters& counters) {
+  RenderSettings settings = guided_gathering();
+  if (!guided) settings.gather_by = GatherBy::material;
+  RenderStatistics statistics;
+  const Estimators estimators = plan_estimators(scene, settings, 0);
+  prepare_pass(scene, settings, estimators, {.stop = kGoOn}, statistics);
+  const Hit hit = *scene.geometry.intersect(ray);
+  const Material material = material_at(scene, hit);
   const SurfaceView view{hit, material, ray.direction, kVacuum};
+  EyeScratch scratch;
   Moments moments;
   for (int i = 0; i < samples; ++i) {
     Rng rng(8, rng_stream(RngUse::test, guided ? 1 : 0), static_cast<uint64_t>(i));
-    moments.add(surface_light(context, view, 1, rng, counters).g);
+    EyeWork work{rng, counters, scratch};
+    moments.add(estimators.surface->sent(view, work).g);
   }
   return moments;
 }
@@ -136,18 +144,14 @@ Moments gathered(EyeContext& context, bool guided, const Ray& ray, int samples, 
 // The maps are the same, so all that may differ is the noise of the rays.
 TEST(GatherGuide, GathersTheSameLight) {
   const Scene scene = furnished_room();
-  const RenderSettings settings = guided_gathering();
-  RenderStatistics statistics;
-  EyeContext context =
-      make_eye_context(scene, settings, plan_stages(scene, settings), 0, kGoOn, PassProgress{}, statistics);
   const std::pair<const char*, Vec3> views[] = {{"diffuse wall", Vec3(0.4f, 0.3f, -1.0f)},
                                                 {"rough metal", Vec3(-1.0f, -0.4f, 0.1f)},
                                                 {"frosted glass", Vec3(0.3f, -0.5f, 0.1f)}};
   for (const auto& [what, at] : views) {
     const Ray ray{Vec3(0.0f), glm::normalize(at)};
     EyeCounters counters;
-    const Moments guided = gathered(context, true, ray, 30'000, counters);
-    expect_same(guided, gathered(context, false, ray, 30'000, counters), 0.01, what);
+    const Moments guided = gathered(scene, true, ray, 30'000, counters);
+    expect_same(guided, gathered(scene, false, ray, 30'000, counters), 0.01, what);
     EXPECT_EQ(counters.walk.medium_mismatches, 0u) << what;
   }
 }
@@ -156,27 +160,22 @@ TEST(GatherGuide, GathersTheSameLight) {
 // part: seen is a sixth of the variance.
 TEST(GatherGuide, FindsTheLightThatComesFromOneSpot) {
   const Scene scene = camera_obscura();
-  const RenderSettings settings = guided_gathering();
-  RenderStatistics statistics;
-  EyeContext context =
-      make_eye_context(scene, settings, plan_stages(scene, settings), 0, kGoOn, PassProgress{}, statistics);
   const Ray ray{Vec3(0.0f), glm::normalize(Vec3(-0.2f, -1.0f, 0.3f))};
   EyeCounters counters;
-  const Moments guided = gathered(context, true, ray, 80'000, counters);
-  const Moments plain = gathered(context, false, ray, 80'000, counters);
+  const Moments guided = gathered(scene, true, ray, 80'000, counters);
+  const Moments plain = gathered(scene, false, ray, 80'000, counters);
   EXPECT_LT(4.0 * guided.variance(), plain.variance());
   expect_same(guided, plain, 0.05, "");
 }
 
 // What its map holds and what the caustic map holds with direct light are all photons of the surface map.
 TEST(GatherGuide, IsMadeOfWhatTheCausticMapLeavesOut) {
-  TraceSettings settings;
-  settings.emitted = 10'000;
-  settings.keep_caustics = settings.keep_direct_caustics = settings.keep_from_rough = true;
-  Progress silent("photons", 0, false);
-  const TracedPhotons photons = trace_photons(furnished_room(), *make_distance_strategy({}), settings, silent);
-  EXPECT_GT(photons.from_rough.size(), 10'000u);
-  EXPECT_EQ(photons.from_rough.size() + photons.caustics.size(), photons.surface.size());
+  const Scene scene = furnished_room();
+  HitRecorder all(scene, any_photon, HitUse::surface_map), from_rough(scene, photon_from_rough, HitUse::other_map),
+      caustics(scene, caustic_photons(true, true), HitUse::other_map);
+  trace_into(scene, {.emitted = 10'000}, {&all, &from_rough, &caustics});
+  EXPECT_GT(from_rough.photons.size(), 10'000u);
+  EXPECT_EQ(from_rough.photons.size() + caustics.photons.size(), all.photons.size());
 }
 
 }  // namespace

@@ -100,14 +100,16 @@ TEST(March, EvenStepsAreUnbiasedToo) {
   const Medium medium = noise_medium(Rgb(1.0f));
   const double exact = reference(medium, 1.0f, 4.0f, false);
   for (const float cut : {0.0f, 2.1f}) {  // in one march, and in two
-    const double before = column(medium, kRay, {0.0f, cut}).value;
+    ColumnsAlong columns;
+    columns.walk(&medium, kRay, {0.0f, 4.0f});
+    const SeenThrough seen{kRay, columns, medium.sigma_t};
     Moments sums;
     for (uint64_t i = 0; i < 20000; ++i) {
       Rng rng(1, rng_stream(RngUse::test, 2), i);
       double sum = 0.0;
       const auto add = [&](const Vec3& p, const Rgb& w) { sum += w.r * probe(p); };
-      if (cut > 0.0f) march_evenly(&medium, kRay, {0.0f, cut}, 0.0, 0.3f, rng, add);
-      march_evenly(&medium, kRay, {cut, 4.0f}, before, 0.3f, rng, add);
+      if (cut > 0.0f) march_evenly(seen, {0.0f, cut}, 0.3f, rng, add);
+      march_evenly(seen, {cut, 4.0f}, 0.3f, rng, add);
       sums.add(sum);
     }
     expect_mean(sums, exact, kFalseAlarms, "even steps");

@@ -271,31 +271,61 @@ TEST(PhotonPass, RadiiShrinkFromPassToPass) {
 }
 
 TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
-  const Stages all{.volume_map = true, .surface_map = true, .final_gather = true};
-  const auto square = [&](const RenderSettings& s, const Stages& stages) { return relative_square(s, stages, 5); };
+  const Medium white = make_medium(nullptr, Rgb(1.0f));
+  const Scene both = lamp_and_floor(&white, Rgb(0.5f)), fog = furnace(nullptr, 1.0f), floor = lamp_and_floor(nullptr);
+  const auto square = [](const Scene& scene, const RenderSettings& s) {
+    return relative_square(plan_estimators(scene, s, 5).maps(), 5);
+  };
+  using Sections = std::vector<std::string>;
   const double volume = radius_of_pass(1.0f, 3, 5), surface = radius_of_pass(1.0f, 2, 5);
   RenderSettings settings;
-  EXPECT_NEAR(square(settings, all), volume * volume, 1e-6);
-  EXPECT_NEAR(square(settings, {.surface_map = true}), surface * surface, 1e-6);
-  EXPECT_EQ(square(settings, {}), 0.0);
-  EXPECT_TRUE(maps_of_unseen_bias(settings, all).empty());
+  settings.surface_indirect = IndirectLight::final_gather;
+  EXPECT_NEAR(square(both, settings), volume * volume, 1e-6);
+  EXPECT_NEAR(square(floor, settings), surface * surface, 1e-6);
+  EXPECT_TRUE(maps_of_unseen_bias(both, settings).empty());
   settings.volume.mode = GatherMode::nearest;
-  EXPECT_NEAR(square(settings, all), surface * surface, 1e-6);
-  EXPECT_EQ(square(settings, {.volume_map = true}), 1.0);
-  EXPECT_EQ(maps_of_unseen_bias(settings, all), std::vector<std::string>{"volume"});
+  EXPECT_NEAR(square(both, settings), surface * surface, 1e-6);
+  EXPECT_EQ(square(fog, settings), 1.0);
+  EXPECT_EQ(maps_of_unseen_bias(both, settings), Sections{"volume"});
   settings.surface.mode = GatherMode::nearest;
-  EXPECT_NEAR(square(settings, all), surface * surface, 1e-6);  // the caustic map's
-  EXPECT_EQ(maps_of_unseen_bias(settings, {.surface_map = true}), std::vector<std::string>{"surface"});
+  EXPECT_NEAR(square(both, settings), surface * surface, 1e-6);  // the caustic map's
+  EXPECT_EQ(maps_of_unseen_bias(floor, settings), Sections{"surface"});
   settings.radii = RadiusSchedule::constant;
-  EXPECT_EQ(square(settings, all), 1.0);
-  EXPECT_EQ(maps_of_unseen_bias(settings, all).size(), 3u);
+  EXPECT_EQ(square(both, settings), 1.0);
+  EXPECT_EQ(maps_of_unseen_bias(both, settings), (Sections{"volume", "surface", "caustics"}));
   // Pixels' own radii are none that the number of the pass tells.
   settings = {};
   settings.radii = RadiusSchedule::per_pixel;
-  const Stages pixels{.volume_map = true, .surface_map = true, .pixel_discs = true};
-  EXPECT_NEAR(square(settings, pixels), volume * volume, 1e-6);
-  EXPECT_EQ(square(settings, {.surface_map = true, .pixel_discs = true}), 1.0);
-  EXPECT_EQ(maps_of_unseen_bias(settings, pixels), std::vector<std::string>{"surface"});
+  EXPECT_NEAR(square(both, settings), volume * volume, 1e-6);
+  EXPECT_EQ(square(floor, settings), 1.0);
+  EXPECT_EQ(maps_of_unseen_bias(both, settings), Sections{"surface"});
+  // By paths nothing has a kernel.
+  settings.integrator = Integrator::path;
+  EXPECT_EQ(square(both, settings), 0.0);
+}
+
+/// Finds what it is told to.
+class Finds final : public VolumeEstimator {
+ public:
+  explicit Finds(const ScatteredLight& light) : light_(light) {}
+  ScatteredLight finds() const override { return light_; }
+  Rgb along(const EyeSegment&, EyeWork&) const override { return Rgb(0.0f); }
+
+ private:
+  ScatteredLight light_;
+};
+
+TEST(PhotonPass, RefusesToCountLightTwice) {
+  const ScatteredLight once{.once = true}, more{.more = true}, all{true, true};
+  const auto apart = [](const std::vector<ScatteredLight>& lights) {
+    std::vector<std::unique_ptr<VolumeEstimator>> estimators;
+    for (const ScatteredLight& light : lights) estimators.push_back(std::make_unique<Finds>(light));
+    check_apart(estimators);
+  };
+  EXPECT_NO_THROW(apart({once, more}));
+  EXPECT_NO_THROW(apart({all}));
+  EXPECT_THROW(apart({once, all}), std::logic_error);
+  EXPECT_THROW(apart({more, once, more}), std::logic_error);
 }
 
 TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {
@@ -360,12 +390,12 @@ TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
 
 TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
   const Scene no_medium = lamp_and_floor(nullptr);
-  EXPECT_FALSE(plan_stages(no_medium, {}).volume_map);
-  EXPECT_TRUE(plan_stages(no_medium, {}).surface_map);
+  EXPECT_TRUE(plan_estimators(no_medium, {}, 0).volume.empty());
+  EXPECT_TRUE(plan_estimators(no_medium, {}, 0).surface);
   const Scene no_surface = furnace(nullptr, 1.0f);
-  EXPECT_TRUE(plan_stages(no_surface, {}).volume_map);
-  EXPECT_FALSE(plan_stages(no_surface, {}).surface_map);
-  EXPECT_FALSE(plan_stages(no_surface, {}).surface_shadow_rays);
+  EXPECT_EQ(plan_estimators(no_surface, {}, 0).volume.size(), 1u);
+  EXPECT_FALSE(plan_estimators(no_surface, {}, 0).surface);
+  EXPECT_FALSE(casts_shadow_rays(scattering_of(no_surface), {}));
   static const std::atomic<bool> kGoOn{false};
   const auto statistics = [](const Scene& scene) {
     return render_photon_pass(scene, settings_of(100, 0.1f), 0, kGoOn).statistics;

@@ -4,7 +4,7 @@
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/warp.h"
-#include "vpm/photon/trace.h"
+#include "vpm/photon/photon_lists.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
 
@@ -62,14 +62,13 @@ Scene lamp_plate_detector(const TriangleMesh& plate, const Material& material, c
 /// The flux onto the detector, W, by photons that came by way of the plate: one value for each batch.
 Moments flux_by_photons(const Scene& scene, const Detector& detector) {
   const auto strategy = make_distance_strategy({});
-  Progress silent("photons", 0, false);
   Moments flux;
   for (uint64_t batch = 0; batch < 100; ++batch) {
-    TraceSettings settings;
+    ListSettings settings;
     settings.pass = batch;
     settings.emitted = 10000;
-    settings.keep_direct_surface = false;
-    const TracedPhotons photons = trace_photons(scene, *strategy, settings, silent);
+    settings.direct_hits = false;
+    const PhotonLists photons = list_photons(scene, *strategy, settings);
     double sum = 0.0;
     for (const Photon& p : photons.surface)
       if (std::abs(p.position.y - detector.height) < 1e-3f) sum += p.power.g;
@@ -130,10 +129,9 @@ TEST(ShadingNormals, TheLedgerCloses) {
     scene.lights.push_back(PointLight{Vec3(0.3f, 0.2f, -0.1f), Rgb(1.0f, 2.0f, 0.5f)});
     scene.geometry.commit();
     finish(scene);
-    TraceSettings settings;
+    ListSettings settings;
     settings.emitted = 100000;
-    Progress silent("photons", 0, false);
-    const Ledger ledger = trace_photons(scene, *make_distance_strategy({}), settings, silent).ledger;
+    const Ledger ledger = list_photons(scene, *make_distance_strategy({}), settings).ledger;
     const double emitted = ledger.emitted.g / static_cast<double>(ledger.emitted_count);  // W; and floats' rounding
     EXPECT_LT(std::abs(ledger.imbalance.mean()),
               normal_quantile(kFalseAlarms) * std::sqrt(ledger.imbalance.variance_of_mean()) + 1e-6 * emitted);
@@ -200,10 +198,9 @@ TEST(Textures, AreReadWhereLightIsScattered) {
   for (const auto& [x, z, expected] : {std::tuple(0.25f, -0.25f, 0.8f), {0.75f, -0.25f, 0.0f}, {-0.25f, 0.75f, 0.0f}})
     EXPECT_NEAR(path_radiance(context, {Vec3(x, 1, z), Vec3(0, -1, 0)}, kVacuum, rng, counters).g, expected, 1e-6);
   // Photons are kept on black texels too: they count for the irradiance of the coloured ones beside them.
-  TraceSettings settings;
+  ListSettings settings;
   settings.emitted = 20000;
-  Progress silent("photons", 0, false);
-  const TracedPhotons photons = trace_photons(scene, *make_distance_strategy({}), settings, silent);
+  const PhotonLists photons = list_photons(scene, *make_distance_strategy({}), settings);
   EXPECT_EQ(photons.surface.size(), photons.ledger.surface_hits);
   const double share = photons.ledger.absorbed_on_surfaces.g /
                        (photons.ledger.emitted.g / 20000.0 * static_cast<double>(photons.ledger.surface_hits));

@@ -1,6 +1,6 @@
 // Single scattering at drawn distances: densities that are what they are said to be, exact radiance, and the march's
 // answer for every light, in fog and in grids.
-#include "vpm/render/single_scattering.h"
+#include "vpm/estimate/volume/distances.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 #include "light/lights.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/estimate/volume/march.h"
+#include "vpm/estimate/volume/single_equiangular.h"
+#include "vpm/estimate/volume/single_marched.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/study/exact/airlight.h"
 #include "vpm/study/sample_moments.h"
@@ -21,37 +22,38 @@ namespace {
 constexpr double kFalseAlarms = 1e-6;  // of each comparison
 const Rgb kChromatic(0.5f, 1.5f, 4.0f);
 
-EyeContext context_of(const Scene& scene, const RenderSettings& settings) {
-  return {scene, settings, {}, {}, {}, {}, {}, {}, {}, make_transmittance_estimator({})};
+std::shared_ptr<const TransmittanceEstimator> exact_transmittance() { return make_transmittance_estimator({}); }
+
+/// What a light ray through a scene's first medium is estimated to bring, of what stands before it.
+struct Stretch {
+  Ray ray;
+  Interval interval;
+  Rgb throughput{1.0f};
+};
+Rgb found_along(const VolumeEstimator& estimator, const Scene& scene, const Stretch& s, Rng& rng,
+                EyeCounters& counters) {
+  EyeScratch scratch;
+  EyeWork work{rng, counters, scratch};
+  return estimator.along(EyeSegment(scene, s.ray, s.interval, 0, s.throughput), work);
 }
 
 /// The radiance of each channel over many estimates.
-std::vector<Moments> estimates(const Scene& scene, const EyeSegment& segment, int pairs, uint64_t count) {
-  RenderSettings settings;
-  settings.direct_samples = pairs;
-  const EyeContext context = context_of(scene, settings);
-  return sample_moments(3, count, 1, [&](Rng& rng, double* out) {
+std::vector<Moments> estimates(const Scene& scene, const VolumeEstimator& estimator, const Stretch& stretch,
+                               uint64_t count, uint64_t seed) {
+  return sample_moments(3, count, seed, [&](Rng& rng, double* out) {
     EyeCounters counters;
-    const Rgb radiance = single_scattering(context, segment, rng, counters);
+    const Rgb radiance = found_along(estimator, scene, stretch, rng, counters);
     for (int c = 0; c < 3; ++c) out[c] = radiance[c];
   });
 }
 
-/// The same by marching in short steps.
-std::vector<Moments> marched(const Scene& scene, const EyeSegment& s, uint64_t count) {
-  const RenderSettings settings;
-  const EyeContext context = context_of(scene, settings);
-  const Medium& medium = scene.media[s.medium];
-  return sample_moments(3, count, 2, [&](Rng& rng, double* out) {
-    EyeCounters counters;
-    Marcher marcher;
-    marcher.march(medium, s.ray, s.interval, {0.05f, 0.1f}, glm::bvec3(true), rng, [&](const Vec3& p, const Rgb& w) {
-      const PickedLight light = pick_light(scene, rng.uniform_double());
-      const Rgb radiance = s.throughput * w * medium.sigma_s *
-                           scattered_light(context, {light, {}}, {p, s.medium}, s.ray.direction, rng, counters);
-      for (int c = 0; c < 3; ++c) out[c] += radiance[c];
-    });
-  });
+SingleEquiangular equiangular(const Scene& scene, int pairs) { return {scene, exact_transmittance(), pairs}; }
+
+/// By marching, in steps of that optical thickness.
+MarchedLight marched(const Scene& scene, float optical_step) {
+  std::vector<std::unique_ptr<MarchedSource>> sources;
+  sources.push_back(std::make_unique<SingleMarched>(scene, exact_transmittance()));
+  return {std::move(sources), optical_step};
 }
 
 /// Noise with empty layers, over [-1, 1]^3.
@@ -136,12 +138,12 @@ TEST(SingleScattering, NothingScattersWithoutDensityOrThroughput) {
   const Medium empty = make_medium(make_grid(centred_frame(5, 0.4), [](int, int, int) { return 0.0; }), Rgb(1.0f));
   const Scene fog = boxed_medium(make_medium(nullptr, Rgb(1.0f)), PointLight{}),
               void_ = boxed_medium(empty, PointLight{});
-  const RenderSettings settings;
   Rng rng(1, 0, 0);
   EyeCounters counters;
   const Ray ray{Vec3(0.0f, 0.3f, -0.9f), Vec3(0, 0, 1)};
-  EXPECT_EQ(single_scattering(context_of(void_, settings), {ray, {0.0f, 1.0f}, 0}, rng, counters), Rgb(0.0f));
-  EXPECT_EQ(single_scattering(context_of(fog, settings), {ray, {0.0f, 1.0f}, 0, Rgb(0.0f)}, rng, counters), Rgb(0.0f));
+  const Interval interval{0.0f, 1.0f};
+  EXPECT_EQ(found_along(equiangular(void_, 8), void_, {ray, interval}, rng, counters), Rgb(0.0f));
+  EXPECT_EQ(found_along(equiangular(fog, 8), fog, {ray, interval, Rgb(0.0f)}, rng, counters), Rgb(0.0f));
   EXPECT_EQ(counters.shadow_rays, 0u);
 }
 
@@ -166,7 +168,7 @@ TEST(SingleScattering, IsExactForALampInFog) {
             if (g != 0.0f) fog.phase = HenyeyGreenstein{g};
             const Scene scene = lamp_in_fog(fog, Vec3(0.0f, off, 1.25f));
             const Rgb throughput(1.0f, 0.25f, 2.0f);
-            const auto found = estimates(scene, {Ray{}, interval, 0, throughput}, pairs, 20'000);
+            const auto found = estimates(scene, equiangular(scene, pairs), {Ray{}, interval, throughput}, 20'000, 1);
             for (int c = 0; c < 3; ++c) {
               const auto exact =
                   exact::solve_airlight({sigma_t[c], fog.albedo()[c], g, off, 1.25, interval.t0, interval.t1});
@@ -181,13 +183,12 @@ TEST(SingleScattering, IsExactForALampInFog) {
 TEST(SingleScattering, StaysBoundedBesideALamp) {
   const double off = 1e-3;
   const Scene scene = lamp_in_fog(make_medium(nullptr, Rgb(1e-6f), 1.0f), Vec3(0.0f, static_cast<float>(off), 1.0f));
-  const RenderSettings settings;
-  const EyeContext context = context_of(scene, settings);
+  const SingleEquiangular estimator = equiangular(scene, 8);
   const double exact = exact::solve_airlight({1e-6, 1.0, 0.0, off, 1.0, 0.0, 2.0}).radiance.value;
   EyeCounters counters;
   for (uint64_t i = 0; i < 10'000; ++i) {
     Rng rng(1, 0, i);
-    const Rgb found = single_scattering(context, {Ray{}, {0.0f, 2.0f}, 0}, rng, counters);
+    const Rgb found = found_along(estimator, scene, {Ray{}, {0.0f, 2.0f}}, rng, counters);
     ASSERT_LT(found.g, 2.001 * exact);
   }
 }
@@ -195,10 +196,11 @@ TEST(SingleScattering, StaysBoundedBesideALamp) {
 /// Segments through the box [-1, 1]^3, and the box with a medium in it.
 void expect_as_marched(const Medium& medium, const std::vector<Light>& lights, const std::string& what) {
   const Scene scene = boxed_medium(medium, lights);
-  for (const EyeSegment& segment :
-       {EyeSegment{{Vec3(-0.9f, 0.4f, -0.8f), glm::normalize(Vec3(1.0f, 0.2f, 0.9f))}, {0.0f, 2.0f}, 0, Rgb(1.0f)},
-        EyeSegment{{Vec3(0.3f, -0.9f, 0.2f), Vec3(0, 1, 0)}, {0.0f, 1.8f}, 0, Rgb(0.5f, 1.0f, 2.0f)}})
-    expect_same_means(estimates(scene, segment, 2, 8'000), marched(scene, segment, 1'000), kFalseAlarms, what);
+  for (const Stretch& stretch :
+       {Stretch{{Vec3(-0.9f, 0.4f, -0.8f), glm::normalize(Vec3(1.0f, 0.2f, 0.9f))}, {0.0f, 2.0f}},
+        Stretch{{Vec3(0.3f, -0.9f, 0.2f), Vec3(0, 1, 0)}, {0.0f, 1.8f}, Rgb(0.5f, 1.0f, 2.0f)}})
+    expect_same_means(estimates(scene, equiangular(scene, 2), stretch, 8'000, 1),
+                      estimates(scene, marched(scene, 0.1f), stretch, 1'000, 2), kFalseAlarms, what);
 }
 
 TEST(SingleScattering, IsAsMarchedUnderEveryLight) {
@@ -223,19 +225,20 @@ TEST(SingleScattering, IsDimmedByTheMediaBefore) {
   scene.lights.push_back(PointLight{Vec3(0.2f, 1.5f, -0.3f), Rgb(1.0f)});
   scene.geometry.commit();
   finish(scene);
-  const auto by = [&](DirectLight direct) {
-    RenderSettings settings;
-    settings.volume_direct = direct;
-    EyeContext context = context_of(scene, settings);
-    context.stages = {.volume_shadow_rays = true, .equiangular = direct == DirectLight::equiangular};
+  const auto by = [&](std::unique_ptr<VolumeEstimator> estimator) {
+    Estimators estimators;
+    estimators.volume.push_back(std::move(estimator));
+    const EyeContext context{scene, estimators};
     return sample_moments(3, 4'000, 3, [&](Rng& rng, double* out) {
-      Marcher marcher;
+      EyeScratch scratch;
       EyeCounters counters;
-      const Rgb radiance = eye_radiance(context, {Vec3(0.1f, 0.2f, -3.0f), Vec3(0, 0, 1)}, marcher, rng, counters);
+      EyeWork work{rng, counters, scratch};
+      const Rgb radiance = eye_radiance(context, {Vec3(0.1f, 0.2f, -3.0f), Vec3(0, 0, 1)}, work);
       for (int c = 0; c < 3; ++c) out[c] = radiance[c];
     });
   };
-  expect_same_means(by(DirectLight::equiangular), by(DirectLight::shadow_rays), kFalseAlarms, "two media");
+  expect_same_means(by(std::make_unique<SingleEquiangular>(equiangular(scene, 8))),
+                    by(std::make_unique<MarchedLight>(marched(scene, 0.5f))), kFalseAlarms, "two media");
 }
 
 }  // namespace

@@ -20,6 +20,13 @@ Photon as_photon(const ArrivingPhoton& arriving, const Rgb& power) {
 
 }  // namespace
 
+PhotonFilter caustic_photons(bool direct, bool specular) {
+  return [direct, specular](const ArrivingPhoton& photon) {
+    if (photon.from_rough) return false;
+    return photon.direct ? direct : !photon.specular || specular;
+  };
+}
+
 CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter)
     : photons(scene.media.size()),
       scene_(scene),

@@ -14,6 +14,11 @@ using PhotonFilter = std::function<bool(const ArrivingPhoton&)>;
 /// Keeps every photon, and those that something has scattered, reflected or refracted.
 inline bool any_photon(const ArrivingPhoton&) { return true; }
 inline bool indirect_photon(const ArrivingPhoton& photon) { return !photon.direct; }
+/// Keeps photons that a rough surface scattered last.
+inline bool photon_from_rough(const ArrivingPhoton& photon) { return photon.from_rough; }
+/// Keeps photons that no rough surface scattered last; those straight from lights only if `direct`, those that nothing
+/// but mirrors and glass has scattered only if `specular`.
+PhotonFilter caustic_photons(bool direct, bool specular);
 
 /// Photons at their collisions in media that scatter, before the choice between absorption and scattering. Their power
 /// is the flux that collides, over the density there under VolumeForm::density_at_query (stored_power()).

@@ -8,19 +8,6 @@
 #include "vpm/surface/shading.h"
 
 namespace vpm {
-namespace {
-
-/// The light that no rough surface has scattered last: the caustic map's, but for what comes straight from lights where
-/// shadow rays look for that, and for what mirrors and glass alone have led there where photons are aimed for that.
-PhotonFilter caustic_filter(bool direct, bool specular) {
-  return [direct, specular](const ArrivingPhoton& photon) {
-    if (photon.from_rough) return false;
-    return photon.direct ? direct : !photon.specular || specular;
-  };
-}
-
-}  // namespace
-
 FinalGather::FinalGather(const Scene& scene, const FinalGatherSettings& settings,
                          std::optional<SurfaceShadowRays> direct)
     : scene_(scene),
@@ -28,10 +15,8 @@ FinalGather::FinalGather(const Scene& scene, const FinalGatherSettings& settings
       direct_(std::move(direct)),
       ends_(scene, settings.ends, any_photon,
             settings.precomputed ? HitUse::surface_map_beside_sites : HitUse::surface_map),
-      caustic_photons_(scene, caustic_filter(!direct_, settings.caustics_emitted == 0), HitUse::other_map) {
-  if (settings.guided)
-    guiding_photons_.emplace(
-        scene, [](const ArrivingPhoton& photon) { return photon.from_rough; }, HitUse::other_map);
+      caustic_photons_(scene, caustic_photons(!direct_, settings.caustics_emitted == 0), HitUse::other_map) {
+  if (settings.guided) guiding_photons_.emplace(scene, photon_from_rough, HitUse::other_map);
   if (settings.precomputed) sites_.emplace(scene);
 }
 
@@ -82,8 +67,8 @@ void FinalGather::build(uint64_t emitted, RenderStatistics& statistics) {
 }
 
 Rgb FinalGather::sent(const SurfaceView& view, EyeWork& work) const {
-  const Rgb sharp = not_gathered(view, work);
-  return sharp + gathered(view, work);
+  const Rgb blurred = gathered(view, work);
+  return blurred + not_gathered(view, work);
 }
 
 /// What rays do not gather, because few of them would find it: the light of lights, straight or by way of mirrors,
