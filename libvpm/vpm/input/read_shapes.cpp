@@ -1,88 +1,12 @@
-// The sections [materials.*] and [[shapes]].
-#include <fmt/format.h>
-
+// The section [[shapes]].
 #include <algorithm>
-#include <glm/gtc/matrix_inverse.hpp>
 
 #include "vpm/base/error.h"
 #include "vpm/input/mesh_file.h"
 #include "vpm/input/sections.h"
-#include "vpm/surface/fresnel.h"
-#include "vpm/surface/metals.h"
 
 namespace vpm {
 namespace {
-
-constexpr Range kIndex{kLeastIndex, kLargestIndex, false, false};
-constexpr Range kIndexK{kLeastK, kLargestK, false, false};
-
-/// The index of a metal's refraction, by its name or as two colours.
-Conductor read_metal(TableReader& table) {
-  if (!table.has("metal")) {
-    if (!table.has("eta") && !table.has("k"))
-      table.fail_here(table.title() + " lacks a metal", "add: metal = \"gold\", or eta and k");
-    return {table.rgb("eta", kIndex), table.rgb("k", kIndexK)};
-  }
-  std::vector<std::pair<std::string, Metal>> metals;
-  for (const Metal& metal : kMetals) metals.emplace_back(metal.name, metal);
-  const auto metal = table.choice<Metal>("metal", metals);
-  for (const char* key : {"eta", "k"})
-    if (table.has(key)) table.fail(key, "the metal of " + table.title() + " has its own '" + key + "'", "remove one");
-  return {metal.eta, metal.k};
-}
-
-float read_roughness(TableReader& table, const std::string& smooth_type) {
-  const float roughness = table.number("roughness", {0.0, 1.0, false, false});
-  if (roughness < kLeastRoughness)
-    table.fail(
-        "roughness",
-        fmt::format("the roughness of {} must be at least {}, not {}", table.title(), kLeastRoughness, roughness),
-        "type = \"" + smooth_type + "\" is the smooth one");
-  return roughness;
-}
-
-Material read_phong(TableReader& table) {
-  const Phong phong{table.rgb("diffuse", kFraction), table.rgb("glossy", kFraction),
-                    table.number("exponent", {0.0, kLargestExponent, false, false})};
-  if (max_channel(phong.diffuse + phong.glossy) > 1.0f)
-    table.fail("glossy", "'diffuse' and 'glossy' of " + table.title() + " together reflect more than arrives",
-               "their sum must be at most 1 in every channel");
-  return phong;
-}
-
-Material read_rough_dielectric(TableReader& table) {
-  const float ior = table.number("ior", kIndex);
-  if (std::abs(ior - 1.0f) < kLeastIorStep)
-    table.fail("ior",
-               fmt::format("the ior of {} must be at least {} away from 1, not {}", table.title(), kLeastIorStep, ior),
-               "type = \"dielectric\" or \"boundary\" pass light that hardly turns");
-  return RoughDielectric{ior, read_roughness(table, "dielectric")};
-}
-
-MaterialPlan read_material(TableReader table) {
-  using Reader = Material (*)(TableReader&, MaterialPlan&);
-  const auto read = table.choice<Reader>(
-      "type",
-      {{"lambertian", [](TableReader& t, MaterialPlan& p) -> Material { return Lambertian{read_reflectance(t, p)}; }},
-       {"phong", [](TableReader& t, MaterialPlan&) { return read_phong(t); }},
-       {"mirror",
-        [](TableReader& t, MaterialPlan& p) -> Material { return Mirror{read_reflectance(t, p, Rgb(1.0f))}; }},
-       {"conductor", [](TableReader& t, MaterialPlan&) -> Material { return read_metal(t); }},
-       {"rough-conductor",
-        [](TableReader& t, MaterialPlan&) -> Material {
-          const Conductor metal = read_metal(t);
-          return RoughConductor{metal.eta, metal.k, read_roughness(t, "conductor")};
-        }},
-       {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kIndex)}; }},
-       {"thin-dielectric",
-        [](TableReader& t, MaterialPlan&) -> Material { return ThinDielectric{t.number("ior", kIndex)}; }},
-       {"rough-dielectric", [](TableReader& t, MaterialPlan&) { return read_rough_dielectric(t); }},
-       {"boundary", [](TableReader&, MaterialPlan&) -> Material { return Boundary{}; }}});
-  MaterialPlan plan;
-  plan.material = read(table, plan);
-  table.finish();
-  return plan;
-}
 
 /// The number of the shape's material, which it names or defines in place.
 uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<MaterialPlan>& materials) {
@@ -210,20 +134,6 @@ ShapePlan read_shape(TableReader& table, const Names& media, const Names& materi
 }
 
 }  // namespace
-
-void transform_mesh(const Mat4d& transform, TriangleMesh& mesh) {
-  for (Vec3& p : mesh.positions) p = Vec3(transform * glm::dvec4(Vec3d(p), 1.0));
-  const Mat3d of_normals = glm::inverseTranspose(Mat3d(transform));
-  for (Vec3& n : mesh.normals) n = Vec3(glm::normalize(of_normals * Vec3d(n)));
-  if (glm::determinant(Mat3d(transform)) > 0.0) return;
-  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // a mirror turns triangles round: outward stays outward
-}
-
-std::vector<MaterialPlan> read_materials(TableReader& section) {
-  std::vector<MaterialPlan> materials;
-  for (auto& [name, table] : section.named_tables("materials")) materials.push_back(read_material(table));
-  return materials;
-}
 
 std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
                                    MediumId world, std::vector<MaterialPlan>& materials) {

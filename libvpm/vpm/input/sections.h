@@ -42,6 +42,8 @@ struct MaterialPlan {
   Material material = Boundary{};
   std::shared_ptr<const Texture> texture;
 };
+/// Reads one material.
+MaterialPlan read_material(TableReader table);
 /// Reads [materials.*], in the file's order.
 std::vector<MaterialPlan> read_materials(TableReader& section);
 /// The key `reflectance`: an rgb in [0, 1], or a table that names a picture, which the plan then holds; its mean is
@@ -63,9 +65,6 @@ struct ShapePlan {
 /// Reads [[shapes]]; appends materials that shapes define in place to `materials`.
 std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
                                    MediumId world, std::vector<MaterialPlan>& materials);
-
-/// Moves a mesh by an affine map. Its normals stay outward under mirrors too.
-void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);
 
 /// The affine map of a list of steps, applied in the list's order; the identity where `key` is missing. Refuses
 /// singular ones.

@@ -164,7 +164,7 @@ class PhotonPath {
   }
 
   void store_site(const Hit& hit) {
-    if (!std::holds_alternative<Lambertian>(scene_.material_of(hit))) return;
+    if (!is_diffuse(scene_.material_of(hit))) return;
     const float side = glm::dot(hit.normal, at_.state.ray.direction) < 0.0f ? 1.0f : -1.0f;
     out_.sites.push_back(
         {hit.position, PackedDirection(side * hit.normal), PackedDirection(side * hit.shading_normal)});

@@ -129,12 +129,12 @@ class SurfaceLight {
   /// What a gathering ray sees of all light where it ends: from the points where it was computed beforehand, or, where
   /// none is near, and of surfaces that are not Lambertian, from the map.
   Rgb of_end(const SurfaceView& view) {
-    const auto* diffuse = std::get_if<Lambertian>(&view.material);
+    const Rgb* diffuse = diffuse_reflectance(view.material);
     if (!c_.stages.irradiance_points || !diffuse) return of_map(view, c_.surface);
     const std::optional<Rgb> irradiance = c_.irradiance.irradiance(view.hit, -view.travel, counters_.gather);
     if (irradiance) {
       count(counters_.irradiance_lookups);
-      return diffuse->reflectance / kPi * *irradiance;
+      return *diffuse / kPi * *irradiance;
     }
     count(counters_.irradiance_misses);
     return of_map(view, c_.surface);
