@@ -57,28 +57,28 @@ Material read_rough_dielectric(TableReader& table) {
 }  // namespace
 
 MaterialPlan read_material(TableReader table) {
-  using Reader = Material (*)(TableReader&, MaterialPlan&);
+  using Reader = Material (*)(TableReader&, MaterialPart&);
   const auto read = table.choice<Reader>(
       "type",
-      {{"lambertian", [](TableReader& t, MaterialPlan& p) -> Material { return Lambertian{read_reflectance(t, p)}; }},
-       {"phong", [](TableReader& t, MaterialPlan&) { return read_phong(t); }},
+      {{"lambertian", [](TableReader& t, MaterialPart& p) -> Material { return Lambertian{read_reflectance(t, p)}; }},
+       {"phong", [](TableReader& t, MaterialPart&) { return read_phong(t); }},
        {"mirror",
-        [](TableReader& t, MaterialPlan& p) -> Material { return Mirror{read_reflectance(t, p, Rgb(1.0f))}; }},
-       {"conductor", [](TableReader& t, MaterialPlan&) -> Material { return read_metal(t); }},
+        [](TableReader& t, MaterialPart& p) -> Material { return Mirror{read_reflectance(t, p, Rgb(1.0f))}; }},
+       {"conductor", [](TableReader& t, MaterialPart&) -> Material { return read_metal(t); }},
        {"rough-conductor",
-        [](TableReader& t, MaterialPlan&) -> Material {
+        [](TableReader& t, MaterialPart&) -> Material {
           const Conductor metal = read_metal(t);
           return RoughConductor{metal.eta, metal.k, read_roughness(t, "conductor")};
         }},
-       {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kIndex)}; }},
+       {"dielectric", [](TableReader& t, MaterialPart&) -> Material { return Dielectric{t.number("ior", kIndex)}; }},
        {"thin-dielectric",
-        [](TableReader& t, MaterialPlan&) -> Material { return ThinDielectric{t.number("ior", kIndex)}; }},
-       {"rough-dielectric", [](TableReader& t, MaterialPlan&) { return read_rough_dielectric(t); }},
-       {"boundary", [](TableReader&, MaterialPlan&) -> Material { return Boundary{}; }}});
-  MaterialPlan plan;
-  plan.material = read(table, plan);
+        [](TableReader& t, MaterialPart&) -> Material { return ThinDielectric{t.number("ior", kIndex)}; }},
+       {"rough-dielectric", [](TableReader& t, MaterialPart&) { return read_rough_dielectric(t); }},
+       {"boundary", [](TableReader&, MaterialPart&) -> Material { return Boundary{}; }}});
+  MaterialPart part;
+  part.material = read(table, part);
   table.finish();
-  return plan;
+  return {std::move(part), std::move(table)};
 }
 
 std::vector<MaterialPlan> read_materials(TableReader& section) {

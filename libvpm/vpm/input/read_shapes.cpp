@@ -41,58 +41,24 @@ TriangleMesh read_box(TableReader& table) {
   return box_mesh(Vec3d(lo), Vec3d(hi));
 }
 
-TriangleMesh read_mesh(TableReader& table, ShapePlan& plan) {
+TriangleMesh read_mesh(TableReader& table, ShapePart& part) {
   const std::string path = table.path("path");
   try {
     LoadedMesh loaded = load_mesh(path);
-    plan.degenerate_triangles = loaded.degenerate_triangles;
+    part.degenerate_triangles = loaded.degenerate_triangles;
     return std::move(loaded.mesh);
   } catch (const InputError& error) {
     table.fail("path", error.what());
   }
 }
 
-/// The quad's light: its corner and edges, in the order that keeps the normal.
-QuadLight quad_light(const TriangleMesh& mesh, const Rgb& radiance) {
-  const auto& p = mesh.positions;
-  const glm::uvec3& t = mesh.triangles[0];
-  const bool mirrored = t.y > t.z;
-  const Vec3 u = p[1] - p[0], v = p[3] - p[0];
-  return mirrored ? QuadLight{p[0], v, u, radiance} : QuadLight{p[0], u, v, radiance};
-}
-
-/// What the shape is once it emits: a quad and a mesh are both triangles.
-Light light_of(const ShapePlan& plan, bool quad, const Rgb& radiance) {
-  if (const auto* sphere = std::get_if<SphereShape>(&plan.surface))
-    return SphereLight{sphere->centre, sphere->radius, radiance};
-  if (const auto* disc = std::get_if<DiscShape>(&plan.surface))
-    return DiscLight{disc->centre, disc->normal, disc->radius, radiance};
-  const auto& mesh = std::get<TriangleMesh>(plan.surface);
-  if (quad) return quad_light(mesh, radiance);
-  return MeshLight{std::make_shared<EmittingMesh>(mesh), radiance};
-}
-
-void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::vector<MaterialPlan>& materials) {
-  if (!table.has("emission")) return;
-  const Rgb radiance = table.rgb("emission", kNotNegative);
-  if (is_black(radiance)) table.fail("emission", "the emission of " + table.title() + " is black", "remove the key");
-  if (is_boundary(materials[plan.shape.material].material))
-    table.fail("emission", "a boundary has no surface that could emit", "give " + table.title() + " another material");
-  plan.light = light_of(plan, quad, radiance);
-}
-
-bool has_uvs(const ShapePlan& plan) {
-  const auto* mesh = std::get_if<TriangleMesh>(&plan.surface);
-  return mesh ? !mesh->uvs.empty() : std::holds_alternative<SphereShape>(plan.surface);
-}
-
 /// Boxes, quads and meshes, where their transform puts them.
-TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePlan& plan) {
+TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePart& part) {
   transform_mesh(read_transform(table, "transform"), mesh);
   for (const Vec3& p : mesh.positions)
     if (!is_finite(p))
       table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
-  plan.degenerate_triangles += drop_flat_triangles(mesh);
+  part.degenerate_triangles += drop_flat_triangles(mesh);
   if (mesh.triangles.empty())
     table.fail(table.has("transform") ? "transform" : "type",
                "no triangle of " + table.title() + " has an area where it lies: single precision resolves none",
@@ -100,37 +66,31 @@ TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePlan& pl
   return mesh;
 }
 
-ShapePlan read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
-                     std::vector<MaterialPlan>& materials) {
-  enum class Kind { sphere, disc, quad, box, mesh };
-  ShapePlan plan;
-  plan.place = table.place();
-  plan.shape.name = table.string("name", "");
-  const Kind kind = table.choice<Kind>(
+Surface read_surface(TableReader& table, ShapePart& part) {
+  using Reader = Surface (*)(TableReader&, ShapePart&);
+  const auto read = table.choice<Reader>(
       "type",
-      {{"sphere", Kind::sphere}, {"disc", Kind::disc}, {"quad", Kind::quad}, {"box", Kind::box}, {"mesh", Kind::mesh}});
-  plan.shape.material = read_shape_material(table, material_names, materials);
-  plan.shape.separates_media = table.has("inside") || table.has("outside");
-  plan.shape.media.inside = read_medium_name(table, "inside", media, world);
-  plan.shape.media.outside = read_medium_name(table, "outside", media, world);
-  if (kind == Kind::sphere) {
-    plan.surface = read_sphere(table);
-  } else if (kind == Kind::disc) {
-    plan.surface = read_disc(table);
-  } else {
-    plan.surface = read_triangles(table,
-                                  kind == Kind::quad  ? read_quad(table)
-                                  : kind == Kind::box ? read_box(table)
-                                                      : read_mesh(table, plan),
-                                  plan);
-  }
-  read_emission(table, plan, kind == Kind::quad, materials);
-  if (materials[plan.shape.material].texture && !has_uvs(plan))
-    table.fail("material",
-               "the material of " + table.title() + " has a texture, but the shape has no coordinates in it",
-               "spheres and quads have them, and meshes whose file gives them to the vertices");
+      {{"sphere", [](TableReader& t, ShapePart&) -> Surface { return read_sphere(t); }},
+       {"disc", [](TableReader& t, ShapePart&) -> Surface { return read_disc(t); }},
+       {"quad", [](TableReader& t, ShapePart& p) -> Surface { return QuadMesh{read_triangles(t, read_quad(t), p)}; }},
+       {"box", [](TableReader& t, ShapePart& p) -> Surface { return read_triangles(t, read_box(t), p); }},
+       {"mesh", [](TableReader& t, ShapePart& p) -> Surface { return read_triangles(t, read_mesh(t, p), p); }}});
+  return read(table, part);
+}
+
+ShapePart read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
+                     std::vector<MaterialPlan>& materials) {
+  ShapePart part;
+  part.name = table.string("name", "");
+  part.title = table.title();
+  part.surface = read_surface(table, part);
+  part.material = read_shape_material(table, material_names, materials);
+  const Interface sides{read_medium_name(table, "inside", media, world),
+                        read_medium_name(table, "outside", media, world)};
+  if (table.has("inside") || table.has("outside")) part.media = sides;
+  if (table.has("emission")) part.emission = table.rgb("emission", kNotNegative);
   table.finish();
-  return plan;
+  return part;
 }
 
 }  // namespace
@@ -139,13 +99,8 @@ std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names
                                    MediumId world, std::vector<MaterialPlan>& materials) {
   std::vector<ShapePlan> plans;
   for (TableReader& table : tables) {
-    ShapePlan plan = read_shape(table, media, material_names, world, materials);
-    const bool named = !plan.shape.name.empty();
-    if (!named) plan.shape.name = "shape " + std::to_string(plans.size());
-    for (const ShapePlan& other : plans)
-      if (other.shape.name == plan.shape.name)
-        table.fail("name", "two shapes are named '" + plan.shape.name + "'", "give each shape a name of its own");
-    plans.push_back(std::move(plan));
+    ShapePart part = read_shape(table, media, material_names, world, materials);
+    plans.push_back({std::move(part), table});
   }
   return plans;
 }
