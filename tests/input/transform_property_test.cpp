@@ -2,7 +2,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "support/properties.h"
-#include "vpm/input/sections.h"
 #include "vpm/surface/mesh.h"
 
 namespace vpm {

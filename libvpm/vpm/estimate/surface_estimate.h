@@ -68,8 +68,8 @@ Rgb scattered_radiance(const Material& material, const Hit& hit, const Vec3& tow
   const float geometric = glm::dot(hit.normal, towards_eye), shading = glm::dot(hit.shading_normal, towards_eye);
   if (!(geometric * shading > 0.0f)) return Rgb(0.0f);  // seen edge on, or from different sides of the two normals
   const Vec3 eye_side = geometric > 0.0f ? hit.normal : -hit.normal;
-  if (const auto* diffuse = std::get_if<Lambertian>(&material))
-    return diffuse->reflectance / kPi * shaded_irradiance(hit, eye_side, photons...);
+  if (const Rgb* diffuse = diffuse_reflectance(material))
+    return *diffuse / kPi * shaded_irradiance(hit, eye_side, photons...);
   const Arrives arrives{eye_side, plane_thickness(settings_of(photons...)), scatters_through(material)};
   const auto scattered = [&](const Vec3& travel, const Rgb& power) {
     return scatter_value(material, hit, travel, towards_eye).value * power * shading_irradiance_scale(hit, travel);

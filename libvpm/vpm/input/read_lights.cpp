@@ -106,7 +106,7 @@ std::vector<LightPlan> read_lights(std::vector<TableReader>& tables) {
   for (TableReader& table : tables) {
     const std::string name = table.string("name", "");
     const Reader read = table.choice<Reader>("type", kinds);
-    lights.push_back({name, read(table)});
+    lights.push_back({{name, read(table)}, table});
     table.finish();
   }
   return lights;

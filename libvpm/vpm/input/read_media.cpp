@@ -70,27 +70,27 @@ GridRequest read_grid(TableReader& table) {
   return request;
 }
 
-MediumPlan read_medium(TableReader& table, const std::string& name, const Names& names, MediumId world) {
-  MediumPlan plan;
-  plan.medium.name = name;
-  plan.place = table.place();
+MediumPlan read_medium(TableReader table, const std::string& name, const Names& names) {
+  std::optional<GridRequest> request;
+  MediumPart part;
+  Medium& medium = part.medium;
+  medium.name = name;
   const bool grid = table.choice<bool>("type", {{"homogeneous", false}, {"grid", true}});
-  plan.medium.phase = read_phase(table);
-  read_coefficients(table, grid, plan.medium);
+  medium.phase = read_phase(table);
+  read_coefficients(table, grid, medium);
   if (grid) {
-    plan.grid = read_grid(table);
-    plan.path_place = table.place_of("path");
-    plan.boundary = table.choice<GridBoundary>(
+    request = read_grid(table);
+    part.boundary = table.choice<GridBoundary>(
         "boundary", {{"box", GridBoundary::box}, {"shapes", GridBoundary::shapes}}, GridBoundary::automatic);
-    plan.outside = read_medium_name(table, "outside", names, world);
+    if (table.has("outside")) part.outside = read_medium_name(table, "outside", names, kVacuum);
     const float scale = table.number("density_scale", kPositive, 1.0f);
-    plan.medium.sigma_s *= scale;
-    plan.medium.sigma_t *= scale;
+    medium.sigma_s *= scale;
+    medium.sigma_t *= scale;
   }
-  if (!is_finite(plan.medium.sigma_t))
+  if (!is_finite(medium.sigma_t))
     table.fail_here("the extinction of " + table.title() + " is too large for single precision");
   table.finish();
-  return plan;
+  return {std::move(part), std::move(table), std::move(request)};
 }
 
 }  // namespace
@@ -106,14 +106,9 @@ MediumId read_medium_name(TableReader& table, const std::string& key, const Name
   table.fail(key, "there is no medium '" + name + "'", suggest(name, known, "there are"));
 }
 
-std::vector<MediumPlan> read_media(TableReader& section, const Names& names, MediumId world) {
+std::vector<MediumPlan> read_media(TableReader& section, const Names& names) {
   std::vector<MediumPlan> plans;
-  for (auto& [name, table] : section.named_tables("media")) {
-    if (name == "vacuum") table.fail_here("no medium can be named 'vacuum': that is the empty space");
-    plans.push_back(read_medium(table, name, names, world));
-    if (plans.back().outside == static_cast<MediumId>(plans.size()) - 1 && plans.back().grid && table.has("outside"))
-      table.fail("outside", "a medium cannot be outside itself");
-  }
+  for (auto& [name, table] : section.named_tables("media")) plans.push_back(read_medium(table, name, names));
   return plans;
 }
 

@@ -1,88 +1,12 @@
-// The sections [materials.*] and [[shapes]].
-#include <fmt/format.h>
-
+// The section [[shapes]].
 #include <algorithm>
-#include <glm/gtc/matrix_inverse.hpp>
 
 #include "vpm/base/error.h"
 #include "vpm/input/mesh_file.h"
 #include "vpm/input/sections.h"
-#include "vpm/surface/fresnel.h"
-#include "vpm/surface/metals.h"
 
 namespace vpm {
 namespace {
-
-constexpr Range kIndex{kLeastIndex, kLargestIndex, false, false};
-constexpr Range kIndexK{kLeastK, kLargestK, false, false};
-
-/// The index of a metal's refraction, by its name or as two colours.
-Conductor read_metal(TableReader& table) {
-  if (!table.has("metal")) {
-    if (!table.has("eta") && !table.has("k"))
-      table.fail_here(table.title() + " lacks a metal", "add: metal = \"gold\", or eta and k");
-    return {table.rgb("eta", kIndex), table.rgb("k", kIndexK)};
-  }
-  std::vector<std::pair<std::string, Metal>> metals;
-  for (const Metal& metal : kMetals) metals.emplace_back(metal.name, metal);
-  const auto metal = table.choice<Metal>("metal", metals);
-  for (const char* key : {"eta", "k"})
-    if (table.has(key)) table.fail(key, "the metal of " + table.title() + " has its own '" + key + "'", "remove one");
-  return {metal.eta, metal.k};
-}
-
-float read_roughness(TableReader& table, const std::string& smooth_type) {
-  const float roughness = table.number("roughness", {0.0, 1.0, false, false});
-  if (roughness < kLeastRoughness)
-    table.fail(
-        "roughness",
-        fmt::format("the roughness of {} must be at least {}, not {}", table.title(), kLeastRoughness, roughness),
-        "type = \"" + smooth_type + "\" is the smooth one");
-  return roughness;
-}
-
-Material read_phong(TableReader& table) {
-  const Phong phong{table.rgb("diffuse", kFraction), table.rgb("glossy", kFraction),
-                    table.number("exponent", {0.0, kLargestExponent, false, false})};
-  if (max_channel(phong.diffuse + phong.glossy) > 1.0f)
-    table.fail("glossy", "'diffuse' and 'glossy' of " + table.title() + " together reflect more than arrives",
-               "their sum must be at most 1 in every channel");
-  return phong;
-}
-
-Material read_rough_dielectric(TableReader& table) {
-  const float ior = table.number("ior", kIndex);
-  if (std::abs(ior - 1.0f) < kLeastIorStep)
-    table.fail("ior",
-               fmt::format("the ior of {} must be at least {} away from 1, not {}", table.title(), kLeastIorStep, ior),
-               "type = \"dielectric\" or \"boundary\" pass light that hardly turns");
-  return RoughDielectric{ior, read_roughness(table, "dielectric")};
-}
-
-MaterialPlan read_material(TableReader table) {
-  using Reader = Material (*)(TableReader&, MaterialPlan&);
-  const auto read = table.choice<Reader>(
-      "type",
-      {{"lambertian", [](TableReader& t, MaterialPlan& p) -> Material { return Lambertian{read_reflectance(t, p)}; }},
-       {"phong", [](TableReader& t, MaterialPlan&) { return read_phong(t); }},
-       {"mirror",
-        [](TableReader& t, MaterialPlan& p) -> Material { return Mirror{read_reflectance(t, p, Rgb(1.0f))}; }},
-       {"conductor", [](TableReader& t, MaterialPlan&) -> Material { return read_metal(t); }},
-       {"rough-conductor",
-        [](TableReader& t, MaterialPlan&) -> Material {
-          const Conductor metal = read_metal(t);
-          return RoughConductor{metal.eta, metal.k, read_roughness(t, "conductor")};
-        }},
-       {"dielectric", [](TableReader& t, MaterialPlan&) -> Material { return Dielectric{t.number("ior", kIndex)}; }},
-       {"thin-dielectric",
-        [](TableReader& t, MaterialPlan&) -> Material { return ThinDielectric{t.number("ior", kIndex)}; }},
-       {"rough-dielectric", [](TableReader& t, MaterialPlan&) { return read_rough_dielectric(t); }},
-       {"boundary", [](TableReader&, MaterialPlan&) -> Material { return Boundary{}; }}});
-  MaterialPlan plan;
-  plan.material = read(table, plan);
-  table.finish();
-  return plan;
-}
 
 /// The number of the shape's material, which it names or defines in place.
 uint32_t read_shape_material(TableReader& table, const Names& names, std::vector<MaterialPlan>& materials) {
@@ -117,58 +41,24 @@ TriangleMesh read_box(TableReader& table) {
   return box_mesh(Vec3d(lo), Vec3d(hi));
 }
 
-TriangleMesh read_mesh(TableReader& table, ShapePlan& plan) {
+TriangleMesh read_mesh(TableReader& table, ShapePart& part) {
   const std::string path = table.path("path");
   try {
     LoadedMesh loaded = load_mesh(path);
-    plan.degenerate_triangles = loaded.degenerate_triangles;
+    part.degenerate_triangles = loaded.degenerate_triangles;
     return std::move(loaded.mesh);
   } catch (const InputError& error) {
     table.fail("path", error.what());
   }
 }
 
-/// The quad's light: its corner and edges, in the order that keeps the normal.
-QuadLight quad_light(const TriangleMesh& mesh, const Rgb& radiance) {
-  const auto& p = mesh.positions;
-  const glm::uvec3& t = mesh.triangles[0];
-  const bool mirrored = t.y > t.z;
-  const Vec3 u = p[1] - p[0], v = p[3] - p[0];
-  return mirrored ? QuadLight{p[0], v, u, radiance} : QuadLight{p[0], u, v, radiance};
-}
-
-/// What the shape is once it emits: a quad and a mesh are both triangles.
-Light light_of(const ShapePlan& plan, bool quad, const Rgb& radiance) {
-  if (const auto* sphere = std::get_if<SphereShape>(&plan.surface))
-    return SphereLight{sphere->centre, sphere->radius, radiance};
-  if (const auto* disc = std::get_if<DiscShape>(&plan.surface))
-    return DiscLight{disc->centre, disc->normal, disc->radius, radiance};
-  const auto& mesh = std::get<TriangleMesh>(plan.surface);
-  if (quad) return quad_light(mesh, radiance);
-  return MeshLight{std::make_shared<EmittingMesh>(mesh), radiance};
-}
-
-void read_emission(TableReader& table, ShapePlan& plan, bool quad, const std::vector<MaterialPlan>& materials) {
-  if (!table.has("emission")) return;
-  const Rgb radiance = table.rgb("emission", kNotNegative);
-  if (is_black(radiance)) table.fail("emission", "the emission of " + table.title() + " is black", "remove the key");
-  if (is_boundary(materials[plan.shape.material].material))
-    table.fail("emission", "a boundary has no surface that could emit", "give " + table.title() + " another material");
-  plan.light = light_of(plan, quad, radiance);
-}
-
-bool has_uvs(const ShapePlan& plan) {
-  const auto* mesh = std::get_if<TriangleMesh>(&plan.surface);
-  return mesh ? !mesh->uvs.empty() : std::holds_alternative<SphereShape>(plan.surface);
-}
-
 /// Boxes, quads and meshes, where their transform puts them.
-TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePlan& plan) {
+TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePart& part) {
   transform_mesh(read_transform(table, "transform"), mesh);
   for (const Vec3& p : mesh.positions)
     if (!is_finite(p))
       table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
-  plan.degenerate_triangles += drop_flat_triangles(mesh);
+  part.degenerate_triangles += drop_flat_triangles(mesh);
   if (mesh.triangles.empty())
     table.fail(table.has("transform") ? "transform" : "type",
                "no triangle of " + table.title() + " has an area where it lies: single precision resolves none",
@@ -176,66 +66,41 @@ TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePlan& pl
   return mesh;
 }
 
-ShapePlan read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
-                     std::vector<MaterialPlan>& materials) {
-  enum class Kind { sphere, disc, quad, box, mesh };
-  ShapePlan plan;
-  plan.place = table.place();
-  plan.shape.name = table.string("name", "");
-  const Kind kind = table.choice<Kind>(
+Surface read_surface(TableReader& table, ShapePart& part) {
+  using Reader = Surface (*)(TableReader&, ShapePart&);
+  const auto read = table.choice<Reader>(
       "type",
-      {{"sphere", Kind::sphere}, {"disc", Kind::disc}, {"quad", Kind::quad}, {"box", Kind::box}, {"mesh", Kind::mesh}});
-  plan.shape.material = read_shape_material(table, material_names, materials);
-  plan.shape.separates_media = table.has("inside") || table.has("outside");
-  plan.shape.media.inside = read_medium_name(table, "inside", media, world);
-  plan.shape.media.outside = read_medium_name(table, "outside", media, world);
-  if (kind == Kind::sphere) {
-    plan.surface = read_sphere(table);
-  } else if (kind == Kind::disc) {
-    plan.surface = read_disc(table);
-  } else {
-    plan.surface = read_triangles(table,
-                                  kind == Kind::quad  ? read_quad(table)
-                                  : kind == Kind::box ? read_box(table)
-                                                      : read_mesh(table, plan),
-                                  plan);
-  }
-  read_emission(table, plan, kind == Kind::quad, materials);
-  if (materials[plan.shape.material].texture && !has_uvs(plan))
-    table.fail("material",
-               "the material of " + table.title() + " has a texture, but the shape has no coordinates in it",
-               "spheres and quads have them, and meshes whose file gives them to the vertices");
+      {{"sphere", [](TableReader& t, ShapePart&) -> Surface { return read_sphere(t); }},
+       {"disc", [](TableReader& t, ShapePart&) -> Surface { return read_disc(t); }},
+       {"quad", [](TableReader& t, ShapePart& p) -> Surface { return QuadMesh{read_triangles(t, read_quad(t), p)}; }},
+       {"box", [](TableReader& t, ShapePart& p) -> Surface { return read_triangles(t, read_box(t), p); }},
+       {"mesh", [](TableReader& t, ShapePart& p) -> Surface { return read_triangles(t, read_mesh(t, p), p); }}});
+  return read(table, part);
+}
+
+ShapePart read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
+                     std::vector<MaterialPlan>& materials) {
+  ShapePart part;
+  part.name = table.string("name", "");
+  part.title = table.title();
+  part.surface = read_surface(table, part);
+  part.material = read_shape_material(table, material_names, materials);
+  const Interface sides{read_medium_name(table, "inside", media, world),
+                        read_medium_name(table, "outside", media, world)};
+  if (table.has("inside") || table.has("outside")) part.media = sides;
+  if (table.has("emission")) part.emission = table.rgb("emission", kNotNegative);
   table.finish();
-  return plan;
+  return part;
 }
 
 }  // namespace
-
-void transform_mesh(const Mat4d& transform, TriangleMesh& mesh) {
-  for (Vec3& p : mesh.positions) p = Vec3(transform * glm::dvec4(Vec3d(p), 1.0));
-  const Mat3d of_normals = glm::inverseTranspose(Mat3d(transform));
-  for (Vec3& n : mesh.normals) n = Vec3(glm::normalize(of_normals * Vec3d(n)));
-  if (glm::determinant(Mat3d(transform)) > 0.0) return;
-  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // a mirror turns triangles round: outward stays outward
-}
-
-std::vector<MaterialPlan> read_materials(TableReader& section) {
-  std::vector<MaterialPlan> materials;
-  for (auto& [name, table] : section.named_tables("materials")) materials.push_back(read_material(table));
-  return materials;
-}
 
 std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
                                    MediumId world, std::vector<MaterialPlan>& materials) {
   std::vector<ShapePlan> plans;
   for (TableReader& table : tables) {
-    ShapePlan plan = read_shape(table, media, material_names, world, materials);
-    const bool named = !plan.shape.name.empty();
-    if (!named) plan.shape.name = "shape " + std::to_string(plans.size());
-    for (const ShapePlan& other : plans)
-      if (other.shape.name == plan.shape.name)
-        table.fail("name", "two shapes are named '" + plan.shape.name + "'", "give each shape a name of its own");
-    plans.push_back(std::move(plan));
+    ShapePart part = read_shape(table, media, material_names, world, materials);
+    plans.push_back({std::move(part), table});
   }
   return plans;
 }

@@ -46,11 +46,11 @@ std::string first_texel_outside(const Image& image, float largest) {
   return "column " + std::to_string(i % width) + ", row " + std::to_string(i / width);
 }
 
-Rgb read_reflectance(TableReader& table, MaterialPlan& plan, std::optional<Rgb> fallback) {
+Rgb read_reflectance(TableReader& table, MaterialPart& part, std::optional<Rgb> fallback) {
   const Node* node = table.find("reflectance");
   if (!node || !node->table()) return table.rgb("reflectance", kFraction, fallback);
-  plan.texture = read_texture(*table.table("reflectance", "'reflectance' of " + table.title()));
-  return plan.texture->mean();
+  part.texture = read_texture(*table.table("reflectance", "'reflectance' of " + table.title()));
+  return part.texture->mean();
 }
 
 }  // namespace vpm

@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "vpm/input/grid_file.h"
@@ -12,8 +11,7 @@
 #include "vpm/render/automatic.h"
 #include "vpm/render/plan.h"
 #include "vpm/render/settings.h"
-#include "vpm/scene/scene.h"
-#include "vpm/surface/mesh.h"
+#include "vpm/scene/parts.h"
 
 namespace vpm {
 
@@ -23,58 +21,51 @@ using Names = std::vector<std::string>;
 /// The number of the medium named by `key`, kVacuum for "vacuum"; `fallback` where the key is missing.
 MediumId read_medium_name(TableReader& table, const std::string& key, const Names& media, MediumId fallback);
 
-/// Who draws the surface within which a grid medium is met.
-enum class GridBoundary { automatic, box, shapes };
+// Each plan is a part of the scene and the table that it was read from, for errors.
 
-/// A medium as the file describes it, its grid not read yet.
+/// A medium, its grid not read yet.
 struct MediumPlan {
-  Medium medium;
+  MediumPart part;
+  TableReader table;
   std::optional<GridRequest> grid;
-  GridBoundary boundary = GridBoundary::automatic;
-  MediumId outside = kVacuum;  // of the automatic box
-  Place place, path_place;     // of the table and of the grid's path, for errors
 };
-/// Reads [media.*]. `world` is what [world] names.
-std::vector<MediumPlan> read_media(TableReader& section, const Names& names, MediumId world);
+/// Reads [media.*].
+std::vector<MediumPlan> read_media(TableReader& section, const Names& names);
 
-/// A material and the picture that its reflectance is read from, null without.
+/// A material.
 struct MaterialPlan {
-  Material material = Boundary{};
-  std::shared_ptr<const Texture> texture;
+  MaterialPart part;
+  TableReader table;
 };
+/// Reads one material.
+MaterialPlan read_material(TableReader table);
 /// Reads [materials.*], in the file's order.
 std::vector<MaterialPlan> read_materials(TableReader& section);
-/// The key `reflectance`: an rgb in [0, 1], or a table that names a picture, which the plan then holds; its mean is
+/// The key `reflectance`: an rgb in [0, 1], or a table that names a picture, which the part then holds; its mean is
 /// returned. A fallback is what a missing key stands for.
-Rgb read_reflectance(TableReader& table, MaterialPlan& plan, std::optional<Rgb> fallback = {});
+Rgb read_reflectance(TableReader& table, MaterialPart& part, std::optional<Rgb> fallback = {});
 
 /// The first texel of a picture that is not finite, below 0, or above `largest`: "column 3, row 0"; "" where there is
 /// none.
 std::string first_texel_outside(const Image& image, float largest);
 
-/// A shape as the file describes it.
+/// A shape.
 struct ShapePlan {
-  Place place;  // of the shape in the file; of its medium for the box of a grid
-  Shape shape;
-  std::variant<TriangleMesh, SphereShape, DiscShape> surface;
-  std::optional<Light> light;
-  uint64_t degenerate_triangles = 0;  // dropped from a mesh
+  ShapePart part;
+  TableReader table;
 };
 /// Reads [[shapes]]; appends materials that shapes define in place to `materials`.
 std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
                                    MediumId world, std::vector<MaterialPlan>& materials);
 
-/// Moves a mesh by an affine map. Its normals stay outward under mirrors too.
-void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);
-
 /// The affine map of a list of steps, applied in the list's order; the identity where `key` is missing. Refuses
 /// singular ones.
 Mat4d read_transform(TableReader& table, const std::string& key);
 
-/// A light as the file describes it.
+/// A light.
 struct LightPlan {
-  std::string name;  // empty where it has none
-  Light light;
+  LightPart part;
+  TableReader table;
 };
 /// Reads [[lights]].
 std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);

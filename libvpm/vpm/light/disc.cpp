@@ -1,4 +1,5 @@
 // A disc that emits the same radiance from every point of its front.
+#include "vpm/surface/disc.h"
 #include "vpm/base/warp.h"
 #include "vpm/light/kinds.h"
 
@@ -35,5 +36,10 @@ LightPoint draw_place(const DiscLight& light, Rng& rng) {
 }
 
 float pdf_of(const DiscLight& light, const Vec3&, const SeenLight& seen) { return pdf_by_area(area_of(light), seen); }
+
+LightPlace place_of(const DiscLight& light) {
+  const DiscShape shape{light.centre, light.normal, light.radius};
+  return {disc_bounds(shape), leave_surface_at(light.centre, light.normal, light.normal, disc_slack(shape))};
+}
 
 }  // namespace vpm

@@ -49,6 +49,15 @@ float pdf_of(const MeshLight& light, const Vec3& point, const SeenLight& seen);
 float pdf_of(const ConstantEnvironment& light, const Vec3& point, const SeenLight& seen);
 float pdf_of(const EnvironmentMap& light, const Vec3& point, const SeenLight& seen);
 
+// light_place(), of the lights that stand somewhere
+LightPlace place_of(const PointLight& light);
+LightPlace place_of(const SpotLight& light);
+LightPlace place_of(const BeamLight& light);
+LightPlace place_of(const QuadLight& light);
+LightPlace place_of(const DiscLight& light);
+LightPlace place_of(const SphereLight& light);
+LightPlace place_of(const MeshLight& light);
+
 // draw_light_point(), of the lights whose points are drawn by area
 LightPoint draw_place(const QuadLight& light, Rng& rng);
 LightPoint draw_place(const DiscLight& light, Rng& rng);

@@ -93,6 +93,24 @@ bool is_infinite(const Light& light) {
       light);
 }
 
+std::optional<Rgb> even_radiance(const Light& light) {
+  using Radiance = std::optional<Rgb>;
+  return std::visit(
+      Overloads{[](const UnseenLight auto&) { return Radiance(); }, [](const AreaLight auto&) { return Radiance(); },
+                [](const DirectionalLight&) { return Radiance(); },
+                [](const ConstantEnvironment& l) { return Radiance(l.radiance); },
+                [](const EnvironmentMap&) { return Radiance(); }},
+      light);
+}
+
+std::optional<LightPlace> light_place(const Light& light) {
+  using Place = std::optional<LightPlace>;
+  return std::visit(Overloads{[](const UnseenLight auto& l) { return Place(place_of(l)); },
+                              [](const AreaLight auto& l) { return Place(place_of(l)); },
+                              [](const DistantLight auto&) { return Place(); }},
+                    light);
+}
+
 Rgb environment_radiance(const Light& light, const Vec3& direction) {
   return std::visit(
       Overloads{[](const UnseenLight auto&) { return Rgb(0.0f); }, [](const AreaLight auto&) { return Rgb(0.0f); },

@@ -160,6 +160,17 @@ bool is_grey(const Light& light);
 /// Is the light at infinity, so that it needs vacuum around the scene?
 bool is_infinite(const Light& light);
 
+/// The radiance that arrives from all directions alike, W/(m^2 sr); nothing of lights that are no such environment.
+std::optional<Rgb> even_radiance(const Light& light);
+
+/// Where a light stands.
+struct LightPlace {
+  Box bounds;        // m, around all points that its photons start from
+  Vec3 point{0.0f};  // m, of them: of area lights one just before the surface
+};
+/// Nothing of lights at infinity.
+std::optional<LightPlace> light_place(const Light& light);
+
 /// The uniform numbers in [0, 1) that one emission is made of. No light uses all of them.
 struct EmissionNumbers {
   double choice = 0.0;  // of a triangle, a texel, or a part of a cone

@@ -69,4 +69,11 @@ LightPoint draw_place(const MeshLight& light, Rng& rng) {
 
 float pdf_of(const MeshLight& light, const Vec3&, const SeenLight& seen) { return pdf_by_area(area_of(light), seen); }
 
+LightPlace place_of(const MeshLight& light) {
+  Rng rng(0, rng_stream(RngUse::probe, 0), 0);
+  const double choice = rng.uniform_double();
+  const EmittingMesh::Sample at = light.mesh->sample(choice, rng.uniform2());
+  return {light.mesh->bounds(), leave_surface_at(at.position, at.normal, at.normal, at.slack)};
+}
+
 }  // namespace vpm

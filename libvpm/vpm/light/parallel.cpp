@@ -36,4 +36,8 @@ std::optional<Incident> incident_from(const DirectionalLight& light, const Vec3&
   return Incident{-light.direction, kInfinity, light.irradiance, 0.0f};
 }
 
+LightPlace place_of(const BeamLight& light) {
+  return {{light.position - light.radius, light.position + light.radius}, light.position};
+}
+
 }  // namespace vpm

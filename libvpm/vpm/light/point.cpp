@@ -76,4 +76,8 @@ std::optional<Incident> incident_from(const SpotLight& light, const Vec3& point,
   return in;
 }
 
+LightPlace place_of(const PointLight& light) { return {{light.position, light.position}, light.position}; }
+
+LightPlace place_of(const SpotLight& light) { return {{light.position, light.position}, light.position}; }
+
 }  // namespace vpm

@@ -44,4 +44,13 @@ LightPoint draw_place(const QuadLight& light, Rng& rng) {
 
 float pdf_of(const QuadLight& light, const Vec3&, const SeenLight& seen) { return pdf_by_area(area_of(light), seen); }
 
+LightPlace place_of(const QuadLight& light) {
+  Box box;
+  for (const Vec3& p : {Vec3(0.0f), light.edge_u, light.edge_v, light.edge_u + light.edge_v}) box.add(light.corner + p);
+  const Vec3d across = area_vector(light);
+  const Vec3 normal(glm::normalize(across)), middle = uniform_point(light, Vec2(0.5f));
+  const float slack = flat_slack(normal, reach_from(light, middle), glm::length(across));
+  return {box, leave_surface_at(middle, normal, normal, slack)};
+}
+
 }  // namespace vpm

@@ -46,4 +46,11 @@ float pdf_of(const SphereLight& light, const Vec3& point, const SeenLight&) {
   return away > 0.0f ? 1.0f / (2.0f * kPi * away) : 0.0f;
 }
 
+LightPlace place_of(const SphereLight& light) {
+  const SphereShape shape{light.centre, light.radius};
+  const Vec3 normal = glm::normalize(Vec3(0.5470f, 0.7316f, 0.4071f));  // of no symmetry, away from others' edges
+  return {{light.centre - light.radius, light.centre + light.radius},
+          leave_surface_at(point_on(shape, normal), normal, normal, sphere_slack(shape))};
+}
+
 }  // namespace vpm

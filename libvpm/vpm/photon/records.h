@@ -80,7 +80,7 @@ struct SurfaceSite {
   PackedDirection shading_normal;  // the same, for shading
 };
 
-/// The places on Lambertian surfaces that one of kSiteStep photons meets.
+/// The places on diffuse surfaces that one of kSiteStep photons meets.
 class SiteRecorder : public PhotonRecorder {
  public:
   explicit SiteRecorder(const Scene& scene) : scene_(scene) {}

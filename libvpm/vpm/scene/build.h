@@ -1,10 +1,19 @@
-// Scenes built in code: for studies and tests.
+// Shapes put into a scene one by one, unchecked: by assemble(), and by studies and tests of scenes that it would
+// refuse.
 #pragma once
 
 #include "vpm/scene/scene.h"
 #include "vpm/surface/mesh.h"
 
 namespace vpm {
+
+/// Adds a shape, whose material the scene has, and returns its number.
+template <class Surface>
+uint32_t place_shape(Scene& scene, Shape shape, const Surface& surface) {
+  const uint32_t number = scene.geometry.add(surface, layer_of(shape, scene.materials[shape.material]));
+  scene.shapes.push_back(std::move(shape));
+  return number;
+}
 
 /// Adds a shape with a material of its own, and returns its number. Separates media where `media` is given; emits where
 /// `light` is the number of a light.
@@ -17,8 +26,7 @@ uint32_t add_shape(Scene& scene, const Surface& surface, const Material& materia
   if (media) shape.media = *media;
   shape.light = light;
   scene.materials.push_back(material);
-  scene.shapes.push_back(shape);
-  return scene.geometry.add(surface, layer_of(shape, material));
+  return place_shape(scene, std::move(shape), surface);
 }
 
 }  // namespace vpm

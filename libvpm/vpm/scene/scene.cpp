@@ -5,9 +5,7 @@
 #include <cassert>
 
 #include "vpm/base/error.h"
-#include "vpm/base/overloads.h"
 #include "vpm/base/rng.h"
-#include "vpm/surface/disc.h"
 
 namespace vpm {
 
@@ -65,47 +63,6 @@ std::vector<double> probability_by_power(const std::vector<Light>& lights, const
   return probability;
 }
 
-/// The box around a finite light's surface: a point for point lights.
-Box bounds_of(const UnseenLight auto& light) {
-  Box box;
-  box.add(light.position);
-  return box;
-}
-Box bounds_of(const BeamLight& light) { return {light.position - light.radius, light.position + light.radius}; }
-Box bounds_of(const QuadLight& light) {
-  Box box;
-  for (const Vec3& p : {Vec3(0.0f), light.edge_u, light.edge_v, light.edge_u + light.edge_v}) box.add(light.corner + p);
-  return box;
-}
-Box bounds_of(const DiscLight& light) { return disc_bounds({light.centre, light.normal, light.radius}); }
-Box bounds_of(const SphereLight& light) { return {light.centre - light.radius, light.centre + light.radius}; }
-Box bounds_of(const MeshLight& light) { return light.mesh->bounds(); }
-
-/// A point of a finite light, for area lights just before their surface.
-Vec3 point_before(const UnseenLight auto& light) { return light.position; }
-Vec3 point_before(const QuadLight& light) {
-  const Vec3 across = glm::cross(light.edge_u, light.edge_v);
-  const Vec3 normal = glm::normalize(across);
-  const Vec3 reach = glm::abs(light.edge_u) + glm::abs(light.edge_v);
-  return leave_surface_at(light.corner + 0.5f * (light.edge_u + light.edge_v), normal, normal,
-                          flat_slack(normal, reach, glm::length(across)));
-}
-Vec3 point_before(const DiscLight& light) {
-  return leave_surface_at(light.centre, light.normal, light.normal,
-                          disc_slack({light.centre, light.normal, light.radius}));
-}
-Vec3 point_before(const SphereLight& light) {
-  const SphereShape shape{light.centre, light.radius};
-  const Vec3 normal = kProbes[0];
-  return leave_surface_at(point_on(shape, normal), normal, normal, sphere_slack(shape));
-}
-Vec3 point_before(const MeshLight& light) {
-  Rng rng(0, rng_stream(RngUse::probe, 0), 0);
-  const double choice = rng.uniform_double();
-  const EmittingMesh::Sample at = light.mesh->sample(choice, rng.uniform2());
-  return leave_surface_at(at.position, at.normal, at.normal, at.slack);
-}
-
 /// Does a boundary between media cut the box? Judged by segments between random points in it: a cut that parts off a
 /// share f of the box is overlooked with probability about (1 - 2 f)^256.
 bool is_cut(const Scene& scene, const Box& box) {
@@ -124,13 +81,9 @@ bool is_cut(const Scene& scene, const Box& box) {
 
 /// The medium that all photons of a light start in: one where no boundary cuts the light.
 MediumId medium_of(const Scene& scene, const Light& light) {
-  const auto of_finite = [&](const auto& l) {
-    return is_cut(scene, bounds_of(l)) ? kSeveralMedia : medium_around(scene, point_before(l));
-  };
-  return std::visit(Overloads{[&](const DistantLight auto&) { return scene.world_medium; },
-                              [&](const UnseenLight auto& l) { return of_finite(l); },
-                              [&](const AreaLight auto& l) { return of_finite(l); }},
-                    light);
+  const std::optional<LightPlace> place = light_place(light);
+  if (!place) return scene.world_medium;
+  return is_cut(scene, place->bounds) ? kSeveralMedia : medium_around(scene, place->point);
 }
 
 }  // namespace

@@ -72,6 +72,14 @@ inline bool is_dielectric(const Material& m) {
 /// Does the material scatter light into a spread of directions? Then photons on it are worth storing, and shadow rays
 /// find its scatter_value().
 bool is_rough(const Material& m);
+/// The reflectance of a material that scatters diffusely, so that it looks the same from all directions and the
+/// radiance it sends out is its reflectance / pi times the irradiance on that side; null for all others.
+inline const Rgb* diffuse_reflectance(const Material& m) {
+  const auto* lambertian = std::get_if<Lambertian>(&m);
+  return lambertian ? &lambertian->reflectance : nullptr;
+}
+/// Does the material scatter diffusely?
+inline bool is_diffuse(const Material& m) { return diffuse_reflectance(m) != nullptr; }
 /// Is it rough, and does light from either side leave on both?
 bool scatters_through(const Material& m);
 /// Are all its coefficients equal over the channels?

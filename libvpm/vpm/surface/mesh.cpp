@@ -1,5 +1,7 @@
-// Boxes and quads as triangles; triangles without area.
+// Boxes and quads as triangles; meshes moved; triangles without area.
 #include "vpm/surface/mesh.h"
+
+#include <glm/gtc/matrix_inverse.hpp>
 
 namespace vpm {
 
@@ -18,6 +20,14 @@ TriangleMesh quad_mesh(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.uvs = {{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}};
   return mesh;
+}
+
+void transform_mesh(const Mat4d& transform, TriangleMesh& mesh) {
+  for (Vec3& p : mesh.positions) p = Vec3(transform * glm::dvec4(Vec3d(p), 1.0));
+  const Mat3d of_normals = glm::inverseTranspose(Mat3d(transform));
+  for (Vec3& n : mesh.normals) n = Vec3(glm::normalize(of_normals * Vec3d(n)));
+  if (glm::determinant(Mat3d(transform)) > 0.0) return;
+  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // a mirror turns triangles round: outward stays outward
 }
 
 uint64_t drop_flat_triangles(TriangleMesh& mesh) {

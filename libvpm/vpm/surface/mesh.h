@@ -17,6 +17,14 @@ inline Vec3d area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
   return glm::cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
 }
 
+/// A parallelogram: what quad_mesh() makes, moved by transform_mesh(). Unlike two triangles it emits as one light.
+struct QuadMesh {
+  TriangleMesh mesh;
+};
+
+/// Moves a mesh by an affine map. Its normals stay outward under mirrors too.
+void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);
+
 /// Removes the triangles without area, which no ray can meet, and tells how many they were.
 uint64_t drop_flat_triangles(TriangleMesh& mesh);
 

@@ -140,14 +140,14 @@ Rgb FinalGather::met_along(PathState path, EyeWork& work) const {
 }
 
 /// What a gathering ray sees of all light where it ends: from the points where it was computed beforehand, or, where
-/// none is near, and of surfaces that are not Lambertian, from the map.
+/// none is near, and of surfaces that are not diffuse, from the map.
 Rgb FinalGather::at_end(const SurfaceView& view, EyeWork& work) const {
-  const auto* diffuse = std::get_if<Lambertian>(&view.material);
+  const Rgb* diffuse = diffuse_reflectance(view.material);
   if (!sites_ || !diffuse) return ends_.gather(view, work);
   const std::optional<Rgb> irradiance = irradiance_.irradiance(view.hit, -view.travel, work.counters.gather);
   if (irradiance) {
     count(work.counters.irradiance_lookups);
-    return diffuse->reflectance / kPi * *irradiance;
+    return *diffuse / kPi * *irradiance;
   }
   count(work.counters.irradiance_misses);
   return ends_.gather(view, work);

@@ -28,7 +28,7 @@ void check(const Scene& scene) {
   if (!fog.homogeneous()) refuse("its medium is a grid");
   if (!std::holds_alternative<Isotropic>(fog.phase)) refuse("its medium does not scatter isotropically");
   if (scene.camera_medium != kVacuum) refuse("its camera stands in the medium");
-  if (scene.lights.size() != 1 || !std::holds_alternative<ConstantEnvironment>(scene.lights[0]))
+  if (scene.lights.size() != 1 || !even_radiance(scene.lights[0]))
     refuse("its light is no constant environment");
 }
 
@@ -115,7 +115,7 @@ Image exact_picture(const Scene& scene) {
   check(scene);
   const Ball ball(scene);
   const Camera& camera = scene.camera;
-  const Rgbd environment(std::get<ConstantEnvironment>(scene.lights[0]).radiance);
+  const Rgbd environment(*even_radiance(scene.lights[0]));
   Image image(camera.width, camera.height);
   parallel_for_chunks(image.pixels.size(), 64, [&](size_t begin, size_t end, size_t) {
     for (size_t pixel = begin; pixel < end; ++pixel) {

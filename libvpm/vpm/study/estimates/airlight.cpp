@@ -69,7 +69,7 @@ double log_transmittance(const Scene& scene, const TransmittanceEstimator& estim
 double log_irradiance(const Scene& scene, const TransmittanceEstimator& estimator, const Vec3& point, Rng& rng,
                       Vec3& direction) {
   constexpr double kDeep = 60.0;  // optical thickness beyond which floats lose digits
-  const double distance = glm::distance(Vec3d(std::get<PointLight>(scene.lights[0]).position), Vec3d(point));
+  const double distance = glm::distance(Vec3d(light_place(scene.lights[0])->point), Vec3d(point));
   WalkCounters counters;
   const ShadowRays rays{scene, estimator, rng, counters};
   if (distance * scene.media[0].sigma_t.r < kDeep) {

@@ -1,5 +1,5 @@
 // Following media and faces along rays through the scene.
-#include "vpm/input/check_media.h"
+#include "vpm/scene/check_media.h"
 
 #include <algorithm>
 

@@ -1,0 +1,187 @@
+// Parts become a scene: boxes around grids, shapes with their lights, what the scene derives, and checks of the whole.
+#include "vpm/scene/assemble.h"
+
+#include "vpm/base/overloads.h"
+#include "vpm/light/of_surface.h"
+#include "vpm/scene/build.h"
+#include "vpm/scene/check_media.h"
+#include "vpm/scene/notes.h"
+
+namespace vpm {
+namespace {
+
+/// The media whose boxes follow the shapes that are given.
+struct Boxes {
+  size_t first = 0;  // the number of the first box among the shapes
+  std::vector<MediumId> media;
+
+  /// The part that a shape stems from.
+  PartName part_of(size_t shape) const {
+    if (shape < first) return {PartKind::shape, shape};
+    return {PartKind::medium, static_cast<size_t>(media[shape - first])};
+  }
+};
+
+/// Checks the medium as a grid, or as one without. Is it to be met within a box?
+bool check_grid(const SceneParts& parts, size_t number) {
+  const MediumPart& part = parts.media[number];
+  const auto id = static_cast<MediumId>(number);
+  if (!part.medium.grid) {
+    if (part.boundary != GridBoundary::automatic || part.outside)
+      throw PartError({PartKind::medium, number}, "a medium without a grid has no box and no boundary of its own",
+                      "name it as a shape's 'inside'");
+    return false;
+  }
+  const bool boxed = is_boxed(parts, id);
+  const float background = part.medium.grid->frame().background;
+  if (parts.world_medium == id && background == 0.0f)
+    throw PartError({PartKind::world},
+                    "the grid of '" + part.medium.name + "' has background 0: it cannot fill the world",
+                    "remove [world]");
+  if (boxed && background != 0.0f)
+    throw PartError({PartKind::medium, number}, "the grid of '" + part.medium.name + "' has a background other than 0",
+                    "name the medium as a shape's 'inside', so that the shape tells where it ends");
+  return boxed;
+}
+
+/// The box around a grid's support, as a boundary with the medium inside.
+ShapePart box_of(const SceneParts& parts, MediumId id) {
+  const MediumPart& medium = parts.media[static_cast<size_t>(id)];
+  const DensityGrid& grid = *medium.medium.grid;
+  TriangleMesh mesh = box_mesh(grid.support_lo(), grid.support_hi());
+  transform_mesh(grid.frame().index_to_world, mesh);
+  ShapePart box;
+  box.name = "box of " + medium.medium.name;
+  box.surface = std::move(mesh);
+  box.media = Interface{id, medium.outside.value_or(parts.world_medium)};
+  return box;
+}
+
+Boxes add_boxes(SceneParts& parts) {
+  Boxes boxes{parts.shapes.size(), {}};
+  for (size_t i = 0; i < parts.media.size(); ++i)
+    if (check_grid(parts, i)) boxes.media.push_back(static_cast<MediumId>(i));
+  for (const MediumId id : boxes.media) {
+    ShapePart box = box_of(parts, id);
+    box.material = static_cast<uint32_t>(parts.materials.size());
+    parts.materials.push_back({Boundary{}, nullptr});
+    parts.shapes.push_back(std::move(box));
+  }
+  return boxes;
+}
+
+void add_surface(Scene& scene, Shape shape, const Surface& surface) {
+  std::visit(Overloads{[&](const QuadMesh& quad) { place_shape(scene, std::move(shape), quad.mesh); },
+                       [&](const auto& other) { place_shape(scene, std::move(shape), other); }},
+             surface);
+}
+
+size_t triangles_of(const Surface& surface) {
+  return std::visit(Overloads{[](const TriangleMesh& mesh) { return mesh.triangles.size(); },
+                              [](const QuadMesh& quad) { return quad.mesh.triangles.size(); },
+                              [](const SphereShape&) { return size_t{0}; }, [](const DiscShape&) { return size_t{0}; }},
+                    surface);
+}
+
+void add_shape_part(ShapePart part, AssembledScene& result) {
+  Scene& scene = result.scene;
+  const auto number = static_cast<uint32_t>(scene.shapes.size());
+  const bool emits = part.emission.has_value();
+  Shape shape;
+  shape.name = part.name;
+  shape.material = part.material;
+  shape.separates_media = part.media.has_value();
+  if (part.media) shape.media = *part.media;
+  if (emits) shape.light = static_cast<int>(scene.lights.size());
+  add_surface(scene, std::move(shape), part.surface);
+  const uint64_t dropped =
+      part.degenerate_triangles + triangles_of(part.surface) - scene.geometry.triangle_count(number);
+  if (dropped > 0)
+    result.notes.push_back("shape '" + part.name + "': " + std::to_string(dropped) + " triangles without area dropped");
+  if (!emits) return;
+  scene.lights.push_back(
+      std::visit([&](auto& surface) { return light_of(std::move(surface), *part.emission); }, part.surface));
+  result.light_names.push_back(part.name);
+}
+
+void add_shapes(SceneParts& parts, const Boxes& boxes, AssembledScene& result) {
+  for (size_t i = 0; i < parts.shapes.size(); ++i) {
+    parts.shapes[i].name = shape_name(parts, i);
+    try {
+      add_shape_part(std::move(parts.shapes[i]), result);
+    } catch (const InputError& error) {
+      throw PartError(boxes.part_of(i), error.what());
+    }
+  }
+  result.scene.geometry.commit();
+  if (!result.scene.geometry.bounds().empty()) return;
+  for (const LightPart& light : parts.lights)
+    if (is_infinite(light.light))
+      throw PartError({PartKind::lights}, "a light at infinity has nothing to shine on: the scene has no shapes");
+}
+
+/// All lists but that of the shapes.
+void add_lists(SceneParts& parts, AssembledScene& result) {
+  Scene& scene = result.scene;
+  for (MediumPart& medium : parts.media) scene.media.push_back(std::move(medium.medium));
+  for (MaterialPart& part : parts.materials) {
+    if (part.texture) *reflectance_of(part.material) = part.texture->mean();
+    scene.materials.push_back(part.material);
+    scene.textures.push_back(std::move(part.texture));
+  }
+  for (const LightPart& light : parts.lights) {
+    scene.lights.push_back(light.light);
+    result.light_names.push_back(light.name);
+  }
+  scene.world_medium = parts.world_medium;
+  scene.camera = parts.camera;
+}
+
+void check_contradictions(const Scene& scene, const Boxes& boxes) {
+  const std::optional<MediaContradiction> found = find_media_contradiction(scene);
+  if (!found) return;
+  const auto title = [&](MediumId id) {
+    return id == kVacuum ? std::string("vacuum") : "'" + scene.media[static_cast<size_t>(id)].name + "'";
+  };
+  throw PartError(boxes.part_of(found->shape),
+                  "shape '" + scene.shapes[found->shape].name + "' has " + title(found->declared) +
+                      (found->outside ? " outside" : " inside") + ", but the shapes around it say that " +
+                      title(found->found) + " is there",
+                  "name on both sides of every shape the media that are there; media fill closed shapes and may be "
+                  "nested, not overlap in part");
+}
+
+void check_faces(const Scene& scene, const Boxes& boxes) {
+  const std::optional<CommonFace> found = find_common_face(scene);
+  if (!found) return;
+  throw PartError(
+      boxes.part_of(found->shape),
+      "shape '" + scene.shapes[found->shape].name + "' has a face in common with shape '" +
+          scene.shapes[found->other].name + "': light that must meet both there would meet but one of them",
+      "let one reach a little into the other (where not both name media), leave a gap between them, or give "
+      "the common face once: as a dielectric with the ratio of the two indices, and the media on its two "
+      "sides");
+}
+
+}  // namespace
+
+AssembledScene assemble(SceneParts parts) {
+  check_parts(parts);
+  const Boxes boxes = add_boxes(parts);
+  AssembledScene result;
+  Scene& scene = result.scene;
+  add_lists(parts, result);
+  add_shapes(parts, boxes, result);
+  scene.camera_medium = parts.camera_medium ? *parts.camera_medium : medium_around(scene, scene.camera.position);
+  try {
+    finish(scene);
+  } catch (const InputError& error) {
+    throw PartError({PartKind::lights}, error.what());
+  }
+  check_contradictions(scene, boxes);
+  check_faces(scene, boxes);
+  for (std::string& note : notes_of(scene)) result.notes.push_back(std::move(note));
+  return result;
+}
+
+}  // namespace vpm
