@@ -1,10 +1,46 @@
 // Shadow rays.
 #include "vpm/path/direct_light.h"
-#include "vpm/base/count.h"
 
 #include <cassert>
 
+#include "vpm/base/count.h"
+#include "vpm/path/stretches.h"
+
 namespace vpm {
+namespace {
+
+/// The visitor of a shadow ray.
+struct ShadowRay {
+  const ShadowRays& rays;
+  Ray ray;
+  MediumId medium;
+  int light;       // that it is sent to
+  float distance;  // of the light from the ray's origin, m
+  Vec3 target;     // on the light, m
+  Rgb transmittance{1.0f};
+
+  bool pass(const Stretch& stretch) {
+    if (medium != kVacuum) {
+      const Medium& around = rays.scene.media[medium];
+      const TransmittanceEstimate t = rays.transmittance.estimate(around, ray, {0.0f, stretch.length}, rays.rng);
+      count(rays.counters.lookups, t.lookups);
+      count(rays.counters.bricks, t.bricks);
+      transmittance *= t.value;
+    }
+    return stretch.met && !is_black(transmittance) && !is_light(stretch.met.hits[0]);
+  }
+  bool is_light(const Hit& hit) const {
+    return rays.scene.shapes[hit.shape].light == light && stands_at(hit, ray, distance);
+  }
+
+  /// Not > 0 where a light stands just behind a boundary: they were passed together.
+  float left(const Ray& behind) {
+    if (distance < kInfinity) distance = glm::dot(target - behind.origin, behind.direction);
+    return distance;
+  }
+};
+
+}  // namespace
 
 PickedLight pick_light(const Scene& scene, double u) {
   assert(!scene.lights.empty());
@@ -31,26 +67,9 @@ Receiver far_side(const Scene& scene, const Hit& hit, const Vec3& travel, Medium
 }
 
 Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, MediumId medium) {
-  const Scene& scene = rays.scene;
-  const Vec3 target = ray.at(distance);
-  Rgb result(1.0f);
-  for (;;) {
-    const Encounter met = meet(scene, ray, distance, medium, rays.counters);
-    const float reach = met ? met.hits[0].t : distance;
-    if (medium != kVacuum) {
-      const TransmittanceEstimate t = rays.transmittance.estimate(scene.media[medium], ray, {0.0f, reach}, rays.rng);
-      count(rays.counters.lookups, t.lookups);
-      count(rays.counters.bricks, t.bricks);
-      result *= t.value;
-    }
-    if (!met) return result;
-    if (scene.shapes[met.hits[0].shape].light == light && stands_at(met.hits[0], ray, distance)) return result;
-    if (!is_boundary(scene.material_of(met.hits[0])) || is_black(result)) return Rgb(0.0f);
-    cross_boundaries(scene, met, ray, medium, rays.counters);
-    if (distance == kInfinity) continue;
-    distance = glm::dot(target - ray.origin, ray.direction);
-    if (!(distance > 0.0f)) return result;  // a light just behind a boundary: they were passed together
-  }
+  ShadowRay shadow{rays, ray, medium, light, distance, ray.at(distance)};
+  const bool blocked = each_stretch(rays.scene, shadow.ray, shadow.medium, distance, rays.counters, shadow).has_value();
+  return blocked ? Rgb(0.0f) : shadow.transmittance;
 }
 
 DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver,

@@ -3,9 +3,47 @@
 
 #include "vpm/base/count.h"
 #include "vpm/medium/distance/mixture.h"
+#include "vpm/path/stretches.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
+namespace {
+
+/// The visitor of a flight, which escapes unless something else ends it.
+struct Flying {
+  const Scene& scene;
+  const DistanceStrategy& strategy;
+  PathState& state;
+  Rng& rng;
+  WalkCounters& counters;
+  Event& event;
+
+  bool pass(const Stretch& stretch) {
+    if (state.medium != kVacuum && collides_within(stretch.length)) return false;
+    if (!stretch.met && stretch.length < kInfinity) {
+      state.ray.origin = state.ray.at(stretch.length);
+      event.kind = EventKind::limit;
+    }
+    return true;
+  }
+
+  bool collides_within(float length) {
+    event.through_medium = true;
+    const Flight flight = strategy.sample(scene.media[state.medium], state.ray, {0.0f, length}, state.power, rng);
+    count(counters.lookups, flight.lookups);
+    count(counters.bricks, flight.bricks);
+    count(counters.null_collisions, flight.null_collisions);
+    counters.majorant_violations += flight.majorant_violations;
+    state.power *= flight.weight;
+    if (!flight.collided) return false;
+    state.ray.origin = state.ray.at(flight.t);
+    event.kind = EventKind::collision;
+    event.density = flight.density;
+    return true;
+  }
+};
+
+}  // namespace
 
 Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters) {
   Encounter met = scene.geometry.encounter(ray, t_max);
@@ -24,36 +62,14 @@ void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, Medium
 
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
                  WalkCounters& counters, float limit) {
-  bool through_medium = false;
-  for (;;) {
-    const Encounter met = meet(scene, state.ray, limit, state.medium, counters);
-    if (state.medium != kVacuum) {
-      through_medium = true;
-      const Medium& medium = scene.media[state.medium];
-      const Interval free{0.0f, met ? met.hits[0].t : limit};
-      const Flight flight = strategy.sample(medium, state.ray, free, state.power, rng);
-      count(counters.lookups, flight.lookups);
-      count(counters.bricks, flight.bricks);
-      count(counters.null_collisions, flight.null_collisions);
-      counters.majorant_violations += flight.majorant_violations;
-      state.power *= flight.weight;
-      if (flight.collided) {
-        state.ray.origin = state.ray.at(flight.t);
-        return {EventKind::collision, {}, flight.density, through_medium};
-      }
-    }
-    if (!met) {
-      if (limit == kInfinity) return {EventKind::escape, {}, 0.0f, through_medium};
-      state.ray.origin = state.ray.at(limit);
-      return {EventKind::limit, {}, 0.0f, through_medium};
-    }
-    if (!is_boundary(scene.material_of(met.hits[0]))) {
-      state.ray.origin = met.hits[0].position;
-      return {EventKind::surface, met.hits[0], 0.0f, through_medium};
-    }
-    limit -= met.hits[0].t;
-    cross_boundaries(scene, met, state.ray, state.medium, counters);
-  }
+  Event event;
+  Flying flying{scene, strategy, state, rng, counters, event};
+  const std::optional<Hit> surface = each_stretch(scene, state.ray, state.medium, limit, counters, flying);
+  if (!surface) return event;
+  state.ray.origin = surface->position;
+  event.kind = EventKind::surface;
+  event.hit = *surface;
+  return event;
 }
 
 bool survive_roulette(double weight, PathState& state, Rng& rng) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "vpm/base/parallel.h"
+#include "vpm/path/follow.h"
 #include "vpm/photon/emission.h"
 
 namespace vpm {
@@ -15,22 +16,20 @@ constexpr size_t kChunk = 4096;  // photons traced one after another
 constexpr uint64_t kScouts = 4, kMostScouts = 100'000;
 
 /// The photon that an emission leads to, if it is a caustic one.
-std::optional<Photon> follow(const Scene& scene, const DistanceStrategy& strategy, const EmissionPoint& point,
-                             int max_events, Rng& rng) {
-  PathState state = emit_photon(scene, point);
+std::optional<Photon> follow_caustic(const Scene& scene, const DistanceStrategy& strategy, const EmissionPoint& point,
+                                     int max_events, Rng& rng) {
   WalkCounters counters;
-  for (int events = 0; events < max_events; ++events) {
-    const Event event = next_event(scene, strategy, state, rng, counters);
-    if (event.kind != EventKind::surface || !is_finite(state.power) || is_black(state.power)) return std::nullopt;
-    if (is_rough(scene.material_of(event.hit))) {
-      if (events == 0) return std::nullopt;
-      return Photon{event.hit.position, PackedDirection(state.ray.direction), state.power};
-    }
-    Scatter scatter;
-    if (!scatter_at_surface(scene, event.hit, state, rng, scatter)) return std::nullopt;
-    state.power *= scatter.flux_scale;
-  }
-  return std::nullopt;
+  std::optional<Photon> photon;
+  bool direct = true;
+  const auto see = [&](const Event& event, const PathState&, const PathState& at) {
+    if (event.kind != EventKind::surface || !is_finite(at.power) || is_black(at.power)) return false;
+    const bool rough = is_rough(scene.material_of(event.hit));
+    if (rough && !direct) photon = {event.hit.position, PackedDirection(at.ray.direction), at.power};
+    direct = false;
+    return !rough;
+  };
+  follow({scene, strategy, counters, max_events}, emit_photon(scene, point), rng, PhotonVisitor{see});
+  return photon;
 }
 
 }  // namespace
@@ -38,7 +37,7 @@ std::optional<Photon> follow(const Scene& scene, const DistanceStrategy& strateg
 std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& strategy,
                                    const CausticSettings& settings) {
   const auto score = [&](const EmissionPoint& point, Rng& rng) {
-    const std::optional<Photon> photon = follow(scene, strategy, point, settings.max_events, rng);
+    const std::optional<Photon> photon = follow_caustic(scene, strategy, point, settings.max_events, rng);
     if (!photon) return 0.0f;
     return sum_channels(photon->power) * (settings.importance ? settings.importance->at(photon->position) : 1.0f);
   };
@@ -50,7 +49,7 @@ std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& s
     for (size_t i = begin; i < end; ++i) {
       Rng rng(settings.seed, rng_stream(RngUse::caustic, settings.pass), i);
       const EmissionGuide::Sample drawn = guide.sample(rng);
-      std::optional<Photon> photon = follow(scene, strategy, drawn.point, settings.max_events, rng);
+      std::optional<Photon> photon = follow_caustic(scene, strategy, drawn.point, settings.max_events, rng);
       if (!photon) continue;
       photon->power /= drawn.density;
       parts[chunk].push_back(*photon);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "vpm/base/parallel.h"
-#include "vpm/path/walk.h"
+#include "vpm/path/follow.h"
 
 namespace vpm {
 namespace {
@@ -26,31 +26,24 @@ void trace_importon(const Scene& scene, const DistanceStrategy& strategy, Rng& r
   const Camera& camera = scene.camera;
   const Vec2 film = rng.uniform2() * Vec2(camera.width, camera.height);
   const Ray seen = camera.ray(film);
-  PathState state{seen, medium_of_ray(scene, scene.camera_medium, seen), Rgb(1.0f)};
   WalkCounters counters;
   bool scattered = false;
-  for (int events = 0; events < max_events; ++events) {
-    const Ray from = state.ray;
-    const float weight = mean_channel(state.power);
-    const Event event = next_event(scene, strategy, state, rng, counters);
-    if (!is_finite(state.power)) return;
+  const auto see = [&](const Event& event, const PathState& from, PathState& at) {
+    if (!is_finite(at.power)) return false;
     const bool escaped = event.kind == EventKind::escape;
-    const float length = escaped ? kInfinity : glm::distance(from.origin, state.ray.origin);
+    const float length = escaped ? kInfinity : glm::distance(from.ray.origin, at.ray.origin);
     if (length > 0.0f) {
-      importance.map.add_track(from, length, weight);
-      if (importance.directions && scattered) importance.directions->add_track(from, length, weight);
+      const float weight = mean_channel(from.power);
+      importance.map.add_track(from.ray, length, weight);
+      if (importance.directions && scattered) importance.directions->add_track(from.ray, length, weight);
     }
-    const double now = mean_channel(state.power);
-    if (escaped || !(now > 0.0) || !survive_roulette(now, state, rng)) return;
+    const double now = mean_channel(at.power);
+    if (escaped || !(now > 0.0) || !survive_roulette(now, at, rng)) return false;
     scattered |= event.kind == EventKind::collision || is_rough(scene.material_of(event.hit));
-    if (event.kind == EventKind::collision) {
-      if (!scatter_in_medium(scene.media[state.medium], state, rng)) return;
-    } else {
-      Scatter scatter;
-      if (!scatter_at_surface(scene, event.hit, state, rng, scatter)) return;
-      state.power *= scatter.radiance_scale;
-    }
-  }
+    return true;
+  };
+  const MediumId medium = medium_of_ray(scene, scene.camera_medium, seen);
+  follow({scene, strategy, counters, max_events}, {seen, medium, Rgb(1.0f)}, rng, EyeVisitor{see});
 }
 
 }  // namespace

@@ -5,98 +5,110 @@
 
 #include "vpm/base/count.h"
 #include "vpm/path/direct_light.h"
+#include "vpm/path/follow.h"
 #include "vpm/path/path_weight.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
 namespace {
 
+/// The visitor of one path's walk.
 class TracedPath {
  public:
-  TracedPath(const PathContext& context, const Ray& ray, MediumId medium, Rng& rng, EyeCounters& counters)
-      : c_(context), rng_(rng), counters_(counters), state_{ray, medium, Rgb(1.0f)} {}
+  TracedPath(const PathContext& context, Rng& rng, EyeCounters& counters)
+      : c_(context), rng_(rng), counters_(counters) {}
 
-  Rgb follow() {
-    const Rgb radiance = follow_events();
-    weight_.add_to(counters_.weights);
-    return radiance;
-  }
-
- private:
-  Rgb follow_events() {
-    for (int events = 0; events < c_.max_events; ++events) {
-      const Vec3 from = state_.ray.origin;
-      const Event event = next_event(c_.scene, *c_.distance, state_, rng_, counters_.walk);
-      if (!is_finite(state_.power)) return state_.power;  // no roulette: that would end it as if it were black
-      weight_.meet(weight(), event);
-      if (event.kind == EventKind::escape) {
-        see_environment(from);
-        return radiance_;
-      }
-      const bool goes_on = event.kind == EventKind::collision ? collide() : meet_surface(event.hit, from);
-      if (!goes_on) return radiance_;
+  bool see(const Event& event, const PathState& from, PathState& at) {
+    if (!is_finite(at.power)) {  // no roulette: that would end it as if it were black
+      radiance_ = at.power;
+      return false;
     }
-    ++counters_.cut_paths;
-    return radiance_;
+    weight_.meet(weight(at.power), event);
+    if (event.kind == EventKind::collision) return collide(at);
+    if (event.kind == EventKind::surface) return meet_surface(event.hit, from.ray.origin, at);
+    see_environment(from.ray.origin, at);
+    return false;
   }
 
-  /// The mean magnitude of the channels' throughput, with the sign of their sum.
-  double weight() const {
-    return std::copysign(sum_channels(glm::abs(state_.power)) / 3.0, sum_channels(state_.power));
-  }
-
-  bool collide() {
-    if (!survive_roulette(max_channel(glm::abs(state_.power)), state_, rng_)) return false;
-    const Medium& medium = c_.scene.media[state_.medium];
-    const Vec3 travel = state_.ray.direction;
-    const DirectSample light = sample_light({state_.ray.origin, state_.medium});
-    if (!is_black(light.irradiance)) {
-      const float phase = phase_value(medium.phase, travel, light.direction);
-      radiance_ += state_.power * medium.albedo() * phase * light.irradiance * share(light.pdf, phase);
-    }
-    if (!scatter_in_medium(medium, state_, rng_)) return false;
-    scatter_pdf_ = phase_value(medium.phase, travel, state_.ray.direction);
-    return true;
-  }
-
-  bool meet_surface(const Hit& hit, const Vec3& from) {
-    const Vec3 travel = state_.ray.direction;
-    const int light = c_.scene.shapes[hit.shape].light;
-    if (light >= 0) {
-      const Rgb emitted = surface_radiance(c_.scene.lights[light], hit.normal, travel);
-      radiance_ +=
-          state_.power * emitted * share_of_path(light, from, {travel, glm::distance(from, hit.position), hit.normal});
-    }
-    if (!survive_roulette(max_channel(glm::abs(state_.power)), state_, rng_)) return false;
-    const Material material = material_at(c_.scene, hit);
-    if (is_rough(material)) {
-      add_direct_light(hit, material, near_side(hit, state_.ray.direction, state_.medium));
-      if (scatters_through(material))
-        add_direct_light(hit, material, far_side(c_.scene, hit, state_.ray.direction, state_.medium));
+  bool scatter(const Scene& scene, const Event& event, PathState& at, Rng& rng) {
+    if (event.kind == EventKind::collision) {
+      const Medium& medium = scene.media[at.medium];
+      const Vec3 travel = at.ray.direction;
+      if (!scatter_in_medium(medium, at, rng)) return false;
+      scatter_pdf_ = phase_value(medium.phase, travel, at.ray.direction);
+      return true;
     }
     Scatter scatter;
-    if (!scatter_at_surface(c_.scene, hit, state_, rng_, scatter)) return false;
-    state_.power *= scatter.radiance_scale;
+    if (!scatter_at_surface(scene, event.hit, at, rng, scatter)) return false;
+    at.power *= scatter.radiance_scale;
     scatter_pdf_ = scatter.pdf;
     return true;
   }
 
+  void cut(const PathState&) { ++counters_.cut_paths; }
+
+  /// What the path has found, once it has ended.
+  Rgb radiance() {
+    weight_.add_to(counters_.weights);
+    return radiance_;
+  }
+
+ private:
+  /// The mean magnitude of the channels' throughput, with the sign of their sum.
+  static double weight(const Rgb& throughput) {
+    return std::copysign(sum_channels(glm::abs(throughput)) / 3.0, sum_channels(throughput));
+  }
+
+  bool collide(PathState& at) {
+    if (!survive_roulette(max_channel(glm::abs(at.power)), at, rng_)) return false;
+    const Medium& medium = c_.scene.media[at.medium];
+    const DirectSample light = sample_light({at.ray.origin, at.medium});
+    if (is_black(light.irradiance)) return true;
+    const float phase = phase_value(medium.phase, at.ray.direction, light.direction);
+    radiance_ += at.power * medium.albedo() * phase * light.irradiance * share(light.pdf, phase);
+    return true;
+  }
+
+  bool meet_surface(const Hit& hit, const Vec3& from, PathState& at) {
+    const Vec3 travel = at.ray.direction;
+    const int light = c_.scene.shapes[hit.shape].light;
+    if (light >= 0) {
+      const Rgb emitted = surface_radiance(c_.scene.lights[light], hit.normal, travel);
+      radiance_ +=
+          at.power * emitted * share_of_path(light, from, {travel, glm::distance(from, hit.position), hit.normal});
+    }
+    if (!survive_roulette(max_channel(glm::abs(at.power)), at, rng_)) return false;
+    const Material material = material_at(c_.scene, hit);
+    if (!is_rough(material)) return true;
+    const RoughHit met{hit, material, travel, at.power};
+    add_direct_light(met, near_side(hit, travel, at.medium));
+    if (scatters_through(material)) add_direct_light(met, far_side(c_.scene, hit, travel, at.medium));
+    return true;
+  }
+
+  /// A rough surface that the path meets.
+  struct RoughHit {
+    const Hit& hit;
+    const Material& material;
+    const Vec3& travel;
+    const Rgb& throughput;
+  };
+
   /// Adds what a rough surface scatters towards the eye of one light that arrives on that side.
-  void add_direct_light(const Hit& hit, const Material& material, const Receiver& side) {
+  void add_direct_light(const RoughHit& met, const Receiver& side) {
     const DirectSample light = sample_light(side);
     if (is_black(light.irradiance)) return;
-    const ScatterValue scattered = scatter_value(material, hit, state_.ray.direction, light.direction);
-    radiance_ +=
-        state_.power * scattered.value * scattered.radiance_scale * light.irradiance * share(light.pdf, scattered.pdf);
+    const ScatterValue scattered = scatter_value(met.material, met.hit, met.travel, light.direction);
+    radiance_ += met.throughput * scattered.value * scattered.radiance_scale * light.irradiance *
+                 share(light.pdf, scattered.pdf);
   }
 
   /// Adds the environment seen by a ray that left `from`.
-  void see_environment(const Vec3& from) {
+  void see_environment(const Vec3& from, const PathState& at) {
     for (size_t i = 0; i < c_.scene.lights.size(); ++i) {
-      const Rgb seen = environment_radiance(c_.scene.lights[i], state_.ray.direction);
+      const Rgb seen = environment_radiance(c_.scene.lights[i], at.ray.direction);
       if (!is_black(seen))
-        radiance_ +=
-            state_.power * seen * share_of_path(static_cast<int>(i), from, {.direction = state_.ray.direction});
+        radiance_ += at.power * seen * share_of_path(static_cast<int>(i), from, {.direction = at.ray.direction});
     }
   }
 
@@ -126,7 +138,6 @@ class TracedPath {
   const PathContext& c_;
   Rng& rng_;
   EyeCounters& counters_;
-  PathState state_;
   PathWeight weight_;
   float scatter_pdf_ = kInfinity;  // of the present direction, 1/sr; infinite for the camera's and specular ones
   Rgb radiance_{0.0f};
@@ -141,7 +152,9 @@ PathContext make_path_context(const Scene& scene, const RenderSettings& settings
 }
 
 Rgb path_radiance(const PathContext& context, const Ray& ray, MediumId medium, Rng& rng, EyeCounters& counters) {
-  return TracedPath(context, ray, medium, rng, counters).follow();
+  TracedPath path(context, rng, counters);
+  follow({context.scene, *context.distance, counters.walk, context.max_events}, {ray, medium, Rgb(1.0f)}, rng, path);
+  return path.radiance();
 }
 
 Pass render_path_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

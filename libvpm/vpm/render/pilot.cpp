@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "vpm/base/parallel.h"
+#include "vpm/path/follow.h"
 #include "vpm/photon/nearest_map.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/render/photon_pass.h"
@@ -42,24 +43,22 @@ float pixel_at(const Camera& camera, float distance) {
 }
 
 /// Follows a path from the eye to where it first gathers.
-void follow(const Scene& scene, const DistanceStrategy& strategy, uint64_t seed, uint64_t number, Probes& probes) {
+void find_probe(const Scene& scene, const DistanceStrategy& strategy, uint64_t seed, uint64_t number, Probes& probes) {
   constexpr int kMostEvents = 32;
   Rng rng(seed, rng_stream(RngUse::pilot, 0), number);
   const Ray seen = scene.camera.ray(rng.uniform2() * Vec2(scene.camera.width, scene.camera.height));
-  PathState state{seen, medium_of_ray(scene, scene.camera_medium, seen), Rgb(1.0f)};
   WalkCounters counters;
   float length = 0.0f;
-  for (int events = 0; events < kMostEvents; ++events) {
-    const Vec3 from = state.ray.origin;
-    const Event event = next_event(scene, strategy, state, rng, counters);
-    if (event.kind == EventKind::escape) return;
-    length += glm::distance(from, state.ray.origin);
-    const Probe probe{state.ray.origin, pixel_at(scene.camera, length)};
-    if (event.kind == EventKind::collision) return probes.volume.push_back(probe);
-    if (is_rough(scene.material_of(event.hit))) return probes.surface.push_back(probe);
-    Scatter scatter;
-    if (!scatter_at_surface(scene, event.hit, state, rng, scatter)) return;
-  }
+  const auto see = [&](const Event& event, const PathState& from, const PathState& at) {
+    if (event.kind == EventKind::escape) return false;
+    length += glm::distance(from.ray.origin, at.ray.origin);
+    const bool collision = event.kind == EventKind::collision;
+    if (!collision && !is_rough(scene.material_of(event.hit))) return true;
+    (collision ? probes.volume : probes.surface).push_back({at.ray.origin, pixel_at(scene.camera, length)});
+    return false;
+  };
+  const MediumId medium = medium_of_ray(scene, scene.camera_medium, seen);
+  follow({scene, strategy, counters, kMostEvents}, {seen, medium, Rgb(1.0f)}, rng, EyeVisitor{see});
 }
 
 /// Every n-th, for the least n that leaves no more than `most`.
@@ -170,7 +169,7 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
   const PilotPass pass = trace(scene, pilot);
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Probes probes;
-  for (uint64_t i = 0; i < kEyePaths; ++i) follow(scene, *strategy, settings.seed, i, probes);
+  for (uint64_t i = 0; i < kEyePaths; ++i) find_probe(scene, *strategy, settings.seed, i, probes);
   MapDensities densities;
   for (const MapInfo& map : pass.estimators.maps()) {
     const std::vector<Photon> photons = photons_of(map);

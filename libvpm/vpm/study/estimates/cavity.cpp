@@ -2,11 +2,11 @@
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/path/direct_light.h"
+#include "vpm/path/follow.h"
 #include "vpm/photon/photon_lists.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/estimates/irradiance.h"
-#include "vpm/study/photon_walk.h"
 #include "vpm/study/sample_moments.h"
 
 namespace vpm {
@@ -35,10 +35,11 @@ Moments estimate_wall_hits(const Cavity& cavity, uint64_t photons, uint64_t seed
   return sample_moments(1, photons, seed, [&](Rng& rng, double* out) {
     const Emission emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
-    follow_photon(scene, *strategy, {emission.ray, kVacuum, emission.power}, kMaxEvents, rng, counters,
-                  [&](const Event& event, const PathState& state) {
-                    if (event.kind == EventKind::surface) out[0] += state.power.r;
-                  });
+    const auto see = [&](const Event& event, const PathState&, const PathState& at) {
+      if (event.kind == EventKind::surface) out[0] += at.power.r;
+      return true;
+    };
+    follow({scene, *strategy, counters, kMaxEvents}, {emission.ray, kVacuum, emission.power}, rng, PhotonVisitor{see});
   })[0];
 }
 

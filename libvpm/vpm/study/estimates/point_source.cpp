@@ -7,9 +7,9 @@
 #include "vpm/base/warp.h"
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/path/direct_light.h"
+#include "vpm/path/follow.h"
 #include "vpm/photon/photon_lists.h"
 #include "vpm/scene/build.h"
-#include "vpm/study/photon_walk.h"
 #include "vpm/study/sample_moments.h"
 
 namespace vpm {
@@ -106,13 +106,14 @@ std::vector<Moments> estimate_collisions_within(const PointSource& source, const
   return sample_moments(radii.size(), photons, seed, [&](Rng& rng, double* out) {
     const Emission emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
-    follow_photon(scene, *strategy, {emission.ray, 0, emission.power}, kMaxEvents, rng, counters,
-                  [&](const Event& event, const PathState& state) {
-                    if (event.kind != EventKind::collision) return;
-                    const double r = kSigmaT * glm::length(Vec3d(state.ray.origin));
-                    for (size_t i = 0; i < radii.size(); ++i)
-                      if (r < radii[i]) out[i] += state.power.r;
-                  });
+    const auto see = [&](const Event& event, const PathState&, const PathState& at) {
+      if (event.kind != EventKind::collision) return true;
+      const double r = kSigmaT * glm::length(Vec3d(at.ray.origin));
+      for (size_t i = 0; i < radii.size(); ++i)
+        if (r < radii[i]) out[i] += at.power.r;
+      return true;
+    };
+    follow({scene, *strategy, counters, kMaxEvents}, {emission.ray, 0, emission.power}, rng, PhotonVisitor{see});
   });
 }
 

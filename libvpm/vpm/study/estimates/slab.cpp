@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "vpm/study/photon_walk.h"
+#include "vpm/path/follow.h"
 #include "vpm/study/sample_moments.h"
 
 namespace vpm {
@@ -110,8 +110,11 @@ SlabEstimate estimate_slab(const Slab& slab, const DistanceStrategy& strategy, c
     const Emission emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
     PhotonTally tally(at, tallies, slab.layers.thickness(), out);
-    follow_photon(scene, strategy, {emission.ray, kVacuum, emission.power}, kMaxEvents, rng, counters,
-                  [&](const Event& event, const PathState& state) { tally.see(event, state); });
+    const auto see = [&](const Event& event, const PathState&, const PathState& now) {
+      tally.see(event, now);
+      return true;
+    };
+    follow({scene, strategy, counters, kMaxEvents}, {emission.ray, kVacuum, emission.power}, rng, PhotonVisitor{see});
     tally.finish();
   });
   const auto part = [&](size_t begin, size_t end) {

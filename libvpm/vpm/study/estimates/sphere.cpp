@@ -2,9 +2,9 @@
 #include "vpm/study/estimates/sphere.h"
 
 #include "vpm/base/warp.h"
+#include "vpm/path/follow.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"
-#include "vpm/study/photon_walk.h"
 #include "vpm/study/sample_moments.h"
 
 namespace vpm {
@@ -41,11 +41,12 @@ SpherePhotons estimate_sphere_photons(const FoggySphere& sphere, uint64_t photon
     while (!scene.geometry.intersect(emission.ray)) emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
     Event last;
-    follow_photon(scene, *strategy, {emission.ray, kVacuum, Rgb(1.0f)}, kMaxEvents, rng, counters,
-                  [&](const Event& event, const PathState&) {
-                    last = event;
-                    out[collisions] += event.kind == EventKind::collision;
-                  });
+    const auto see = [&](const Event& event, const PathState&, const PathState&) {
+      last = event;
+      out[collisions] += event.kind == EventKind::collision;
+      return true;
+    };
+    follow({scene, *strategy, counters, kMaxEvents}, {emission.ray, kVacuum, Rgb(1.0f)}, rng, PhotonVisitor{see});
     out[escaped] = last.kind == EventKind::escape;
     out[absorbed] = last.kind == EventKind::collision;
     out[uncollided] = out[collisions] == 0.0;

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "vpm/estimate/surface_estimate.h"
+#include "vpm/path/follow.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/estimates/irradiance.h"
-#include "vpm/study/photon_walk.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/fields.h"
 #include "vpm/study/validate/groups.h"
@@ -42,16 +42,17 @@ std::vector<Check> check_box(const TestField& field, const StrategyInfo& info, c
       sample_moments(3, effort.count(40'000, tight), effort.seed_of("beam, " + name), [&](Rng& rng, double* sum) {
         WalkCounters counters;
         double reflected[3] = {}, transmitted[3] = {}, absorbed[3] = {};
-        follow_photon(scene, *strategy, {beam, kVacuum, Rgb(1.0f)}, kNoLimit, rng, counters,
-                      [&](const Event& event, const PathState& now) {
-                        const bool back = glm::dot(now.ray.direction, beam.direction) < 0.0f;
-                        for (int c = 0; c < 3; ++c) {
-                          if (event.kind == EventKind::collision)
-                            absorbed[c] += now.power[c] * lost[c];
-                          else
-                            (back ? reflected : transmitted)[c] += now.power[c];
-                        }
-                      });
+        const auto see = [&](const Event& event, const PathState&, const PathState& now) {
+          const bool back = glm::dot(now.ray.direction, beam.direction) < 0.0f;
+          for (int c = 0; c < 3; ++c) {
+            if (event.kind == EventKind::collision)
+              absorbed[c] += now.power[c] * lost[c];
+            else
+              (back ? reflected : transmitted)[c] += now.power[c];
+          }
+          return true;
+        };
+        follow({scene, *strategy, counters}, {beam, kVacuum, Rgb(1.0f)}, rng, PhotonVisitor{see});
         for (int c = 0; c < 3; ++c) sum[c] = reflected[c] + transmitted[c] + absorbed[c];
       });
   std::vector<Check> checks;
@@ -129,10 +130,11 @@ Check check_arrivals(const std::string& name, const Scene& scene, double reflect
       sample_moments(1, effort.count(20'000, 4'000'000), effort.seed_of("cavity, " + name), [&](Rng& rng, double* out) {
         const Emission emission = emit(scene.lights[0], scene.bounds, rng);
         WalkCounters counters;
-        follow_photon(scene, *strategy, {emission.ray, kVacuum, emission.power}, kNoLimit, rng, counters,
-                      [&](const Event& event, const PathState& now) {
-                        if (event.kind == EventKind::surface) out[0] += now.power.g;
-                      });
+        const auto see = [&](const Event& event, const PathState&, const PathState& now) {
+          if (event.kind == EventKind::surface) out[0] += now.power.g;
+          return true;
+        };
+        follow({scene, *strategy, counters}, {emission.ray, kVacuum, emission.power}, rng, PhotonVisitor{see});
       });
   return check_mean(name, samples[0], 1.0 / (1.0 - reflectance));
 }

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <array>
 
+#include "vpm/path/follow.h"
 #include "vpm/study/careful_settings.h"
-#include "vpm/study/photon_walk.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/directions.h"
 #include "vpm/study/validate/fields.h"
@@ -32,8 +32,7 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
   const Encounter entry = body.scene.geometry.encounter(emission.ray);
   Vec3 last = entry ? entry.hits[0].position : emission.ray.origin;
   WalkCounters counters;
-  const PathState start{emission.ray, kVacuum, Rgb(1.0f)};
-  follow_photon(body.scene, strategy, start, kNoLimit, rng, counters, [&](const Event& event, const PathState& now) {
+  const auto see = [&](const Event& event, const PathState&, const PathState& now) {
     const double flown = entry ? glm::distance(Vec3d(last), Vec3d(now.ray.origin)) : 0.0;
     last = now.ray.origin;
     for (int c = 0; c < 3; ++c) {
@@ -46,7 +45,9 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
             now.power[c] / shown_share(body.scene.bounds, now.ray.direction);
       }
     }
-  });
+    return true;
+  };
+  follow({body.scene, strategy, counters}, {emission.ray, kVacuum, Rgb(1.0f)}, rng, PhotonVisitor{see});
 }
 
 void check_body(std::vector<Check>& checks, const LitBody& body, std::string_view strategy_name, const Effort& effort) {

@@ -7,8 +7,8 @@
 #include <array>
 
 #include "vpm/medium/make_grid.h"
+#include "vpm/path/follow.h"
 #include "vpm/study/careful_settings.h"
-#include "vpm/study/photon_walk.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"
 
@@ -26,11 +26,15 @@ Scene endless(const Medium& medium) {
   return scene;
 }
 
-/// Follows a photon from the origin; see as in follow_photon().
+/// Follows a photon from the origin and calls see(const PathState&) at every event.
 template <class See>
 void walk(const Scene& scene, const DistanceStrategy& strategy, int events, Rng& rng, See&& see) {
   WalkCounters counters;
-  follow_photon(scene, strategy, {{Vec3(0.0f), kStart}, 0, Rgb(1.0f)}, events, rng, counters, see);
+  const auto visit = [&](const Event&, const PathState&, const PathState& at) {
+    see(at);
+    return true;
+  };
+  follow({scene, strategy, counters, events}, {{Vec3(0.0f), kStart}, 0, Rgb(1.0f)}, rng, PhotonVisitor{visit});
 }
 
 /// Every strategy for photons, in grey and in colour: 1/(1 - albedo) collisions on average.
@@ -47,7 +51,7 @@ std::vector<Check> check_counts(const Effort& effort) {
       const std::string name = fmt::format("{}, {}", grey ? "grey" : "colour", info.name);
       const auto samples =
           sample_moments(3, effort.count(20'000, 5'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-            walk(scene, *strategy, kNoLimit, rng, [&](const Event&, const PathState& now) {
+            walk(scene, *strategy, kNoLimit, rng, [&](const PathState& now) {
               for (int c = 0; c < 3; ++c) out[c] += now.power[c];
             });
           });
@@ -83,7 +87,7 @@ std::vector<Check> check_positions(const Effort& effort) {
         sample_moments(3 * kCollisions.size(), effort.count(40'000, 5'000'000),
                        effort.seed_of(std::string("positions, ") + named.name), [&](Rng& rng, double* out) {
                          int collision = 0;
-                         walk(scene, *strategy, kCollisions.back(), rng, [&](const Event&, const PathState& now) {
+                         walk(scene, *strategy, kCollisions.back(), rng, [&](const PathState& now) {
                            ++collision;
                            for (size_t i = 0; i < kCollisions.size(); ++i) {
                              if (collision != kCollisions[i]) continue;
@@ -126,7 +130,7 @@ std::vector<Check> check_absorption(const Effort& effort) {
     const std::string name = fmt::format("g = {:.2g}, absorbed at mean r^2", g);
     const auto samples =
         sample_moments(1, effort.count(40'000, 5'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-          walk(scene, *strategy, kNoLimit, rng, [&](const Event&, const PathState& now) {
+          walk(scene, *strategy, kNoLimit, rng, [&](const PathState& now) {
             out[0] = glm::dot(Vec3d(now.ray.origin), Vec3d(now.ray.origin));  // the last one stays
           });
         });
