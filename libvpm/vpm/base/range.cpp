@@ -13,9 +13,12 @@ bool inside(const Range& range, double value) {
 
 }  // namespace
 
+bool contains(const Range& range, float value) {
+  return inside({static_cast<float>(range.lo), static_cast<float>(range.hi), range.lo_open, range.hi_open}, value);
+}
+
 bool contains(const Range& range, double value) {
-  const Range in_single{static_cast<float>(range.lo), static_cast<float>(range.hi), range.lo_open, range.hi_open};
-  return inside(range, value) && inside(in_single, static_cast<float>(value));
+  return inside(range, value) && contains(range, static_cast<float>(value));
 }
 
 std::string text_of(const Range& range) {

@@ -20,6 +20,8 @@ inline constexpr Range kFraction{0.0, 1.0, false, false};
 /// Does the number lie in the range, as it is and in single precision? The ends of a closed range belong to it in
 /// either. NaN lies in none.
 bool contains(const Range& range, double value);
+/// Does a number that is known in single precision alone?
+bool contains(const Range& range, float value);
 
 /// "finite", "> 0", "in [0, 1)".
 std::string text_of(const Range& range);

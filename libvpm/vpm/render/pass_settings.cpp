@@ -7,7 +7,6 @@ namespace {
 using S = RenderSettings;
 using G = GuideSettings;
 
-constexpr uint64_t kMostPasses = 1'000'000'000;
 constexpr uint64_t kMostRays = 1'000'000;
 
 std::vector<Setting> declare_render() {

@@ -26,6 +26,12 @@ std::optional<SettingValue> number_in(const std::string& text) {
   return number;
 }
 
+/// Finite in single precision, too.
+template <class Number>
+bool is_in(const Range& range, Number number) {
+  return std::isfinite(static_cast<float>(number)) && contains(range, number);
+}
+
 std::optional<SettingValue> value_in(const Setting& setting, const std::string& text) {
   if (std::holds_alternative<Words>(setting.domain)) return text;
   if (std::holds_alternative<Integers>(setting.domain)) return number_in<uint64_t>(text);
@@ -61,10 +67,6 @@ std::string outside_of(const Domain& domain, const SettingValue& value) {
   const auto must = [&](const std::string& allowed) {
     return fmt::format("must be {}, not {}", allowed, text_of(value));
   };
-  const auto number = [&] {
-    const auto* single = std::get_if<float>(&value);
-    return single ? *single : std::get<double>(value);
-  };
   return std::visit(
       Overloaded{
           [](const Flags&) { return std::string(); },
@@ -73,8 +75,9 @@ std::string outside_of(const Domain& domain, const SettingValue& value) {
             return of.lo <= integer && integer <= of.hi ? "" : must(fmt::format("from {} to {}", of.lo, of.hi));
           },
           [&](const Numbers& of) {
-            const bool single = std::isfinite(static_cast<float>(number()));
-            return single && contains(of.range, number()) ? "" : must(text_of(of.range));
+            const auto* single = std::get_if<float>(&value);
+            const bool inside = single ? is_in(of.range, *single) : is_in(of.range, std::get<double>(value));
+            return inside ? "" : must(text_of(of.range));
           },
           [&](const Words& of) {
             const bool known =

@@ -17,6 +17,9 @@ namespace vpm {
 /// The word for a value that the render chooses.
 inline constexpr const char* kAuto = "auto";
 
+/// The largest value of render.passes: more than will be rendered.
+inline constexpr int kMostPasses = 1'000'000'000;
+
 /// What a setting holds. A word stands for an enumerator, or is the name of a strategy or an estimator.
 using SettingValue = std::variant<bool, uint64_t, float, double, std::string>;
 /// As scene files and --set take it, to the last bit.
@@ -62,11 +65,11 @@ struct Setting {
   Domain domain;                               // besides the default, which is always allowed
   std::string meaning;                         // one line of Markdown for scenes/README.md
   std::string_view unit = "";                  // "": none
-  std::string_view default_text = "";          // for the reader, where the default's value says little
+  std::string_view default_text = "";          // for people, where the default's value says little
   bool automatic = false;                      // may it be kAuto?
   bool of_passes = false;                      // does it say which passes are rendered, not what each estimates?
-  Need need = {};                              //
-  DecidedBy decided_by = {};                   //
+  Need need = {};                              // by default none
+  DecidedBy decided_by = {};                   // by default nothing but itself
   std::vector<std::string_view> stands_for{};  // keys that it sets together, in whose place it is given
 
   /// "volume" and "radius" of "volume.radius".

@@ -67,7 +67,7 @@ std::string settings_table() {
   std::string last;
   for (const Row& row : rows()) {
     const std::string sections = fmt::format("`[{}]`", fmt::join(row.sections, "]`, `["));
-    table += fmt::format("| {} | `{}` | {} | {} | {} |\n", sections == last ? "" : sections, row.name, row.meaning,
+    table += fmt::format("| {}| `{}` | {} | {} | {} |\n", sections == last ? "" : sections + " ", row.name, row.meaning,
                          row.values, row.usual);
     last = sections;
   }
