@@ -147,27 +147,27 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(load_with("[photons]\nstored = 10\n").settings.photons_emitted, 0u);  // until the maps are full
 }
 
+using Keys = decltype(AutomaticSettings::keys);
+
 TEST(SceneFile, AutoIsReadWhereItIsWritten) {
   const LoadedScene loaded =
       load_with("[volume]\nradius = 'auto'\n[photons]\nemitted = 'auto'\n[surface]\nradius = 2\n");
-  EXPECT_TRUE(loaded.automatic.volume_radius);
-  EXPECT_TRUE(loaded.automatic.photons);
-  EXPECT_FALSE(loaded.automatic.surface_radius || loaded.automatic.caustic_radius || loaded.automatic.strategy);
+  EXPECT_EQ(loaded.automatic.keys, (Keys{"photons.emitted", "volume.radius"}));
   EXPECT_EQ(loaded.settings.volume.radius, RenderSettings{}.volume.radius);
   EXPECT_EQ(loaded.settings.photons_emitted, RenderSettings{}.photons_emitted);
-  EXPECT_TRUE(load_with("", {"distance.strategy=auto", "caustics.radius=auto"}).automatic.caustic_radius);
+  EXPECT_EQ(load_with("", {"distance.strategy=auto", "caustics.radius=auto"}).automatic.keys,
+            (Keys{"caustics.radius", "distance.strategy"}));
   EXPECT_FALSE(load_with("").automatic.any());
 }
 
 TEST(SceneFile, WhatIsLeftOutMayBeAutomatic) {
   const std::string path = write_scene(kCamera + kLight + "[surface]\nradius = 2\n[photons]\nstored = 70\n");
   const LoadedScene loaded = load_scene(path, {"distance.strategy=delta"}, LeftOut::automatic);
-  EXPECT_TRUE(loaded.automatic.volume_radius && loaded.automatic.caustic_radius);
-  EXPECT_FALSE(loaded.automatic.surface_radius || loaded.automatic.photons || loaded.automatic.strategy);
+  EXPECT_EQ(loaded.automatic.keys, (Keys{"caustics.radius", "volume.radius"}));
   EXPECT_EQ(loaded.settings.surface.radius, 2.0f);
   EXPECT_EQ(loaded.settings.distance.strategy, "delta");
-  EXPECT_TRUE(load_scene(path, {"photons.stored=9"}, LeftOut::automatic).automatic.strategy);
-  EXPECT_TRUE(load_scene(write_scene(kCamera + kLight), {}, LeftOut::automatic).automatic.photons);
+  EXPECT_TRUE(load_scene(path, {"photons.stored=9"}, LeftOut::automatic).automatic.has("distance.strategy"));
+  EXPECT_TRUE(load_scene(write_scene(kCamera + kLight), {}, LeftOut::automatic).automatic.has("photons.emitted"));
   EXPECT_NE(load_scene(path, {}, LeftOut::automatic).hash, load_scene(path).hash);
 }
 

@@ -8,6 +8,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/render/pilot.h"
 #include "vpm/render/render.h"
+#include "vpm/render/setting.h"
 
 namespace vpm {
 namespace {
@@ -64,6 +65,7 @@ TEST(Automatic, RefusesChoicesThatAreNone) {
   EXPECT_THROW(set_chosen(settings, "photons.emitted", "0"), InputError);
   EXPECT_THROW(set_chosen(settings, "distance.strategy", "woodcock"), InputError);
   EXPECT_THROW(set_chosen(settings, "film.width", "3"), InputError);
+  EXPECT_THROW(set_chosen(settings, "render.passes", "3"), InputError);
 }
 
 // --- The pilot
@@ -88,7 +90,7 @@ Scene cloud_over_floor(bool grid) {
 
 TEST(Automatic, ChoosesTheSameOnAnyNumberOfThreads) {
   const Scene scene = cloud_over_floor(true);
-  const AutomaticSettings automatic{.volume_radius = true, .surface_radius = true, .strategy = true};
+  const AutomaticSettings automatic{{"volume.radius", "surface.radius", "distance.strategy"}};
   std::vector<std::vector<Choice>> chosen;
   for (const int threads : {1, 2}) {
     set_threads(threads);
@@ -116,7 +118,7 @@ TEST(Automatic, ChangesNothingThatIsGiven) {
   given.distance.strategy = "delta";
   RenderSettings settings = given;
   EXPECT_TRUE(choose_settings(scene, {}, settings).empty());
-  EXPECT_EQ(choose_settings(scene, {.surface_radius = true}, settings).size(), 1u);
+  EXPECT_EQ(choose_settings(scene, {{"surface.radius"}}, settings).size(), 1u);
   EXPECT_EQ(settings.volume.radius, 0.3f);
   EXPECT_NE(settings.surface.radius, 0.4f);
   EXPECT_EQ(settings.caustics.radius, 0.5f);
@@ -128,7 +130,10 @@ TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
   const Scene scene = cloud_over_floor(false);
   RenderSettings settings;
   settings.integrator = Integrator::path;
-  const AutomaticSettings all{true, true, true, true, true};
+  AutomaticSettings all;
+  for (const Setting& setting : all_settings())
+    if (setting.automatic) all.keys.insert(setting.key);
+  EXPECT_EQ(all.keys.size(), 5u);
   const std::vector<Choice> choices = choose_settings(scene, all, settings);
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(settings.distance.strategy, "homogeneous");
@@ -159,7 +164,7 @@ TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
   RenderSettings settings;
   settings.volume_direct = DirectLight::photons;
   settings.photons_emitted = 1'000'000;
-  choose_settings(scene, {.volume_radius = true}, settings);
+  choose_settings(scene, {{"volume.radius"}}, settings);
   // Of a cylinder through the box, 2 m long, that a share of 1 - exp(-0.02) collides in; few do so twice.
   const double collisions = -std::expm1(-0.02) * settings.photons_emitted;
   const double share = 4.0 / 3.0 * std::pow(settings.volume.radius, 3.0) / (0.9 * 0.9 * 2.0);
@@ -179,7 +184,7 @@ TEST(Automatic, TheRadiusHoldsThePhotonsThatItPromises) {
   RenderSettings settings;
   settings.surface_direct = DirectLight::photons;
   settings.photons_emitted = 400'000;
-  choose_settings(scene, {.surface_radius = true}, settings);
+  choose_settings(scene, {{"surface.radius"}}, settings);
   const double share = std::pow(settings.surface.radius / 0.9, 2.0);  // of the photons
   // The median over 512 places of densities told by 16 photons each: off by 2 % or so, and by 4 % as the median of a
   // gamma distribution is; a tenth is four standard deviations at least.

@@ -6,10 +6,10 @@
 #include <csignal>
 #include <cstdio>
 
-#include "report.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/version.h"
+#include "vpm/render/setting.h"
 
 namespace vpm::tools {
 namespace {

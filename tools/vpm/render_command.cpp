@@ -20,6 +20,7 @@
 #include "vpm/input/scene_file.h"
 #include "vpm/render/plan.h"
 #include "vpm/render/render.h"
+#include "vpm/render/setting.h"
 
 namespace vpm::tools {
 namespace {
@@ -49,29 +50,26 @@ void write_outputs(const Outputs& outputs, const RenderOptions& options, const L
   write_text(outputs.json, render_report(options.scene, outputs.exr.string(), loaded, result));
 }
 
-constexpr std::string_view kChosen = "; chosen";
+constexpr const char* kChosen = "chosen";  // the field that names the settings that were chosen
 
-/// What a checkpoint must agree in for its passes to be those of this render; ends with the settings that were chosen.
+/// What a checkpoint must agree in for its passes to be those of this render: fields, and which of the settings among
+/// them were chosen.
 std::string identity_of(const LoadedScene& loaded, const std::vector<Choice>& choices) {
-  std::string identity = fmt::format("vpm {}; scene {}; seed {}; {}", version(), loaded.hash, loaded.settings.seed,
+  std::string identity = fmt::format("vpm {}: scene={} render.seed={} {}", version(), loaded.hash, loaded.settings.seed,
                                      settings_line(loaded.settings));
-  if (loaded.automatic.any()) identity += kChosen;
-  for (const Choice& choice : choices) identity += fmt::format(" {}={}", choice.key, choice.value);
+  std::vector<std::string> keys;
+  for (const Choice& choice : choices) keys.push_back(choice.key);
+  if (loaded.automatic.any()) identity += fmt::format(" {}={}", kChosen, fmt::join(keys, ","));
   return identity;
 }
 
 /// The settings that were chosen when the checkpoint's render began.
 std::vector<Choice> choices_of(const std::filesystem::path& checkpoint) {
   const std::string identity = checkpoint_identity(checkpoint);
-  const size_t at = identity.rfind(kChosen);
   std::vector<Choice> choices;
-  if (at == std::string::npos) return choices;
-  std::istringstream words(identity.substr(at + kChosen.size()));
-  for (std::string word; words >> word;) {
-    const size_t equals = std::min(word.find('='), word.size());
-    choices.push_back(
-        {word.substr(0, equals), word.substr(std::min(equals + 1, word.size())), "as chosen when the render began"});
-  }
+  std::istringstream keys(field_of(identity, kChosen).value_or(""));
+  for (std::string key; std::getline(keys, key, ',');)
+    choices.push_back({key, field_of(identity, key).value_or(""), "as chosen when the render began"});
   return choices;
 }
 

@@ -11,6 +11,7 @@
 #include "vpm/base/version.h"
 #include "vpm/estimate/pass_map.h"
 #include "vpm/render/plan.h"
+#include "vpm/render/setting.h"
 
 namespace vpm::tools {
 namespace {
@@ -25,6 +26,19 @@ Json times(const RenderResult& result) {
   const RenderStatistics& s = result.statistics;
   return {{"unit", "s, wall clock"},       {"total", result.seconds},         {"photon_tracing", s.trace_seconds},
           {"importance", s.guide_seconds}, {"map_building", s.build_seconds}, {"eye_pass", s.eye_seconds}};
+}
+
+/// Numbers of single precision as they are written, not as double precision has them.
+Json json_of(const SettingValue& value) {
+  if (std::holds_alternative<float>(value)) return Json::parse(text_of(value));
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+
+/// By key; those that no other setting makes useless.
+Json settings(const RenderSettings& s) {
+  Json all = Json::object();
+  for (const Field& field : estimate_fields(s)) all[field.key] = json_of(field.value);
+  return all;
 }
 
 /// All records that maps hold.
@@ -193,7 +207,7 @@ Json report_of(const std::string& scene_path, const std::string& image, const st
           {"seed", loaded.settings.seed},
           {"threads", thread_count()},
           {"passes", s.passes},
-          {"settings", settings_line(loaded.settings)},
+          {"settings", settings(loaded.settings)},
           {"stages", stage_lines(loaded.scene, loaded.settings, shown)},
           {"notes", loaded.notes},
           {"clamped_density_values", loaded.clamped_density_values},
@@ -229,43 +243,6 @@ std::string light_map_report(const std::string& scene_path, const std::string& i
                          {"triangles_without_texels", layout.flat_triangles},
                          {"power_received_W", rgb(received_power(layout, result.film.mean()))}};
   return report.dump(2) + "\n";
-}
-
-std::string settings_line(const RenderSettings& s) {
-  const auto gather = [](const GatherSettings& g) {
-    const char* kernel = kernel_info(g.kernel).name;
-    const char* boundary = g.boundary == BoundaryRule::corrected ? ":corrected" : "";
-    if (g.mode == GatherMode::nearest) return fmt::format("nearest:{}:{}:{}{}", g.count, g.radius, kernel, boundary);
-    if (g.mode == GatherMode::beam) return fmt::format("beam:{}:{}:{}", g.beam_count, g.radius, kernel);
-    return fmt::format("radius:{}:{}{}", g.radius, kernel, boundary);
-  };
-  const auto radii = [](RadiusSchedule r) {
-    return r == RadiusSchedule::constant ? "constant" : r == RadiusSchedule::per_pass ? "per-pass" : "per-pixel";
-  };
-  const auto direct = [&](DirectLight d) -> std::string {
-    if (d == DirectLight::equiangular) return fmt::format("equiangular:{}", s.direct_samples);
-    return d == DirectLight::photons ? "photons" : "shadow-rays";
-  };
-  return fmt::format(
-      "integrator={} samples_per_pixel={} emitted={} stored={} in_cube={} importons={}:aim={}:split={}:scatter={} "
-      "distance={}:step={}:optical_step={}:floor={}:majorant={} transmittance={}:step={}:samples={} "
-      "volume={} form={} "
-      "density_floor={} "
-      "volume_direct={} "
-      "surface={} surface_direct={} surface_indirect={} radii={} max_optical_step={} max_events={}",
-      s.integrator == Integrator::path ? "path" : "photon", s.samples_per_pixel, s.photons_emitted, s.photons_stored,
-      s.photons_in_cube, s.guide.importons, s.guide.aim, s.guide.split, s.guide.scatter, s.distance.strategy,
-      s.distance.step, s.distance.optical_step, s.distance.extinction_floor, s.distance.majorant,
-      s.transmittance.estimator, s.transmittance.step, s.transmittance.samples, gather(s.volume),
-      s.volume_form == VolumeForm::density_at_query ? "density-at-query" : "density-at-photon", s.density_floor,
-      direct(s.volume_direct), gather(s.surface), direct(s.surface_direct),
-      s.surface_indirect == IndirectLight::photons
-          ? "photons"
-          : fmt::format("final-gather:{}:by={}:irradiance={}:{}:aimed={}", s.gather_rays,
-                        s.gather_by == GatherBy::material ? "material" : "photons",
-                        s.end_irradiance == EndIrradiance::estimate ? "estimate" : "precomputed", gather(s.caustics),
-                        s.caustics_emitted),
-      radii(s.radii), s.max_optical_step, s.max_events);
 }
 
 }  // namespace vpm::tools

@@ -16,7 +16,4 @@ std::string render_report(const std::string& scene_path, const std::string& imag
 std::string light_map_report(const std::string& scene_path, const std::string& image, const std::string& mesh,
                              const LoadedScene& loaded, const UvLayout& layout, const RenderResult& result);
 
-/// The settings that decide what is estimated, in one line of key=value.
-std::string settings_line(const RenderSettings& settings);
-
 }  // namespace vpm::tools

@@ -8,6 +8,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
 #include "vpm/input/sections.h"
+#include "vpm/render/setting.h"
 #include "vpm/scene/assemble.h"
 
 namespace vpm {
@@ -70,15 +71,15 @@ void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan)
   camera.finish();
 }
 
-SceneContents contents_of(const ScenePlan& plan) {
-  SceneContents contents;
+SceneFacts facts_of(const ScenePlan& plan) {
+  SceneFacts facts;
   for (const MediumPlan& medium : plan.media) {
-    contents.grids |= medium.grid.has_value();
-    contents.scattering.media |= medium.part.medium.scatters();
+    facts.grids |= medium.grid.has_value();
+    facts.scattering_media |= medium.part.medium.scatters();
   }
   for (const ShapePlan& shape : plan.shapes)
-    contents.scattering.surfaces |= is_rough(plan.materials[shape.part.material].part.material);
-  return contents;
+    facts.rough_surfaces |= is_rough(plan.materials[shape.part.material].part.material);
+  return facts;
 }
 
 ScenePlan read_plan(TableReader& root, LoadedScene& loaded) {
@@ -93,26 +94,23 @@ ScenePlan read_plan(TableReader& root, LoadedScene& loaded) {
   std::vector<TableReader> lights = root.tables("lights", "[[lights]]");
   plan.lights = read_lights(lights);
   read_camera_section(root, media, plan);
-  loaded.settings = read_settings(root, contents_of(plan), loaded.automatic);
+  loaded.settings = read_settings(root, facts_of(plan), loaded.automatic);
   root.finish();
   return plan;
 }
 
-/// The options that make "auto" of what may be and is left out. Where the photons stored are given, they decide how
-/// many are emitted.
+/// The options that make kAuto of what may be and is left out, and is not decided by what is given.
 std::vector<std::string> left_to_choose(const Document& document) {
-  const auto has = [&](const char* section, const char* key) {
-    const Entry* entry = find_entry(*document.root.table(), section);
+  const auto has = [&](const std::string& key) {
+    const size_t dot = key.find('.');
+    const Entry* entry = find_entry(*document.root.table(), key.substr(0, dot));
     const Node::Table* table = entry ? entry->node.table() : nullptr;
-    return table && find_entry(*table, key);
+    return table && dot != std::string::npos && find_entry(*table, key.substr(dot + 1));
   };
-  constexpr std::pair<const char*, const char*> kKeys[] = {
-      {"distance", "strategy"}, {"volume", "radius"}, {"surface", "radius"}, {"caustics", "radius"}};
   std::vector<std::string> options;
-  for (const auto& [section, key] : kKeys)
-    if (!has(section, key)) options.push_back(fmt::format("{}.{}={}", section, key, kAuto));
-  if (!has("photons", "emitted") && !has("photons", "stored"))
-    options.push_back(fmt::format("photons.emitted={}", kAuto));
+  for (const Setting& setting : all_settings())
+    if (setting.automatic && !has(setting.key) && !has(std::string(setting.decided_by.key)))
+      options.push_back(fmt::format("{}={}", setting.key, kAuto));
   return options;
 }
 

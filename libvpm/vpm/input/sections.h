@@ -9,8 +9,8 @@
 #include "vpm/input/grid_file.h"
 #include "vpm/input/table_reader.h"
 #include "vpm/render/automatic.h"
-#include "vpm/render/plan.h"
 #include "vpm/render/settings.h"
+#include "vpm/render/validate.h"
 #include "vpm/scene/parts.h"
 
 namespace vpm {
@@ -73,13 +73,8 @@ std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);
 /// Reads [camera] and [film].
 Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
 
-/// What settings have to suit.
-struct SceneContents {
-  bool grids = false;  // media of grids
-  Scattering scattering;
-};
-/// Reads [render], [photons], [importance], [distance], [transmittance], [volume], [surface] and [caustics]. Where a
-/// value is "auto" the settings hold its default, and `automatic` tells.
-RenderSettings read_settings(TableReader& root, const SceneContents& contents, AutomaticSettings& automatic);
+/// Reads the sections of all_settings(), and validates the settings against the scene. Where a value is "auto" the
+/// settings hold its default, and `automatic` tells.
+RenderSettings read_settings(TableReader& root, const SceneFacts& facts, AutomaticSettings& automatic);
 
 }  // namespace vpm

@@ -3,34 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 namespace vpm {
 namespace {
-
-std::string text_of(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.9g", value);
-  return buffer;
-}
-
-std::string text_of(const Range& range) {
-  if (range.lo == -kNoLimit && range.hi == kNoLimit) return "finite";
-  if (range.hi == kNoLimit) return (range.lo_open ? "> " : ">= ") + text_of(range.lo);
-  return std::string("in ") + (range.lo_open ? "(" : "[") + text_of(range.lo) + ", " + text_of(range.hi) +
-         (range.hi_open ? ")" : "]");
-}
-
-bool inside(const Range& range, double value) {
-  return (range.lo_open ? value > range.lo : value >= range.lo) &&
-         (range.hi_open ? value < range.hi : value <= range.hi);
-}
-
-/// The range as single precision has it, so that the ends of a closed one belong to it in either.
-Range in_single(const Range& range) {
-  return {static_cast<float>(range.lo), static_cast<float>(range.hi), range.lo_open, range.hi_open};
-}
 
 /// A number of the file, checked as it is and in the single precision it is going to be kept in.
 double checked_number(const Node& node, const std::string& what, const Range& range) {
@@ -42,10 +18,9 @@ double checked_number(const Node& node, const std::string& what, const Range& ra
   else
     fail_at(node.place, what + " must be a number, not " + kind_of(node), "it must be " + text_of(range));
   if (!std::isfinite(value)) fail_at(node.place, what + " must be finite, not " + text_of(value));
-  const auto single = static_cast<float>(value);
-  if (!std::isfinite(single)) fail_at(node.place, what + " is too large for single precision: " + text_of(value));
-  if (!inside(range, value) || !inside(in_single(range), single))
-    fail_at(node.place, what + " must be " + text_of(range) + ", not " + text_of(value));
+  if (!std::isfinite(static_cast<float>(value)))
+    fail_at(node.place, what + " is too large for single precision: " + text_of(value));
+  if (!contains(range, value)) fail_at(node.place, what + " must be " + text_of(range) + ", not " + text_of(value));
   return value;
 }
 

@@ -6,26 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "vpm/base/range.h"
 #include "vpm/base/vec.h"
 #include "vpm/input/toml_node.h"
+#include "vpm/render/setting.h"
 
 namespace vpm {
 
-/// The numbers a key may have. All numbers must be finite and representable in single precision besides.
-struct Range {
-  double lo, hi;
-  bool lo_open, hi_open;
-};
-inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-inline constexpr Range kAny{-kNoLimit, kNoLimit, true, true};
-inline constexpr Range kPositive{0.0, kNoLimit, true, true};
-inline constexpr Range kNotNegative{0.0, kNoLimit, false, true};
-inline constexpr Range kFraction{0.0, 1.0, false, false};
-
-/// The word for a value that the render chooses.
-inline constexpr const char* kAuto = "auto";
-
-/// Wraps a table. Every key asked for becomes a known key; finish() refuses all others. A reader with a default returns
+/// Wraps a table. Every key asked for becomes a known key; finish() refuses all others. Numbers must be
+/// finite and representable in single precision besides their range. A reader with a default returns
 /// it where the key is missing; one without refuses that. All errors are InputErrors that tell the place.
 class TableReader {
  public:
@@ -35,7 +24,7 @@ class TableReader {
 
   bool has(const std::string& key);
   float number(const std::string& key, const Range& range, std::optional<float> fallback = {});
-  /// Does a key that holds a number otherwise say "auto"? Other words are refused.
+  /// Does a key that holds a number otherwise say kAuto? Other words are refused.
   bool says_auto(const std::string& key);
   uint64_t integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback = {});
   bool flag(const std::string& key, bool fallback);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 
 #include "vpm/base/count.h"
@@ -13,6 +12,7 @@
 #include "vpm/render/pilot.h"
 #include "vpm/render/plan.h"
 #include "vpm/render/render.h"
+#include "vpm/render/setting.h"
 
 namespace vpm {
 namespace {
@@ -57,10 +57,11 @@ std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& 
   const double emitted = emitted_of(s, densities);
   const double aimed = s.caustics_emitted > 0 ? static_cast<double>(s.caustics_emitted) : emitted;
   std::vector<OpenRadius> open;
-  if (automatic.volume_radius && has("volume")) open.push_back({"volume.radius", s.volume, densities.volume, emitted});
-  if (automatic.surface_radius && has("surface"))
+  if (automatic.has("volume.radius") && has("volume"))
+    open.push_back({"volume.radius", s.volume, densities.volume, emitted});
+  if (automatic.has("surface.radius") && has("surface"))
     open.push_back({"surface.radius", s.surface, densities.surface, emitted});
-  if (automatic.caustic_radius && has("caustics"))
+  if (automatic.has("caustics.radius") && has("caustics"))
     open.push_back({"caustics.radius", s.caustics, densities.caustics, aimed});
   return open;
 }
@@ -116,16 +117,6 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
   return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
 }
 
-template <class Number>
-Number number_of(const std::string& key, const std::string& value) {
-  Number number{};
-  const char* const end = value.data() + value.size();
-  const auto [stop, error] = std::from_chars(value.data(), end, number);
-  if (error != std::errc() || stop != end || !(number > Number{}))
-    throw InputError(fmt::format("'{}' is no value of {}, a number above 0", value, key));
-  return number;
-}
-
 }  // namespace
 
 ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal) {
@@ -171,28 +162,24 @@ StrategyCost cheapest(std::span<const StrategyCost> costs) {
 
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
   std::vector<Choice> choices;
-  if (automatic.strategy && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
-  const bool radii = automatic.volume_radius || automatic.surface_radius || automatic.caustic_radius;
-  if (plan_estimators(scene, settings, 0).maps().empty() || !(radii || automatic.photons)) return choices;
+  if (automatic.has("distance.strategy") && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
+  const bool photons = automatic.has("photons.emitted");
+  const bool radii =
+      automatic.has("volume.radius") || automatic.has("surface.radius") || automatic.has("caustics.radius");
+  if (plan_estimators(scene, settings, 0).maps().empty() || !(radii || photons)) return choices;
   const MapDensities densities = map_densities(scene, settings);
-  if (automatic.photons) choices.push_back(choose_photons(scene, automatic, densities, settings));
+  if (photons) choices.push_back(choose_photons(scene, automatic, densities, settings));
   for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
   return choices;
 }
 
 void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value) {
-  if (key == "volume.radius")
-    settings.volume.radius = number_of<float>(key, value);
-  else if (key == "surface.radius")
-    settings.surface.radius = number_of<float>(key, value);
-  else if (key == "caustics.radius")
-    settings.caustics.radius = number_of<float>(key, value);
-  else if (key == "photons.emitted")
-    settings.photons_emitted = number_of<uint64_t>(key, value);
-  else if (key == "distance.strategy" && make_distance_strategy({.strategy = value}))
-    settings.distance.strategy = value;
-  else
-    throw InputError(fmt::format("{} is no setting that a render chooses", key));
+  const Setting* const setting = find_setting(key, settings);
+  if (!setting || !setting->automatic) throw InputError(fmt::format("{} is no setting that a render chooses", key));
+  const std::optional<SettingValue> chosen = parse(*setting, value);
+  if (!chosen || chosen == SettingValue(uint64_t{0}))
+    throw InputError(fmt::format("'{}' is no value of {} that a render chooses", value, key));
+  setting->member.set(settings, *chosen);
 }
 
 }  // namespace vpm

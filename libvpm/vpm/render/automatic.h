@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vpm/render/settings.h"
@@ -11,13 +13,13 @@
 
 namespace vpm {
 
-/// Which settings are to be chosen. What is not is never changed.
+/// Which settings are to be chosen, by their keys; those that may be are declared Setting::automatic. What is not to be
+/// chosen is never changed.
 struct AutomaticSettings {
-  bool volume_radius = false, surface_radius = false, caustic_radius = false;
-  bool photons = false;   // emitted per pass
-  bool strategy = false;  // of distances
+  std::set<std::string, std::less<>> keys;
 
-  bool any() const { return volume_radius || surface_radius || caustic_radius || photons || strategy; }
+  bool any() const { return !keys.empty(); }
+  bool has(std::string_view key) const { return keys.find(key) != keys.end(); }
 };
 
 /// A setting that was chosen.
@@ -33,7 +35,8 @@ struct Choice {
 /// nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings);
 
-/// Puts a choice made earlier into the settings. Throws InputError where it is none.
+/// Puts a choice made earlier into the settings. Throws InputError where it is none: a setting that is not declared
+/// Setting::automatic, or a value that is not of its domain, or 0.
 void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value);
 
 // The rules, each a pure function.

@@ -6,6 +6,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
+#include "vpm/render/validate.h"
 
 namespace vpm {
 namespace {
@@ -94,6 +95,7 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
 
 RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
                             const std::atomic<bool>& stop, ProgressMode progress) {
+  validate(settings, facts_of(scene));
   const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
     return light_map_pass(scene, settings, layout, so_far.film.passes(), stop, shown);
   };

@@ -6,6 +6,7 @@
 
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
+#include "vpm/render/validate.h"
 
 namespace vpm {
 namespace {
@@ -36,6 +37,7 @@ double estimated_error(const Film& film) {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const std::atomic<bool>& stop, ProgressMode progress,
                     const std::function<void(const RenderResult&)>& finished) {
+  validate(settings, facts_of(scene));
   const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
     const int pass = so_far.film.passes();
     return settings.integrator == Integrator::path

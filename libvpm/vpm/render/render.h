@@ -25,7 +25,8 @@ struct RenderResult {
 /// Renders passes until settings.passes are done; or, where asked for, until settings.seconds are over or the estimated
 /// error is down to settings.error, whichever is first (at least one pass then). Once `stop` is set the pass under way
 /// is dropped, those finished are kept. `result` is nothing_rendered() or what an earlier run has left off with, for
-/// the same scene and settings: passes go on where it ended. `finished` is told of each further pass.
+/// the same scene and settings: passes go on where it ended. `finished` is told of each further pass. Throws a
+/// SettingError where settings contradict themselves or the scene.
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const std::atomic<bool>& stop, ProgressMode progress,
                     const std::function<void(const RenderResult&)>& finished = {});

@@ -10,7 +10,6 @@
 #include "compare/run.h"
 #include "compare/store.h"
 #include "pass_run.h"
-#include "report.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
@@ -20,6 +19,7 @@
 #include "vpm/input/experiment_file.h"
 #include "vpm/input/source.h"
 #include "vpm/medium/distance/strategy.h"
+#include "vpm/render/setting.h"
 #include "vpm/study/compare/exact_picture.h"
 #include "vpm/study/validate/check.h"
 

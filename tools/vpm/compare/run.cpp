@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "vpm/render/render.h"
+#include "vpm/render/setting.h"
 
 namespace vpm::tools {
 namespace {
@@ -43,7 +44,7 @@ std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan
                                  const std::atomic<bool>& stop) {
   RenderSettings settings = loaded.settings;
   settings.seed = plan.seed + static_cast<uint64_t>(repetition);
-  settings.passes = std::numeric_limits<int>::max();
+  settings.passes = kMostPasses;
   settings.seconds = settings.error = 0.0;
   std::vector<Snapshot> snapshots;
   std::atomic<bool> done{false};

@@ -9,6 +9,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
 #include "vpm/image/exr.h"
+#include "vpm/render/setting.h"
 
 namespace vpm::tools {
 namespace {
@@ -112,8 +113,11 @@ Reference read_reference(const fs::path& path) {
   else
     reference.doubt = "the reference does not tell its own noise";
   const auto settings = file.metadata.find("vpm.settings");
-  if (settings != file.metadata.end() && settings->second.starts_with("integrator=photon"))
-    reference.doubt = kOfPhotons;
+  if (settings != file.metadata.end()) {
+    const std::optional<std::string> integrator = field_of(settings->second, "render.integrator");
+    if (!integrator) reference.doubt = "the reference does not tell what estimated it";
+    if (integrator == "photon") reference.doubt = kOfPhotons;
+  }
   return reference;
 }
 

@@ -1,0 +1,195 @@
+// The settings of [volume], [surface] and [caustics]: how photons are gathered, and what light comes from elsewhere.
+#include "vpm/render/declare.h"
+
+namespace vpm {
+namespace {
+
+using S = RenderSettings;
+
+constexpr uint64_t kMostRays = 1'000'000;
+
+void append(std::vector<Setting>& all, std::vector<Setting> more) {
+  for (Setting& setting : more) all.push_back(std::move(setting));
+}
+
+std::string not_counted(const S&) { return "photons within a radius are not counted"; }
+constexpr std::string_view kCountInstead = "leave out 'count', or set gather = \"nearest\"";
+
+/// How photons are gathered from the map of a section, whose settings are the member `Gather`.
+template <auto Gather>
+std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
+  using G = GatherSettings;
+  return {
+      {.key = section + ".gather",
+       .member = at<Gather, &G::mode>(),
+       .domain = words_of<GatherMode>(in_media ? 3 : 2),
+       .meaning = in_media ? "photons within a `\"radius\"`, or the `\"nearest\"` few, or by `\"beam\"` those within "
+                             "the radius of a whole stretch of the eye's ray, in one query"
+                           : "photons within a `\"radius\"`, or the `\"nearest\"` few"},
+      {.key = section + ".radius",
+       .member = at<Gather, &G::radius>(),
+       // Kernels, 1 over its cube, must be floats; and coordinates are at most 1e9 m.
+       .domain = Numbers{{1e-10, 1e9, false, false}},
+       .meaning = "of the first pass, or the largest where gathers go by `count`",
+       .unit = "m",
+       .default_text = "1 % (by `count`: 10 %) of the diagonal of the grid or the scene",
+       .automatic = true},
+      {.key = section + ".count",
+       .member = at<Gather, &G::count>(),
+       .domain = Integers{2, 1'000'000},
+       .meaning = "how many are nearest; refused with `\"radius\"`, which counts none",
+       .need = {[](const S& s) { return (s.*Gather).mode == GatherMode::nearest; }, not_counted, kCountInstead}},
+      {.key = section + ".kernel",
+       .member = at<Gather, &G::kernel>(),
+       .domain = words_of<KernelKind>(),
+       .meaning = "how photons weigh less farther away"},
+  };
+}
+
+Setting declare_beam_count() {
+  return {.key = "volume.count",
+          .member = at<&S::volume, &GatherSettings::beam_count>(),
+          .domain = Integers{0, 1'000'000},
+          .meaning =
+              "with `\"beam\"`, where > 0: each photon has a radius of its own, of a ball of about so many "
+              "photons, from a hundredth of `radius` to `radius`",
+          .need = {[](const S& s) { return s.volume.mode == GatherMode::beam; }, not_counted, kCountInstead}};
+}
+
+constexpr const char* kBoundary =
+    "`\"corrected\"`: no dark rims at the borders of media and the edges of surfaces, and no light through thin walls, "
+    "see below. `[surface]` decides for the caustic map, too";
+
+std::vector<Setting> declare_volume() {
+  return {
+      {.key = "volume.form",
+       .member = at<&S::volume_form>(),
+       .domain = words_of<VolumeForm>(),
+       .meaning = "where the scattering coefficient is taken: `\"density-at-query\"` is sharp, `\"density-at-photon\"` "
+                  "bounds weights, see below"},
+      {.key = "volume.boundary",
+       .member = at<&S::volume, &GatherSettings::boundary>(),
+       .domain = words_of<BoundaryRule>(),
+       .meaning = kBoundary},
+      {.key = "volume.density_floor",
+       .member = at<&S::density_floor>(),
+       .domain = Numbers{kFraction},
+       .meaning = "for `density-at-query`: photons weigh 1/max(density, floor), the floor given as a share of the "
+                  "medium's largest density. Ends the bright specks; what is thinner than the floor scatters less, by "
+                  "density/floor"},
+      {.key = "volume.direct",
+       .member = at<&S::volume_direct>(),
+       .domain = words_of<DirectLight>(),
+       .meaning = "light that scatters once: from `\"photons\"`, by `\"shadow-rays\"` from every step of the march, or "
+                  "`\"equiangular\"`, by shadow rays from a few distances of each stretch of an eye ray, drawn both "
+                  "towards the light and by what reaches the eye. Photons carry what scatters more often"},
+      {.key = "volume.direct_samples",
+       .member = at<&S::direct_samples>(),
+       .domain = Integers{1, kMostRays},
+       .meaning = "how many pairs of such distances; needs `\"equiangular\"`",
+       .need = {[](const S& s) { return s.volume_direct == DirectLight::equiangular; },
+                [](const S& s) {
+                  return "no distances are drawn for single scattering: 'direct' of [volume] is \"" +
+                         word_of(s.volume_direct) + "\"";
+                },
+                "make 'direct' \"equiangular\", or leave out 'direct_samples'"}},
+  };
+}
+
+/// The usual pairs of direct and indirect light.
+struct Method {
+  std::string_view name;
+  DirectLight direct;
+  IndirectLight indirect;
+};
+constexpr std::array<Method, 3> kMethods{{{"visualise", DirectLight::photons, IndirectLight::photons},
+                                          {"progressive", DirectLight::shadow_rays, IndirectLight::photons},
+                                          {"final-gather", DirectLight::shadow_rays, IndirectLight::final_gather}}};
+
+/// "" for another pair.
+SettingValue get_method(const S& s) {
+  for (const Method& method : kMethods)
+    if (method.direct == s.surface_direct && method.indirect == s.surface_indirect) return std::string(method.name);
+  return std::string();
+}
+
+void set_method(S& s, const SettingValue& value) {
+  for (const Method& method : kMethods)
+    if (method.name == std::get<std::string>(value)) {
+      s.surface_direct = method.direct;
+      s.surface_indirect = method.indirect;
+    }
+}
+
+void set_boundary(S& s, const SettingValue& value) {
+  set_member<&S::surface, &GatherSettings::boundary>(s, value);
+  s.caustics.boundary = s.surface.boundary;
+}
+
+std::vector<Setting> declare_surface_light() {
+  return {
+      {.key = "surface.boundary",
+       .member = {get_member<&S::surface, &GatherSettings::boundary>, set_boundary},
+       .domain = words_of<BoundaryRule>(),
+       .meaning = kBoundary},
+      {.key = "surface.method",
+       .member = {get_method, set_method},
+       .domain = names_of(std::span<const Method>(kMethods)),
+       .meaning = "`direct` and `indirect` in one, see below",
+       .stands_for = {"surface.direct", "surface.indirect"}},
+      {.key = "surface.direct",
+       .member = at<&S::surface_direct>(),
+       .domain = words_of<DirectLight>(2),
+       .meaning = "light that has not scattered yet: from `\"photons\"`, or by `\"shadow-rays\"`"},
+      {.key = "surface.indirect",
+       .member = at<&S::surface_indirect>(),
+       .domain = words_of<IndirectLight>(),
+       .meaning = "light that surfaces scattered: from `\"photons\"`, or by `\"final-gather\"`"},
+  };
+}
+
+std::vector<Setting> declare_final_gathering() {
+  return {
+      {.key = "surface.gather_rays",
+       .member = at<&S::gather_rays>(),
+       .domain = Integers{1, kMostRays},
+       .meaning = "of final gathering, at each point that the eye sees"},
+      {.key = "surface.gather_by",
+       .member = at<&S::gather_by>(),
+       .domain = words_of<GatherBy>(),
+       .meaning = "how final gathering draws them: as the `\"material\"` scatters, or up to half of them to where the "
+                  "`\"photons\"` nearby came from, by a map of their own. Pays where indirect light comes from one "
+                  "side, as out of the next room; noisier where it comes evenly from everywhere"},
+      {.key = "surface.irradiance",
+       .member = at<&S::end_irradiance>(),
+       .domain = words_of<EndIrradiance>(),
+       .meaning = "what they find where they end on a Lambertian surface: an `\"estimate\"` from all photons around, "
+                  "or one `\"precomputed\"` at the place of a photon nearby. Quicker where rays are many more than "
+                  "photons, and further off, see below"},
+  };
+}
+
+Setting declare_aimed_photons() {
+  return {.key = "caustics.emitted",
+          .member = at<&S::caustics_emitted>(),
+          .domain = Integers{0, kMaxInteger},
+          .meaning =
+              "> 0: that many photons per pass, beside the others, aimed at mirrors and glass for the caustic "
+              "map of final gathering"};
+}
+
+}  // namespace
+
+std::vector<Setting> gather_settings() {
+  std::vector<Setting> all = declare_gather<&S::volume>("volume", true);
+  all.push_back(declare_beam_count());
+  append(all, declare_volume());
+  append(all, declare_gather<&S::surface>("surface", false));
+  append(all, declare_surface_light());
+  append(all, declare_final_gathering());
+  append(all, declare_gather<&S::caustics>("caustics", false));
+  all.push_back(declare_aimed_photons());
+  return all;
+}
+
+}  // namespace vpm

@@ -1,0 +1,114 @@
+// The settings of [render], [photons] and [importance]: which passes there are, and of how many paths they are made.
+#include "vpm/render/declare.h"
+
+namespace vpm {
+namespace {
+
+using S = RenderSettings;
+using G = GuideSettings;
+
+constexpr uint64_t kMostRays = 1'000'000;
+
+std::vector<Setting> declare_render() {
+  return {
+      {.key = "render.integrator",
+       .member = at<&S::integrator>(),
+       .domain = words_of<Integrator>(),
+       .meaning = "photon mapping, or the path tracer, the unbiased referee"},
+      {.key = "render.passes",
+       .member = at<&S::passes>(),
+       .domain = Integers{1, kMostPasses},
+       .meaning = "independent passes that are averaged",
+       .of_passes = true},
+      {.key = "render.seconds",
+       .member = at<&S::seconds>(),
+       .domain = Numbers{kNotNegative},
+       .meaning = "> 0: passes start until this time is over, instead",
+       .unit = "s",
+       .of_passes = true},
+      {.key = "render.error",
+       .member = at<&S::error>(),
+       .domain = Numbers{kNotNegative},
+       .meaning = "> 0: passes start until the estimated relative MSE is no more than that, instead",
+       .of_passes = true},
+      {.key = "render.seed",
+       .member = at<&S::seed>(),
+       .domain = Integers{0, kMaxInteger},
+       .meaning = "of all random numbers",
+       .of_passes = true},
+      {.key = "render.samples_per_pixel",
+       .member = at<&S::samples_per_pixel>(),
+       .domain = Integers{1, kMostRays},
+       .meaning = "camera rays per pixel and pass"},
+      {.key = "render.max_events",
+       .member = at<&S::max_events>(),
+       .domain = Integers{1, 1'000'000'000},
+       .meaning = "events of one path before it is cut; cuts are counted in the report"},
+      {.key = "render.radii",
+       .member = at<&S::radii>(),
+       .domain = words_of<RadiusSchedule>(),
+       .meaning = "how gather radii go on after the first pass: `\"per-pass\"`, smaller from pass to pass, so that the "
+                  "average converges to the truth; `\"per-pixel\"`, on surfaces each pixel's own, smaller with the "
+                  "photons that it finds (stochastic progressive photon mapping), see below"},
+      {.key = "render.max_optical_step",
+       .member = at<&S::max_optical_step>(),
+       .domain = Numbers{{1e-4, kNoLimit, false, true}},
+       .meaning = "longest step of the eye rays' march, in optical thickness"},
+  };
+}
+
+std::vector<Setting> declare_photons() {
+  return {
+      {.key = "photons.stored",
+       .member = at<&S::photons_stored>(),
+       .domain = Integers{0, kMaxInteger},
+       .meaning = "photons per pass and map at which tracing stops; 0: no limit"},
+      {.key = "photons.emitted",
+       .member = at<&S::photons_emitted>(),
+       .domain = Integers{0, kMaxInteger},
+       .meaning = "photons per pass; 0: until the maps are full",
+       .default_text = "200000, or 0 where `stored` is above 0",
+       .automatic = true,
+       .decided_by = {"photons.stored",
+                      [](const S& s) -> SettingValue { return s.photons_stored > 0 ? 0 : S{}.photons_emitted; }}},
+      {.key = "photons.in_cube",
+       .member = at<&S::photons_in_cube>(),
+       .domain = Integers{0, 1'000'000},
+       .meaning = "> 0: the most photons kept in a cube of half a gather radius for each octant of directions; these "
+                  "take over the power of the rest"},
+  };
+}
+
+std::vector<Setting> declare_importance() {
+  return {
+      {.key = "importance.importons",
+       .member = at<&S::guide, &G::importons>(),
+       .domain = Integers{0, 1'000'000'000},
+       .meaning = "> 0: photons go where they matter to the picture, as that many paths from the camera tell in each "
+                  "pass. Pays where the camera sees a small part of the scene"},
+      {.key = "importance.aim",
+       .member = at<&S::guide, &G::aim>(),
+       .domain = Flags{},
+       .meaning = "emit more where photons are worth more"},
+      {.key = "importance.split",
+       .member = at<&S::guide, &G::split>(),
+       .domain = Flags{},
+       .meaning = "follow photons by several where they are worth more, by fewer where less"},
+      {.key = "importance.scatter",
+       .member = at<&S::guide, &G::scatter>(),
+       .domain = Flags{},
+       .meaning = "scatter a tenth of the photons into directions in which they are worth more; needs `importons`. "
+                  "Pays where light has to find its way through an opening after it has scattered"},
+  };
+}
+
+}  // namespace
+
+std::vector<Setting> pass_settings() {
+  std::vector<Setting> all = declare_render();
+  for (auto declare : {declare_photons, declare_importance})
+    for (Setting& setting : declare()) all.push_back(std::move(setting));
+  return all;
+}
+
+}  // namespace vpm

@@ -1,0 +1,121 @@
+// Values and texts of settings, by their declarations.
+#include "vpm/render/setting.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "vpm/render/declare.h"
+
+namespace vpm {
+namespace {
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+template <class Number>
+std::optional<SettingValue> number_in(const std::string& text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+/// Finite in single precision, too.
+template <class Number>
+bool is_in(const Range& range, Number number) {
+  return std::isfinite(static_cast<float>(number)) && contains(range, number);
+}
+
+std::optional<SettingValue> value_in(const Setting& setting, const std::string& text) {
+  if (std::holds_alternative<Words>(setting.domain)) return text;
+  if (std::holds_alternative<Integers>(setting.domain)) return number_in<uint64_t>(text);
+  if (std::holds_alternative<Numbers>(setting.domain))
+    return std::holds_alternative<float>(setting.member.get({})) ? number_in<float>(text) : number_in<double>(text);
+  if (text == "true" || text == "false") return text == "true";
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string text_of(const SettingValue& value) {
+  return std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
+}
+
+std::span<const Setting> all_settings() {
+  static const std::vector<Setting> all = [] {
+    std::vector<Setting> joined;
+    for (auto declare : {pass_settings, flight_settings, gather_settings})
+      for (Setting& setting : declare()) joined.push_back(std::move(setting));
+    return joined;
+  }();
+  return all;
+}
+
+const Setting* find_setting(std::string_view key, const RenderSettings& settings) {
+  for (const Setting& setting : all_settings())
+    if (setting.key == key && setting.needed(settings)) return &setting;
+  return nullptr;
+}
+
+std::string outside_of(const Domain& domain, const SettingValue& value) {
+  const auto must = [&](const std::string& allowed) {
+    return fmt::format("must be {}, not {}", allowed, text_of(value));
+  };
+  return std::visit(
+      Overloaded{
+          [](const Flags&) { return std::string(); },
+          [&](const Integers& of) {
+            const uint64_t integer = std::get<uint64_t>(value);
+            return of.lo <= integer && integer <= of.hi ? "" : must(fmt::format("from {} to {}", of.lo, of.hi));
+          },
+          [&](const Numbers& of) {
+            const auto* single = std::get_if<float>(&value);
+            const bool inside = single ? is_in(of.range, *single) : is_in(of.range, std::get<double>(value));
+            return inside ? "" : must(text_of(of.range));
+          },
+          [&](const Words& of) {
+            const bool known =
+                std::find(of.words.begin(), of.words.end(), std::get<std::string>(value)) != of.words.end();
+            return known ? "" : must(fmt::format("one of {}", fmt::join(of.words, ", ")));
+          },
+      },
+      domain);
+}
+
+std::optional<SettingValue> parse(const Setting& setting, const std::string& text) {
+  std::optional<SettingValue> value = value_in(setting, text);
+  return value && outside_of(setting.domain, *value).empty() ? value : std::nullopt;
+}
+
+std::vector<Field> estimate_fields(const RenderSettings& settings) {
+  std::vector<Field> fields;
+  for (const Setting& setting : all_settings())
+    if (!setting.of_passes && setting.stands_for.empty() && setting.needed(settings))
+      fields.push_back({setting.key, setting.member.get(settings)});
+  return fields;
+}
+
+std::string settings_line(const RenderSettings& settings) {
+  std::string line;
+  for (const Field& field : estimate_fields(settings))
+    line += fmt::format("{}{}={}", line.empty() ? "" : " ", field.key, text_of(field.value));
+  return line;
+}
+
+std::optional<std::string> field_of(std::string_view line, std::string_view key) {
+  while (!line.empty()) {
+    const std::string_view word = line.substr(0, line.find(' '));
+    line.remove_prefix(std::min(word.size() + 1, line.size()));
+    if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
+      return std::string(word.substr(key.size() + 1));
+  }
+  return std::nullopt;
+}
+
+}  // namespace vpm

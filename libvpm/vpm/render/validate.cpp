@@ -1,0 +1,138 @@
+// The rules: ranges and needs by the declarations, then what settings ask of each other, section by section.
+#include "vpm/render/validate.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <vector>
+
+#include "vpm/render/plan.h"
+#include "vpm/render/setting.h"
+
+namespace vpm {
+namespace {
+
+void refuse_if(bool contradiction, const char* key, const std::string& wrong, const std::string& right) {
+  if (contradiction) throw SettingError(key, wrong, right);
+}
+
+/// Each setting by itself.
+void check_declared(const RenderSettings& s) {
+  const RenderSettings usual;
+  for (const Setting& setting : all_settings()) {
+    if (!setting.stands_for.empty()) continue;
+    const SettingValue value = setting.member.get(s);
+    if (value == setting.member.get(usual)) continue;
+    if (const std::string wrong = outside_of(setting.domain, value); !wrong.empty())
+      throw SettingError(setting.key, fmt::format("'{}' of [{}] {}", setting.name(), setting.section(), wrong), "");
+    if (!find_setting(setting.key, s))
+      throw SettingError(setting.key, setting.need.wrong(s), std::string(setting.need.right));
+  }
+}
+
+void check_photons(const RenderSettings& s) {
+  refuse_if(s.photons_emitted == 0 && s.photons_stored == 0, "photons.emitted",
+            "no photon would be emitted: 'emitted' and 'stored' are both 0", "make one of them positive");
+  refuse_if(s.photons_in_cube > 0 && s.radii == RadiusSchedule::per_pixel, "photons.in_cube",
+            "where render.radii is \"per-pixel\" photons are counted, so that none may be merged",
+            "write 0, or other radii");
+  refuse_if(s.guide.scatter && s.guide.importons == 0, "importance.scatter",
+            "nothing tells photons where to scatter: 'importons' of [importance] is 0",
+            "make 'importons' positive, or leave out 'scatter'");
+}
+
+/// "did you mean ..." has no place here: the name is right, but for something else.
+std::string strategies_that(bool StrategyInfo::*is, const char* title) {
+  std::vector<std::string_view> names;
+  for (const StrategyInfo& info : distance_strategies())
+    if (info.*is) names.push_back(info.name);
+  return fmt::format("{}: {}", title, fmt::join(names, ", "));
+}
+
+void check_strategy(const RenderSettings& s, const SceneFacts& facts) {
+  const StrategyInfo& info = strategy_info(s.distance.strategy);
+  const std::string title = "the strategy '" + s.distance.strategy + "' ";
+  refuse_if(facts.grids && !info.heterogeneous, "distance.strategy",
+            title + "is wrong in a grid medium, and the scene has one",
+            strategies_that(&StrategyInfo::heterogeneous, "right in grids"));
+  refuse_if(s.integrator == Integrator::photon && !info.positive, "distance.strategy",
+            title + "gives weights below 0, which the power of photons must not have",
+            "write integrator = \"path\" in [render], or use another strategy; " +
+                strategies_that(&StrategyInfo::positive, "right for photons"));
+}
+
+void check_estimator(const RenderSettings& s, const SceneFacts& facts) {
+  const std::string& name = s.transmittance.estimator;
+  refuse_if(name != TransmittanceSettings{}.estimator &&
+                !casts_shadow_rays({facts.scattering_media, facts.rough_surfaces}, s),
+            "transmittance.estimator", "nothing asks '" + name + "': shadow rays do, and none are cast",
+            "write direct = \"shadow-rays\" in [volume] or [surface] of what scatters, or leave out 'estimator'");
+}
+
+void check_borders(const RenderSettings& s) {
+  const bool in_media = s.volume.boundary == BoundaryRule::corrected;
+  const bool on_surfaces = s.surface.boundary == BoundaryRule::corrected;
+  refuse_if((in_media || on_surfaces) && s.photons_in_cube > 0, in_media ? "volume.boundary" : "surface.boundary",
+            "there is no correction at borders where 'in_cube' of [photons] merges photons across them",
+            "leave out 'boundary', or 'in_cube'");
+  refuse_if(in_media && s.volume_form == VolumeForm::density_at_photon, "volume.boundary",
+            "there is no correction at borders for 'density-at-photon', which counts photons from outside",
+            "use form = \"density-at-query\", or leave out 'boundary'");
+  refuse_if(in_media && s.volume.mode == GatherMode::beam, "volume.boundary",
+            "there is no correction at borders for \"beam\", which gathers along whole rays",
+            "use gather = \"radius\", or leave out 'boundary'");
+}
+
+void check_final_gathering(const RenderSettings& s) {
+  const bool precomputed = s.end_irradiance == EndIrradiance::precomputed;
+  refuse_if(precomputed && s.surface.boundary == BoundaryRule::corrected, "surface.irradiance",
+            "irradiance is computed beforehand without a correction at borders",
+            "write \"estimate\", or make 'boundary' \"none\"");
+  if (s.surface_indirect == IndirectLight::final_gather) return;
+  const std::string wrong = "there are no rays to gather light: 'indirect' of [surface] is \"photons\"";
+  const std::string right = "make 'method' \"final-gather\", or leave out ";
+  refuse_if(s.gather_by == GatherBy::photons, "surface.gather_by", wrong, right + "'gather_by'");
+  refuse_if(precomputed, "surface.irradiance", wrong, right + "'irradiance'");
+}
+
+/// Radii of pixels' own are those of gathers by radius, straight from the map of single photons.
+void check_radii_of_pixels(const RenderSettings& s) {
+  if (s.radii != RadiusSchedule::per_pixel) return;
+  const std::string pixels = "where render.radii is \"per-pixel\" ";
+  refuse_if(s.surface.mode != GatherMode::radius, "surface.gather", pixels + "surfaces gather by radius",
+            "write \"radius\", or other radii");
+  refuse_if(s.surface_indirect == IndirectLight::final_gather, "surface.indirect",
+            pixels + "there is no final gathering", "take indirect light from \"photons\", or write other radii");
+  refuse_if(s.surface.boundary == BoundaryRule::corrected, "surface.boundary",
+            pixels + "the photons found tell the radius, so that none may be left out at borders",
+            "write \"none\", or other radii");
+}
+
+}  // namespace
+
+SettingError::SettingError(std::string key, std::string wrong, std::string right)
+    : InputError(fmt::format("{}: {}{}{}", key, wrong, right.empty() ? "" : "\n  ", right)),
+      key_(std::move(key)),
+      wrong_(std::move(wrong)),
+      right_(std::move(right)) {}
+
+SceneFacts facts_of(const Scene& scene) {
+  SceneFacts facts;
+  for (const Medium& medium : scene.media) {
+    facts.grids |= !medium.homogeneous();
+    facts.scattering_media |= medium.scatters();
+  }
+  for (const Shape& shape : scene.shapes) facts.rough_surfaces |= is_rough(scene.materials[shape.material]);
+  return facts;
+}
+
+void validate(const RenderSettings& settings, const SceneFacts& facts) {
+  check_declared(settings);
+  check_photons(settings);
+  check_strategy(settings, facts);
+  check_borders(settings);
+  check_final_gathering(settings);
+  check_radii_of_pixels(settings);
+  check_estimator(settings, facts);
+}
+
+}  // namespace vpm

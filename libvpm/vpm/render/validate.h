@@ -1,0 +1,34 @@
+// Settings that contradict themselves or their scene are refused, whoever asks: a scene file or code.
+#pragma once
+
+#include "vpm/base/error.h"
+#include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// What a scene has that settings must suit.
+struct SceneFacts {
+  bool grids = false;             // media of grids
+  bool scattering_media = false;  // media that scatter
+  bool rough_surfaces = false;    // surfaces that store photons; mirrors and glass do not
+};
+SceneFacts facts_of(const Scene& scene);
+
+/// A setting that cannot be as it is.
+class SettingError : public InputError {
+ public:
+  SettingError(std::string key, std::string wrong, std::string right);
+  const std::string& key() const { return key_; }      // of scene files: "volume.radius"
+  const std::string& wrong() const { return wrong_; }  // what is wrong
+  const std::string& right() const { return right_; }  // what would be right; may be empty
+
+ private:
+  std::string key_, wrong_, right_;
+};
+
+/// Throws a SettingError where a setting is out of its range, is given a value that nothing uses, or contradicts
+/// another or the scene.
+void validate(const RenderSettings& settings, const SceneFacts& facts);
+
+}  // namespace vpm

@@ -1,0 +1,125 @@
+// Settings that contradict themselves or the scene are refused from code, too, by the key that is wrong.
+#include "vpm/render/validate.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "vpm/render/light_map.h"
+#include "vpm/render/render.h"
+
+namespace vpm {
+namespace {
+
+constexpr SceneFacts kEverything{.grids = true, .scattering_media = true, .rough_surfaces = true};
+
+/// The key that is refused; "" where none is.
+std::string refused(const RenderSettings& settings, const SceneFacts& facts) {
+  try {
+    validate(settings, facts);
+  } catch (const SettingError& error) {
+    EXPECT_EQ(std::string(error.what()).find(error.key() + ": " + error.wrong()), 0u) << error.what();
+    return error.key();
+  }
+  return "";
+}
+
+struct Contradiction {
+  const char* key;
+  std::function<void(RenderSettings&)> make;
+};
+using S = RenderSettings;
+
+const Contradiction kContradictions[] = {
+    {"photons.emitted", [](S& s) { s.photons_emitted = 0; }},
+    {"photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
+    {"importance.scatter", [](S& s) { s.guide.scatter = true; }},
+    {"distance.strategy", [](S& s) { s.distance.strategy = "homogeneous"; }},
+    {"distance.strategy", [](S& s) { s.distance.strategy = "weighted"; }},
+    {"distance.strategy", [](S& s) { s.distance.strategy = "woodcock"; }},
+    {"transmittance.estimator",
+     [](S& s) { s.transmittance.estimator = "ratio", s.surface_direct = DirectLight::photons; }},
+    {"volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
+    {"surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
+    {"volume.boundary",
+     [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.volume_form = VolumeForm::density_at_photon; }},
+    {"volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.volume.mode = GatherMode::beam; }},
+    {"volume.count", [](S& s) { s.volume.count = 20; }},
+    {"caustics.count", [](S& s) { s.caustics.count = 20; }},
+    {"volume.direct_samples", [](S& s) { s.direct_samples = 3; }},
+    {"surface.direct", [](S& s) { s.surface_direct = DirectLight::equiangular; }},
+    {"surface.gather", [](S& s) { s.surface.mode = GatherMode::beam; }},
+    {"surface.gather_by", [](S& s) { s.gather_by = GatherBy::photons; }},
+    {"surface.irradiance", [](S& s) { s.end_irradiance = EndIrradiance::precomputed; }},
+    {"surface.irradiance",
+     [](S& s) {
+       s.end_irradiance = EndIrradiance::precomputed, s.surface.boundary = BoundaryRule::corrected;
+       s.surface_indirect = IndirectLight::final_gather;
+     }},
+    {"surface.gather", [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.mode = GatherMode::nearest; }},
+    {"surface.indirect",
+     [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface_indirect = IndirectLight::final_gather; }},
+    {"surface.boundary",
+     [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.boundary = BoundaryRule::corrected; }},
+    {"render.passes", [](S& s) { s.passes = 0; }},
+    {"render.max_optical_step", [](S& s) { s.max_optical_step = 0.0f; }},
+    {"volume.radius", [](S& s) { s.volume.radius = -1.0f; }},
+    {"volume.density_floor", [](S& s) { s.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
+};
+
+TEST(Validate, NamesTheKeyOfEachContradiction) {
+  for (const Contradiction& each : kContradictions) {
+    RenderSettings settings;
+    each.make(settings);
+    EXPECT_EQ(refused(settings, kEverything), each.key);
+  }
+}
+
+TEST(Validate, AllowsDefaultsInAnyScene) {
+  for (const bool grids : {false, true})
+    for (const bool media : {false, true})
+      for (const bool surfaces : {false, true}) EXPECT_EQ(refused({}, {grids, media, surfaces}), "");
+}
+
+TEST(Validate, AsksTheSceneWhereThatDecides) {
+  RenderSettings s;
+  s.distance.strategy = "homogeneous";
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "");
+  s = {};
+  s.transmittance.estimator = "ratio";
+  EXPECT_EQ(refused(s, {.rough_surfaces = true}), "");
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "transmittance.estimator");
+  s.volume_direct = DirectLight::shadow_rays;
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "");
+  s = {};
+  s.integrator = Integrator::path;
+  s.transmittance.estimator = "ratio";
+  s.distance.strategy = "weighted";
+  EXPECT_EQ(refused(s, {}), "");
+}
+
+TEST(Validate, TakesACountWhereGathersGoByIt) {
+  RenderSettings s;
+  s.volume.mode = GatherMode::beam;
+  s.volume.beam_count = 20;
+  s.surface.mode = GatherMode::nearest;
+  s.surface.count = 20;
+  s.volume_direct = DirectLight::equiangular;
+  s.direct_samples = 3;
+  EXPECT_EQ(refused(s, kEverything), "");
+  s.surface.count = 1;
+  EXPECT_EQ(refused(s, kEverything), "surface.count");
+}
+
+/// A render from code is refused before its first pass.
+TEST(Validate, StandsBeforeEveryRender) {
+  const Scene scene;
+  const std::atomic<bool> stop{true};
+  RenderSettings s;
+  s.guide.scatter = true;
+  EXPECT_THROW(render(scene, s, {Film(1, 1), {}, 0.0, {}}, stop, ProgressMode::never), SettingError);
+  EXPECT_THROW(bake_light_map(scene, s, {}, stop, ProgressMode::never), SettingError);
+}
+
+}  // namespace
+}  // namespace vpm
