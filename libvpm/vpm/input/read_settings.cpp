@@ -7,6 +7,8 @@
 namespace vpm {
 namespace {
 
+constexpr uint64_t kLargestOfToml = std::numeric_limits<int64_t>::max();
+
 int small_integer(TableReader& table, const std::string& key, uint64_t hi, int fallback) {
   return static_cast<int>(table.integer(key, 1, hi, static_cast<uint64_t>(fallback)));
 }
@@ -38,7 +40,7 @@ std::optional<SettingValue> read_value(TableReader& table, const Setting& settin
   }
   if (setting.automatic && table.says_auto(key)) return std::nullopt;
   if (const auto* integers = std::get_if<Integers>(&setting.domain))
-    return table.integer(key, integers->lo, integers->hi);
+    return table.integer(key, integers->lo, std::min(integers->hi, kLargestOfToml));
   if (const auto* numbers = std::get_if<Numbers>(&setting.domain)) return table.number(key, numbers->range);
   return table.flag(key, false);
 }

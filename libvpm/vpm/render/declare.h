@@ -13,8 +13,8 @@
 
 namespace vpm {
 
-/// The largest integer that TOML has.
-inline constexpr uint64_t kMaxInteger = std::numeric_limits<int64_t>::max();
+/// No limit to an integer. Scene files have smaller ones, by TOML.
+inline constexpr uint64_t kAnyInteger = std::numeric_limits<uint64_t>::max();
 
 /// The words of an enumeration, in the order of its enumerators.
 template <class Enum>

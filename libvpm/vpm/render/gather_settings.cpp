@@ -172,7 +172,7 @@ std::vector<Setting> declare_final_gathering() {
 Setting declare_aimed_photons() {
   return {.key = "caustics.emitted",
           .member = at<&S::caustics_emitted>(),
-          .domain = Integers{0, kMaxInteger},
+          .domain = Integers{0, kAnyInteger},
           .meaning =
               "> 0: that many photons per pass, beside the others, aimed at mirrors and glass for the caustic "
               "map of final gathering"};
