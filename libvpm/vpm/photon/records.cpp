@@ -53,7 +53,7 @@ size_t CollisionRecorder::stored() const {
 void CollisionRecorder::collided(const ArrivingPhoton& photon) {
   const Medium& medium = scene_.media[photon.state.medium];
   if (!medium.scatters() || !filter_(photon)) return;
-  const float density = photon.event.density / medium.max_density();
+  const float density = relative_density(medium, photon.event.density);
   if (form_ == VolumeForm::density_at_query && density < density_floor_) count(floored);
   photons[photon.state.medium].push_back(
       as_photon(photon, stored_power(photon.state.power, form_, density, density_floor_)));

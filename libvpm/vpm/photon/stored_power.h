@@ -21,11 +21,11 @@ inline Rgb stored_power(const Rgb& flux, VolumeForm form, float density, float f
   return form == VolumeForm::density_at_query ? flux / std::max(density, floor) : flux;
 }
 
+/// A density over the medium's largest: what the estimate with the density at the query has as a factor.
+inline float relative_density(const Medium& medium, float density) { return density / medium.max_density(); }
+
 /// What a sum of stored powers times phase function and kernel is multiplied by to be the source of radiance, W/(m^3
-/// sr): the albedo; for the density at the query this is per density at the query, a number as the medium's density()
-/// says.
-inline Rgb source_factor(const Medium& medium, VolumeForm form) {
-  return form == VolumeForm::density_at_query ? medium.albedo() / medium.max_density() : medium.albedo();
-}
+/// sr): the albedo; for the density at the query the relative density there is one more factor.
+inline Rgb source_factor(const Medium& medium) { return medium.albedo(); }
 
 }  // namespace vpm

@@ -13,17 +13,19 @@ inline Rgb beam_transmittance(const Rgb& sigma_t, float column) {
   return {exp_negative(-optical.r), exp_negative(-optical.g), exp_negative(-optical.b)};
 }
 
-/// beam_transmittance() from feet on a ray through a grid; times the density there, for the density at the query.
-void pass_grid(const ColumnsAlong& columns, const Rgb& sigma_t, VolumeForm form, std::span<const float> feet,
+/// beam_transmittance() from feet on a ray through a grid; times the relative density there, for the density at the
+/// query.
+void pass_grid(const ColumnsAlong& columns, const Medium& medium, VolumeForm form, std::span<const float> feet,
                Passed& passed) {
   float column[PhotonBatch::kMost], density[PhotonBatch::kMost];
   for (size_t i = 0; i < feet.size(); ++i) {
     const ColumnsAlong::Place place = columns.at(feet[i]);
     column[i] = static_cast<float>(place.column);
-    density[i] = form == VolumeForm::density_at_query ? static_cast<float>(place.density) : 1.0f;
+    density[i] =
+        form == VolumeForm::density_at_query ? relative_density(medium, static_cast<float>(place.density)) : 1.0f;
   }
   for (size_t i = 0; i < feet.size(); ++i) {
-    const Rgb kept = beam_transmittance(sigma_t, column[i]) * density[i];
+    const Rgb kept = beam_transmittance(medium.sigma_t, column[i]) * density[i];
     passed.r[i] = kept.r;
     passed.g[i] = kept.g;
     passed.b[i] = kept.b;
@@ -61,7 +63,7 @@ Rgb BeamRadiance::gather(const EyeSegment& segment, const Interval& near, size_t
   const Medium& medium = scene_.media[number];
   const Medium* around = segment.medium();
   const VolumeForm form = maps_.settings().form;
-  const Rgb factor = segment.throughput * source_factor(medium, form);
+  const Rgb factor = segment.throughput * source_factor(medium);
   GatherCounters& counters = work.counters.gather;
   count(work.counters.volume_queries);
   if (!around || around->homogeneous()) {  // of density 1
@@ -70,9 +72,7 @@ Rgb BeamRadiance::gather(const EyeSegment& segment, const Interval& near, size_t
     return factor * beam_sum(medium.phase, segment.ray, near, passed, maps_[number], counters);
   }
   const ColumnsAlong& columns = segment.columns(work);
-  const auto passed = [&](std::span<const float> feet, Passed& into) {
-    pass_grid(columns, around->sigma_t, form, feet, into);
-  };
+  const auto passed = [&](std::span<const float> feet, Passed& into) { pass_grid(columns, *around, form, feet, into); };
   return factor * beam_sum(medium.phase, segment.ray, near, passed, maps_[number], counters);
 }
 

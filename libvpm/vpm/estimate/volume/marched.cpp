@@ -45,8 +45,9 @@ class MarchedLight::March {
     }
     if (number == 0) return attenuate(counted_column(medium, segment_.ray, interval, work_.counters.walk));
     const glm::bvec3 matters = glm::greaterThan(throughput_ * medium.sigma_s, Rgb(0.0f));
+    const float densest = medium.max_density();  // weights are those of relative densities
     const auto add = [&](const Vec3& point, const Rgb& weight) {
-      const Rgb seen = throughput_ * weight;
+      const Rgb seen = throughput_ * (weight / densest);
       for (size_t i = 0; i < number; ++i) radiance_ += seen * asked[i]->at(segment_, point, work_);
     };
     const Marched marched =

@@ -19,7 +19,8 @@ class MarchedSource : public Estimator {
   };
   virtual ScatteredLight finds() const = 0;
   virtual Reach reach(const EyeSegment& segment) const = 0;
-  /// The source of radiance towards the eye at a point of the segment, over the density there, W/(m^3 sr).
+  /// The source of radiance towards the eye at a point of the segment, over the relative density there (see
+  /// relative_density()), W/(m^3 sr).
   virtual Rgb at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const = 0;
 };
 

@@ -20,7 +20,7 @@ Rgb PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) const {
     const Interval near = clip(segment.ray, segment.interval, map.bounds(), map.settings.radius);
     if (map.size() == 0 || near.empty()) continue;
     const Medium& medium = scene_.media[m];
-    const Rgb factor = segment.throughput * source_factor(medium, VolumeForm::density_at_photon);
+    const Rgb factor = segment.throughput * source_factor(medium);
     const auto add = [&](const Vec3& point, const Rgb& weight) {
       count(work.counters.volume_queries);
       radiance += factor * weight *

@@ -25,7 +25,7 @@ Rgb PointsAtQuery::at(const EyeSegment& segment, const Vec3& point, EyeWork& wor
   const Medium& medium = *segment.medium();
   const PhotonMap& map = maps_[segment.number];
   const Vec3 towards_eye = -segment.ray.direction;
-  const Rgb factor = source_factor(medium, VolumeForm::density_at_query);
+  const Rgb factor = source_factor(medium);
   count(work.counters.volume_queries);
   if (map.settings.boundary == BoundaryRule::none)
     return factor * volume_sum(medium.phase, point, towards_eye, CountedMap{map, work.counters.gather});

@@ -15,7 +15,8 @@ class SingleMarched final : public MarchedSource {
   /// Everywhere, in steps of optical thickness alone.
   Reach reach(const EyeSegment& segment) const override { return {segment.interval}; }
   Rgb at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const override {
-    return segment.medium()->sigma_s * light_.towards_eye(light_.pick(work.rng), segment, point, work);
+    const Medium& medium = *segment.medium();
+    return medium.sigma_s * medium.max_density() * light_.towards_eye(light_.pick(work.rng), segment, point, work);
   }
 
  private:
