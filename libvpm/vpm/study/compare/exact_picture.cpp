@@ -28,8 +28,7 @@ void check(const Scene& scene) {
   if (!fog.homogeneous()) refuse("its medium is a grid");
   if (!std::holds_alternative<Isotropic>(fog.phase)) refuse("its medium does not scatter isotropically");
   if (scene.camera_medium != kVacuum) refuse("its camera stands in the medium");
-  if (scene.lights.size() != 1 || !even_radiance(scene.lights[0]))
-    refuse("its light is no constant environment");
+  if (scene.lights.size() != 1 || !even_radiance(scene.lights[0])) refuse("its light is no constant environment");
 }
 
 /// The ball's image in one channel, over the environment's radiance.
