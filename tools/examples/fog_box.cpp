@@ -1,0 +1,47 @@
+// A scene built in code: a box of fog on a floor, with a lamp above it, rendered to an EXR file: fog_box FILE.exr
+#include <atomic>
+#include <cstdio>
+
+#include "vpm/base/error.h"
+#include "vpm/image/exr.h"
+#include "vpm/render/render.h"
+#include "vpm/scene/build.h"
+
+namespace {
+
+vpm::Scene fog_in_a_box() {
+  vpm::Scene scene;
+  vpm::Medium fog;
+  fog.sigma_t = vpm::Rgb(1.0f);  // 1/m
+  fog.sigma_s = vpm::Rgb(0.9f);
+  fog.phase = vpm::HenyeyGreenstein{0.5f};
+  scene.media.push_back(fog);
+
+  const vpm::Interface fog_inside{0, vpm::kVacuum};
+  add_shape(scene, vpm::box_mesh({-1.0, 0.01, -1.0}, {1.0, 2.01, 1.0}), vpm::Boundary{}, &fog_inside);
+  add_shape(scene, vpm::quad_mesh({-4.0, 0.0, 4.0}, {8.0, 0.0, 0.0}, {0.0, 0.0, -8.0}),
+            vpm::Lambertian{vpm::Rgb(0.6f, 0.5f, 0.4f)});
+  scene.geometry.commit();
+  scene.lights.push_back(vpm::PointLight{vpm::Vec3(0.5f, 4.0f, 1.0f), vpm::Rgb(30.0f)});  // m, W/sr
+  scene.camera = vpm::make_camera({1.0f, 2.5f, 6.0f}, {0.0f, 0.8f, 0.0f}, {0.0f, 1.0f, 0.0f}, 40.0f, 96, 72, {});
+  finish(scene);
+  return scene;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  if (count != 2) throw vpm::InputError("usage: fog_box FILE.exr");
+  const vpm::Scene scene = fog_in_a_box();
+  vpm::RenderSettings settings;
+  settings.passes = 4;
+  settings.photons_emitted = 50'000;                        // per pass
+  settings.volume.radius = settings.surface.radius = 0.1f;  // m, of the first pass
+  const std::atomic<bool> stop{false};
+  const vpm::RenderResult result =
+      render(scene, settings, vpm::nothing_rendered(scene.camera), stop, vpm::ProgressMode::automatic);
+  vpm::write_exr(arguments[1], result.film.mean(), {}, {});
+} catch (const vpm::InputError& error) {
+  std::fprintf(stderr, "fog_box: %s\n", error.what());
+  return 2;
+}
