@@ -1,0 +1,231 @@
+"""The pictures that tools/compare_programs compares: what is rendered, and how. The scenes' contents have a file of their own."""
+import collections
+import itertools
+import pathlib
+import re
+import subprocess
+import tomllib
+
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
+
+# A picture to be made: `arguments` follow the name of the program. `may_refuse` is true of combinations, of which some are not allowed. Of
+# any other case a refusal by both programs would mean that it compares nothing.
+Case = collections.namedtuple("Case", "group name arguments may_refuse")
+
+# What vpm makes for the scenes: the key that names it, and the file.
+MADE = {"smoke": ("media.smoke.path", "smoke.vdb"), "cloud": ("media.cloud.path", "cloud.vdb"),
+        "ring_caustic": ("shapes.ring.path", "ring.ply"), "pool": ("shapes.water.path", "waves.ply")}
+
+# Radii so wide that maps of a thousand photons have some within them.
+WIDE = {"fog_room": "volume.radius=0.3 surface.radius=0.3",
+        "glass_caustic": "volume.radius=0.3 surface.radius=0.2 caustics.radius=0.2",
+        "smoke": "volume.radius=0.08 surface.radius=0.2"}
+
+
+def make_files(program, folder):
+    """Lets a program make small grids, meshes and a picture for the scenes to name, in a folder. Throws RuntimeError where it fails."""
+    def make(*arguments):
+        done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise RuntimeError(f"{program} {' '.join(arguments)}: {done.stderr.strip()}")
+    for name in ("smoke", "cloud"):
+        make("media", name, "--resolution", "32", "-o", f"{name}.vdb")
+    make("mesh", "ring", "--resolution", "64", "-o", "ring.ply")
+    make("mesh", "waves", "--resolution", "32", "-o", "waves.ply")
+    # A sky, and as its radiance is below 1 in spite of noise, a texture too.
+    make("render", str(SCENES / "fog_ball.toml"), "-o", "sky.exr", "--passes", "1", "--progress", "never",
+         "--set", "film.width=16", "--set", "film.height=8", "--set", "render.integrator=path",
+         "--set", "lights.sky.radiance=[0.1,0.15,0.2]")
+    (folder / "square.obj").write_text("v -0.4 0.8 0\nv 0.4 0.8 0\nv 0.4 1.4 0.1\nv -0.4 1.4 0.1\n"
+                                       "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
+
+
+def scene_names():
+    return [file.stem for file in sorted(SCENES.glob("*.toml"))]
+
+
+def is_complete(scene):
+    """Whether there are all files that a scene names, or vpm makes them."""
+    tables = tomllib.loads((SCENES / f"{scene}.toml").read_text())
+    parts = [*tables.get("media", {}).values(), *tables.get("shapes", [])]
+    return scene in MADE or all((SCENES / part["path"]).exists() for part in parts if "path" in part)
+
+
+def choices(key, *values):
+    """The texts key=value."""
+    return [f"{key}={value}" for value in values]
+
+
+class Cases:
+    """Collects cases, most of which are a scene and values for --set."""
+
+    def __init__(self, folder):
+        self.folder = folder  # of the files that were made
+        self.all = []
+
+    def add(self, group, scene, sets=(), *, options=(), passes=2, size=16, emitted=1500, bake="", may_refuse=False):
+        """Adds a picture, or with `bake` the light map of that shape: values for --set, in one text where none has blanks, and other options."""
+        sets = sets.split() if isinstance(sets, str) else list(sets)
+        changes = [f"photons.emitted={emitted}"] if not any(change.startswith("photons.") for change in sets) else []
+        if scene in MADE:
+            changes.append(f"{MADE[scene][0]}={self.folder / MADE[scene][1]}")
+        file = str(SCENES / f"{scene}.toml")
+        if bake:
+            arguments = ["bake", file, "--mesh", bake, "--resolution", str(size)]
+        else:
+            arguments = ["render", file]
+            changes += [f"film.width={size}", f"film.height={size}"]
+        for change in [*changes, *sets]:
+            arguments += ["--set", change]
+        if passes > 0:
+            arguments += ["--passes", str(passes)]
+        name = " ".join([scene, *([f"--mesh {bake}"] if bake else []), *sets, *options])
+        for folder in (self.folder, SCENES):
+            name = name.replace(f"{folder}/", "")
+        self.all.append(Case(group, name, [*arguments, *options], may_refuse))
+
+    def combine(self, group, scene, base, *lists, **more):
+        """Adds all combinations of one text of each list, beside a base."""
+        for combination in itertools.product(*lists):
+            self.add(group, scene, " ".join([base, *combination]), may_refuse=True, **more)
+
+
+def add_scenes(cases):
+    """Every scene whose files there are, by photons and by paths."""
+    for scene in filter(is_complete, scene_names()):
+        for integrator in ("photon", "path"):
+            few = " importance.importons=2000" if scene == "keyhole_fog" else ""
+            cases.add("scenes", scene, f"render.integrator={integrator}{few}", size=32, emitted=5000)
+
+
+def add_gathers(cases):
+    """All ways to gather from maps of media, and all from those of surfaces."""
+    radii = choices("render.radii", "per-pass", "per-pixel", "constant")
+    boundary = ("none", "corrected")
+    volume = [["volume.gather=radius", "volume.gather=nearest volume.count=20", "volume.gather=beam",
+               "volume.gather=beam volume.count=10"],
+              choices("volume.form", "density-at-query", "density-at-photon"), choices("volume.boundary", *boundary),
+              choices("volume.direct", "photons", "shadow-rays", "equiangular"), radii]
+    light = [*choices("surface.method", "visualise", "progressive", "final-gather"),
+             "surface.direct=photons surface.indirect=final-gather",
+             "surface.direct=shadow-rays surface.indirect=photons"]
+    surface = [["surface.gather=radius", "surface.gather=nearest surface.count=20"],
+               choices("surface.boundary", *boundary), light, choices("surface.gather_by", "material", "photons"),
+               choices("surface.irradiance", "estimate", "precomputed"), radii]
+    for scene, wide in WIDE.items():
+        cases.combine("volume", scene, wide, *volume, emitted=1000, size=12)
+        cases.combine("surface", scene, f"{wide} surface.gather_rays=2", *surface, emitted=1000, size=12)
+
+
+def add_importance(cases):
+    """All ways to use importance, and none."""
+    ways = [choices(f"importance.{way}", "true", "false") for way in ("aim", "split", "scatter")]
+    importons = choices("importance.importons", 0, 500)
+    for scene, wide in {**WIDE, "keyhole_fog": "volume.radius=1 surface.radius=1", "cornell": ""}.items():
+        cases.combine("importance", scene, wide, importons, *ways, emitted=500)
+
+
+def add_flights(cases):
+    """All distance strategies and transmittance estimators."""
+    strategies = ["regular", "homogeneous", "local-extinction", "local-extinction distance.extinction_floor=0.5",
+                  "mean-extinction", "ray-march", "ray-march distance.step=0.3", "ray-march-adaptive",
+                  "ray-march-adaptive distance.step=0.5 distance.optical_step=0.03", "delta", "delta-local",
+                  "progressive-null", "progressive-null distance.majorant=0.6", "weighted",
+                  "weighted distance.majorant=0.6", "decomposition", "auto"]
+    estimators = ["regular", "ratio", "ratio-local", "residual-ratio", "unbiased-ray-march",
+                  "unbiased-ray-march transmittance.samples=3", "ray-march", "ray-march transmittance.step=0.3",
+                  "jackknife", "jackknife transmittance.step=0.3"]
+    shadow_rays = ["volume.direct=shadow-rays", "volume.direct=equiangular volume.direct_samples=3",
+                   "surface.method=final-gather", "volume.gather=beam volume.direct=shadow-rays",
+                   "render.integrator=path"]
+    for scene, wide in {**WIDE, "fog_ball": "", "cloud": "volume.radius=60"}.items():
+        cases.combine("distance", scene, wide, choices("render.integrator", "photon", "path"),
+                      choices("distance.strategy", *strategies))
+        cases.combine("transmittance", scene, wide, choices("transmittance.estimator", *estimators), shadow_rays)
+
+
+def add_settings(cases):
+    """Every key and word about how to render that no combination uses."""
+    kernels = ("constant", "cone", "epanechnikov", "biweight", "triweight")
+    fog = [*choices("volume.gather=radius volume.kernel", *kernels), *choices("volume.gather=beam volume.kernel", *kernels),
+           *choices("surface.kernel", *kernels), "render.samples_per_pixel=3", "render.seed=77", "render.max_events=3",
+           "render.max_optical_step=0.05", "photons.stored=800", "photons.emitted=900 photons.in_cube=2",
+           "photons.emitted=900 photons.in_cube=1 volume.gather=radius", "film.filter=tent",
+           "film.filter=gaussian film.filter_radius=2.5", "film.filter=box film.filter_radius=1",
+           "surface.gather=nearest surface.count=7", "render.passes=3", "camera.medium=fog", "camera.up=[1,1,0]"]
+    for sets in fog:
+        cases.add("settings", "fog_room", f"{WIDE['fog_room']} {sets}", passes=0 if "render.passes" in sets else 2)
+    gathers = [*choices("caustics.kernel", *kernels), "surface.gather_rays=5", "caustics.gather=radius",
+               "caustics.gather=nearest caustics.count=9", "caustics.emitted=700", "caustics.radius=auto",
+               "surface.boundary=corrected caustics.emitted=300"]
+    for scene, sets in itertools.product(("cornell", "glass_caustic"), gathers):
+        cases.add("settings", scene, f"surface.method=final-gather surface.radius=0.2 {sets}")
+    for scene in ("fog_room", "smoke", "cornell"):
+        for sets in ("volume.radius=auto", "surface.radius=auto", "distance.strategy=auto"):
+            cases.add("settings", scene, sets)
+        for options in (["--seed", "5"], ["--auto"]):
+            cases.add("settings", scene, options=options)
+        cases.add("settings", scene, "render.error=0.3", passes=0)
+    for scene in ("smoke", "cloud"):
+        for sets in ("volume.density_floor=0.3", "volume.density_floor=0", "render.max_optical_step=0.1"):
+            cases.add("settings", scene, sets)
+
+
+def add_light_maps(cases):
+    """Light maps of quads, and of a mesh."""
+    gather = "surface.method=final-gather"
+    ways = ["surface.method=visualise", "surface.gather=nearest", "surface.boundary=corrected", gather,
+            f"{gather} surface.gather_by=photons", f"{gather} surface.irradiance=precomputed",
+            f"{gather} caustics.emitted=500", "importance.importons=0", "importance.scatter=true",
+            "render.radii=constant", "render.radii=per-pixel", "render.samples_per_pixel=3", "render.integrator=path",
+            "volume.direct=equiangular", "transmittance.estimator=ratio", "distance.strategy=delta"]
+    for scene in ("cornell", "keyhole_fog", "smoke"):
+        cases.combine("light maps", scene, "importance.importons=200 surface.radius=0.3", ways, bake="floor")
+    cases.add("light maps", "ring_caustic", ['materials.gold={type="lambertian",reflectance=0.5}'], bake="ring")
+
+
+def add_own(cases):
+    """What one program must make alike on one thread and on two, and interrupted or not."""
+    gather = "surface.method=final-gather surface.radius=0.2"
+    ways = [("fog_room", "render.integrator=path"), ("smoke", "render.integrator=path distance.strategy=weighted"),
+            ("fog_room", "render.radii=per-pixel"), ("cornell", "render.radii=per-pixel"),
+            ("fog_room", "render.radii=constant film.filter=gaussian"),
+            ("smoke", "distance.strategy=progressive-null volume.gather=beam volume.count=20"),
+            ("smoke", "distance.strategy=decomposition"), ("smoke", "photons.stored=9000"),
+            ("smoke", "volume.direct=shadow-rays transmittance.estimator=ratio"),
+            ("glass_caustic", f"{gather} caustics.emitted=5000"), ("cornell", f"{gather} surface.gather_by=photons"),
+            ("cornell", f"{gather} surface.irradiance=precomputed"),
+            ("fog_room", "importance.importons=5000 importance.scatter=true"),
+            ("fog_room", "photons.emitted=10000 photons.in_cube=3"), ("fog_room", "volume.direct=equiangular"),
+            ("fog_box", "volume.boundary=corrected surface.boundary=corrected")]
+    scenes = [(scene, "importance.importons=5000" if scene == "keyhole_fog" else "") for scene in scene_names()]
+    for scene, sets in [*scenes, *ways]:
+        # Work is cut into tiles of 16 pixels and chunks of 4096 photons: there must be several of each.
+        if is_complete(scene):
+            cases.add("AFTER alone", scene, sets, passes=0, size=40, emitted=10000)
+
+
+# What makes another picture each time, as it depends on how long renders take. `emitted` is "auto" in no other case.
+TIMED = ("render.seconds", '"auto" of `emitted`')
+
+
+def unused_words(cases):
+    """Keys of the tables of settings in scenes/README.md that no case sets, and words that no key of their section is given.
+
+    A list of cases says nothing of what it leaves out, such as a setting that came later; so this is read from the page.
+    """
+    given = {change for case in cases for flag, change in zip(case.arguments, case.arguments[1:]) if flag == "--set"}
+    given = {word for change in given for word in [change, change.partition("=")[0]]}
+    page = (SCENES / "README.md").read_text().partition("\n## How to render")[2].partition("\n## ")[0]
+    sections, unused = [], []
+    for cells in (re.split(r"(?<!\\)\|", line)[1:-1] for line in page.splitlines() if line.startswith("|")):
+        if len(cells) != 4:
+            continue
+        sections = re.findall(r"`\[(\w+)\]`", cells[0]) or sections
+        for section, key in itertools.product(sections, re.findall(r"`(\w+)`", cells[1])):
+            if f"{section}.{key}" not in given:
+                unused.append(f"{section}.{key}")
+        for word in re.findall(r'`"([\w-]+)"`', cells[2]):
+            if not any(change.startswith(tuple(f"{section}." for section in sections)) and change.endswith(f"={word}") for change in given):
+                unused.append(f'"{word}" of {cells[1].strip()}')
+    return [name for name in unused if name not in TIMED]

@@ -1,0 +1,103 @@
+"""How far two pictures are apart: the channels of EXR files as vpm writes them, and the largest difference between those of two."""
+import array
+import itertools
+import math
+import struct
+import sys
+import zlib
+
+
+def undo_zip(packed, size):
+    """The bytes of a block that OpenEXR compressed by ZIP: zlib's bytes are differences, of the even bytes and then of the odd ones."""
+    if len(packed) == size:  # a block that compression would have made longer is stored as it is
+        return packed
+    summed = bytes(itertools.accumulate(zlib.decompress(packed), lambda last, step: (last + step - 128) & 255))
+    half = (size + 1) // 2
+    block = bytearray(size)
+    block[0::2], block[1::2] = summed[:half], summed[half:]
+    return bytes(block)
+
+
+def read_header(data):
+    """The attributes of a file of one part, and where its table of offsets begins."""
+    if data[:4] != b"v/1\x01" or data[5] != 0:
+        raise ValueError("it is no EXR picture of one part")
+    at, header = 8, {}
+    while data[at] != 0:
+        name_end = data.index(0, at)
+        type_end = data.index(0, name_end + 1)
+        (size,) = struct.unpack_from("<i", data, type_end + 1)
+        header[data[at:name_end].decode()] = data[type_end + 5 : type_end + 5 + size]
+        at = type_end + 5 + size
+    return header, at + 1
+
+
+def channel_names(channels):
+    """The names in the attribute of that name, in the order in which a row holds them."""
+    names = []
+    while channels[0] != 0:
+        name, _, channels = channels.partition(b"\0")
+        if struct.unpack_from("<i", channels) != (2,):
+            raise ValueError(f"channel {name.decode()} is not of floats")
+        names.append(name.decode())
+        channels = channels[16:]
+    return names
+
+
+def read_exr(file):
+    """The width and height of a picture, and the bytes of each of its channels.
+
+    Python's own library reads no EXR, and `vpm error` would look at red, green and blue alone. Throws ValueError, or what reading past
+    the end throws, where the file is not one that vpm wrote.
+    """
+    data = file.read_bytes()
+    header, table = read_header(data)
+    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    names = channel_names(header["channels"])
+    if header["compression"] != b"\x03":
+        raise ValueError("it is not compressed by ZIP")
+    channels = {name: bytearray() for name in names}
+    rows_at_once, row = 16, 4 * width
+    for offset in struct.unpack_from(f"<{-(-height // rows_at_once)}Q", data, table):
+        y, size = struct.unpack_from("<2i", data, offset)
+        rows = min(rows_at_once, bottom + 1 - y)
+        block = undo_zip(data[offset + 8 : offset + 8 + size], rows * row * len(names))
+        for i in range(rows * len(names)):
+            channels[names[i % len(names)]] += block[i * row : (i + 1) * row]
+    return (width, height), {name: bytes(values) for name, values in channels.items()}
+
+
+def floats(values):
+    """The numbers of a channel, which are little-endian in the file."""
+    numbers = array.array("f", values)
+    if sys.byteorder == "big":
+        numbers.byteswap()
+    return numbers
+
+
+def channel_difference(before, after):
+    """The largest difference of two channels of one size, infinite where none can be told.
+
+    It is relative to the mean magnitude of the first channel or, where that is more, to the pixel's: the last bit of a pixel that is a thousand
+    times as bright as the mean is no fault, nor is any noise in one that should be black.
+    """
+    if before == after:
+        return 0.0
+    before, after = floats(before), floats(after)
+    mean = math.fsum(map(abs, before)) / len(before)
+    largest = 0.0
+    for a, b in zip(before, after):
+        if a != b:
+            scale = max(mean, abs(a))
+            apart = abs(a - b) / scale if scale > 0 else math.inf
+            largest = max(largest, apart if math.isfinite(apart) else math.inf)
+    return largest
+
+
+def picture_difference(before, after):
+    """The largest difference of any channel of two pictures, and which channel that is."""
+    (size, channels), (other_size, other_channels) = before, after
+    if size != other_size or channels.keys() != other_channels.keys():
+        return math.inf, f"{size} of {' '.join(channels)}, and {other_size} of {' '.join(other_channels)}"
+    return max((channel_difference(values, other_channels[name]), name) for name, values in channels.items())
