@@ -1,17 +1,19 @@
 // What stands in a checkpoint between its first lines and its checksum, made a checkpoint again.
 #pragma once
 
+#include <fmt/format.h>
 #include <string>
 #include <string_view>
 
 #include "vpm/base/fnv.h"
+#include "vpm/input/checkpoint.h"
 
 namespace vpm {
 
 inline constexpr const char* kFuzzIdentity = "fuzz";  // of the render
 
 inline std::string whole_checkpoint(std::string_view body) {
-  std::string whole = std::string("vpm checkpoint of a render\n") + kFuzzIdentity + "\n";
+  std::string whole = fmt::format("vpm checkpoint of a render\nformat {}\n{}\n", kCheckpointFormat, kFuzzIdentity);
   whole.append(body);
   Fnv1a hash;
   hash.add(std::string_view(whole));

@@ -63,7 +63,7 @@ void write_outputs(const Outputs& outputs, const BakeOptions& options, const Loa
   const Film& film = result.film;
   const Image map = dilated(film.mean(), layout, kDilation);
   const Image coverage = grey_image(layout, layout.coverage);
-  const Image variance = film.passes() > 1 ? film.variance_of_mean() : Image();
+  const Image variance = film.passes() > 1 ? result.errors->variance : Image();
   std::vector<ExrLayer> layers{{"coverage", coverage}};
   if (film.passes() > 1) layers.push_back({"variance", variance});
   Metadata metadata = provenance(options, loaded, film);

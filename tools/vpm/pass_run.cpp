@@ -74,7 +74,7 @@ void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, con
                    const LoadedScene& loaded) {
   constexpr uint64_t kReportBytes = 1 << 16;
   const bool discs = loaded.settings.radii == RadiusSchedule::per_pixel && scattering_of(loaded.scene).surfaces;
-  const uint64_t pixel = 6 * sizeof(Rgbd) + (discs ? sizeof(PixelDisc) : 0);
+  const uint64_t pixel = Film::kBytesOfPixel + (discs ? sizeof(PixelDisc) : 0);
   const uint64_t film = checkpoint ? 2 * pixels * pixel : 0;                      // the checkpoint, and its successor
   const uint64_t bytes = pixels * (9 * sizeof(float) + 3) + film + kReportBytes;  // of all, which share a folder
   std::vector<fs::path> written{outputs.exr, outputs.png, outputs.json};

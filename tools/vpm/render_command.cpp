@@ -39,10 +39,9 @@ void write_outputs(const Outputs& outputs, const RenderOptions& options, const L
       "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as "
       "the passes show it");
   if (result.film.shows_bias()) {
-    const FilmErrors errors = result.film.errors();
-    write_exr(outputs.exr, mean, {{"variance", errors.variance}, {"bias", errors.bias}}, metadata);
+    write_exr(outputs.exr, mean, {{"variance", result.errors->variance}, {"bias", result.errors->bias}}, metadata);
   } else if (result.film.passes() > 1) {
-    write_exr(outputs.exr, mean, {{"variance", result.film.variance_of_mean()}}, metadata);
+    write_exr(outputs.exr, mean, {{"variance", result.errors->variance}}, metadata);
   } else {
     write_exr(outputs.exr, mean, {}, metadata);
   }
@@ -96,13 +95,13 @@ std::vector<Choice> choose(const RenderOptions& options, const Outputs& outputs,
 }
 
 /// The error that the passes are estimated to have, as far as they tell.
-std::string error_text(const LoadedScene& loaded, const Film& film) {
-  if (film.passes() < kLeastPasses) return "";
-  const FilmErrors errors = film.errors();
+std::string error_text(const LoadedScene& loaded, const RenderResult& result) {
+  if (result.film.passes() < kLeastPasses) return "";
+  const FilmErrors& errors = *result.errors;
   const std::vector<std::string> unseen = maps_of_unseen_bias(loaded.scene, loaded.settings);
   return fmt::format(
-      "; estimated relative MSE {:.2g} (variance {:.2g}, {}{})", estimated_error(film), errors.variance_part,
-      film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen",
+      "; estimated relative MSE {:.2g} (variance {:.2g}, {}{})", estimated_error(result), errors.variance_part,
+      result.film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen",
       unseen.empty()
           ? ""
           : fmt::format("; not seen: that of [{}], whose radii are not those of passes", fmt::join(unseen, "], [")));
@@ -147,7 +146,7 @@ int render_command(const RenderOptions& options) {
   if (log) log->finish(result);
   write_outputs(outputs, options, loaded, result);
   fmt::print("{}: {} passes in {:.1f} s{}; preview {}, report {}\n", outputs.exr.string(), result.film.passes(),
-             result.seconds, error_text(loaded, result.film), outputs.png.string(), outputs.json.string());
+             result.seconds, error_text(loaded, result), outputs.png.string(), outputs.json.string());
   return stop ? kInterrupted : 0;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "vpm/base/counters.h"
 #include "vpm/photon/kernel.h"
 #include "vpm/photon/photon.h"
 
@@ -37,13 +38,14 @@ struct GatherCounters {
   uint64_t corrected = 0;     // estimates at borders divided by a share of less than 1
   uint64_t least_shares = 0;  // of these, divided by kLeastShare in the place of less
 
-  void merge(const GatherCounters& other) {
-    searches += other.searches;
-    visited += other.visited;
-    used += other.used;
-    corrected += other.corrected;
-    least_shares += other.least_shares;
+  static constexpr auto counters() {
+    using G = GatherCounters;
+    return std::tuple{Counter{"map_searches", &G::searches}, Counter{"photons_visited", &G::visited},
+                      Counter{"photons_used", &G::used}, Counter{"boundary_corrections", &G::corrected},
+                      Counter{"boundary_least_shares", &G::least_shares}};
   }
+  void merge(const GatherCounters& other) { merge_counters(*this, other); }
 };
+static_assert(lists_every_member<GatherCounters>());
 
 }  // namespace vpm

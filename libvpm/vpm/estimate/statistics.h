@@ -22,12 +22,29 @@ struct EyeCounters {
   GatherCounters gather;
   WalkCounters walk;
 
-  void merge(const EyeCounters& other);
+  static constexpr auto counters() {
+    using E = EyeCounters;
+    return std::tuple{Counter{"camera_rays", &E::rays},
+                      Counter{"marching_steps", &E::steps},
+                      Counter{"volume_queries", &E::volume_queries},
+                      Counter{"surface_queries", &E::surface_queries},
+                      Counter{"shadow_rays", &E::shadow_rays},
+                      Counter{"gather_rays", &E::gather_rays},
+                      Counter{"irradiance_lookups", &E::irradiance_lookups},
+                      Counter{"irradiance_misses", &E::irradiance_misses},
+                      Counter{"paths_cut_at_max_events", &E::cut_paths},
+                      Counter{"dropped_non_finite", &E::non_finite},
+                      Counter{"weights", &E::weights},
+                      Counter{"", &E::gather},
+                      Counter{"", &E::walk}};
+  }
+  void merge(const EyeCounters& other) { merge_counters(*this, other); }
 };
+static_assert(lists_every_member<EyeCounters>());
 
 /// Sums over passes, but for what says otherwise.
 struct RenderStatistics {
-  int passes = 0;
+  int64_t passes = 0;
   double guide_seconds = 0.0, trace_seconds = 0.0, build_seconds = 0.0, eye_seconds = 0.0;  // wall clock
   Ledger ledger;
   uint64_t volume_photons = 0, surface_photons = 0, caustic_photons = 0;  // stored
@@ -37,7 +54,29 @@ struct RenderStatistics {
   float last_volume_radius = 0.0f, last_surface_radius = 0.0f;  // m; of the last pass, the largest over media, pixels
   EyeCounters eye;
 
-  void merge(const RenderStatistics& pass);
+  static constexpr auto counters() {
+    using S = RenderStatistics;
+    return std::tuple{Counter{"passes", &S::passes},
+                      Counter{"times.importance", &S::guide_seconds},
+                      Counter{"times.photon_tracing", &S::trace_seconds},
+                      Counter{"times.map_building", &S::build_seconds},
+                      Counter{"times.eye_pass", &S::eye_seconds},
+                      Counter{"", &S::ledger},
+                      Counter{"photons.stored_volume", &S::volume_photons},
+                      Counter{"photons.stored_surface", &S::surface_photons},
+                      Counter{"photons.stored_caustic", &S::caustic_photons},
+                      Counter{"photons.stored_to_guide_gathering", &S::guiding_photons},
+                      Counter{"photons.irradiance_points", &S::irradiance_points},
+                      Counter{"photons.merged", &S::merged_photons},
+                      Counter{"memory.largest_photon_maps", &S::photon_map_bytes, CountRule::largest},
+                      Counter{"memory.importance", &S::guide_bytes, CountRule::largest},
+                      Counter{"eye.last_volume_radius_m", &S::last_volume_radius, CountRule::last},
+                      Counter{"eye.last_surface_radius_m", &S::last_surface_radius, CountRule::last},
+                      Counter{"eye", &S::eye}};
+  }
+  /// Adds a further pass.
+  void merge(const RenderStatistics& pass) { merge_counters(*this, pass); }
 };
+static_assert(lists_every_member<RenderStatistics>());
 
 }  // namespace vpm

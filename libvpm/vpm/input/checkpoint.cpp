@@ -1,4 +1,4 @@
-// The file: a line of its own kind, the line of identity, numbers as they stand in memory, and the checksum of all.
+// The file: a line of its own kind, that of its format, that of identity, named fields, and the checksum of all.
 #include "vpm/input/checkpoint.h"
 
 #include <fmt/format.h>
@@ -9,70 +9,25 @@
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
+#include "vpm/input/named_fields.h"
 
 namespace vpm {
+
+template <>
+inline constexpr std::string_view kFieldType<Rgbd> = "rgb64";
+template <>
+inline constexpr std::string_view kFieldType<Moments> = "moments";
+template <>
+inline constexpr std::string_view kFieldType<WeightMoments> = "weights";
+template <>
+inline constexpr std::string_view kFieldType<PassRange> = "range";
+template <>
+inline constexpr std::string_view kFieldType<PixelDisc> = "disc";
+
 namespace {
 
 constexpr const char* kKind = "vpm checkpoint of a render";
 constexpr size_t kChecksum = 16;  // characters at the end
-
-// Each number of a structure by itself: between them may stand bytes of no meaning. A structure that gains a number
-// does not compile here until that is named.
-void each_number(WalkCounters& counters, auto&& use) {
-  auto& [lookups, bricks, nulls, violations, crossings, mismatches] = counters;
-  use(lookups, bricks, nulls, violations, crossings, mismatches);
-}
-void each_number(WeightMoments& weights, auto&& use) {
-  auto& [sum, squares, largest] = weights;
-  use(sum, squares, largest);
-}
-void each_number(Ledger& ledger, auto&& use) {
-  auto& [emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, weights, collisions,
-         surface_hits, floored, non_finite, walk] = ledger;
-  use(emitted_count, emitted, in_media, on_surfaces, escaped, cut, cut_count, imbalance, collisions, surface_hits,
-      floored, non_finite);
-  each_number(weights, use);
-  each_number(walk, use);
-}
-void each_number(EyeCounters& eye, auto&& use) {
-  auto& [rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
-         weights, gather, walk] = eye;
-  auto& [searches, visited, used, corrected, least_shares] = gather;
-  use(rays, steps, volume_queries, surface_queries, shadow_rays, gather_rays, lookups, misses, cut_paths, non_finite,
-      searches, visited, used, corrected, least_shares);
-  each_number(weights, use);
-  each_number(walk, use);
-}
-void each_number(RenderStatistics& statistics, auto&& use) {
-  auto& [passes, guide, trace, build, eye_pass, ledger, volume, surface, caustic, guiding, points, merged, bytes,
-         guide_bytes, volume_radius, surface_radius, eye] = statistics;
-  use(passes, guide, trace, build, eye_pass, volume, surface, caustic, guiding, points, merged, bytes, guide_bytes,
-      volume_radius, surface_radius);
-  each_number(ledger, use);
-  each_number(eye, use);
-}
-
-/// What stands before the film's pixels. The program's version is part of the identity, so the layout is its own.
-struct Numbers {
-  struct Half {
-    int passes = 0;
-    double mean_size = 0.0, size_squares = 0.0;
-  };
-  int width = 0, height = 0;
-  Half halves[2];
-  double seconds = 0.0;
-  uint64_t discs = 0;  // of pixels: as many as these, or none
-  RenderStatistics statistics;
-
-  size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
-  size_t bytes_of_pixel() const { return 6 * sizeof(Rgbd) + (discs > 0 ? sizeof(PixelDisc) : 0); }
-};
-void each_number(Numbers& numbers, auto&& use) {
-  use(numbers.width, numbers.height, numbers.seconds);
-  for (auto& [passes, mean_size, size_squares] : numbers.halves) use(passes, mean_size, size_squares);
-  use(numbers.discs);
-  each_number(numbers.statistics, use);
-}
 
 std::string checksum(std::string_view bytes) {
   Fnv1a hash;
@@ -80,48 +35,8 @@ std::string checksum(std::string_view bytes) {
   return hash.digits();
 }
 
-template <class T>
-void append(std::string& bytes, const std::vector<T>& values) {
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
-
-/// Takes bytes off the front.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : left_(bytes) {}
-  size_t left() const { return left_.size(); }
-  void read(void* data, size_t size) {
-    assert(size <= left());
-    std::copy_n(left_.data(), size, static_cast<char*>(data));
-    left_.remove_prefix(size);
-  }
-  template <class T>
-  std::vector<T> values(size_t count) {
-    std::vector<T> all(count);
-    read(all.data(), count * sizeof(T));
-    return all;
-  }
-
- private:
-  std::string_view left_;
-};
-
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
   throw InputError(fmt::format("cannot resume from '{}': {}", path.string(), why));
-}
-
-/// Numbers that a film can have been written with.
-Numbers read_numbers(const std::filesystem::path& path, Reader& reader) {
-  Numbers numbers;
-  bool whole = true;
-  each_number(numbers, [&](auto&... number) {
-    ((whole = whole && sizeof number <= reader.left(), whole ? reader.read(&number, sizeof number) : void()), ...);
-  });
-  if (!whole || numbers.width < 1 || numbers.height < 1 || numbers.halves[0].passes < 0 ||
-      numbers.halves[1].passes < 0 || (numbers.discs > 0 && numbers.discs != numbers.pixels()) ||
-      reader.left() / numbers.bytes_of_pixel() != numbers.pixels() || reader.left() % numbers.bytes_of_pixel() != 0)
-    refuse(path, "its numbers are none that a render writes");
-  return numbers;
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -132,60 +47,144 @@ std::string text_of(const std::filesystem::path& path) {
   return std::move(text).str();
 }
 
-/// The second line.
-std::string identity_in(const std::filesystem::path& path, const std::string& bytes) {
-  const size_t kind = bytes.find('\n'), end = kind == std::string::npos ? kind : bytes.find('\n', kind + 1);
-  if (end == std::string::npos || bytes.substr(0, kind) != kKind) refuse(path, "it is no checkpoint");
-  return bytes.substr(kind + 1, end - kind - 1);
+/// The next line, taken off the front; false where it has no end.
+bool take_line(std::string_view& bytes, std::string_view& line) {
+  const size_t end = bytes.find('\n');
+  if (end == std::string_view::npos) return false;
+  line = bytes.substr(0, end);
+  bytes.remove_prefix(end + 1);
+  return true;
+}
+
+struct Parts {
+  std::string_view identity, rest;  // fields and checksum
+};
+/// Checks kind and format.
+Parts parts_of(const std::filesystem::path& path, std::string_view bytes) {
+  constexpr std::string_view kFormat = "format ";
+  std::string_view kind, format;
+  if (!take_line(bytes, kind) || kind != kKind || !take_line(bytes, format)) refuse(path, "it is no checkpoint");
+  const bool numbered = format.starts_with(kFormat);
+  const std::string number(numbered ? format.substr(kFormat.size()) : "1");  // the first had no such line
+  if (number != std::to_string(kCheckpointFormat))
+    refuse(path, fmt::format("it is written by another format of checkpoints, {}; this program reads {}; render again",
+                             number, kCheckpointFormat));
+  Parts parts;
+  if (!take_line(bytes, parts.identity)) refuse(path, "it is damaged or not whole: it does not tell what it is of");
+  parts.rest = bytes;
+  return parts;
+}
+
+/// Of each block where its words start, how many there are of each sum, and these.
+void append_sums(std::string& bytes, const std::string& name, std::span<const ExactSums> sums) {
+  std::vector<uint32_t> numbers;
+  for (const ExactSums& block : sums) {
+    numbers.push_back(static_cast<uint32_t>(block.lowest_word()));
+    numbers.push_back(static_cast<uint32_t>(block.words().size() / ExactSums::kCount));
+    numbers.insert(numbers.end(), block.words().begin(), block.words().end());
+  }
+  append_field(bytes, name, std::span<const uint32_t>(numbers));
+}
+
+std::vector<ExactSums> take_sums(NamedFields& fields, const std::string& name, size_t blocks) {
+  const std::vector<uint32_t> numbers = fields.take_all<uint32_t>(name);
+  const FieldError wrong(fmt::format("its field '{}' holds no sums of that many pixels", name));
+  if (numbers.size() / 2 < blocks) throw wrong;
+  std::vector<ExactSums> sums;
+  sums.reserve(blocks);
+  std::span<const uint32_t> left(numbers);
+  for (size_t block = 0; block < blocks; ++block) {
+    if (left.size() < 2 || (left.size() - 2) / ExactSums::kCount < left[1]) throw wrong;
+    const std::span<const uint32_t> words = left.subspan(2, left[1] * ExactSums::kCount);
+    try {
+      sums.emplace_back(static_cast<int32_t>(left[0]), std::vector<uint32_t>(words.begin(), words.end()));
+    } catch (const std::domain_error&) {
+      throw wrong;
+    }
+    left = left.subspan(2 + words.size());
+  }
+  if (!left.empty()) throw wrong;
+  return sums;
+}
+
+std::string half_name(size_t half) { return half == 0 ? "film.even_passes." : "film.odd_passes."; }
+
+void append_film(std::string& bytes, const Film& film) {
+  append_field(bytes, "film.width", film.width());
+  append_field(bytes, "film.height", film.height());
+  const FilmSums& sums = film.sums();
+  append_field(bytes, "film.passes", std::span<const PassRange>(sums.passes.ranges()));
+  for (size_t h = 0; h < 2; ++h) {
+    append_sums(bytes, half_name(h) + "squares_of_radii", {&sums.halves[h].squares, 1});
+    append_sums(bytes, half_name(h) + "values", sums.halves[h].values);
+    append_sums(bytes, half_name(h) + "products", sums.halves[h].products);
+  }
+  append_sums(bytes, "film.squares", sums.squares);
+}
+
+Film take_film(NamedFields& fields) {
+  const int width = fields.take<int>("film.width"), height = fields.take<int>("film.height");
+  if (width < 1 || height < 1) throw FieldError(fmt::format("its film has {} x {} pixels", width, height));
+  const std::vector<PassRange> passes = fields.take_all<PassRange>("film.passes");
+  if (!PassSet::is_valid(passes)) throw FieldError("its field 'film.passes' holds no ranges in rising order");
+  const size_t blocks = Film::blocks(width, height);
+  FilmSums sums{PassSet(passes), {}, take_sums(fields, "film.squares", blocks)};
+  for (size_t h = 0; h < 2; ++h)
+    sums.halves[h] = {take_sums(fields, half_name(h) + "squares_of_radii", 1).front(),
+                      take_sums(fields, half_name(h) + "values", blocks),
+                      take_sums(fields, half_name(h) + "products", blocks)};
+  return Film(width, height, std::move(sums));
+}
+
+RenderResult take_result(NamedFields fields) {
+  RenderResult result{take_film(fields), {}, fields.take<double>("seconds"), fields.take_all<PixelDisc>("discs")};
+  const size_t pixels = static_cast<size_t>(result.film.width()) * static_cast<size_t>(result.film.height());
+  if (!result.discs.empty() && result.discs.size() != pixels)
+    throw FieldError(fmt::format("its field 'discs' has {} numbers for {} pixels", result.discs.size(), pixels));
+  for_each_counter(
+      result.statistics,
+      [&](const std::string& name, auto& number) {
+        number = fields.take<std::remove_reference_t<decltype(number)>>(name);
+      },
+      "statistics");
+  fields.refuse_others();
+  return result;
 }
 
 }  // namespace
 
-std::string checkpoint_identity(const std::filesystem::path& path) { return identity_in(path, text_of(path)); }
+std::string checkpoint_identity(const std::filesystem::path& path) {
+  const std::string bytes = text_of(path);
+  return std::string(parts_of(path, bytes).identity);
+}
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const RenderResult& result) {
   assert(identity.find('\n') == std::string::npos);
-  Numbers numbers{result.film.width(), result.film.height(), {},
-                  result.seconds,      result.discs.size(),  result.statistics};
-  for (size_t h = 0; h < 2; ++h) {
-    const PassMoments& half = result.film.halves()[h];
-    numbers.halves[h] = {half.passes, half.mean_square, half.square_spread};
-  }
-  std::string bytes = fmt::format("{}\n{}\n", kKind, identity);
-  each_number(numbers,
-              [&](auto&... number) { (bytes.append(reinterpret_cast<const char*>(&number), sizeof number), ...); });
-  for (const PassMoments& half : result.film.halves())
-    for (const std::vector<Rgbd>* plane : {&half.mean, &half.squares, &half.products}) append(bytes, *plane);
-  append(bytes, result.discs);
+  std::string bytes = fmt::format("{}\nformat {}\n{}\n", kKind, kCheckpointFormat, identity);
+  append_field(bytes, "seconds", result.seconds);
+  append_field(bytes, "discs", std::span<const PixelDisc>(result.discs));
+  for_each_counter(
+      result.statistics, [&](const std::string& name, const auto& number) { append_field(bytes, name, number); },
+      "statistics");
+  append_film(bytes, result.film);
   write_text(path, bytes + checksum(bytes));
 }
 
 RenderResult read_checkpoint(const std::filesystem::path& path, const std::string& identity) {
   const std::string bytes = text_of(path);
-  const std::string found = identity_in(path, bytes);
-  const size_t end = std::string_view(kKind).size() + 1 + found.size();
+  const auto [found, rest] = parts_of(path, bytes);
   if (found != identity)
     refuse(path,
            fmt::format("it is of another render; remove it, or render again what it is of\n  file:   {}\n  asked:  {}",
                        found, identity));
-  const size_t sum_at = bytes.size() - std::min(bytes.size() - end - 1, kChecksum);
-  const std::string_view content = std::string_view(bytes).substr(0, sum_at);
-  if (checksum(content) != bytes.substr(sum_at)) refuse(path, "it is damaged or not whole: its checksum is wrong");
-  Reader reader(content.substr(end + 1));
-  const Numbers numbers = read_numbers(path, reader);
-  const size_t pixels = numbers.pixels();
-  Film::Halves halves;
-  for (size_t h = 0; h < 2; ++h) {
-    const auto& [passes, mean_size, size_squares] = numbers.halves[h];
-    halves[h] = {passes,
-                 mean_size,
-                 size_squares,
-                 reader.values<Rgbd>(pixels),
-                 reader.values<Rgbd>(pixels),
-                 reader.values<Rgbd>(pixels)};
+  const size_t sum_at = bytes.size() - std::min(rest.size(), kChecksum);
+  if (checksum(std::string_view(bytes).substr(0, sum_at)) != bytes.substr(sum_at))
+    refuse(path, "it is damaged or not whole: its checksum is wrong");
+  try {
+    return take_result(NamedFields(rest.substr(0, rest.size() - kChecksum)));
+  } catch (const FieldError& error) {
+    refuse(path, error.what());
   }
-  return {Film(numbers.width, numbers.height, std::move(halves)), numbers.statistics, numbers.seconds,
-          reader.values<PixelDisc>(numbers.discs)};
 }
 
 }  // namespace vpm

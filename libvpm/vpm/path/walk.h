@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "vpm/base/counters.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/scene/scene.h"
 
@@ -34,15 +35,16 @@ struct WalkCounters {
   uint64_t crossings = 0;            // of boundaries between media
   uint64_t medium_mismatches = 0;    // corrections of a path's medium by meet()
 
-  void merge(const WalkCounters& other) {
-    lookups += other.lookups;
-    bricks += other.bricks;
-    null_collisions += other.null_collisions;
-    majorant_violations += other.majorant_violations;
-    crossings += other.crossings;
-    medium_mismatches += other.medium_mismatches;
+  static constexpr auto counters() {
+    using W = WalkCounters;
+    return std::tuple{
+        Counter{"density_lookups", &W::lookups},         Counter{"bricks_crossed", &W::bricks},
+        Counter{"null_collisions", &W::null_collisions}, Counter{"majorant_violations", &W::majorant_violations},
+        Counter{"boundary_crossings", &W::crossings},    Counter{"met_in_another_medium", &W::medium_mismatches}};
   }
+  void merge(const WalkCounters& other) { merge_counters(*this, other); }
 };
+static_assert(lists_every_member<WalkCounters>());
 
 /// What the ray meets first, with t < t_max. `medium` becomes what the shapes there say it is, and the world's where
 /// nothing is met at all: rounding at edges can then not carry a medium astray.

@@ -26,7 +26,25 @@ struct Ledger {
   uint64_t non_finite = 0;  // photons dropped because their power was not finite
   WalkCounters walk;
 
-  void merge(const Ledger& other);
+  static constexpr auto counters() {
+    using L = Ledger;
+    return std::tuple{Counter{"photons.emitted", &L::emitted_count},
+                      Counter{"energy.emitted", &L::emitted},
+                      Counter{"energy.absorbed_in_media", &L::absorbed_in_media},
+                      Counter{"energy.absorbed_on_surfaces", &L::absorbed_on_surfaces},
+                      Counter{"energy.escaped", &L::escaped},
+                      Counter{"energy.cut_at_max_events", &L::cut},
+                      Counter{"photons.paths_cut_at_max_events", &L::cut_count},
+                      Counter{"energy.imbalance", &L::imbalance},
+                      Counter{"photons.weights", &L::weights},
+                      Counter{"photons.collisions", &L::collisions},
+                      Counter{"photons.surface_hits", &L::surface_hits},
+                      Counter{"photons.below_density_floor", &L::floored},
+                      Counter{"photons.dropped_non_finite", &L::non_finite},
+                      Counter{"photons", &L::walk}};
+  }
+  void merge(const Ledger& other) { merge_counters(*this, other); }
 };
+static_assert(lists_every_member<Ledger>());
 
 }  // namespace vpm

@@ -1,10 +1,13 @@
-// The film: the mean of passes, pixel by pixel, and what their differences tell of its error.
+// The film: the mean of passes, pixel by pixel, and what their differences tell of its error, whatever the order in
+// which passes come and the films that they were gathered in.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "vpm/base/exact_sums.h"
 #include "vpm/image/image.h"
+#include "vpm/render/pass_set.h"
 
 namespace vpm {
 
@@ -18,48 +21,63 @@ struct FilmErrors {
   double bias_part = 0.0;      // the same due to bias; an unbiased estimate, which may come out below 0
 };
 
-/// Running moments of some passes [Welford1962].
-struct PassMoments {
-  int passes = 0;
-  // Of the relative squares of radii: mean, sum of squared differences from it.
-  double mean_square = 0.0, square_spread = 0.0;
-  std::vector<Rgbd> mean;
-  std::vector<Rgbd> squares;   // sums of squared differences from the mean
-  std::vector<Rgbd> products;  // sums of products of the differences of values and of relative squares
+/// What a film sums, by blocks of ExactSums::kCount values: three to a pixel, rows from the top.
+struct FilmSums {
+  /// Of the even passes and of the odd ones. Their noise is independent, so that the product of the two halves' slopes
+  /// estimates the squared bias without any noise on average.
+  struct Half {
+    ExactSums squares;                // of radii, relative: [0] their sum, [1] that of their squares
+    std::vector<ExactSums> values;    // W/(m^2 sr)
+    std::vector<ExactSums> products;  // of values and relative squares of radii
+
+    bool operator==(const Half&) const = default;
+  };
+  PassSet passes;
+  std::array<Half, 2> halves;
+  std::vector<ExactSums> squares;  // of values, of all passes
+
+  bool operator==(const FilmSums&) const = default;
 };
 
-/// Sums passes in double.
+/// Sums passes without rounding error: the film of a set of passes is the same to the last bit in whatever order they
+/// are added, and of whatever films of some of them each it is merged. What is rounded is what passes give, floats, and
+/// what is read off the sums: their relative error is that of a double, also where variances are differences of nearly
+/// equal sums, down to passes that differ in the last bits of their floats.
+///
+/// A pixel takes about kBytesOfPixel where passes of a block of 21 pixels span 4 decades, and 60 for each further 10
+/// decades.
 class Film {
  public:
-  /// Passes in two halves, taken in turn. Their noise is independent, so that the product of the two halves' slopes
-  /// estimates the squared bias without any noise on average.
-  using Halves = std::array<PassMoments, 2>;
+  static constexpr size_t kBytesOfPixel = 300;
 
   Film(int width, int height);
-  Film(int width, int height, Halves halves);
+  /// Of sums of a film of that size.
+  Film(int width, int height, FilmSums sums);
+  /// How many blocks a film of that size has.
+  static size_t blocks(int width, int height);
 
-  /// Adds one pass of the film's size, whose kernels' squared radii are `relative_square` times those of the first
-  /// pass (0: the pass has no kernel).
-  void add(const Image& pass, double relative_square = 0.0);
+  /// Adds pass number `pass`, which the film has not got yet, >= 0; its image has the film's size and finite pixels.
+  /// Its kernels' squared radii are `relative_square` times those of the first pass (0: the pass has no kernel). Throws
+  /// std::domain_error where a pixel is not finite.
+  void add(int pass, const Image& image, float relative_square = 0.0f);
+  /// Adds the passes of another film of the same size. Throws InputError where both have one of the same number.
+  void merge(const Film& other);
   int width() const { return width_; }
   int height() const { return height_; }
-  int passes() const { return halves_[0].passes + halves_[1].passes; }
-  const Halves& halves() const { return halves_; }
-  /// The mean of the passes, W/(m^2 sr).
+  int passes() const { return sums_.passes.count(); }
+  const FilmSums& sums() const { return sums_; }
+  /// The mean of the passes, W/(m^2 sr); black where there is none.
   Image mean() const;
   /// The variance of that mean, estimated from the passes' differences. Needs two passes.
   Image variance_of_mean() const;
   /// Do the radii differ within each half, so that a bias shows?
-  bool shows_bias() const { return halves_[0].square_spread > 0.0 && halves_[1].square_spread > 0.0; }
+  bool shows_bias() const;
   /// Needs two passes. Where no bias shows, it is 0.
   FilmErrors errors() const;
 
  private:
-  Rgbd mean_at(size_t pixel) const;
-  Rgbd variance_at(size_t pixel) const;
-
   int width_, height_;
-  Halves halves_;
+  FilmSums sums_;
 };
 
 }  // namespace vpm

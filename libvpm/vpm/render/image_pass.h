@@ -16,7 +16,7 @@ namespace vpm {
 
 struct Pass {
   Image image;                   // radiance, W/(m^2 sr)
-  double relative_square = 0.0;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
+  float relative_square = 0.0f;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
   std::vector<uint64_t> found;   // photons in each pixel's disc, over its samples, where pixels have discs of their own
   RenderStatistics statistics;
 };

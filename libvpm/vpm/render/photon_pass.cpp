@@ -75,7 +75,7 @@ Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const
                               const PassRun& run) {
   RenderStatistics statistics;
   const Estimators estimators = plan_estimators(scene, settings, run.pass, discs);
-  const double square = relative_square(estimators.maps(), run.pass);
+  const float square = relative_square(estimators.maps(), run.pass);
   prepare_pass(scene, settings, estimators, run, statistics);
   const EyeContext context{scene, estimators, settings.max_events};
   const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); };

@@ -137,13 +137,13 @@ bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& setti
          (scattering.surfaces && settings.surface_direct != DirectLight::photons);
 }
 
-double relative_square(const std::vector<MapInfo>& maps, int pass) {
+float relative_square(const std::vector<MapInfo>& maps, int pass) {
   for (const MapInfo& map : maps) {
     if (!map.shrinks) continue;
     const float radius = radius_of_pass(1.0f, map.dimension, pass);
-    return double{radius} * radius;
+    return radius * radius;
   }
-  return maps.empty() ? 0.0 : 1.0;
+  return maps.empty() ? 0.0f : 1.0f;
 }
 
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings) {

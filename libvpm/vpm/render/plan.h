@@ -48,7 +48,7 @@ bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& setti
 
 /// The squared radius of the pass's kernels over that of the first pass, of the first map whose radii go by the number
 /// of the pass: all of these shrink at nearly the same rate. 1 where none does, 0 without maps.
-double relative_square(const std::vector<MapInfo>& maps, int pass);
+float relative_square(const std::vector<MapInfo>& maps, int pass);
 /// The sections of the scene file whose maps are used but do not shrink from pass to pass as its number tells: their
 /// kernels' bias cannot be seen.
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings);

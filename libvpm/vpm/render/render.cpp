@@ -2,6 +2,7 @@
 #include "vpm/render/render.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 #include "vpm/render/path_tracer.h"
@@ -20,18 +21,23 @@ double share_done(const RenderSettings& settings, const RenderResult& result) {
   if (result.film.passes() == 0) return 0.0;
   double share = 0.0;
   if (settings.seconds > 0.0) share = result.seconds / settings.seconds;
-  if (settings.error > 0.0) share = std::max(share, settings.error / estimated_error(result.film));
+  if (settings.error > 0.0) share = std::max(share, settings.error / estimated_error(result));
   return share;
+}
+
+/// Reads the errors off the film, where there are any.
+void estimate_errors(RenderResult& result) {
+  if (result.film.passes() > 1) result.errors = result.film.errors();
 }
 
 }  // namespace
 
 RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0, {}}; }
 
-double estimated_error(const Film& film) {
-  if (film.passes() < kLeastPasses) return std::numeric_limits<double>::infinity();
-  const FilmErrors errors = film.errors();
-  return errors.variance_part + std::max(0.0, errors.bias_part);
+double estimated_error(const RenderResult& result) {
+  if (result.film.passes() < kLeastPasses) return std::numeric_limits<double>::infinity();
+  assert(result.errors);
+  return result.errors->variance_part + std::max(0.0, result.errors->bias_part);
 }
 
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
@@ -58,10 +64,13 @@ RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint
   const bool single = counted && missing == 1;
   Progress bar("render", counted ? work * static_cast<uint64_t>(missing) : 1000, progress_enabled(progress) && !single);
   const PassProgress pass_progress{progress_enabled(progress) && single, counted ? &bar : nullptr};
+  if (settings.error > 0.0) estimate_errors(result);  // of a render that goes on
   while (!stop && share_done(settings, result) < 1.0) {
     const Pass done = run(result, pass_progress);
     if (stop) break;
-    result.film.add(done.image, done.relative_square);
+    result.film.add(result.film.passes(), done.image, done.relative_square);
+    result.errors.reset();
+    if (settings.error > 0.0) estimate_errors(result);
     result.discs.resize(done.found.size());
     for (size_t i = 0; i < done.found.size(); ++i) shrink(result.discs[i], done.found[i]);
     result.statistics.merge(done.statistics);
@@ -73,6 +82,7 @@ RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint
     if (finished) finished(result);
   }
   bar.finish();
+  if (!result.errors) estimate_errors(result);
   return result;
 }
 

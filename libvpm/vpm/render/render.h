@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 
 #include "vpm/base/progress.h"
 #include "vpm/estimate/statistics.h"
@@ -18,8 +19,10 @@ namespace vpm {
 struct RenderResult {
   Film film;
   RenderStatistics statistics;
-  double seconds = 0.0;  // wall clock, of all runs together where a render was resumed
-  PixelDiscs discs;      // where pixels have radii of their own, once there is a pass
+  double seconds = 0.0;                   // wall clock, of all runs together where a render was resumed
+  PixelDiscs discs;                       // where pixels have radii of their own, once there is a pass
+  std::optional<FilmErrors> errors = {};  // of the film, once it has two passes and run_passes() has come to its end,
+                                          // or to the end of a pass where settings.error asks
 };
 
 /// Renders passes until settings.passes are done; or, where asked for, until settings.seconds are over or the estimated
@@ -40,8 +43,8 @@ RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint
 RenderResult nothing_rendered(const Camera& camera);
 
 /// The relative MSE that passes so far are estimated to have: variance and squared bias (where noise makes the latter's
-/// estimate negative: none) by Film::errors(). Infinite below kLeastPasses passes, which say too little.
-double estimated_error(const Film& film);
+/// estimate negative: none) by RenderResult::errors. Infinite below kLeastPasses passes, which say too little.
+double estimated_error(const RenderResult& result);
 inline constexpr int kLeastPasses = 8;
 
 }  // namespace vpm

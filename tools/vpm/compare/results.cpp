@@ -250,7 +250,8 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
 
 std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {
   std::string csv = "scene,method,repetition,seed,budget,";
-  each_number(RunCost{}, [&](const char* name, const auto&) { csv += fmt::format("{},", name); });
+  const RunCost none;
+  for_each_counter(none, [&](const std::string& name, const auto&) { csv += name + ','; });
   csv += "mse,relative_mse,relative_mse_of_pbrt,mean_ratio,variance,vpm,scene_hash,settings,processor,threads\n";
   const std::string made_by = fmt::format("{},{}", csv_text(processor()), thread_count());
   for (size_t s = 0; s < scenes.size(); ++s)
@@ -259,8 +260,8 @@ std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResul
         for (size_t r = 0; r < scenes[s].budgets[m][b].each.size(); ++r) {
           csv += fmt::format("{},{},{},{},{},", csv_text(plan.scenes[s].name), csv_text(plan.methods[m].name), r,
                              plan.seed + r, plan.budgets[b]);
-          each_number(scenes[s].budgets[m][b].costs[r],
-                      [&](const char*, const auto& number) { csv += fmt::format("{},", number); });
+          for_each_counter(scenes[s].budgets[m][b].costs[r],
+                           [&](const std::string&, const auto& number) { csv += fmt::format("{},", number); });
           const PictureErrors& e = scenes[s].budgets[m][b].each[r];
           csv +=
               fmt::format("{},{},{},{},{},{},{},{},{}\n", e.mse, e.relative_mse, e.relative_mse_of_pbrt, e.mean_ratio,

@@ -19,7 +19,7 @@ using json = nlohmann::ordered_json;
 
 RunCost cost_of(const json& j) {
   RunCost cost;
-  each_number(cost, [&](const char* name, auto& number) { number = j.at(name); });
+  for_each_counter(cost, [&](const std::string& name, auto& number) { number = j.at(name); });
   return cost;
 }
 
@@ -46,7 +46,7 @@ std::optional<Image> layer(const ExrChannels& file, const std::string& prefix) {
 
 std::string cost_json(const RunCost& cost) {
   json all;
-  each_number(cost, [&](const char* name, const auto& number) { all[name] = number; });
+  for_each_counter(cost, [&](const std::string& name, const auto& number) { all[name] = number; });
   return all.dump();
 }
 

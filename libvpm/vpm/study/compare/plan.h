@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "vpm/base/counters.h"
+
 namespace vpm {
 
 /// What a method's cost is measured in.
@@ -65,27 +67,29 @@ struct RunCost {
   uint64_t bytes = 0;                  // of photon maps and guides, of the largest pass
   double largest_weight = 0.0;         // of photons, see Ledger; of paths, see EyeCounters
   double effective_sample_size = 0.0;  // of these
-};
 
-/// Calls f(name, number) for each of a run's numbers, with the names they have in files.
-void each_number(auto&& cost, auto&& f) {
-  f("cpu_seconds", cost.cpu_seconds);
-  f("wall_seconds", cost.wall_seconds);
-  f("passes", cost.passes);
-  f("photons", cost.photons);
-  f("stored", cost.stored);
-  f("lookups", cost.lookups);
-  f("photon_lookups", cost.photon_lookups);
-  f("bricks", cost.bricks);
-  f("null_collisions", cost.null_collisions);
-  f("majorant_violations", cost.majorant_violations);
-  f("searches", cost.searches);
-  f("photons_visited", cost.photons_visited);
-  f("photons_used", cost.photons_used);
-  f("bytes", cost.bytes);
-  f("largest_weight", cost.largest_weight);
-  f("effective_sample_size", cost.effective_sample_size);
-}
+  /// With the names they have in files.
+  static constexpr auto counters() {
+    using C = RunCost;
+    return std::tuple{Counter{"cpu_seconds", &C::cpu_seconds},
+                      Counter{"wall_seconds", &C::wall_seconds},
+                      Counter{"passes", &C::passes},
+                      Counter{"photons", &C::photons},
+                      Counter{"stored", &C::stored},
+                      Counter{"lookups", &C::lookups},
+                      Counter{"photon_lookups", &C::photon_lookups},
+                      Counter{"bricks", &C::bricks},
+                      Counter{"null_collisions", &C::null_collisions},
+                      Counter{"majorant_violations", &C::majorant_violations},
+                      Counter{"searches", &C::searches},
+                      Counter{"photons_visited", &C::photons_visited},
+                      Counter{"photons_used", &C::photons_used},
+                      Counter{"bytes", &C::bytes},
+                      Counter{"largest_weight", &C::largest_weight},
+                      Counter{"effective_sample_size", &C::effective_sample_size}};
+  }
+};
+static_assert(lists_every_member<RunCost>());
 
 /// That cost in a unit.
 inline double cost_in(CostUnit unit, const RunCost& cost) {

@@ -1,0 +1,65 @@
+// Which passes there are, by number.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace vpm {
+
+/// Numbers first, first + 1, ... end - 1.
+struct PassRange {
+  int first = 0, end = 0;
+
+  bool operator==(const PassRange&) const = default;
+};
+
+/// A set of pass numbers >= 0, as the ranges that they make.
+class PassSet {
+ public:
+  PassSet() = default;
+  /// Ranges in rising order that neither overlap nor touch; see is_valid().
+  explicit PassSet(std::vector<PassRange> ranges) : ranges_(std::move(ranges)) {}
+  static bool is_valid(const std::vector<PassRange>& ranges) {
+    int least = 0;
+    for (const PassRange& range : ranges) {
+      if (range.first < least || range.end <= range.first) return false;
+      least = range.end + (range.end < std::numeric_limits<int>::max());
+    }
+    return true;
+  }
+
+  const std::vector<PassRange>& ranges() const { return ranges_; }
+  int count() const { return count_of(0) + count_of(1); }
+  /// Those that are even (parity 0) or odd (1).
+  int count_of(int parity) const {
+    const auto below = [&](int end) { return parity == 0 ? end - end / 2 : end / 2; };
+    int count = 0;
+    for (const PassRange& range : ranges_) count += below(range.end) - below(range.first);
+    return count;
+  }
+  bool overlaps(const PassRange& other) const {
+    return std::any_of(ranges_.begin(), ranges_.end(),
+                       [&](const PassRange& range) { return range.first < other.end && other.first < range.end; });
+  }
+  /// Adds numbers that are not in the set.
+  void add(const PassRange& range) {
+    const auto next = std::upper_bound(ranges_.begin(), ranges_.end(), range,
+                                       [](const PassRange& a, const PassRange& b) { return a.first < b.first; });
+    auto at = ranges_.insert(next, range);
+    if (at != ranges_.begin() && (at - 1)->end == at->first) {
+      (at - 1)->end = at->end;
+      at = ranges_.erase(at) - 1;
+    }
+    if (at + 1 != ranges_.end() && at->end == (at + 1)->first) {
+      at->end = (at + 1)->end;
+      ranges_.erase(at + 1);
+    }
+  }
+  bool operator==(const PassSet&) const = default;
+
+ private:
+  std::vector<PassRange> ranges_;
+};
+
+}  // namespace vpm
