@@ -62,7 +62,8 @@ std::optional<Rgb> brute_force(const std::vector<SurfaceSite>& sites, const Phot
 
 std::optional<Rgb> seen(const IrradiancePoints& points, const Hit& hit, const Vec3& towards_eye) {
   GatherCounters uncounted;
-  return points.irradiance(hit, towards_eye, uncounted);
+  Neighbours near;
+  return points.irradiance(hit, towards_eye, {uncounted, near});
 }
 
 TEST(IrradiancePoints, EqualTheirBruteForceTwin) {

@@ -65,7 +65,9 @@ Estimates estimate(const Scene& scene, const Hit& hit, const GatherSettings& gat
     }
     const PhotonMap map = make_photon_map(photons, gather, kPhotons);
     found.plain.add(surface_irradiance(hit.position, kUp, map).r);
-    found.corrected.add(surface_irradiance(hit.position, kUp, BoundedMap{map, region, found.counters}).r);
+    Neighbours near;
+    found.corrected.add(
+        surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{found.counters, near}}).r);
   }
   return found;
 }
@@ -304,7 +306,9 @@ TEST(SurfaceRegion, TheMapEqualsTheBruteForceTwin) {
                          static_cast<float>(region.share(radius).inside);
       GatherCounters counters;
       const PhotonMap map = make_photon_map(photons, gather, kPhotons);
-      EXPECT_NEAR(surface_irradiance(hit.position, kUp, BoundedMap{map, region, counters}).r / twin, 1.0, 1e-4)
+      Neighbours near;
+      EXPECT_NEAR(surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{counters, near}}).r / twin,
+                  1.0, 1e-4)
           << kernel.name;
     }
 }

@@ -63,8 +63,9 @@ struct Estimates {
 };
 
 /// Estimates of the density of photons, 1/m^3, at a point, over the density that they have in the box.
-Estimates estimate(const Scene& scene, const Vec3& point, const GatherSettings& gather, const Vec3& lo, const Vec3& hi,
-                   uint64_t trials, uint64_t use) {
+Estimates estimate(const Scene& scene, const Vec3& point, const GatherSettings& gather, const Box& box, uint64_t trials,
+                   uint64_t use) {
+  const auto& [lo, hi] = box;
   Estimates found;
   const VolumeRegion region(scene, 0, point, gather.kernel);
   const Vec3 extent = hi - lo;
@@ -73,7 +74,8 @@ Estimates estimate(const Scene& scene, const Vec3& point, const GatherSettings& 
     Rng rng(7, rng_stream(RngUse::test, use), trial);
     const PhotonMap map = make_photon_map(even_photons(lo, hi, rng), gather, kPhotons);
     found.plain.add(fluence(Rgb(density), point, map).r);
-    found.corrected.add(fluence(Rgb(density), point, BoundedMap{map, region, found.counters}).r);
+    Neighbours near;
+    found.corrected.add(fluence(Rgb(density), point, BoundedMap{map, region, GatherWork{found.counters, near}}).r);
   }
   return found;
 }
@@ -169,7 +171,7 @@ TEST(SlowVolumeRegion, EvenLightInACubeIsEvenUpToItsCorners) {
     const GatherSettings gather{mode, mode == GatherMode::radius ? 0.7f : 1.5f, 12, KernelKind::epanechnikov};
     // At a face, an edge and a corner the ball is a half, a quarter and an eighth of one.
     const auto at = [&](const Vec3& point, double part, const char* what) {
-      const Estimates found = estimate(scene, point, gather, lo, hi, 1500, use++);
+      const Estimates found = estimate(scene, point, gather, {lo, hi}, 1500, use++);
       expect_mean(found.corrected, 1.0, 1e-6, what);
       if (mode == GatherMode::radius) expect_mean(found.plain, part, 1e-6, what);
       EXPECT_LT(found.plain.mean(), 0.85) << what;
@@ -190,10 +192,10 @@ TEST(VolumeRegion, LightDoesNotLeakThroughThinWalls) {
     for (const GatherSettings& gather : {by_radius, nearest}) {
       const Scene scene = walled(wall);
       const Vec3 lo(0.0f, -1.0f, -1.0f), hi(1.0f);  // lit is the side x > 0
-      const Estimates lit = estimate(scene, Vec3(0.05f, 0.1f, 0.0f), gather, lo, hi, 1000, use++);
+      const Estimates lit = estimate(scene, Vec3(0.05f, 0.1f, 0.0f), gather, {lo, hi}, 1000, use++);
       expect_mean(lit.corrected, 1.0, 1e-6, "lit side");
       EXPECT_LT(lit.plain.mean(), 0.9);
-      const Estimates dark = estimate(scene, Vec3(-0.05f, 0.1f, 0.0f), gather, lo, hi, 20, use++);
+      const Estimates dark = estimate(scene, Vec3(-0.05f, 0.1f, 0.0f), gather, {lo, hi}, 20, use++);
       EXPECT_EQ(dark.corrected.mean(), 0.0);
       EXPECT_GT(dark.plain.mean(), 0.2);
     }
@@ -222,7 +224,9 @@ TEST(VolumeRegion, TheMapEqualsTheBruteForceTwin) {
                          static_cast<float>(region.share(radius).inside);
       GatherCounters counters;
       const PhotonMap map = make_photon_map(photons, gather, kPhotons);
-      EXPECT_NEAR(fluence(Rgb(1.0f), point, BoundedMap{map, region, counters}).r / twin, 1.0, 1e-4) << kernel.name;
+      Neighbours near;
+      EXPECT_NEAR(fluence(Rgb(1.0f), point, BoundedMap{map, region, GatherWork{counters, near}}).r / twin, 1.0, 1e-4)
+          << kernel.name;
     }
 }
 
@@ -240,7 +244,8 @@ TEST(VolumeRegion, CountsWhereTheLeastShareStandsInForLess) {
   const GatherSettings gather{GatherMode::radius, 0.5f, 0, KernelKind::constant};
   const PhotonMap map = make_photon_map({{point, PackedDirection(Vec3(0, 0, 1)), Rgb(1.0f)}}, gather, 1);
   GatherCounters counters;
-  const float sum = fluence(Rgb(1.0f), point, BoundedMap{map, region, counters}).r;
+  Neighbours near;
+  const float sum = fluence(Rgb(1.0f), point, BoundedMap{map, region, GatherWork{counters, near}}).r;
   EXPECT_NEAR(sum * kLeastShare * 4.0 / 3.0 * kPiD * 0.125, 1.0, 1e-5);
   EXPECT_EQ(counters.corrected, 1u);
   EXPECT_EQ(counters.least_shares, 1u);

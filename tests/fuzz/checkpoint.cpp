@@ -1,5 +1,5 @@
 // Any bytes between a checkpoint's first lines and its checksum, and as a whole checkpoint.
-#include "vpm/input/checkpoint.h"
+#include "vpm/job/checkpoint.h"
 
 #include "fuzz/scratch.h"
 #include "fuzz/whole_checkpoint.h"

@@ -6,14 +6,14 @@
 #include <string_view>
 
 #include "vpm/base/fnv.h"
-#include "vpm/input/checkpoint.h"
+#include "vpm/job/checkpoint.h"
 
 namespace vpm {
 
-inline constexpr const char* kFuzzIdentity = "fuzz";  // of the render
+inline const Identity kFuzzIdentity{{"scene", "fuzz"}};  // of the render
 
 inline std::string whole_checkpoint(std::string_view body) {
-  std::string whole = fmt::format("vpm checkpoint of a render\nformat {}\n{}\n", kCheckpointFormat, kFuzzIdentity);
+  std::string whole = fmt::format("vpm checkpoint of a render\nformat {}\nidentity 1\nscene=fuzz\n", kCheckpointFormat);
   whole.append(body);
   Fnv1a hash;
   hash.add(std::string_view(whole));

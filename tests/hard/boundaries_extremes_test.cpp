@@ -20,7 +20,7 @@ Scene box_and_panel(float sigma, float albedo) {
 }
 
 void look(Scene& scene, const Vec3& from, const Vec3& at) {
-  scene.camera = make_camera(from, at, Vec3(0, 1, 0), 1e-2f, 4, 4, {});
+  scene.camera = make_camera(from, at, Vec3(0, 1, 0), 1e-2f, {4, 4});
   scene.geometry.commit();
   scene.camera_medium = medium_around(scene, from);
   finish(scene);
@@ -57,7 +57,7 @@ TEST(BoundariesExtremes, TheEyeInsideASolid) {
   const Interface around{kVacuum, 0};  // else photons outside would shine in, as far as the radius reaches
   add_shape(dark, SphereShape{Vec3(0.0f), 1.0f}, Lambertian{Rgb(0.8f)}, &around);
   dark.lights.push_back(PointLight{Vec3(3, 0, 0), Rgb(100.0f)});
-  dark.camera = make_camera(Vec3(0.2f, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 90.0f, 8, 8, {});
+  dark.camera = make_camera(Vec3(0.2f, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 90.0f, {8, 8});
   dark.geometry.commit();
   finish(dark);
   RenderSettings by_rays = settings_of(20000, 0.05f);
@@ -67,7 +67,7 @@ TEST(BoundariesExtremes, TheEyeInsideASolid) {
   Scene glass;
   add_shape(glass, SphereShape{Vec3(0.0f), 1.0f}, Dielectric{1.5f});
   glass.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  glass.camera = make_camera(Vec3(0.2f, 0.3f, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 120.0f, 16, 16, {});
+  glass.camera = make_camera(Vec3(0.2f, 0.3f, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 120.0f, {16, 16});
   glass.geometry.commit();
   finish(glass);
   for (const Rgb& pixel : clean_image(glass, settings_of(10, 0.1f)).pixels) EXPECT_NEAR(pixel.r, 2.25f, 1e-5f);
@@ -86,7 +86,7 @@ TEST(BoundariesExtremes, NestedAndTouchingGlassIsInvisibleInUniformLight) {
     Scene scene;
     for (const auto& [ball, ior] : balls) add_shape(scene, ball, Dielectric{ior});
     scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-    scene.camera = make_camera(Vec3(0, 0, 5), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, 32, 32, {});
+    scene.camera = make_camera(Vec3(0, 0, 5), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {32, 32});
     scene.geometry.commit();
     finish(scene);
     RenderSettings settings = settings_of(10, 0.1f);
@@ -205,7 +205,7 @@ TEST(BoundariesExtremes, AMirroredWorldIsTheSamePictureMirrored) {
     add_shape(scene, SphereShape{Vec3(1.8f * side, 0, 0.5f), 0.4f}, Dielectric{1.5f});
     add_shape(scene, quad_mesh(Vec3d(-5, -1, 5), Vec3d(10, 0, 0), Vec3d(0, 0, -10)), Lambertian{});
     scene.lights.push_back(SpotLight{Vec3(3 * side, 3, 0), glm::normalize(Vec3(-side, -1, 0)), 0.95f, 0.9f, Rgb(9.0f)});
-    scene.camera = make_camera(Vec3(0, 1, 5), Vec3(0.0f), Vec3(0, 1, 0), 40.0f, 8, 8, {});
+    scene.camera = make_camera(Vec3(0, 1, 5), Vec3(0.0f), Vec3(0, 1, 0), 40.0f, {8, 8});
     scene.geometry.commit();
     finish(scene);
     return scene;

@@ -35,7 +35,7 @@ TEST(GridsExtremes, AnEmptyGridIsVacuum) {
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
     for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
       Scene scene = boxed_medium(make_medium(empty, Rgb(1e9f), 0.5f), ConstantEnvironment{Rgb(1.0f)});
-      scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, 4, 4, {});
+      scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {4, 4});
       RenderSettings settings = settings_of(1000, 0.1f);
       settings.volume_direct = direct;
       settings.volume_form = form;
@@ -165,7 +165,7 @@ Scene smoke_of(float factor) {
   });
   Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f, 3.0f, 4.0f) / factor, 0.5f),
                              PointLight{Vec3(0.5f, 1.5f, 0.5f), Rgb(9.0f)});
-  scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, 12, 12, {});
+  scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {12, 12});
   return scene;
 }
 
@@ -201,7 +201,7 @@ TEST(GridsExtremes, DenormalVoxelsAmongOthersAreNothing) {
   };
   const auto pictures = [&](float least, const char* strategy, int passes) {
     Scene scene = boxed_medium(make_medium(tail(least), Rgb(3.0f), 0.8f), PointLight{Vec3(2.0f, 0, 0), Rgb(4.0f)});
-    scene.camera = make_camera(Vec3(1, 0, 4), Vec3(0.2f, 0, 0), Vec3(0, 1, 0), 30.0f, 8, 8, {});
+    scene.camera = make_camera(Vec3(1, 0, 4), Vec3(0.2f, 0, 0), Vec3(0, 1, 0), 30.0f, {8, 8});
     RenderSettings settings = settings_of(2000, 0.2f);
     settings.distance.strategy = strategy;
     return clean_means(scene, settings, passes);

@@ -49,7 +49,7 @@ TEST(MapsExtremes, KNearestWhereAllKCoincideWithTheQueryIsNoNumberAndCounted) {
   const float far = 1e8f;  // floats are 8 m apart: a floor of 16 m holds nine points
   add_shape(scene, quad_mesh(Vec3d(far, 0, far), Vec3d(0, 0, 16), Vec3d(16, 0, 0)), Lambertian{});
   scene.lights.push_back(DirectionalLight{Vec3(0, -1, 0), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(far, 16, far), Vec3(far, 0, far), Vec3(1, 0, 0), 60.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(far, 16, far), Vec3(far, 0, far), Vec3(1, 0, 0), 60.0f, {8, 8});
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings = settings_of(100'000, 4.0f);  // most miss: the sphere around the scene is rounded up, too
@@ -146,7 +146,7 @@ TEST(MapsExtremes, AnEndlessThinMediumIsSeenInAPicturesTime) {
         scene.lights.push_back(panel);
         add_shape(scene, quad_mesh(Vec3d(panel.corner), Vec3d(panel.edge_u), Vec3d(panel.edge_v)),
                   Lambertian{Rgb(0.0f)}, nullptr, 0);
-        scene.camera = make_camera(Vec3(0, 0, 3), Vec3(0.0f), Vec3(0, 1, 0), 60.0f, 8, 8, {});
+        scene.camera = make_camera(Vec3(0, 0, 3), Vec3(0.0f), Vec3(0, 1, 0), 60.0f, {8, 8});
         scene.geometry.commit();
         finish(scene);
         RenderSettings settings = settings_of(photons, 0.02f);

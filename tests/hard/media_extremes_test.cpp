@@ -18,7 +18,7 @@ Scene window(const Medium& medium) {
   const QuadLight panel{Vec3(-5, -5, -2), Vec3(10, 0, 0), Vec3(0, 10, 0), Rgb(1.0f)};
   scene.lights.push_back(panel);
   add_shape(scene, quad_mesh(panel.corner, panel.edge_u, panel.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 0);
-  scene.camera = make_camera(Vec3(0, 0, 3), Vec3(0.0f), Vec3(0, 1, 0), 1e-3f, 4, 4, {});
+  scene.camera = make_camera(Vec3(0, 0, 3), Vec3(0.0f), Vec3(0, 1, 0), 1e-3f, {4, 4});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -100,12 +100,11 @@ TEST(MediaExtremes, TheMarchKeepsItsDigitsFromNothingToOpaque) {
       for (uint64_t i = 0; i < 200; ++i) {
         Rng rng(2, rng_stream(RngUse::test, 2), i);
         double sum = 0.0;
-        const Marched marched =
-            marcher.march(make_medium(nullptr, Rgb(sigma)), ray, {0.0f, length}, {0.1f * length, 0.5f},
-                          glm::bvec3(true), rng, [&](const Vec3& p, const Rgb& w) {
-                            sum += w.r * sigma;
-                            EXPECT_TRUE(p.z >= 0.0f && p.z <= length);
-                          });
+        const Marched marched = marcher.march(make_medium(nullptr, Rgb(sigma)), ray, {0.0f, length},
+                                              {0.1f * length, 0.5f}, rng, [&](const Vec3& p, const Rgb& w) {
+                                                sum += w.r * sigma;
+                                                EXPECT_TRUE(p.z >= 0.0f && p.z <= length);
+                                              });
         EXPECT_FLOAT_EQ(static_cast<float>(marched.column), length);
         EXPECT_LT(marched.steps, 200u);
         sums.add(sum);
@@ -128,7 +127,7 @@ TEST(MediaExtremes, SingleScatteringIsExactWhereNoPhotonCollides) {
     const Interface media{0, kVacuum};
     add_shape(scene, box_mesh(Vec3d(-1, -1, -1), Vec3d(1, 1, 0)), Boundary{}, &media);
     scene.lights.push_back(DirectionalLight{Vec3(0, 0, -1), Rgb(1.0f)});
-    scene.camera = make_camera(Vec3(0, 0, 3), Vec3(0.0f), Vec3(0, 1, 0), 1e-3f, 8, 8, {});
+    scene.camera = make_camera(Vec3(0, 0, 3), Vec3(0.0f), Vec3(0, 1, 0), 1e-3f, {8, 8});
     scene.geometry.commit();
     finish(scene);
     RenderSettings settings = settings_of(1, 0.01f);
@@ -224,7 +223,7 @@ Scene furnace_ball(float sigma, float g, float radius) {
   const Interface media{0, kVacuum};
   add_shape(scene, SphereShape{Vec3(0.0f), radius}, Boundary{}, &media);
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4 * radius), Vec3(0.0f), Vec3(0, 1, 0), 10.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0, 0, 4 * radius), Vec3(0.0f), Vec3(0, 1, 0), 10.0f, {8, 8});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -278,7 +277,7 @@ TEST(MediaExtremes, TheRefereesWhiteFurnaceIsOneInTheNarrowestPeak) {
       Medium medium = make_medium(nullptr, Rgb(sigma), 1.0f);
       medium.phase = HenyeyGreenstein{g};
       Scene scene = boxed_medium(medium, ConstantEnvironment{Rgb(1.0f)});
-      scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 10.0f, 8, 8, {});
+      scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 10.0f, {8, 8});
       Moments mean;
       static const std::atomic<bool> kGoOn{false};
       for (int pass = 0; pass < 16; ++pass) {
@@ -347,7 +346,7 @@ TEST(MediaExtremes, LightStraightThroughForwardScatteringIsExact) {
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
   scene.lights.push_back(DirectionalLight{glm::normalize(Vec3(1e-4f, 0, 1)), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4e3f), Vec3(0.0f), Vec3(0, 1, 0), 1e-4f, 4, 4, {});
+  scene.camera = make_camera(Vec3(0, 0, 4e3f), Vec3(0.0f), Vec3(0, 1, 0), 1e-4f, {4, 4});
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings = settings_of(1, 1e-3f);

@@ -36,7 +36,7 @@ Scene small_world(float unit, const Vec3& centre, Lamp lamp) {
     add_shape(scene, quad_mesh(Vec3d(panel.corner), Vec3d(panel.edge_u), Vec3d(panel.edge_v)), Lambertian{Rgb(0.0f)},
               nullptr, 0);
   }
-  scene.camera = make_camera(at(3, 2, 5), at(0.5f, 0.75f, 0), Vec3(0, 1, 0), 40.0f, 16, 16, {});
+  scene.camera = make_camera(at(3, 2, 5), at(0.5f, 0.75f, 0), Vec3(0, 1, 0), 40.0f, {16, 16});
   scene.geometry.commit();
   finish(scene);
   return scene;

@@ -51,7 +51,7 @@ TEST(SceneFile, PlacesTheCaretUnderWideCharactersAndTabs) {
 }
 
 TEST(SceneFile, ReadsLettersBeyondAsciiBehindJoinedLines) {
-  const LoadedScene loaded = load_with(
+  const RenderJob loaded = load_with(
       "[[shapes]]\nname = \"\"\"la \\\n  \u00e9toile\"\"\"\ntype = 'sphere'\nmaterial = { type = 'lambertian', "
       "reflectance = 0.5 }\ncenter = [0, 0, 0]\nradius = 1\n");
   EXPECT_EQ(loaded.scene.shapes.back().name, "la \u00e9toile");
@@ -74,13 +74,13 @@ TEST(SceneFile, RefusesMissingFilesAndFolders) {
 TEST(SceneFile, OptionsChangeKeys) {
   const std::string ball =
       "[[shapes]]\nname = \"ball\"\ntype = \"sphere\"\nmaterial = \"grey\"\ncenter = [0, 0, 0]\nradius = 1\n";
-  const LoadedScene plain = load_with(kGrey + ball);
-  const LoadedScene changed =
+  const RenderJob plain = load_with(kGrey + ball);
+  const RenderJob changed =
       load_with(kGrey + ball, {"shapes.0.radius=2", "shapes.ball.center=[0, 5, 0]", "render.passes=7",
                                "materials.grey.type=mirror", "lights.0.power=[1, 2, 3]"});
   EXPECT_EQ(plain.scene.geometry.bounds().hi, Vec3(1));
   EXPECT_EQ(changed.scene.geometry.bounds().hi, Vec3(2, 7, 2));
-  EXPECT_EQ(changed.settings.passes, 7);
+  EXPECT_EQ(changed.settings.until.passes, 7);
   EXPECT_TRUE(std::holds_alternative<Mirror>(changed.scene.materials[0]));
   EXPECT_FALSE(changed.scene.grey);
   EXPECT_EQ(plain.hash.size(), 16u);
@@ -91,7 +91,7 @@ TEST(SceneFile, OptionsChangeKeys) {
 TEST(SceneFile, OptionsAddElements) {
   const std::string ball =
       "[[shapes]]\nname = 'a ball'\ntype = 'sphere'\nmaterial = 'grey'\ncenter = [0, 0, 0]\nradius = 1\n";
-  const LoadedScene added = load_with(
+  const RenderJob added = load_with(
       kGrey + ball, {" shapes.1 = {type='sphere', material='grey', center=[0, 0, 3]}", "shapes.1.radius=2",
                      "shapes. a ball .center=[0, 0, -1]", "lights.1={type='point', position=[0, 4, 0], power=1}",
                      "lights.new={type='point', position=[0, 5, 0], power=1}"});
@@ -122,7 +122,7 @@ TEST(SceneFile, HashesTheBytesOfTheFilesItNames) {
     write_exr(folder / "sky.exr", image, {}, {});
   };
   const auto hash = [&] {
-    const LoadedScene loaded = load_with(
+    const RenderJob loaded = load_with(
         "[[lights]]\ntype = 'environment'\npath = 'sky.exr'\n[[shapes]]\ntype = 'mesh'\npath = 'one.obj'\n"
         "material = { type = 'mirror', reflectance = { texture = 'picture.png' } }\n");
     EXPECT_EQ(loaded.files.size(), 3u);
@@ -179,7 +179,7 @@ TEST(SceneFile, FindsFilesFromTheSceneAndFromTheCurrentFolder) {
   std::ofstream(folder / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\n";
   std::ofstream(folder / "scene.toml") << kCamera << kLight << kGrey
                                        << "[[shapes]]\ntype = \"mesh\"\nmaterial = \"grey\"\npath = \"one.obj\"\n";
-  const LoadedScene loaded = load_scene((folder / "scene.toml").string());
+  const RenderJob loaded = load_scene((folder / "scene.toml").string());
   ASSERT_EQ(loaded.notes.size(), 1u);
   EXPECT_EQ(loaded.notes[0], "shape 'shape 0': 1 triangles without area dropped");
   const std::string here = fs::relative(folder / "one.obj").string();

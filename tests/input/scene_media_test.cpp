@@ -13,7 +13,7 @@ namespace vpm {
 namespace {
 
 TEST(SceneFile, ReadsCoefficients) {
-  const LoadedScene loaded = load_with(
+  const RenderJob loaded = load_with(
       "[media.a]\ntype = 'homogeneous'\nsigma_s = [1, 2, 3]\nsigma_a = 0.5\nphase = { type = 'henyey-greenstein', g = "
       "-0.3 }\n"
       "[media.b]\ntype = 'homogeneous'\nsigma_t = 4\nalbedo = [0.25, 0.5, 1]\nphase = { type = 'rayleigh' }\n"

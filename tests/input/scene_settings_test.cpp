@@ -9,7 +9,7 @@ namespace vpm {
 namespace {
 
 TEST(SceneFile, ClosedRangesHoldTheirEnds) {
-  const LoadedScene loaded = load_with(
+  const RenderJob loaded = load_with(
       "[materials.a]\ntype = 'conductor'\neta = 1e-3\nk = 1e-6\n[materials.b]\ntype = 'dielectric'\nior = 1000\n"
       "[render]\nmax_optical_step = 1e-4\n[distance]\nstep = 1e-3\n");
   EXPECT_EQ(std::get<Conductor>(loaded.scene.materials[0]).k, Rgb(1e-6f));
@@ -45,8 +45,8 @@ TEST(SceneFile, ReadsEverySetting) {
           "[caustics]\nradius = 0.01\nemitted = 800\n")
           .settings;
   EXPECT_EQ(s.integrator, Integrator::photon);
-  EXPECT_EQ(s.passes, 3);
-  EXPECT_EQ(s.seconds, 1.5);
+  EXPECT_EQ(s.until.passes, 3);
+  EXPECT_EQ(s.until.seconds, 1.5);
   EXPECT_EQ(s.seed, 9u);
   EXPECT_EQ(s.samples_per_pixel, 2);
   EXPECT_EQ(s.max_events, 77);
@@ -59,7 +59,7 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_FALSE(s.guide.aim);
   EXPECT_FALSE(s.guide.split);
   EXPECT_TRUE(s.guide.scatter);
-  EXPECT_EQ(s.caustics.radius, 0.01f);
+  EXPECT_EQ(s.caustics.radius.metres(), 0.01f);
   EXPECT_EQ(s.caustics_emitted, 800u);
   EXPECT_EQ(s.distance.strategy, "ray-march");
   EXPECT_EQ(s.distance.step, 0.5f);
@@ -70,13 +70,13 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.transmittance.step, 0.75f);
   EXPECT_EQ(s.transmittance.samples, 2.5f);
   EXPECT_EQ(s.volume.mode, GatherMode::nearest);
-  EXPECT_EQ(s.volume.radius, 0.1f);
+  EXPECT_EQ(s.volume.radius.metres(), 0.1f);
   EXPECT_EQ(s.volume.count, 40u);
   EXPECT_EQ(s.volume.kernel, KernelKind::biweight);
   EXPECT_EQ(s.volume_form, VolumeForm::density_at_photon);
   EXPECT_EQ(s.volume_direct, DirectLight::shadow_rays);
   EXPECT_EQ(s.surface.mode, GatherMode::nearest);
-  EXPECT_EQ(s.surface.radius, 0.3f);
+  EXPECT_EQ(s.surface.radius.metres(), 0.3f);
   EXPECT_EQ(s.surface.count, 60u);
   EXPECT_EQ(s.surface.kernel, KernelKind::constant);
   EXPECT_EQ(s.surface_direct, DirectLight::photons);
@@ -131,7 +131,7 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   const RenderSettings s = load_with("[render]\n[photons]\n[distance]\n[transmittance]\n[volume]\n[surface]\n")
                                .settings,
                        d;
-  EXPECT_EQ(s.passes, d.passes);
+  EXPECT_EQ(s.until.passes, d.until.passes);
   EXPECT_EQ(s.seed, d.seed);
   EXPECT_EQ(s.max_events, d.max_events);
   EXPECT_EQ(s.photons_emitted, d.photons_emitted);
@@ -150,10 +150,9 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
 using Keys = decltype(AutomaticSettings::keys);
 
 TEST(SceneFile, AutoIsReadWhereItIsWritten) {
-  const LoadedScene loaded =
-      load_with("[volume]\nradius = 'auto'\n[photons]\nemitted = 'auto'\n[surface]\nradius = 2\n");
+  const RenderJob loaded = load_with("[volume]\nradius = 'auto'\n[photons]\nemitted = 'auto'\n[surface]\nradius = 2\n");
   EXPECT_EQ(loaded.automatic.keys, (Keys{"photons.emitted", "volume.radius"}));
-  EXPECT_EQ(loaded.settings.volume.radius, RenderSettings{}.volume.radius);
+  EXPECT_FALSE(loaded.settings.volume.radius.is_given());
   EXPECT_EQ(loaded.settings.photons_emitted, RenderSettings{}.photons_emitted);
   EXPECT_EQ(load_with("", {"distance.strategy=auto", "caustics.radius=auto"}).automatic.keys,
             (Keys{"caustics.radius", "distance.strategy"}));
@@ -162,9 +161,9 @@ TEST(SceneFile, AutoIsReadWhereItIsWritten) {
 
 TEST(SceneFile, WhatIsLeftOutMayBeAutomatic) {
   const std::string path = write_scene(kCamera + kLight + "[surface]\nradius = 2\n[photons]\nstored = 70\n");
-  const LoadedScene loaded = load_scene(path, {"distance.strategy=delta"}, LeftOut::automatic);
+  const RenderJob loaded = load_scene(path, {"distance.strategy=delta"}, LeftOut::automatic);
   EXPECT_EQ(loaded.automatic.keys, (Keys{"caustics.radius", "volume.radius"}));
-  EXPECT_EQ(loaded.settings.surface.radius, 2.0f);
+  EXPECT_EQ(loaded.settings.surface.radius.metres(), 2.0f);
   EXPECT_EQ(loaded.settings.distance.strategy, "delta");
   EXPECT_TRUE(load_scene(path, {"photons.stored=9"}, LeftOut::automatic).automatic.has("distance.strategy"));
   EXPECT_TRUE(load_scene(write_scene(kCamera + kLight), {}, LeftOut::automatic).automatic.has("photons.emitted"));

@@ -14,7 +14,7 @@ namespace vpm {
 namespace {
 
 TEST(SceneFile, ReadsEveryMaterial) {
-  const LoadedScene loaded = load_with(R"(
+  const RenderJob loaded = load_with(R"(
 [materials]
 wall = { type = "lambertian", reflectance = 0.5 }
 wax = { type = "phong", diffuse = 0.7, glossy = [0.3, 0.2, 0.1], exponent = 30 }
@@ -44,7 +44,7 @@ material = "frosted"
 
 TEST(SceneFile, CountsTrianglesThatTheTransformFlattens) {
   std::ofstream(test_file("two.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 900 0 0\nv 0 900 0\nf 1 2 3\nf 1 4 5\n";
-  const LoadedScene loaded = load_with(
+  const RenderJob loaded = load_with(
       "[[shapes]]\ntype = 'mesh'\nmaterial = { type = 'mirror' }\npath = 'two.obj'\nemission = 1\n"
       "transform = [{ translate = [1e8, 1e8, 0] }]\n");  // where floats are 8 m apart
   ASSERT_EQ(loaded.notes.size(), 2u);                    // the other one tells of the place
@@ -68,7 +68,7 @@ TEST(SceneFile, ReadsLights) {
       "radius = 0.5\nemission = 13\n"
       "[[shapes]]\ntype = 'box'\nmaterial = 'grey'\nmin = [0, 12, 0]\nmax = [1, 13, 1]\nemission = 14\n"
       "transform = [{ scale = [-1, 1, 2] }]\n";
-  const LoadedScene loaded = load_scene(write_scene(text));
+  const RenderJob loaded = load_scene(write_scene(text));
   const Scene& scene = loaded.scene;
   ASSERT_EQ(scene.lights.size(), 9u);
   EXPECT_EQ(loaded.light_names,
@@ -158,19 +158,19 @@ TEST(SceneFile, ReadsTextures) {
     return std::get<Lambertian>(material_at(scene, *scene.geometry.intersect({Vec3(x, y, 1), Vec3(0, 0, -1)})))
         .reflectance;
   };
-  const LoadedScene checker = load_with(wall("{ texture = \"" + folder + "checker.png\", filter = \"nearest\" }"));
+  const RenderJob checker = load_with(wall("{ texture = \"" + folder + "checker.png\", filter = \"nearest\" }"));
   EXPECT_EQ(at(checker.scene, 0.5f, 0.5f), Rgb(1.0f));  // the lower left quarter
   EXPECT_EQ(at(checker.scene, 1.5f, 0.5f), Rgb(0.0f));
   EXPECT_EQ(at(checker.scene, 0.5f, 1.5f), Rgb(0.0f));
   EXPECT_EQ(checker.scene.textures[0], nullptr);
   EXPECT_EQ(std::get<Lambertian>(checker.scene.materials[1]).reflectance, Rgb(0.5f));
   EXPECT_TRUE(checker.scene.grey);
-  const LoadedScene smooth = load_with(wall("{ texture = \"" + folder + "checker.png\" }"));
+  const RenderJob smooth = load_with(wall("{ texture = \"" + folder + "checker.png\" }"));
   EXPECT_NEAR(at(smooth.scene, 1.0f, 0.5f).r, 0.5f, 1e-6f);
-  const LoadedScene colours = load_with(wall("{ texture = \"" + folder + "colours.png\", filter = \"nearest\" }"));
+  const RenderJob colours = load_with(wall("{ texture = \"" + folder + "colours.png\", filter = \"nearest\" }"));
   EXPECT_LT(glm::distance(at(colours.scene, 0.5f, 1.0f), Rgb(0.50289f, 0.0f, 1.0f)), 1e-4f);
   EXPECT_FALSE(colours.scene.grey);
-  const LoadedScene raw =
+  const RenderJob raw =
       load_with(wall("{ texture = \"" + folder + "colours.png\", filter = \"nearest\", raw = true }"));
   EXPECT_LT(glm::distance(at(raw.scene, 1.5f, 1.0f), Rgb(0.2f, 0.4f, 128.0f / 255.0f)), 1e-6f);
 }
@@ -179,8 +179,8 @@ TEST(SceneFile, TurnsNormalsWithTheirMesh) {
   const std::string path = test_file("slope.obj");
   std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 3 0 4\nf 1//1 2//1 3//1\n";
   const auto normal = [&](const std::string& transform, const Vec3& at) {
-    const LoadedScene loaded = load_with(kGrey + "[[shapes]]\ntype = \"mesh\"\nmaterial = \"grey\"\npath = \"" + path +
-                                         "\"\ntransform = [" + transform + "]\n");
+    const RenderJob loaded = load_with(kGrey + "[[shapes]]\ntype = \"mesh\"\nmaterial = \"grey\"\npath = \"" + path +
+                                       "\"\ntransform = [" + transform + "]\n");
     return loaded.scene.geometry.intersect({at + Vec3(0, 0, 5), Vec3(0, 0, -1)})->shading_normal;
   };
   EXPECT_LT(glm::distance(normal("", Vec3(0.2f)), Vec3(0.6f, 0, 0.8f)), 1e-6f);

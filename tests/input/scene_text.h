@@ -22,7 +22,7 @@ inline std::string write_scene(const std::string& text) {
 }
 
 /// Loads a camera, a point light and `text`.
-inline LoadedScene load_with(const std::string& text, const std::vector<std::string>& overrides = {}) {
+inline RenderJob load_with(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return load_scene(write_scene(kCamera + kLight + text), overrides);
 }
 

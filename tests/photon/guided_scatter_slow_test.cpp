@@ -24,7 +24,7 @@ void add_wall(Scene& scene, const Material& material) {
 void add_lamp_and_camera(Scene& scene, const Light& lamp) {
   scene.lights.push_back(lamp);
   scene.geometry.commit();
-  scene.camera = make_camera(Vec3(0.6f, 0.3f, 1.8f), Vec3(-0.6f, -0.6f, 1.2f), Vec3(0, 1, 0), 40.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0.6f, 0.3f, 1.8f), Vec3(-0.6f, -0.6f, 1.2f), Vec3(0, 1, 0), 40.0f, {8, 8});
   finish(scene);
   scene.camera_medium = medium_at(scene, scene.camera.position);
 }

@@ -24,7 +24,7 @@ Scene foggy_box() {
   add_shape(scene, SphereShape{Vec3(0.0f, 0.0f, 0.2f), 0.3f}, Lambertian{Rgb(0.7f)});
   scene.lights.push_back(PointLight{Vec3(-0.9f, -0.8f, 0.7f), Rgb(1.0f)});
   scene.geometry.commit();
-  scene.camera = make_camera(Vec3(0.5f, 0.5f, -0.8f), Vec3(0.9f, 0.9f, -0.9f), Vec3(0, 1, 0), 40.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0.5f, 0.5f, -0.8f), Vec3(0.9f, 0.9f, -0.9f), Vec3(0, 1, 0), 40.0f, {8, 8});
   finish(scene);
   scene.camera_medium = medium_at(scene, scene.camera.position);
   return scene;

@@ -65,7 +65,7 @@ TEST(ImportanceMap, ImportonsFadeAsLightDoes) {
   Medium fog;
   fog.sigma_t = Rgb(1.0f);
   Scene scene = boxed_medium(fog, PointLight{Vec3(0.0f, 0.9f, 0.0f), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.0f, 0.0f, 0.95f), Vec3(0.0f), Vec3(0, 1, 0), 2.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0.0f, 0.0f, 0.95f), Vec3(0.0f), Vec3(0, 1, 0), 2.0f, {8, 8});
   scene.camera_medium = medium_at(scene, scene.camera.position);
   const auto strategy = make_distance_strategy({});
   const ImportanceMap map = trace_importons(scene, *strategy, {.importons = 20'000}, 1, 0, 100).map;

@@ -108,7 +108,8 @@ RC_GTEST_PROP(MapProperty, AnswersRadiiItWasNotMadeForAndCounts, ()) {
     own.radius *= static_cast<float>(*magnitude(0.02, 50.0));
     const Vec3 at = any_query(photons, own.radius), up(0, 1, 0);
     GatherCounters counters;
-    RC_ASSERT(same(surface_irradiance(at, up, CountedMap{map, counters, own}),
+    Neighbours near;
+    RC_ASSERT(same(surface_irradiance(at, up, CountedMap{map, GatherWork{counters, near}, own}),
                    surface_irradiance(at, up, photons, own, uint64_t{1}), kernel_norm<2>(made.kernel, own.radius)));
     const Arrives arrives{up, plane_thickness(own)};
     const auto counts = [&](const Photon& p) {

@@ -194,7 +194,8 @@ TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
   const Vec3 at(0.5f);
   const auto count = [&](const PhotonMap& map) {
     GatherCounters counters;
-    volume_sum(Isotropic{}, at, Vec3(0, 0, 1), CountedMap{map, counters});
+    Neighbours near;
+    volume_sum(Isotropic{}, at, Vec3(0, 0, 1), CountedMap{map, GatherWork{counters, near}});
     return counters;
   };
   const GatherSettings by_radius{GatherMode::radius, 0.2f, 0, KernelKind::constant};

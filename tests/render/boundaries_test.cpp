@@ -55,7 +55,7 @@ TEST(SlowBoundaries, AWhiteMediumIsWhiteUpToItsFaces) {
   Medium medium = make_medium(nullptr, Rgb(1.5f), 1.0f);
   medium.phase = HenyeyGreenstein{0.3f};
   Scene scene = boxed_medium(medium, ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(3.0f, 2.5f, 4.0f), Vec3(0.0f), Vec3(0, 1, 0), 14.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(3.0f, 2.5f, 4.0f), Vec3(0.0f), Vec3(0, 1, 0), 14.0f, {8, 8});
   expect_white(scene, 0.6f, 0.005, 0.85);
 }
 
@@ -69,7 +69,7 @@ TEST(SlowBoundaries, AWhiteGridIsWhiteWhereItsDensityEnds) {
     return glm::length(Vec3d(x, y, z) - 5.5) < 5.0 ? 1.0 + 0.5 * lattice_noise(x, y, z) : 0.0;
   };
   Scene scene = boxed_medium(make_medium(make_grid(frame, density), Rgb(1.5f), 1.0f), ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(3.0f, 2.5f, 4.0f), Vec3(0.0f), Vec3(0, 1, 0), 14.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(3.0f, 2.5f, 4.0f), Vec3(0.0f), Vec3(0, 1, 0), 14.0f, {8, 8});
   expect_white(scene, 0.4f, 0.01, 0.92);
 }
 
@@ -77,7 +77,7 @@ TEST(Boundaries, AWhiteSheetIsWhiteUpToItsCorner) {
   Scene scene;
   add_shape(scene, quad_mesh(Vec3d(-1, 0, 1), Vec3d(2, 0, 0), Vec3d(0, 0, -2)), Lambertian{Rgb(1.0f)});
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.72f, 4.0f, 0.72f), Vec3(0.72f, 0.0f, 0.72f), Vec3(1, 0, 0), 7.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0.72f, 4.0f, 0.72f), Vec3(0.72f, 0.0f, 0.72f), Vec3(1, 0, 0), 7.0f, {8, 8});
   scene.geometry.commit();
   finish(scene);
   expect_white(scene, 0.5f, 0.005, 0.75);

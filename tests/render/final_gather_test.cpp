@@ -25,7 +25,7 @@ Scene hollow_cube(const Medium* fog = nullptr, float reflectance = kReflectance)
   }
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Lambertian{Rgb(reflectance)});
   scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(0.25f / kPi)});
-  scene.camera = make_camera(Vec3(0.3f, 0.2f, 0.1f), Vec3(1.0f, 0.3f, 0.2f), Vec3(0, 1, 0), 100.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0.3f, 0.2f, 0.1f), Vec3(1.0f, 0.3f, 0.2f), Vec3(0, 1, 0), 100.0f, {8, 8});
   scene.camera_medium = scene.world_medium;
   scene.geometry.commit();
   finish(scene);
@@ -110,7 +110,7 @@ TEST(FinalGather, BoundariesOnTheWayAreNoEvents) {
   for (const double half : {0.5, 0.6, 0.7, 0.8, 0.9})
     add_shape(scene, box_mesh(Vec3d(-half), Vec3d(half)), Boundary{}, &vacuum);
   scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.3f, 0.2f, 0.1f), Vec3(1.0f, 0.3f, 0.2f), Vec3(0, 1, 0), 100.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0.3f, 0.2f, 0.1f), Vec3(1.0f, 0.3f, 0.2f), Vec3(0, 1, 0), 100.0f, {8, 8});
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings = gathering(1e-6f);

@@ -63,7 +63,8 @@ TEST(GatherGuide, ItsRaysWeighWhatTheMaterialScatters) {
           return moments;
         };
         GatherCounters counters;
-        expect_same(gathered(GatherGuide(view, map, counters), 2), gathered(GatherGuide(view), 3), 0.01,
+        Neighbours near;
+        expect_same(gathered(GatherGuide(view, map, {counters, near}), 2), gathered(GatherGuide(view), 3), 0.01,
                     std::to_string(material.index()) + (down < 0.0f ? " from above" : " from below"));
       }
 }
@@ -77,7 +78,8 @@ TEST(GatherGuide, WithoutPhotonsDrawsAsTheMaterialScatters) {
   gather.radius = 1.0f;
   Rng rng(7, rng_stream(RngUse::test, 4), 0), same = rng;
   GatherCounters counters;
-  const Scatter guided = GatherGuide(view, make_photon_map({}, gather, 1), counters).sample(rng);
+  Neighbours near;
+  const Scatter guided = GatherGuide(view, make_photon_map({}, gather, 1), {counters, near}).sample(rng);
   const Scatter plain = GatherGuide(view).sample(same);
   EXPECT_EQ(guided.direction, plain.direction);
   EXPECT_EQ(guided.weight, plain.weight);

@@ -21,7 +21,7 @@ Scene floor_under_lamp(float ior) {
   add_shape(scene, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 0);
   add_shape(scene, quad_mesh(Vec3d(-3, 0, 3), Vec3d(6, 0, 0), Vec3d(0, 0, -6)), Lambertian{Rgb(0.6f)});
   if (ior > 0.0f) add_shape(scene, SphereShape{Vec3(0.0f, 0.8f, 0.0f), 0.3f}, Dielectric{ior});
-  scene.camera = make_camera(Vec3(0.9f, 0.4f, 0.0f), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, kFilm, kFilm, {});
+  scene.camera = make_camera(Vec3(0.9f, 0.4f, 0.0f), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {kFilm, kFilm});
   scene.geometry.commit();
   finish(scene);
   return scene;

@@ -229,7 +229,7 @@ TEST(LightMap, IsTheSameOnAnyNumberOfThreads) {
   std::vector<Image> maps;
   for (const int threads : {1, 2}) {
     set_threads(threads);
-    maps.push_back(bake_light_map(scene, settings, layout, kGoOn, ProgressMode::never).film.mean());
+    maps.push_back(bake_light_map(scene, settings, layout, {kGoOn}).film.mean());
   }
   set_threads(0);
   EXPECT_EQ(std::memcmp(maps[0].pixels.data(), maps[1].pixels.data(), layout.texels() * sizeof(Rgb)), 0);

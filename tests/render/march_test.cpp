@@ -27,8 +27,8 @@ TEST(March, IntegratesAConstantWithoutNoise) {
       Marcher marcher;
       Rng rng(1, 0, 0);
       double sum = 0.0;
-      const Marched marched = marcher.march(medium, kRay, {0.0f, 4.0f}, limits, glm::bvec3(true), rng,
-                                            [&](const Vec3&, const Rgb& w) { sum += w.r; });
+      const Marched marched =
+          marcher.march(medium, kRay, {0.0f, 4.0f}, limits, rng, [&](const Vec3&, const Rgb& w) { sum += w.r; });
       const double crossed = column(medium, kRay, {0.0f, 4.0f}).value;
       EXPECT_NEAR(marched.column, crossed, 1e-12);
       if (std::exp(-sigma * crossed) < 0.01) continue;  // roulette
@@ -63,7 +63,7 @@ TEST(SlowMarch, IsUnbiasedForAnyStep) {
     for (uint64_t i = 0; i < 20000; ++i) {
       Rng rng(1, rng_stream(RngUse::test, 0), i);
       Rgb sum(0.0f);
-      const Marched m = marcher.march(medium, kRay, {0.0f, 4.0f}, limits, glm::bvec3(true), rng,
+      const Marched m = marcher.march(medium, kRay, {0.0f, 4.0f}, limits, rng,
                                       [&](const Vec3& p, const Rgb& w) { sum += w * static_cast<float>(probe(p)); });
       for (int c = 0; c < 3; ++c) sums[c].add(sum[c]);
       EXPECT_NEAR(m.column, column(medium, kRay, {0.0f, 4.0f}).value, 1e-12);
@@ -79,8 +79,7 @@ TEST(March, EndsInEndlessMedia) {
   for (uint64_t i = 0; i < 4000; ++i) {
     Rng rng(1, rng_stream(RngUse::test, 1), i);
     double sum = 0.0;
-    marcher.march(medium, kRay, {}, {0.5f, 0.3f}, glm::bvec3(true), rng,
-                  [&](const Vec3&, const Rgb& w) { sum += w.r; });
+    marcher.march(medium, kRay, {}, {0.5f, 0.3f}, rng, [&](const Vec3&, const Rgb& w) { sum += w.r; });
     sums.add(sum);
   }
   expect_mean(sums, 2.0, kFalseAlarms, "endless");
@@ -91,7 +90,7 @@ TEST(March, EndsInEndlessMediaThatAreClearInOneChannel) {
   Marcher marcher;
   Rng rng(1, rng_stream(RngUse::test, 3), 0);
   const Marched marched =
-      marcher.march(medium, kRay, {}, {0.5f, 0.3f}, glm::bvec3(true, false, true), rng, [](auto&&...) {});
+      marcher.march(medium, kRay, {}, {0.5f, 0.3f, glm::bvec3(true, false, true)}, rng, [](auto&&...) {});
   EXPECT_LT(marched.steps, 1000u);
   EXPECT_EQ(transmittance(medium, marched.column), Rgb(0.0f, 1.0f, 0.0f));
 }

@@ -8,7 +8,6 @@
 #include "support/statistics.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/render/path_tracer.h"
-#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {
@@ -70,7 +69,7 @@ Scene lamp_and_floor(const Medium* fog, const Rgb& floor_in_fog = Rgb(0.0f)) {
   add_shape(scene, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 0);
   const Lambertian floor{fog ? floor_in_fog : Rgb(0.6f, 0.5f, 0.4f)};
   add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), floor);
-  scene.camera = make_camera(Vec3(1.5f, 1.2f, 1.5f), Vec3(0.2f, 0.0f, 0.2f), Vec3(0, 1, 0), 30.0f, 12, 12, {});
+  scene.camera = make_camera(Vec3(1.5f, 1.2f, 1.5f), Vec3(0.2f, 0.0f, 0.2f), Vec3(0, 1, 0), 30.0f, {12, 12});
   scene.camera_medium = scene.world_medium;
   scene.geometry.commit();
   finish(scene);
@@ -112,7 +111,7 @@ Scene furnace(std::shared_ptr<const DensityGrid> grid, float sigma_t) {
   const Interface media{0, kVacuum};
   add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Boundary{}, &media);
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 16.0f, 10, 10, {});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 16.0f, {10, 10});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -149,7 +148,7 @@ TEST(SlowPhotonPass, AClosedDiffuseFurnaceIsUniform) {
       scene.lights.push_back(QuadLight{corners[i], us[i], vs[i], Rgb(1.0f)});
       add_shape(scene, quad_mesh(corners[i], us[i], vs[i]), Lambertian{Rgb(0.5f)}, nullptr, i);
     }
-    scene.camera = make_camera(Vec3(0.1f, 0.2f, 0.3f), Vec3(0.1f, 0.2f, -1.0f), Vec3(0, 1, 0), 35.0f, 10, 10, {});
+    scene.camera = make_camera(Vec3(0.1f, 0.2f, 0.3f), Vec3(0.1f, 0.2f, -1.0f), Vec3(0, 1, 0), 35.0f, {10, 10});
     scene.camera_medium = scene.world_medium;
     scene.geometry.commit();
     finish(scene);
@@ -170,7 +169,7 @@ TEST(PhotonPass, AWhiteFurnaceIsUniformThroughGlass) {
   const Interface media{0, kVacuum};
   add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Dielectric{1.5f}, &media);
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 16.0f, 10, 10, {});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 16.0f, {10, 10});
   scene.geometry.commit();
   finish(scene);
   for (const auto& [name, settings] : volume_estimates(settings_of(10000, 0.1f))) {
@@ -192,7 +191,7 @@ Scene cone_in_fog(float panel_radiance) {
   scene.lights.push_back(panel);
   add_shape(scene, quad_mesh(panel.corner, panel.edge_u, panel.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 1);
   add_shape(scene, quad_mesh(Vec3(-1, -1, 1), Vec3(2, 0, 0), Vec3(0, 0, -2)), Lambertian{Rgb(0.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 2), Vec3(0.0f), Vec3(0, 1, 0), 4.0f, 10, 10, {});
+  scene.camera = make_camera(Vec3(0, 0, 2), Vec3(0.0f), Vec3(0, 1, 0), 4.0f, {10, 10});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -233,7 +232,7 @@ TEST(PhotonPass, PhotonsBesideRaysAgreeWithThoseAroundPointsAsRadiiShrink) {
   const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.05 + lattice_noise(x, y, z); });
   Scene scene =
       boxed_medium(make_medium(grid, Rgb(2.0f), 0.8f), SpotLight{Vec3(3, 1, 0), Vec3(-1, 0, 0), 0.9f, 0.9f, Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 25.0f, 10, 10, {});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 25.0f, {10, 10});
   for (const float radius : {0.2f, 0.1f, 0.05f}) {
     const auto all = volume_estimates(settings_of(20000, radius));
     const Moments marched = pass_means(scene, all.front().second, 12);
@@ -246,7 +245,7 @@ TEST(PhotonPass, OnlyTheDensityAtThePhotonSpreadsBeyondItsMedium) {
   // Seen along a face of the medium, from outside but within the radius of photons inside.
   Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 0.8f),
                              SpotLight{Vec3(0, 3, 0), Vec3(0, -1, 0), 0.9f, 0.9f, Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(1.05f, 0, 4), Vec3(1.05f, 0, 0), Vec3(0, 1, 0), 0.5f, 4, 4, {});
+  scene.camera = make_camera(Vec3(1.05f, 0, 4), Vec3(1.05f, 0, 0), Vec3(0, 1, 0), 0.5f, {4, 4});
   for (const auto& [name, settings] : volume_estimates(settings_of(10000, 0.2f))) {
     const double mean = pass_means(scene, settings, 1).mean();
     EXPECT_EQ(mean > 0.0, settings.volume_form == VolumeForm::density_at_photon) << name << ": " << mean;
@@ -304,30 +303,6 @@ TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
   EXPECT_EQ(square(both, settings), 0.0);
 }
 
-/// Finds what it is told to.
-class Finds final : public VolumeEstimator {
- public:
-  explicit Finds(const ScatteredLight& light) : light_(light) {}
-  ScatteredLight finds() const override { return light_; }
-  Rgb along(const EyeSegment&, EyeWork&) const override { return Rgb(0.0f); }
-
- private:
-  ScatteredLight light_;
-};
-
-TEST(PhotonPass, RefusesToCountLightTwice) {
-  const ScatteredLight once{.once = true}, more{.more = true}, all{true, true};
-  const auto apart = [](const std::vector<ScatteredLight>& lights) {
-    std::vector<std::unique_ptr<VolumeEstimator>> estimators;
-    for (const ScatteredLight& light : lights) estimators.push_back(std::make_unique<Finds>(light));
-    check_apart(estimators);
-  };
-  EXPECT_NO_THROW(apart({once, more}));
-  EXPECT_NO_THROW(apart({all}));
-  EXPECT_THROW(apart({once, all}), std::logic_error);
-  EXPECT_THROW(apart({more, once, more}), std::logic_error);
-}
-
 TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {
   // A ball of IOR 1 between lamp and floor: what shadow rays lose to it, photons bring back.
   Scene with = lamp_and_floor(nullptr);
@@ -353,7 +328,7 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
   add_shape(scene, box_mesh(Vec3(-1, 0, -1), Vec3(1, 1, 1)), Boundary{}, &media);
   add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), Lambertian{Rgb(0.5f)});
   scene.lights.push_back(DirectionalLight{glm::normalize(Vec3(0.2f, -1.0f, 0.1f)), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.3f, 3.0f, 0.2f), Vec3(0.0f), Vec3(0, 0, -1), 20.0f, 16, 16, {});
+  scene.camera = make_camera(Vec3(0.3f, 3.0f, 0.2f), Vec3(0.0f), Vec3(0, 0, -1), 20.0f, {16, 16});
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings = settings_of(1000, 0.05f);
@@ -366,7 +341,7 @@ TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
   const GridFrame frame = centred_frame(8, 0.125);
   const auto grid = make_grid(frame, [](int x, int y, int z) { return lattice_noise(x, y, z); });
   Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f)), PointLight{Vec3(0.2f, 1.8f, 0.1f), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {8, 8});
   RenderSettings settings = settings_of(2000, 0.2f);
   settings.distance = {.strategy = "progressive-null", .majorant = 0.25f};
   static const std::atomic<bool> kGoOn{false};
@@ -404,21 +379,6 @@ TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
   EXPECT_EQ(statistics(no_medium).last_surface_radius, 0.1f);
   EXPECT_EQ(statistics(no_surface).last_volume_radius, 0.1f);
   EXPECT_EQ(statistics(no_surface).last_surface_radius, 0.0f);
-}
-
-TEST(Render, StopsByCountAndByTime) {
-  const Scene scene = lamp_and_floor(nullptr);
-  const std::atomic<bool> go_on{false}, stop{true};
-  RenderSettings settings = settings_of(500, 0.1f);
-  settings.passes = 3;
-  const Film film = render(scene, settings, nothing_rendered(scene.camera), go_on, ProgressMode::never).film;
-  EXPECT_EQ(film.passes(), 3);
-  for (const Rgb& v : film.variance_of_mean().pixels) EXPECT_GT(v.g, 0.0f);  // every pass has random numbers of its own
-  EXPECT_EQ(render(scene, settings, nothing_rendered(scene.camera), stop, ProgressMode::never).film.passes(), 0);
-  settings.seconds = 0.3;
-  const RenderResult timed = render(scene, settings, nothing_rendered(scene.camera), go_on, ProgressMode::never);
-  EXPECT_GT(timed.film.passes(), 3);
-  EXPECT_LT(timed.seconds, 2.0);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/estimate/surface_estimate.h"
+#include "vpm/job/render.h"
 #include "vpm/render/photon_pass.h"
-#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {
@@ -90,7 +90,8 @@ TEST(PixelDisc, TheMeanOfPassesIsTheTextbooksRadiance) {
       GatherSettings own = made;
       own.radius = disc_radius(disc, kFirst);
       GatherCounters counters;
-      sum += surface_irradiance(at, up, CountedMap{map, counters, own}).g;
+      Neighbours near;
+      sum += surface_irradiance(at, up, CountedMap{map, GatherWork{counters, near}, own}).g;
       shrink(disc, counters.used);
 
       double near = 0.0, power = 0.0;
@@ -113,7 +114,7 @@ Scene lit_floor(const Light& light) {
   Scene scene;
   scene.lights.push_back(light);
   add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), Lambertian{Rgb(0.5f)});
-  scene.camera = make_camera(Vec3(0, 4, 0), Vec3(0.0f), Vec3(0, 0, -1), 30.0f, 18, 18, {});
+  scene.camera = make_camera(Vec3(0, 4, 0), Vec3(0.0f), Vec3(0, 0, -1), 30.0f, {18, 18});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -124,14 +125,14 @@ RenderSettings per_pixel(uint64_t photons) {
   settings.radii = RadiusSchedule::per_pixel;
   settings.surface_direct = DirectLight::photons;
   settings.photons_emitted = photons;
-  settings.passes = 12;
+  settings.until.passes = 12;
   settings.surface.radius = 0.15f;
   settings.surface.kernel = KernelKind::constant;
   return settings;
 }
 
 RenderResult render_all(const Scene& scene, const RenderSettings& settings) {
-  return render(scene, settings, nothing_rendered(scene.camera), kGoOn, ProgressMode::never);
+  return render(scene, settings, nothing_rendered(scene.camera), {kGoOn});
 }
 
 /// The light of a lamp near the floor, on some pixels bright, on others next to none.
@@ -141,7 +142,7 @@ TEST(RadiiOfPixels, ARenderIsTheTextbooksPixelByPixel) {
     RenderSettings settings = per_pixel(3000);
     settings.samples_per_pixel = samples;
     const size_t pixels = nothing_rendered(scene.camera).film.mean().pixels.size();
-    std::vector<Textbook> textbook(pixels, Textbook{settings.surface.radius});
+    std::vector<Textbook> textbook(pixels, Textbook{settings.surface.radius.metres()});
     const double power = light_power(scene.lights[0], scene.bounds).g;
     const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
       Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.passes(), kGoOn, shown});
@@ -153,13 +154,13 @@ TEST(RadiiOfPixels, ARenderIsTheTextbooksPixelByPixel) {
       return pass;
     };
     const RenderResult result =
-        run_passes(settings, run, tile_count(scene.camera), nothing_rendered(scene.camera), kGoOn, ProgressMode::never);
+        run_passes(settings.until, {run, tile_count(scene.camera)}, nothing_rendered(scene.camera), {kGoOn});
     const Image mean = result.film.mean();
     ASSERT_EQ(result.discs.size(), pixels);
     int lit = 0;
     for (size_t i = 0; i < pixels; ++i) {
-      EXPECT_NEAR(disc_radius(result.discs[i], settings.surface.radius), textbook[i].radius, 1e-6);
-      const double exact = 0.5 / kPiD * textbook[i].irradiance(settings.passes, 3000.0);
+      EXPECT_NEAR(disc_radius(result.discs[i], settings.surface.radius.metres()), textbook[i].radius, 1e-6);
+      const double exact = 0.5 / kPiD * textbook[i].irradiance(settings.until.passes, 3000.0);
       EXPECT_NEAR(mean.pixels[i].g, exact, 1e-5 * exact);
       lit += exact > 0.0;
     }
@@ -227,7 +228,7 @@ TEST(RadiiOfPixels, AreTheSameForAnyNumberOfThreads) {
 
 TEST(RadiiOfPixels, AreNoneWithoutARoughSurface) {
   Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 0.8f), PointLight{Vec3(0, 3, 0), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 20.0f, 4, 4, {});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 20.0f, {4, 4});
   EXPECT_TRUE(render_all(scene, per_pixel(100)).discs.empty());
 }
 

@@ -20,7 +20,7 @@ Scene sheet(const Material& material, const Light& light, bool from_outside) {
   const Vec3d u(0, 4, 0), v(4, 0, 0);
   add_shape(scene, from_outside ? quad_mesh(Vec3d(-2, -2, 0), v, u) : quad_mesh(Vec3d(-2, -2, 0), u, v), material);
   scene.lights.push_back(light);
-  scene.camera = make_camera(Vec3(50, 0, 50), Vec3(0.0f), Vec3(0, 1, 0), 0.05f, 4, 4, {});
+  scene.camera = make_camera(Vec3(50, 0, 50), Vec3(0.0f), Vec3(0, 1, 0), 0.05f, {4, 4});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -116,7 +116,7 @@ TEST(RoughSurfaces, ShadowRaysStartInTheMediumBehindThem) {
   const Interface media{0, kVacuum};
   add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, RoughDielectric{1.3f, 0.4f}, &media);
   scene.lights.push_back(PointLight{Vec3(0, 0, 0), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 50), Vec3(0.0f), Vec3(0, 1, 0), 0.6f, 4, 4, {});
+  scene.camera = make_camera(Vec3(0, 0, 50), Vec3(0.0f), Vec3(0, 1, 0), 0.6f, {4, 4});
   scene.geometry.commit();
   finish(scene);
   RenderSettings by_photons = settings_of(DirectLight::photons), by_rays = settings_of(DirectLight::shadow_rays);

@@ -150,7 +150,7 @@ TEST(ShadingNormals, ADiffusePlateIsAsBrightAsItsShadingCosine) {
   Scene scene;
   add_shape(scene, plate, Lambertian{Rgb(0.6f)});
   scene.lights.push_back(DirectionalLight{d, Rgb(3.0f)});
-  scene.camera = make_camera(Vec3(0.3f, 2, 1), Vec3(0.0f), Vec3(0, 1, 0), 20.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0.3f, 2, 1), Vec3(0.0f), Vec3(0, 1, 0), 20.0f, {8, 8});
   scene.geometry.commit();
   finish(scene);
   const double expected = 0.6 / kPiD * 3.0 * -glm::dot(d, n);

@@ -20,7 +20,7 @@ SceneParts ball_on_floor() {
   floor.surface = QuadMesh{quad_mesh(Vec3d(-5, -1, -5), Vec3d(0, 0, 10), Vec3d(10, 0, 0))};
   parts.shapes = {ball, floor};
   parts.lights = {{"lamp", PointLight{{0, 5, 0}, Rgb(1)}}};
-  parts.camera = make_camera({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 40, 8, 6, {});
+  parts.camera = make_camera({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 40, {8, 6});
   return parts;
 }
 

@@ -14,7 +14,7 @@ Vec3 towards(const Vec3& v) { return glm::normalize(v); }
 
 TEST(Camera, CornersSpanTheFieldOfView) {
   // 90 degrees high, twice as wide: the corners lie at (+-2, +-1) one metre ahead.
-  const Camera camera = make_camera({1, 2, 3}, {1, 2, -5}, {0, 7, 0}, 90.0f, 200, 100, {});
+  const Camera camera = make_camera({1, 2, 3}, {1, 2, -5}, {0, 7, 0}, 90.0f, {200, 100});
   EXPECT_EQ(camera.ray({0, 0}).origin, Vec3(1, 2, 3));
   EXPECT_LT(glm::length(camera.ray({0, 0}).direction - towards({-2, 1, -1})), 1e-6f);
   EXPECT_LT(glm::length(camera.ray({200, 0}).direction - towards({2, 1, -1})), 1e-6f);
@@ -22,12 +22,12 @@ TEST(Camera, CornersSpanTheFieldOfView) {
   EXPECT_LT(glm::length(camera.ray({200, 100}).direction - towards({2, -1, -1})), 1e-6f);
   EXPECT_LT(glm::length(camera.ray({100, 50}).direction - towards({0, 0, -1})), 1e-6f);
   // A portrait: the field of view is still the vertical one.
-  const Camera portrait = make_camera({0, 0, 0}, {3, 0, 0}, {0, 0, 1}, 90.0f, 50, 100, {});
+  const Camera portrait = make_camera({0, 0, 0}, {3, 0, 0}, {0, 0, 1}, 90.0f, {50, 100});
   EXPECT_LT(glm::length(portrait.ray({0, 0}).direction - towards({1, 0.5f, 1})), 1e-6f);
 }
 
 TEST(Camera, AxesAreOrthonormalAndRightHanded) {
-  const Camera c = make_camera({1, 2, 3}, {-4, 0.5f, 9}, {0.1f, 1, 0.3f}, 40.0f, 64, 48, {});
+  const Camera c = make_camera({1, 2, 3}, {-4, 0.5f, 9}, {0.1f, 1, 0.3f}, 40.0f, {64, 48});
   EXPECT_NEAR(glm::length(c.forward), 1.0f, 1e-6f);
   EXPECT_LT(glm::length(glm::cross(c.right, c.up) + c.forward), 1e-6f);
   EXPECT_LT(glm::length(glm::cross(c.up, c.forward) + c.right), 1e-6f);
@@ -36,14 +36,14 @@ TEST(Camera, AxesAreOrthonormalAndRightHanded) {
 
 TEST(Camera, RefusesWhatIsNoCamera) {
   const Vec3 o(0), z(0, 0, -1), y(0, 1, 0);
-  EXPECT_THROW(make_camera(o, o, y, 40, 8, 8, {}), InputError);
-  EXPECT_THROW(make_camera(o, z, z, 40, 8, 8, {}), InputError);
-  EXPECT_THROW(make_camera(o, z, o, 40, 8, 8, {}), InputError);
-  EXPECT_THROW(make_camera(o, z, y, 0, 8, 8, {}), InputError);
-  EXPECT_THROW(make_camera(o, z, y, 180, 8, 8, {}), InputError);
-  EXPECT_THROW(make_camera(o, z, y, 40, 0, 8, {}), InputError);
-  EXPECT_THROW(make_camera(o, z, y, 40, 8, 8, {FilterKind::box, 0.0f}), InputError);
-  EXPECT_THROW(make_camera(o, {0, 0, kInfinity}, y, 40, 8, 8, {}), InputError);
+  EXPECT_THROW(make_camera(o, o, y, 40, {8, 8}), InputError);
+  EXPECT_THROW(make_camera(o, z, z, 40, {8, 8}), InputError);
+  EXPECT_THROW(make_camera(o, z, o, 40, {8, 8}), InputError);
+  EXPECT_THROW(make_camera(o, z, y, 0, {8, 8}), InputError);
+  EXPECT_THROW(make_camera(o, z, y, 180, {8, 8}), InputError);
+  EXPECT_THROW(make_camera(o, z, y, 40, {0, 8}), InputError);
+  EXPECT_THROW(make_camera(o, z, y, 40, {8, 8, {FilterKind::box, 0.0f}}), InputError);
+  EXPECT_THROW(make_camera(o, {0, 0, kInfinity}, y, 40, {8, 8}), InputError);
 }
 
 /// The cumulative distribution of one coordinate at x in [-1, 1], in radii.

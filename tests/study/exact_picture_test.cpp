@@ -32,7 +32,7 @@ Scene ball_of(const Medium& medium, const Material& material = Boundary{}) {
   const Interface media{0, kVacuum};
   add_shape(scene, SphereShape{kCentre, kRadius}, material, &media);
   scene.lights.push_back(ConstantEnvironment{kSky});
-  scene.camera = make_camera(kCentre + Vec3(1.0f, 2.0f, 5.0f), kCentre, Vec3(0, 1, 0), 40.0f, 24, 16, {});
+  scene.camera = make_camera(kCentre + Vec3(1.0f, 2.0f, 5.0f), kCentre, Vec3(0, 1, 0), 40.0f, {24, 16});
   return scene;
 }
 Scene finished(Scene scene) {
@@ -127,7 +127,7 @@ TEST(ExactPicture, RefusesWhatTheoryDoesNotKnow) {
   expect_refused(finished(std::move(two)), "one shape");
   lamp.lights.push_back(PointLight{kCentre + 9.0f, Rgb(1.0f)});
   expect_refused(finished(std::move(lamp)), "its light is no");
-  inside.camera = make_camera(kCentre, kCentre + 1.0f, Vec3(0, 1, 0), 40.0f, 4, 4, {});
+  inside.camera = make_camera(kCentre, kCentre + 1.0f, Vec3(0, 1, 0), 40.0f, {4, 4});
   inside.camera_medium = 0;
   expect_refused(finished(std::move(inside)), "camera");
   Scene box;

@@ -76,7 +76,7 @@ ColumnDifference compare_columns(const Medium& grid, const Medium& copy, int ray
 }
 
 /// Moments over passes of the mean radiance of the whole picture (first) and of each block of pixels.
-std::vector<Moments> block_moments(const LoadedScene& loaded) {
+std::vector<Moments> block_moments(const RenderJob& loaded) {
   const std::atomic<bool> stop{false};
   const int columns = kWidth / kBlock;
   std::vector<Moments> moments(1 + columns * (kHeight / kBlock));
@@ -103,7 +103,7 @@ class RotatedGrid : public ::testing::Test {
   }
   ~RotatedGrid() override { std::filesystem::remove_all(folder_); }
 
-  LoadedScene scene(const std::string& grid, int seed) const {
+  RenderJob scene(const std::string& grid, int seed) const {
     const std::string path = (folder_ / "scene.toml").string();
     std::ofstream(path) << fmt::format(R"(
 [camera]
@@ -150,7 +150,7 @@ TEST_F(RotatedGrid, LooksAsItsUnrotatedCopy) {
   const std::string copy = (folder_ / "copy.vdb").string();
   write_unrotated_copy(dragon, grid->bounds(), 0.5 * grid->voxel_size(), copy);
 
-  const LoadedScene rotated = scene(dragon, 1), unrotated = scene(copy, 2);
+  const RenderJob rotated = scene(dragon, 1), unrotated = scene(copy, 2);
   const ColumnDifference columns = compare_columns(rotated.scene.media[0], unrotated.scene.media[0], 1000);
   EXPECT_GT(columns.mean, 0.1);
   EXPECT_LT(std::abs(columns.bias), 0.002);

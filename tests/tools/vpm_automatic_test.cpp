@@ -6,7 +6,7 @@
 
 #include "tools/plume.h"
 #include "vpm/image/exr.h"
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 
 namespace vpm {
 namespace {

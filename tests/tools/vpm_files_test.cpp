@@ -158,7 +158,7 @@ TEST_F(VpmFiles, ABackgroundFillsTheShapeAroundIt) {
   const std::atomic<bool> stop{false};
   const auto totals = [&](const std::string& name, const std::string& text, uint64_t seed) {
     write(name, text);
-    LoadedScene loaded = load_scene(path(name));
+    RenderJob loaded = load_scene(path(name));
     loaded.settings.seed = seed;
     Moments moments;
     for (int pass = 0; pass < 32; ++pass) {

@@ -83,7 +83,8 @@ TEST_F(VpmRender, ACheckpointTakesMorePassesButNoOtherScene) {
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "2", "--checkpoint"});
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "5", "--resume"});
   EXPECT_TRUE(read("a.exr") == read("whole.exr"));
-  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--seed", "9"}, {"another render", "render.seed=9"});
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--seed", "9"},
+              {"another render", "render.seed: 4 in the file, 9 asked for"});
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--set", "film.width=20"}, {"another render"});
   vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--resume"}, {"b.checkpoint", "there is no such file"});
   vpm_succeeds({"media", "smoke", "--resolution", "17", "-o", "smoke.vdb"});  // other bytes under the same name
@@ -111,7 +112,8 @@ TEST_F(VpmRender, RadiiOfPixelsResumeToTheSameBits) {
   EXPECT_EQ(a["error"]["bias_not_seen_of"], Json::array({"surface"}));
   vpm_succeeds({"render", "scene.toml", "-o", "b.exr"});
   EXPECT_TRUE(report("b.json")["radii_of_pixels"].is_null());
-  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render", "render.radii=per-pass"});
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"},
+              {"another render", "render.radii: per-pixel in the file, per-pass asked for"});
 }
 
 // --- Errors

@@ -4,18 +4,19 @@
 
 #include "commands.h"
 #include "pass_run.h"
-#include "report.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/image/exr.h"
 #include "vpm/image/png.h"
+#include "vpm/input/scene_file.h"
 #include "vpm/input/source.h"
+#include "vpm/job/bake.h"
+#include "vpm/job/messages.h"
+#include "vpm/job/picture.h"
+#include "vpm/job/report.h"
 
 namespace vpm::tools {
 namespace {
-
-constexpr int kDilation = 2;  // texels
 
 /// A name apart from that of the scene's pictures.
 std::string usual_name(const BakeOptions& options) {
@@ -30,7 +31,7 @@ void check_settings(const RenderSettings& settings) {
     throw InputError(
         "texels of a light map have no radii of their own, but render.radii is \"per-pixel\"; add: --set "
         "render.radii=per-pass");
-  if (settings.error > 0.0)
+  if (settings.until.error > 0.0)
     throw InputError("a light map is not baked until an error is reached, as render.error asks; add: --passes N");
 }
 
@@ -52,33 +53,12 @@ UvLayout lay_out(const Scene& scene, const BakeOptions& options) {
   }
 }
 
-Image grey_image(const UvLayout& layout, const std::vector<float>& values) {
-  Image image(layout.resolution, layout.resolution);
-  std::transform(values.begin(), values.end(), image.pixels.begin(), [](float value) { return Rgb(value); });
-  return image;
-}
-
-void write_outputs(const Outputs& outputs, const BakeOptions& options, const LoadedScene& loaded,
-                   const UvLayout& layout, const RenderResult& result) {
-  const Film& film = result.film;
-  const Image map = dilated(film.mean(), layout, kDilation);
-  const Image coverage = grey_image(layout, layout.coverage);
-  const Image variance = film.passes() > 1 ? result.errors->variance : Image();
-  std::vector<ExrLayer> layers{{"coverage", coverage}};
-  if (film.passes() > 1) layers.push_back({"variance", variance});
-  Metadata metadata = provenance(options, loaded, film);
-  metadata.emplace_back("vpm.mesh", options.mesh);
-  metadata.emplace_back("vpm.quantity",
-                        "irradiance on the side of the outward normal, W/m^2; variance.*: variance of the mean of "
-                        "passes; coverage.*: share of the texel that the mesh covers");
-  metadata.emplace_back(
-      "vpm.uncovered",
-      fmt::format("texels of coverage 0, {} of {}: black, but within {} texels of covered ones the mean of their "
-                  "neighbours; their variance is given as 0",
-                  layout.texels() - layout.covered_texels(), layout.texels(), kDilation));
-  write_exr(outputs.exr, map, layers, metadata);
+void write_outputs(const Outputs& outputs, const BakeOptions& options, const RenderJob& job, const UvLayout& layout,
+                   const RenderResult& result) {
+  write_light_map(outputs.exr, job, options.mesh, layout, result);
+  const Image map = light_map_of(layout, result);
   write_png(outputs.png, map, auto_exposure(map));
-  write_text(outputs.json, light_map_report(options.scene, outputs.exr.string(), options.mesh, loaded, layout, result));
+  write_text(outputs.json, light_map_report(job, outputs.exr.string(), options.mesh, layout, result));
 }
 
 }  // namespace
@@ -86,16 +66,16 @@ void write_outputs(const Outputs& outputs, const BakeOptions& options, const Loa
 int bake_command(const BakeOptions& options) {
   set_threads(options.threads);
   const Outputs outputs = output_paths(options, usual_name(options));
-  LoadedScene loaded = load_scene(options.scene, options.overrides);
-  refuse_automatic(loaded, "vpm bake");
-  apply_options(options, loaded.settings);
-  check_settings(loaded.settings);
-  const UvLayout layout = lay_out(loaded.scene, options);
-  check_outputs(outputs, layout.texels(), false, options, loaded);
-  print_notes(loaded);
+  RenderJob job = load_scene(options.scene, options.overrides);
+  refuse_automatic(job, "vpm bake");
+  apply_options(options, job.settings);
+  check_settings(job.settings);
+  const UvLayout layout = lay_out(job.scene, options);
+  check_outputs(outputs, layout.texels(), false, job);
+  print_notes(job);
   const std::atomic<bool>& stop = stop_on_signals();
-  const RenderResult result = bake_light_map(loaded.scene, loaded.settings, layout, stop, options.progress);
-  print_warnings({.surfaces = true}, loaded.settings, result.statistics);
+  const RenderResult result = bake_light_map(job.scene, job.settings, layout, {stop, options.progress});
+  print_warnings(warnings_of({.surfaces = true}, job.settings, result.statistics));
   if (layout.flat_triangles > 0)
     fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
                layout.flat_triangles);
@@ -103,7 +83,7 @@ int bake_command(const BakeOptions& options) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;
   }
-  write_outputs(outputs, options, loaded, layout, result);
+  write_outputs(outputs, options, job, layout, result);
   fmt::print("{}: {} passes in {:.1f} s; {} of {} texels covered; preview {}, report {}\n", outputs.exr.string(),
              result.film.passes(), result.seconds, layout.covered_texels(), layout.texels(), outputs.png.string(),
              outputs.json.string());

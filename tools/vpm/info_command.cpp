@@ -3,11 +3,11 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "stage_lines.h"
 #include "vpm/base/error.h"
 #include "vpm/estimate/pass_map.h"
 #include "vpm/input/grid_file.h"
 #include "vpm/input/scene_file.h"
+#include "vpm/job/stage_lines.h"
 #include "vpm/render/plan.h"
 
 namespace vpm::tools {
@@ -65,11 +65,11 @@ std::string medium_text(const Scene& scene, MediumId medium) {
 }
 
 void print_scene(const InfoOptions& options) {
-  const LoadedScene loaded = load_scene(options.file, options.overrides);
-  const Scene& scene = loaded.scene;
+  const RenderJob job = load_scene(options.file, options.overrides);
+  const Scene& scene = job.scene;
   const Box box = scene.geometry.bounds();
-  fmt::print("scene {}, hash {}\n", options.file, loaded.hash);
-  for (const std::string& note : loaded.notes) fmt::print("note: {}\n", note);
+  fmt::print("scene {}, hash {}\n", options.file, job.hash);
+  for (const std::string& note : job.notes) fmt::print("note: {}\n", note);
   fmt::print("camera at {} m, {} x {} pixels, in {}\n", text(scene.camera.position), scene.camera.width,
              scene.camera.height, medium_text(scene, scene.camera_medium));
   if (box.empty())
@@ -79,12 +79,11 @@ void print_scene(const InfoOptions& options) {
   fmt::print("around everything: {}\n", medium_text(scene, scene.world_medium));
   for (size_t i = 0; i < scene.lights.size(); ++i)
     fmt::print("light {}{}: {}, power {} W, chosen with probability {:.4g}\n", i,
-               loaded.light_names[i].empty() ? "" : ", " + loaded.light_names[i], light_kind(scene.lights[i]),
+               job.light_names[i].empty() ? "" : ", " + job.light_names[i], light_kind(scene.lights[i]),
                rgb(light_power(scene.lights[i], scene.bounds)), scene.light_probability[i]);
-  for (const Medium& m : scene.media) print_medium(m, scene, loaded.settings);
-  if (loaded.automatic.any())
-    fmt::print("settings that are \"auto\" are chosen by vpm render; defaults are told here\n");
-  for (const std::string& line : stage_lines(scene, loaded.settings, scattering_of(scene))) fmt::print("{}\n", line);
+  for (const Medium& m : scene.media) print_medium(m, scene, job.settings);
+  if (job.automatic.any()) fmt::print("settings that are \"auto\" are chosen by vpm render; defaults are told here\n");
+  for (const std::string& line : stage_lines(scene, job.settings, scattering_of(scene))) fmt::print("{}\n", line);
 }
 
 }  // namespace

@@ -2,14 +2,12 @@
 #include "pass_run.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <csignal>
 #include <cstdio>
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
-#include "vpm/base/version.h"
-#include "vpm/render/setting.h"
+#include "vpm/job/checkpoint.h"
 
 namespace vpm::tools {
 namespace {
@@ -31,35 +29,12 @@ const std::atomic<bool>& stop_on_signals() {
   return stop_requested;
 }
 
-void print_notes(const LoadedScene& loaded) {
-  for (const std::string& note : loaded.notes) fmt::print(stderr, "note: {}\n", note);
+void print_notes(const RenderJob& job) {
+  for (const std::string& note : job.notes) fmt::print(stderr, "note: {}\n", note);
 }
 
-void print_warnings(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& s) {
-  const auto warn = [](uint64_t count, const char* what) {
-    if (count > 0) fmt::print(stderr, "warning: {} {}\n", count, what);
-  };
-  const bool photons = settings.integrator == Integrator::photon;
-  if (photons && shown.media && s.volume_photons == 0)
-    fmt::print(stderr, "warning: the volume photon map is empty: no photon scattered in a medium\n");
-  if (photons && shown.surfaces && s.surface_photons == 0)
-    fmt::print(stderr, "warning: the surface photon map is empty: no photon to store met a rough surface\n");
-  warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
-  warn(s.eye.non_finite, "samples were dropped because they were not finite");
-  warn(s.ledger.cut_count, "photons were cut at render.max_events");
-  warn(s.eye.gather.least_shares, "estimates at borders had less than a 64th of their kernel left, and are too dark");
-  warn(s.eye.cut_paths, "eye paths were cut at render.max_events");
-  // Rays through the very edges of boundaries need a correction now and then: some in 1e7. More means media that
-  // overlap.
-  WalkCounters walk = s.ledger.walk;
-  walk.merge(s.eye.walk);
-  warn(walk.majorant_violations,
-       strategy_info(settings.distance.strategy).positive
-           ? "look-ups found more density than a majorant, which cut it: passes are biased until majorants have grown"
-           : "look-ups found more density than a majorant: weights grow there and change their signs");
-  if (walk.medium_mismatches > 100 + walk.crossings / 1'000'000)
-    warn(walk.medium_mismatches,
-         "boundaries were met from a medium that is not the one before them: check that media do not overlap");
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 Outputs output_paths(const PassOptions& options, const std::string& name) {
@@ -70,17 +45,14 @@ Outputs output_paths(const PassOptions& options, const std::string& name) {
   return {exr, beside(".png"), beside(".json"), beside(".checkpoint"), beside(".errors.csv")};
 }
 
-void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const PassOptions& options,
-                   const LoadedScene& loaded) {
+void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const RenderJob& job) {
   constexpr uint64_t kReportBytes = 1 << 16;
-  const bool discs = loaded.settings.radii == RadiusSchedule::per_pixel && scattering_of(loaded.scene).surfaces;
-  const uint64_t pixel = Film::kBytesOfPixel + (discs ? sizeof(PixelDisc) : 0);
-  const uint64_t film = checkpoint ? 2 * pixels * pixel : 0;                      // the checkpoint, and its successor
+  const uint64_t film = checkpoint ? 2 * checkpoint_bytes(job) : 0;               // the checkpoint, and its successor
   const uint64_t bytes = pixels * (9 * sizeof(float) + 3) + film + kReportBytes;  // of all, which share a folder
   std::vector<fs::path> written{outputs.exr, outputs.png, outputs.json};
   if (checkpoint) written.push_back(outputs.checkpoint);
-  std::vector<std::string> read = loaded.files;
-  read.push_back(options.scene);
+  std::vector<std::string> read = job.files;
+  read.push_back(job.source);
   for (const fs::path& path : written) {
     check_writable(path, bytes);
     for (const std::string& file : read)
@@ -92,25 +64,13 @@ void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, con
 
 void apply_options(const PassOptions& options, RenderSettings& settings) {
   if (options.seed) settings.seed = *options.seed;
-  if (!options.passes) return;
-  settings.passes = *options.passes;
-  settings.seconds = settings.error = 0.0;
+  if (options.passes) settings.until = {.passes = *options.passes};
 }
 
-void refuse_automatic(const LoadedScene& loaded, const std::string& command) {
-  if (loaded.automatic.any())
+void refuse_automatic(const RenderJob& job, const std::string& command) {
+  if (job.automatic.any())
     throw InputError(fmt::format(
         "{} chooses no settings: name a value where one is \"auto\"; vpm render tells those that it chooses", command));
-}
-
-Metadata provenance(const PassOptions& options, const LoadedScene& loaded, const Film& film) {
-  return {{"vpm.version", std::string(version())},
-          {"vpm.scene", fs::path(options.scene).filename().string()},
-          {"vpm.sceneHash", loaded.hash},
-          {"vpm.overrides", fmt::format("{}", fmt::join(options.overrides, " "))},
-          {"vpm.settings", settings_line(loaded.settings)},
-          {"vpm.seed", std::to_string(loaded.settings.seed)},
-          {"vpm.passes", std::to_string(film.passes())}};
 }
 
 }  // namespace vpm::tools

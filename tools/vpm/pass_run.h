@@ -6,9 +6,7 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "vpm/input/scene_file.h"
-#include "vpm/render/film.h"
-#include "vpm/render/plan.h"
+#include "vpm/job/render_job.h"
 
 namespace vpm::tools {
 
@@ -28,22 +26,17 @@ Outputs output_paths(const PassOptions& options, const std::string& name);
 
 /// Throws InputError where an output, of an image of that many pixels, could not be written, or would replace a file
 /// that the scene is read from.
-void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const PassOptions& options,
-                   const LoadedScene& loaded);
+void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const RenderJob& job);
 
 /// The seed and the number of passes.
 void apply_options(const PassOptions& options, RenderSettings& settings);
 
 /// Throws InputError where a setting is "auto", for a command that chooses none.
-void refuse_automatic(const LoadedScene& loaded, const std::string& command);
-
-/// What the image tells of where it is from.
-using Metadata = std::vector<std::pair<std::string, std::string>>;
-Metadata provenance(const PassOptions& options, const LoadedScene& loaded, const Film& film);
+void refuse_automatic(const RenderJob& job, const std::string& command);
 
 /// What a user should know before the run; on stderr, so that it is seen.
-void print_notes(const LoadedScene& loaded);
+void print_notes(const RenderJob& job);
 /// What went wrong without stopping the run; on stderr, too.
-void print_warnings(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& statistics);
+void print_warnings(const std::vector<std::string>& warnings);
 
 }  // namespace vpm::tools

@@ -20,10 +20,10 @@ template <class Region>
 struct BoundedMap {
   const PhotonMap& map;
   const Region& region;
-  GatherCounters& counters;
+  GatherWork work;
 };
 template <class Region>
-BoundedMap(const PhotonMap&, const Region&, GatherCounters&) -> BoundedMap<Region>;
+BoundedMap(const PhotonMap&, const Region&, GatherWork) -> BoundedMap<Region>;
 
 template <class Region>
 const GatherSettings& settings_of(const BoundedMap<Region>& bounded) {
@@ -45,7 +45,7 @@ Rgb bounded_sum(const Region& region, const Gathering<RadiusMap>& map, const Vec
   if (share.inside == 1.0) return kernel_sum<Dimension>(map, point, accept, value);
   const Rgb sum = share.others ? kernel_sum<Dimension>(map, point, within, value)
                                : kernel_sum<Dimension>(map, point, accept, value);
-  return over_share(sum, share, map.counters);
+  return over_share(sum, share, map.work.counters);
 }
 
 /// Of the k nearest: the region's own are meant. Without the k-th they are k - 1 photons uniform in what the region has
@@ -56,10 +56,10 @@ Rgb bounded_sum(const Region& region, const Gathering<NearestMap>& map, const Ve
   const Neighbours& all = nearest(map, point, accept);
   const RegionShare share = region.share(std::sqrt(all.limit()));
   if (share.inside == 1.0) return neighbour_sum<Dimension>(map, all, value);
-  if (!share.others) return over_share(neighbour_sum<Dimension>(map, all, value), share, map.counters);
+  if (!share.others) return over_share(neighbour_sum<Dimension>(map, all, value), share, map.work.counters);
   const Neighbours& own = nearest(map, point, within);
   const RegionShare of_own = region.share(std::sqrt(own.limit()));
-  return over_share(neighbour_sum<Dimension>(map, own, value), of_own, map.counters);
+  return over_share(neighbour_sum<Dimension>(map, own, value), of_own, map.work.counters);
 }
 
 /// The sum over the region's photons, over its share.
@@ -70,7 +70,7 @@ Rgb kernel_sum(const BoundedMap<Region>& bounded, const Vec3& point, Accept&& ac
     return accept(travel, offset) && bounded.region.holds(offset);
   };
   const auto sum = [&](const auto& index) {
-    const Gathering map{index, bounded.map.settings, bounded.counters};
+    const Gathering map{index, bounded.map.settings, bounded.work};
     return bounded_sum<Dimension>(bounded.region, map, point, accept, within, value);
   };
   return std::visit(sum, bounded.map.index);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vpm/base/rng.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/estimate/volume/march.h"
 #include "vpm/medium/columns_along.h"
@@ -12,6 +13,7 @@ namespace vpm {
 struct EyeScratch {
   ColumnsAlong columns;  // of the segment under way
   Marcher marcher;
+  Neighbours neighbours;  // of the last gather by count
 };
 
 struct EyeWork {
@@ -19,6 +21,9 @@ struct EyeWork {
   EyeCounters& counters;
   EyeScratch& scratch;
   size_t pixel = 0;  // that the ray belongs to, numbered row by row
+
+  /// What gathers on the ray's way count, and work in.
+  GatherWork gather() { return {counters.gather, scratch.neighbours}; }
 };
 
 }  // namespace vpm

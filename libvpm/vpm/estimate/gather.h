@@ -16,10 +16,28 @@ enum class GatherMode { radius, nearest, beam };
 /// are too dark there and light leaks through walls; or the correction of BoundedMap.
 enum class BoundaryRule { none, corrected };
 
-struct GatherSettings {
+/// A gather radius as a render asks for it: a length, or the default, which goes by the size of the medium or the scene
+/// (first_radius()).
+class AskedRadius {
+ public:
+  /// The default.
+  constexpr AskedRadius() = default;
+  /// So many metres, > 0. 0 stands for the default.
+  constexpr AskedRadius(float metres) : metres_(metres) {}
+  constexpr bool is_given() const { return metres_ != 0.0f; }
+  /// m; 0 where it is not given.
+  constexpr float metres() const { return metres_; }
+  bool operator==(const AskedRadius&) const = default;
+
+ private:
+  float metres_ = 0.0f;
+};
+
+/// How photons are gathered, by a radius of either kind.
+template <class Radius>
+struct GatherRule {
   GatherMode mode = GatherMode::radius;
-  float radius = 0.0f;  // m, > 0: of the first pass (radius, beam), or the largest allowed (nearest mode); 0: chosen by
-                        // the scene's size
+  Radius radius{};      // of the kernel (radius, beam), or the largest allowed (nearest mode)
   uint32_t count = 50;  // nearest mode: k >= 2
   KernelKind kernel = KernelKind::epanechnikov;
   BoundaryRule boundary = BoundaryRule::none;
@@ -29,6 +47,10 @@ struct GatherSettings {
   /// Is `radius` only the largest that a gather may take, so that what it takes is told by a count of photons?
   bool goes_by_count() const { return mode == GatherMode::nearest || (mode == GatherMode::beam && beam_count > 0); }
 };
+/// As a render asks for it: the radius is that of the first pass.
+using AskedGather = GatherRule<AskedRadius>;
+/// As it is in one pass: the radius is in m, > 0.
+using GatherSettings = GatherRule<float>;
 
 /// What gathering counts.
 struct GatherCounters {

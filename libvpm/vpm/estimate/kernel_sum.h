@@ -47,15 +47,15 @@ auto with_kernel(KernelKind kind, F&& f) {
   return f([](float q) { return kernel_profile<KernelKind::triweight>(q); });
 }
 
-/// One of the kinds of map, with how it is gathered from and where that is counted.
+/// One of the kinds of map, with how it is gathered from and what with.
 template <class Index>
 struct Gathering {
   const Index& index;
   const GatherSettings& settings;
-  GatherCounters& counters;
+  GatherWork work;
 };
 template <class Index>
-Gathering(const Index&, const GatherSettings&, GatherCounters&) -> Gathering<Index>;  // Clang 14 does not deduce it
+Gathering(const Index&, const GatherSettings&, GatherWork) -> Gathering<Index>;  // Clang 14 does not deduce it
 
 /// Takes every photon.
 struct AnyPhoton {
@@ -71,26 +71,26 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
     Rgbd sum(0.0);
     const auto visit = [&](NearPhotons& near) {
       if constexpr (!std::is_same_v<std::decay_t<Accept>, AnyPhoton>) near.keep(map.index.photons(), point, accept);
-      map.counters.used += near.size();
+      map.work.counters.used += near.size();
       if (near.size() == 0) return;
       const PhotonBatch batch(map.index.photons(), near.photons(), near.distances2(), near.size());
       sum += sum_photons(
           batch, [&](size_t i) { return profile(batch.distance2(i) * inverse); }, value);
     };
-    count(map.counters.searches);
-    count(map.counters.visited, map.index.visit_near(point, r, visit));
+    count(map.work.counters.searches);
+    count(map.work.counters.visited, map.index.visit_near(point, r, visit));
     return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, r);
   });
 }
 
 /// The k nearest photons that `accept`(travel, offset) takes, of those within the largest radius. Good until the
-/// thread's next call.
+/// next call with the same work.
 template <class Accept>
 const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept) {
-  static thread_local Neighbours neighbours;
-  count(map.counters.searches);
+  Neighbours& neighbours = map.work.neighbours;
+  count(map.work.counters.searches);
   const uint32_t visited = map.index.find(point, map.settings.count, map.settings.radius, neighbours, accept);
-  count(map.counters.visited, visited);
+  count(map.work.counters.visited, visited);
   return neighbours;
 }
 
@@ -101,7 +101,7 @@ template <int Dimension, class Value>
 Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
   const size_t first = neighbours.full() ? 1 : 0;  // the farthest
-  map.counters.used += neighbours.size() - first;
+  map.work.counters.used += neighbours.size() - first;
   return with_kernel(map.settings.kernel, [&](auto profile) {
     Rgbd sum(0.0);
     for (size_t begin = first; begin < neighbours.size(); begin += PhotonBatch::kMost) {
@@ -125,7 +125,7 @@ template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const CountedMap& counted, const Vec3& point, Accept&& accept, Value&& value) {
   assert(counted.settings.mode == counted.map.settings.mode);
   const auto sum = [&](const auto& index) {
-    return kernel_sum<Dimension>(Gathering{index, counted.settings, counted.counters}, point, accept, value);
+    return kernel_sum<Dimension>(Gathering{index, counted.settings, counted.work}, point, accept, value);
   };
   return std::visit(sum, counted.map.index);
 }
@@ -133,7 +133,8 @@ Rgb kernel_sum(const CountedMap& counted, const Vec3& point, Accept&& accept, Va
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const PhotonMap& map, const Vec3& point, Accept&& accept, Value&& value) {
   GatherCounters uncounted;
-  return kernel_sum<Dimension>(CountedMap{map, uncounted}, point, accept, value);
+  Neighbours neighbours;
+  return kernel_sum<Dimension>(CountedMap{map, {uncounted, neighbours}}, point, accept, value);
 }
 
 /// The radius, m, of the ball that kernel_sum() sums over.
@@ -142,7 +143,7 @@ float kernel_radius(const CountedMap& counted, const Vec3& point, Accept&& accep
   const GatherSettings& settings = counted.settings;
   const auto* by_count = std::get_if<NearestMap>(&counted.map.index);
   if (!by_count) return settings.radius;
-  return std::sqrt(nearest(Gathering{*by_count, settings, counted.counters}, point, accept).limit());
+  return std::sqrt(nearest(Gathering{*by_count, settings, counted.work}, point, accept).limit());
 }
 
 /// The brute-force twin of both: looks at every photon of a plain list. Powers are divided by `emitted` here.

@@ -7,26 +7,26 @@
 namespace vpm {
 namespace {
 
-float default_share(const GatherSettings& gather) { return gather.goes_by_count() ? kDefaultSearch : kDefaultRadius; }
+float default_share(const AskedGather& gather) { return gather.goes_by_count() ? kDefaultSearch : kDefaultRadius; }
 
 }  // namespace
 
-float first_radius(const GatherSettings& gather, const Scene& scene) {
-  return gather.radius > 0.0f ? gather.radius : default_share(gather) * scene.bounds.diagonal();
+float first_radius(const AskedGather& gather, const Scene& scene) {
+  return gather.radius.is_given() ? gather.radius.metres() : default_share(gather) * scene.bounds.diagonal();
 }
 
-float first_radius(const GatherSettings& gather, const Scene& scene, const Medium& medium) {
-  if (gather.radius > 0.0f || !medium.grid) return first_radius(gather, scene);
+float first_radius(const AskedGather& gather, const Scene& scene, const Medium& medium) {
+  if (gather.radius.is_given() || !medium.grid) return first_radius(gather, scene);
   return default_share(gather) * medium.grid->bounds().diagonal();
 }
 
-bool shrinks(const GatherSettings& gather, const PassOfMaps& pass) {
+bool shrinks(const AskedGather& gather, const PassOfMaps& pass) {
   return pass.shrinks && gather.mode != GatherMode::nearest;
 }
 
-GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dimension, const PassOfMaps& pass) {
-  gather.radius = shrinks(gather, pass) ? radius_of_pass(first_radius, dimension, pass.number) : first_radius;
-  return gather;
+GatherSettings gather_in_pass(const AskedGather& gather, float first_radius, int dimension, const PassOfMaps& pass) {
+  const float radius = shrinks(gather, pass) ? radius_of_pass(first_radius, dimension, pass.number) : first_radius;
+  return {gather.mode, radius, gather.count, gather.kernel, gather.boundary, gather.beam_count};
 }
 
 void merge_photons(std::vector<Photon>& photons, const GatherSettings& gather, const PassOfMaps& pass,

@@ -17,14 +17,14 @@ struct PassOfMaps {
 /// Radii that nothing is known of: their shares of the diagonal of the medium's bounds (grids) or of the scene. The
 /// second where gathers go by count, and the radius only bounds them.
 inline constexpr float kDefaultRadius = 0.01f, kDefaultSearch = 0.1f;
-/// The radius of a map in the first pass: the settings', or where that is 0 such a share of the diagonal.
-float first_radius(const GatherSettings& gather, const Scene& scene);
-float first_radius(const GatherSettings& gather, const Scene& scene, const Medium& medium);
+/// The radius of a map in the first pass, m: the one that is given, or such a share of the diagonal.
+float first_radius(const AskedGather& gather, const Scene& scene);
+float first_radius(const AskedGather& gather, const Scene& scene, const Medium& medium);
 
 /// Does the radius go by the pass? Not the largest radius of the nearest mode.
-bool shrinks(const GatherSettings& gather, const PassOfMaps& pass);
+bool shrinks(const AskedGather& gather, const PassOfMaps& pass);
 /// The settings of a map in the pass, for its first radius (m) and the dimension of its kernel.
-GatherSettings gather_in_pass(GatherSettings gather, float first_radius, int dimension, const PassOfMaps& pass);
+GatherSettings gather_in_pass(const AskedGather& gather, float first_radius, int dimension, const PassOfMaps& pass);
 
 /// Merges photons where the pass asks for that, for gathers by that radius.
 void merge_photons(std::vector<Photon>& photons, const GatherSettings& gather, const PassOfMaps& pass,

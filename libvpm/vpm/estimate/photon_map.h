@@ -5,6 +5,7 @@
 
 #include "vpm/estimate/gather.h"
 #include "vpm/photon/nearest_map.h"
+#include "vpm/photon/neighbours.h"
 #include "vpm/photon/radius_map.h"
 
 namespace vpm {
@@ -19,11 +20,17 @@ struct PhotonMap {
   size_t memory_bytes() const;
 };
 
+/// What gathers of one thread count, and the room that they work in.
+struct GatherWork {
+  GatherCounters& counters;
+  Neighbours& neighbours;  // of the last search by count
+};
+
 /// A photon map to be gathered from with counting, and with settings of its own where they differ from the map's in
 /// radius or kernel, but not in mode.
 struct CountedMap {
   const PhotonMap& map;
-  GatherCounters& counters;
+  GatherWork work;
   const GatherSettings& settings = map.settings;
 };
 

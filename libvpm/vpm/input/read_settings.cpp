@@ -2,7 +2,7 @@
 #include <map>
 
 #include "vpm/input/sections.h"
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 
 namespace vpm {
 namespace {
@@ -116,7 +116,7 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
     filter = read_filter(*film);
     film->finish();
   }
-  return make_camera(position, target, up, fov, width, height, filter);
+  return make_camera(position, target, up, fov, {width, height, filter});
 }
 
 RenderSettings read_settings(TableReader& root, const SceneFacts& facts, AutomaticSettings& automatic) {

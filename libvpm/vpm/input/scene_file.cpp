@@ -8,7 +8,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
 #include "vpm/input/sections.h"
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 #include "vpm/scene/assemble.h"
 
 namespace vpm {
@@ -82,7 +82,7 @@ SceneFacts facts_of(const ScenePlan& plan) {
   return facts;
 }
 
-ScenePlan read_plan(TableReader& root, LoadedScene& loaded) {
+ScenePlan read_plan(TableReader& root, RenderJob& job) {
   ScenePlan plan;
   Names media;
   read_media_and_world(root, plan, media);
@@ -94,7 +94,7 @@ ScenePlan read_plan(TableReader& root, LoadedScene& loaded) {
   std::vector<TableReader> lights = root.tables("lights", "[[lights]]");
   plan.lights = read_lights(lights);
   read_camera_section(root, media, plan);
-  loaded.settings = read_settings(root, facts_of(plan), loaded.automatic);
+  job.settings = read_settings(root, facts_of(plan), job.automatic);
   root.finish();
   return plan;
 }
@@ -161,43 +161,43 @@ SceneParts parts_of(ScenePlan& plan) {
   root.fail_here(error.wrong(), error.right());
 }
 
-void load_medium_grid(const MediumPlan& plan, const GridRequest& request, Medium& medium, LoadedScene& loaded) {
+void load_medium_grid(const MediumPlan& plan, const GridRequest& request, Medium& medium, RenderJob& job) {
   try {
     LoadedGrid grid = load_grid(request);
     medium.grid = std::move(grid.grid);
-    loaded.clamped_density_values += grid.clamped_values;
+    job.clamped_density_values += grid.clamped_values;
     if (grid.clamped_values > 0)
-      loaded.notes.push_back("medium '" + medium.name + "': " + std::to_string(grid.clamped_values) +
-                             " negative densities set to 0, as clamp_negative asks");
+      job.notes.push_back("medium '" + medium.name + "': " + std::to_string(grid.clamped_values) +
+                          " negative densities set to 0, as clamp_negative asks");
   } catch (const InputError& error) {
     plan.table.fail("path", error.what());
   }
 }
 
 /// Reads the grids of media into their parts.
-void load_grids(const ScenePlan& plan, SceneParts& parts, LoadedScene& loaded) {
+void load_grids(const ScenePlan& plan, SceneParts& parts, RenderJob& job) {
   for (size_t i = 0; i < plan.media.size(); ++i) {
     if (!plan.media[i].grid) continue;
     GridRequest request = *plan.media[i].grid;
     request.has_bounding_shape = !is_boxed(parts, static_cast<MediumId>(i));
-    load_medium_grid(plan.media[i], request, parts.media[i].medium, loaded);
+    load_medium_grid(plan.media[i], request, parts.media[i].medium, job);
   }
 }
 
 /// Reads what the plan names and puts all together.
-void assemble_plan(ScenePlan& plan, LoadedScene& loaded) {
+void assemble_plan(ScenePlan& plan, RenderJob& job) {
   SceneParts parts = parts_of(plan);
   check_parts(parts);  // before the grids are read, which takes long
-  load_grids(plan, parts, loaded);
+  load_grids(plan, parts, job);
   AssembledScene assembled = assemble(std::move(parts));
-  loaded.scene = std::move(assembled.scene);
-  loaded.light_names = std::move(assembled.light_names);
-  for (std::string& note : assembled.notes) loaded.notes.push_back(std::move(note));
+  job.scene = std::move(assembled.scene);
+  job.light_names = std::move(assembled.light_names);
+  for (std::string& note : assembled.notes) job.notes.push_back(std::move(note));
 }
 
 }  // namespace
 
-LoadedScene load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out) {
+RenderJob load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out) {
   Document document = read_toml(path);
   for (const std::string& option : options) apply_override(document, option);
   std::vector<std::string> overrides = options;
@@ -206,16 +206,18 @@ LoadedScene load_scene(const std::string& path, const std::vector<std::string>& 
       apply_override(document, option);
       overrides.push_back(option);
     }
-  LoadedScene loaded;
-  TableReader root(document.root, "the scene file", loaded.files);
-  ScenePlan plan = read_plan(root, loaded);
+  RenderJob job;
+  TableReader root(document.root, "the scene file", job.files);
+  ScenePlan plan = read_plan(root, job);
   try {
-    assemble_plan(plan, loaded);
+    assemble_plan(plan, job);
   } catch (const PartError& error) {
     fail_at_part(error, root, plan);
   }
-  loaded.hash = hash_of(document.text, overrides, loaded.files);
-  return loaded;
+  job.hash = hash_of(document.text, overrides, job.files);
+  job.source = path;
+  job.overrides = options;
+  return job;
 }
 
 }  // namespace vpm

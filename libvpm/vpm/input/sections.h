@@ -8,9 +8,9 @@
 
 #include "vpm/input/grid_file.h"
 #include "vpm/input/table_reader.h"
-#include "vpm/render/automatic.h"
+#include "vpm/job/automatic.h"
+#include "vpm/job/validate.h"
 #include "vpm/render/settings.h"
-#include "vpm/render/validate.h"
 #include "vpm/scene/parts.h"
 
 namespace vpm {

@@ -9,7 +9,7 @@
 #include "vpm/base/range.h"
 #include "vpm/base/vec.h"
 #include "vpm/input/toml_node.h"
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 
 namespace vpm {
 

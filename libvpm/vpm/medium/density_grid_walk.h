@@ -127,8 +127,9 @@ void DensityGrid::visit_bricks(const LatticeRay& ray, const Interval& interval, 
 }
 
 template <class Visit>
-bool DensityGrid::visit_brick(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, double t0, double t1,
+bool DensityGrid::visit_brick(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, const Span& span,
                               uint32_t& read, Visit& visit) const {
+  const auto [t0, t1] = span;
   if (brick.max == 0.0f) return true;
   if (brick.uniform()) {
     count(read);
@@ -163,7 +164,7 @@ uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Vis
   visit_bricks(
       in, interval,
       [&](const LatticeWalk<kCells>& walk, double t0, double t1) {
-        return visit_brick(bricks_[walk.number()], walk.corner(), in, t0, t1, read, visit);
+        return visit_brick(bricks_[walk.number()], walk.corner(), in, {t0, t1}, read, visit);
       },
       [&](double t0, double t1) {
         return visit(DensityPiece{t0, t1, frame_.background, 0.0, 0.0, 0.0});

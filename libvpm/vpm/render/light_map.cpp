@@ -6,7 +6,6 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/render/validate.h"
 
 namespace vpm {
 namespace {
@@ -93,14 +92,6 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
   return result;
 }
 
-RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
-                            const std::atomic<bool>& stop, ProgressMode progress) {
-  validate(settings, facts_of(scene));
-  const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
-    return light_map_pass(scene, settings, layout, so_far.film.passes(), stop, shown);
-  };
-  return run_passes(settings, run, chunk_count(layout.texels(), kChunk),
-                    {Film(layout.resolution, layout.resolution), {}, 0.0, {}}, stop, progress);
-}
+uint64_t light_map_work(const UvLayout& layout) { return chunk_count(layout.texels(), kChunk); }
 
 }  // namespace vpm

@@ -35,12 +35,20 @@ enum class EndIrradiance { estimate, precomputed };
 /// What estimates radiance: photon maps, or the path tracer that referees them.
 enum class Integrator { photon, path };
 
+/// When passes come to their end: once `passes` are done; or, where `seconds` or `error` are asked for, once the first
+/// of these is reached.
+struct StopRule {
+  int passes = 16;       // >= 1; ignored where seconds or error > 0
+  double seconds = 0.0;  // > 0: wall clock; passes start until that time is over
+  double error = 0.0;    // > 0: passes start until the estimated relative MSE is no more than that
+
+  bool counts_passes() const { return seconds == 0.0 && error == 0.0; }
+};
+
 struct RenderSettings {
   Integrator integrator = Integrator::photon;
   uint64_t seed = 1;
-  int passes = 16;            // >= 1; ignored where seconds or error > 0
-  double seconds = 0.0;       // > 0: passes start until that time is over
-  double error = 0.0;         // > 0: passes start until the estimated relative MSE is no more than that
+  StopRule until;             // when passes come to their end
   int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
 
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
@@ -55,9 +63,9 @@ struct RenderSettings {
   DistanceSettings distance;            // how photons fly
   TransmittanceSettings transmittance;  // towards lights
 
-  GatherSettings volume;          // volumetric radiance estimate
-  GatherSettings surface;         // surface radiance estimate
-  GatherSettings caustics;        // that of the caustic map, under final gathering
+  AskedGather volume;             // volumetric radiance estimate
+  AskedGather surface;            // surface radiance estimate
+  AskedGather caustics;           // that of the caustic map, under final gathering
   uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
                                   // what the others bring
   RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode

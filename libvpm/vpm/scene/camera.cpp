@@ -15,8 +15,8 @@ Ray Camera::ray(const Vec2& film) const {
   return {position, glm::normalize(forward + x * right + y * up)};
 }
 
-Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, int width, int height,
-                   const Filter& filter) {
+Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, const FilmFormat& film) {
+  const auto& [width, height, filter] = film;
   if (!is_finite(position) || !is_finite(target) || !is_finite(up))
     throw InputError("camera: a coordinate is not finite");
   if (!(fov > 0.0f && fov < 180.0f)) {

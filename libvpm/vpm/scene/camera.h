@@ -17,6 +17,12 @@ struct Filter {
 /// uniform in [0, 1)^2.
 Vec2 sample_filter(const Filter& filter, const Vec2& u);
 
+/// The film: its size and how pixels are reconstructed.
+struct FilmFormat {
+  int width = 256, height = 256;  // pixels
+  Filter filter{};
+};
+
 struct Camera {
   Vec3 position{0.0f};                                                             // m
   Vec3 forward{0.0f, 0.0f, -1.0f}, right{1.0f, 0.0f, 0.0f}, up{0.0f, 1.0f, 0.0f};  // orthonormal
@@ -31,7 +37,6 @@ struct Camera {
 
 /// A camera at `position` (m) that looks at `target`. `fov` is the full vertical angle in degrees, in (0, 180). Throws
 /// InputError where these define no camera, and for a film without pixels or a filter without width.
-Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, int width, int height,
-                   const Filter& filter);
+Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, const FilmFormat& film);
 
 }  // namespace vpm

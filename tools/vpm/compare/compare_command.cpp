@@ -18,8 +18,8 @@
 #include "vpm/image/metrics.h"
 #include "vpm/input/experiment_file.h"
 #include "vpm/input/source.h"
+#include "vpm/job/setting.h"
 #include "vpm/medium/distance/strategy.h"
-#include "vpm/render/setting.h"
 #include "vpm/study/compare/exact_picture.h"
 #include "vpm/study/validate/check.h"
 
@@ -28,7 +28,7 @@ namespace {
 
 /// A method on a scene, ready to run.
 struct Entrant {
-  LoadedScene loaded;
+  RenderJob loaded;
   std::string identity;  // of its runs, but for the seed
 };
 
@@ -151,7 +151,7 @@ void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan,
   bar.finish();
 }
 
-bool has_bounded_weights(const LoadedScene& loaded) {
+bool has_bounded_weights(const RenderJob& loaded) {
   bool grids = false;
   for (const Medium& medium : loaded.scene.media) grids |= !medium.homogeneous();
   const StrategyInfo& info = strategy_info(loaded.settings.distance.strategy);
@@ -160,7 +160,7 @@ bool has_bounded_weights(const LoadedScene& loaded) {
 
 /// Why a bias cannot be told from repetitions; empty where it can. Means of heavy-tailed weights look biased in nearly
 /// all repetitions, and their intervals lie.
-std::string why_bias_unknown(const LoadedScene& loaded, const std::vector<RunCost>& costs) {
+std::string why_bias_unknown(const RenderJob& loaded, const std::vector<RunCost>& costs) {
   if (loaded.scene.media.empty() || has_bounded_weights(loaded)) return "";
   double least = costs.front().effective_sample_size;
   for (const RunCost& cost : costs) least = std::min(least, cost.effective_sample_size);

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <ctime>
 
-#include "vpm/render/render.h"
-#include "vpm/render/setting.h"
+#include "vpm/job/render.h"
+#include "vpm/job/setting.h"
 
 namespace vpm::tools {
 namespace {
@@ -40,12 +40,11 @@ RunCost counted(const RenderStatistics& s) {
 
 }  // namespace
 
-std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan& plan, int repetition,
+std::vector<Snapshot> run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition,
                                  const std::atomic<bool>& stop) {
-  RenderSettings settings = loaded.settings;
+  RenderSettings settings = job.settings;
   settings.seed = plan.seed + static_cast<uint64_t>(repetition);
-  settings.passes = kMostPasses;
-  settings.seconds = settings.error = 0.0;
+  settings.until = {.passes = kMostPasses};
   std::vector<Snapshot> snapshots;
   std::atomic<bool> done{false};
   double cpu = 0.0, wall = 0.0;  // s, of rendering
@@ -62,16 +61,14 @@ std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan
     cpu_begin = cpu_seconds();
     wall_begin = wall_seconds();
   };
-  render(loaded.scene, settings, nothing_rendered(loaded.scene.camera), done, ProgressMode::never, look);
+  render(job.scene, settings, nothing_rendered(job.scene.camera), {done, ProgressMode::never, look});
   return snapshots;
 }
 
-RenderResult run_reference(const LoadedScene& loaded, double error, const std::atomic<bool>& stop,
-                           ProgressMode progress) {
-  RenderSettings settings = loaded.settings;
-  settings.seconds = 0.0;
-  settings.error = error;
-  return render(loaded.scene, settings, nothing_rendered(loaded.scene.camera), stop, progress);
+RenderResult run_reference(const RenderJob& job, double error, const std::atomic<bool>& stop, ProgressMode progress) {
+  RenderSettings settings = job.settings;
+  settings.until = {.error = error};
+  return render(job.scene, settings, nothing_rendered(job.scene.camera), {stop, progress});
 }
 
 }  // namespace vpm::tools

@@ -7,7 +7,7 @@
 #include "vpm/base/progress.h"
 #include "vpm/image/image.h"
 #include "vpm/input/scene_file.h"
-#include "vpm/render/render.h"
+#include "vpm/job/render.h"
 #include "vpm/study/compare/plan.h"
 
 namespace vpm::tools {
@@ -20,11 +20,10 @@ struct Snapshot {
 
 /// Renders passes until the last budget is passed. CPU time is that of rendering alone: what is done with snapshots
 /// does not count. Fewer snapshots than budgets where `stop` was set.
-std::vector<Snapshot> run_method(const LoadedScene& loaded, const ComparisonPlan& plan, int repetition,
+std::vector<Snapshot> run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition,
                                  const std::atomic<bool>& stop);
 
 /// Renders a scene until its estimated relative MSE is down to `error`.
-RenderResult run_reference(const LoadedScene& loaded, double error, const std::atomic<bool>& stop,
-                           ProgressMode progress);
+RenderResult run_reference(const RenderJob& job, double error, const std::atomic<bool>& stop, ProgressMode progress);
 
 }  // namespace vpm::tools

@@ -9,7 +9,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
 #include "vpm/image/exr.h"
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 
 namespace vpm::tools {
 namespace {

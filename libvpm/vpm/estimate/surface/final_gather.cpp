@@ -97,7 +97,7 @@ Rgb FinalGather::gathered(const SurfaceView& view, EyeWork& work) const {
 GatherGuide FinalGather::make_guide(const SurfaceView& view, EyeWork& work) const {
   if (!settings_.guided) return GatherGuide(view);
   count(work.counters.surface_queries);
-  return {view, guiding_, work.counters.gather};
+  return {view, guiding_, work.gather()};
 }
 
 /// Radiance of the rough surface that a gathering ray meets. Lights on its way are left out: their light is direct, or
@@ -144,7 +144,7 @@ Rgb FinalGather::met_along(PathState path, EyeWork& work) const {
 Rgb FinalGather::at_end(const SurfaceView& view, EyeWork& work) const {
   const Rgb* diffuse = diffuse_reflectance(view.material);
   if (!sites_ || !diffuse) return ends_.gather(view, work);
-  const std::optional<Rgb> irradiance = irradiance_.irradiance(view.hit, -view.travel, work.counters.gather);
+  const std::optional<Rgb> irradiance = irradiance_.irradiance(view.hit, -view.travel, work.gather());
   if (irradiance) {
     count(work.counters.irradiance_lookups);
     return *diffuse / kPi * *irradiance;
@@ -156,7 +156,7 @@ Rgb FinalGather::at_end(const SurfaceView& view, EyeWork& work) const {
 /// Is a ray shorter than the radius of what the map tells at its end? At borders the k nearest of a region may reach
 /// farther than those of all photons: the largest radius stands for theirs.
 bool FinalGather::is_too_short(float length, const SurfaceView& view, EyeWork& work) const {
-  const CountedMap map{ends_.map(), work.counters.gather};
+  const CountedMap map{ends_.map(), work.gather()};
   return length < map.settings.radius && (map.settings.boundary == BoundaryRule::corrected ||
                                           length < scattered_radius(view.material, view.hit, -view.travel, map));
 }

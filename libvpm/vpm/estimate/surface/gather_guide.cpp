@@ -16,14 +16,14 @@ constexpr float kFewPhotons = 16.0f;    // so many are worth half of that share
 
 }  // namespace
 
-GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, GatherCounters& counters) : view_(view) {
+GatherGuide::GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, GatherWork work) : view_(view) {
   const Hit& hit = view.hit;
   const float side = glm::dot(hit.normal, view.travel) < 0.0f ? 1.0f : -1.0f;
   normals_ = {side * hit.shading_normal, -side * hit.shading_normal};
   const Arrives arrives{side * hit.normal, plane_thickness(from_rough.settings), scatters_through(view.material)};
   const auto& map = std::get<NearestMap>(from_rough.index);
-  const Neighbours& near = nearest(Gathering{map, from_rough.settings, counters}, hit.position, arrives);
-  counters.used += near.size();
+  const Neighbours& near = nearest(Gathering{map, from_rough.settings, work}, hit.position, arrives);
+  work.counters.used += near.size();
   for (size_t i = 0; i < near.size(); ++i) {
     const PhotonTable::Payload& photon = map.photons().payload(near.photons()[i]);
     const Vec3 travel = photon.travel.unpack();

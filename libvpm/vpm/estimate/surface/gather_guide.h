@@ -27,7 +27,7 @@ class GatherGuide {
   explicit GatherGuide(const SurfaceView& view) : view_(view) {}
   /// Learns from a map by count of photons that rough surfaces scattered last. The fewer are near, the smaller is the
   /// share of rays drawn by what they tell.
-  GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, GatherCounters& counters);
+  GatherGuide(const SurfaceView& view, const PhotonMap& from_rough, GatherWork work);
 
   /// How a gathering ray leaves; black: no ray.
   Scatter sample(Rng& rng) const;

@@ -26,15 +26,15 @@ IrradiancePoints::IrradiancePoints(const std::vector<SurfaceSite>& sites, const 
   std::vector<Photon> points(sites.size());
   std::vector<GatherCounters> counted(chunk_count(sites.size(), kChunk));
   parallel_for_chunks(sites.size(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
-    const CountedMap here{map, counted[chunk]};
+    Neighbours neighbours;
+    const CountedMap here{map, {counted[chunk], neighbours}};
     for (size_t i = begin; i < end; ++i) points[i] = point_at(sites[i], here);
   });
   for (const GatherCounters& of_chunk : counted) counters.merge(of_chunk);
   points_ = NearestMap(points, 1.0f);
 }
 
-std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towards_eye,
-                                                GatherCounters& counters) const {
+std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towards_eye, GatherWork work) const {
   const float geometric = glm::dot(hit.normal, towards_eye), shading = glm::dot(hit.shading_normal, towards_eye);
   if (!(geometric * shading > 0.0f)) return std::nullopt;
   const float side = geometric > 0.0f ? 1.0f : -1.0f;
@@ -43,9 +43,9 @@ std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towa
   const auto agrees = [&](const PackedDirection& travel, const Vec3& offset) {
     return -glm::dot(travel.unpack(), normal) > kSameNormal && in_plane(travel, offset);
   };
-  const Neighbours& near = nearest(Gathering{points_, gather_, counters}, hit.position, agrees);
+  const Neighbours& near = nearest(Gathering{points_, gather_, work}, hit.position, agrees);
   if (near.size() == 0) return std::nullopt;
-  ++counters.used;
+  ++work.counters.used;
   return points_.photons().payload(near.photons()[0]).power.unpack();
 }
 

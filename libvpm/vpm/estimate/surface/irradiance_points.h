@@ -30,7 +30,7 @@ class IrradiancePoints {
   /// Irradiance by the cosines to the shading normal, W/m^2, on the side of a hit that `towards_eye` (unit) lies on:
   /// that of the nearest point there, within the map's radius. Nothing where there is none, or where `towards_eye` lies
   /// on different sides of the two normals.
-  std::optional<Rgb> irradiance(const Hit& hit, const Vec3& towards_eye, GatherCounters& counters) const;
+  std::optional<Rgb> irradiance(const Hit& hit, const Vec3& towards_eye, GatherWork work) const;
 
   size_t size() const { return points_.size(); }
   size_t memory_bytes() const { return points_.memory_bytes(); }

@@ -11,12 +11,11 @@ namespace vpm {
 
 PixelRadii::PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, std::vector<float> radii,
                        std::optional<SurfaceShadowRays> direct)
-    : gather_(settings.gather),
-      radii_(std::move(radii)),
+    : radii_(std::move(radii)),
       direct_(std::move(direct)),
       map_(scene, settings, direct_ ? indirect_photon : any_photon),
       found_(radii_.size()) {
-  assert(gather_.mode == GatherMode::radius && gather_.boundary == BoundaryRule::none);
+  assert(settings.gather.mode == GatherMode::radius && settings.gather.boundary == BoundaryRule::none);
 }
 
 /// Its radii do not go by the number of the pass.
@@ -34,11 +33,12 @@ void PixelRadii::build(uint64_t, RenderStatistics& statistics) {
 Rgb PixelRadii::sent(const SurfaceView& view, EyeWork& work) const {
   GatherCounters& counters = work.counters.gather;
   const Rgb direct = direct_ ? direct_->sent(view, work) : Rgb(0.0f);
-  GatherSettings own = gather_;
+  GatherSettings own = map_.map().settings;
   own.radius = radii_[work.pixel];
   count(work.counters.surface_queries);
   const uint64_t before = counters.used;
-  const Rgb radiance = scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map_.map(), counters, own});
+  const Rgb radiance =
+      scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map_.map(), work.gather(), own});
   found_[work.pixel] += counters.used - before;
   return direct + radiance;
 }

@@ -23,7 +23,6 @@ class PixelRadii final : public SurfaceEstimator {
   std::vector<uint64_t> take_found() override { return std::move(found_); }
 
  private:
-  GatherSettings gather_;
   std::vector<float> radii_;
   std::optional<SurfaceShadowRays> direct_;
   SurfaceMap map_;

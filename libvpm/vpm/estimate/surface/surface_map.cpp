@@ -7,12 +7,11 @@
 namespace vpm {
 
 Rgb gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work) {
-  GatherCounters& counters = work.counters.gather;
   count(work.counters.surface_queries);
   if (map.settings.boundary == BoundaryRule::none)
-    return scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map, counters});
+    return scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map, work.gather()});
   const SurfaceRegion region(scene, view.hit, -view.travel, map.settings);
-  return scattered_radiance(view.material, view.hit, -view.travel, BoundedMap{map, region, counters});
+  return scattered_radiance(view.material, view.hit, -view.travel, BoundedMap{map, region, work.gather()});
 }
 
 void SurfaceMap::build(RenderStatistics& statistics) {

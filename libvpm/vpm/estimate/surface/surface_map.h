@@ -9,7 +9,7 @@ namespace vpm {
 
 /// What estimators by the photons of surfaces are told.
 struct SurfaceMapSettings {
-  GatherSettings gather;  // its radius, m, is that of the first pass; 0: chosen by the size of the scene
+  AskedGather gather;
   PassOfMaps pass;
 };
 

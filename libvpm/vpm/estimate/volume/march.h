@@ -16,10 +16,11 @@
 
 namespace vpm {
 
-/// How fine steps are.
+/// How fine steps are, and for what.
 struct StepLimits {
   float length = kInfinity;   // m, > 0; finite in endless media
   float optical = kInfinity;  // optical thickness of the thickest channel, > 0
+  glm::bvec3 matters{true};   // channels whose integrand is not 0
 };
 
 /// The outcome of a march.
@@ -33,12 +34,11 @@ struct Marched {
 class Marcher {
  public:
   /// Calls add(point, weight) for each step; the sum of weight * f(point), per channel, estimates the integral of Tr
-  /// density f over the interval (weights are in m). `matters` tells the channels whose f is not 0: where the
-  /// transmittance of all of these is below 1 % the march goes on by Russian roulette, so that it ends in endless
-  /// media.
+  /// density f over the interval (weights are in m). Where the transmittance of all channels that matter is below 1 %
+  /// the march goes on by Russian roulette, so that it ends in endless media.
   template <class Add>
-  Marched march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits,
-                const glm::bvec3& matters, Rng& rng, Add&& add);
+  Marched march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits, Rng& rng,
+                Add&& add);
 
  private:
   /// The stretch of a piece that lies in the present step.
@@ -114,13 +114,13 @@ inline double Marcher::locate(double column) const {
 
 template <class Add>
 Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits,
-                       const glm::bvec3& matters, Rng& rng, Add&& add) {
+                       Rng& rng, Add&& add) {
   constexpr double kRouletteBelow = 0.01;
   const Rgbd sigma_t(medium.sigma_t);
   const double thickest = std::max(sigma_t.r, std::max(sigma_t.g, sigma_t.b));
   double thinnest = thickest;
   for (int c = 0; c < 3; ++c)
-    if (matters[c]) thinnest = std::min(thinnest, sigma_t[c]);
+    if (limits.matters[c]) thinnest = std::min(thinnest, sigma_t[c]);
   const double most_column = thickest > 0.0 ? limits.optical / thickest : static_cast<double>(kInfinity);
   Marched result;
   double crossed = 0.0;  // column before the present step, m

@@ -34,7 +34,7 @@ class MarchedLight::March {
   void part(const Interval& interval) {
     if (interval.empty() || is_black(throughput_)) return;
     const Medium& medium = *segment_.medium();
-    StepLimits limits{kInfinity, light_.max_optical_step_};
+    StepLimits limits{kInfinity, light_.max_optical_step_, glm::greaterThan(throughput_ * medium.sigma_s, Rgb(0.0f))};
     std::array<const MarchedSource*, kMostSources> asked;
     size_t number = 0;
     for (size_t i = 0; i < light_.sources_.size(); ++i) {
@@ -44,14 +44,12 @@ class MarchedLight::March {
       asked[number++] = light_.sources_[i].get();
     }
     if (number == 0) return attenuate(counted_column(medium, segment_.ray, interval, work_.counters.walk));
-    const glm::bvec3 matters = glm::greaterThan(throughput_ * medium.sigma_s, Rgb(0.0f));
     const float densest = medium.max_density();  // weights are those of relative densities
     const auto add = [&](const Vec3& point, const Rgb& weight) {
       const Rgb seen = throughput_ * (weight / densest);
       for (size_t i = 0; i < number; ++i) radiance_ += seen * asked[i]->at(segment_, point, work_);
     };
-    const Marched marched =
-        work_.scratch.marcher.march(medium, segment_.ray, interval, limits, matters, work_.rng, add);
+    const Marched marched = work_.scratch.marcher.march(medium, segment_.ray, interval, limits, work_.rng, add);
     count(work_.counters.steps, marched.steps);
     count(work_.counters.walk.lookups, marched.lookups);
     attenuate(marched.column);

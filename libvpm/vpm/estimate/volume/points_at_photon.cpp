@@ -23,8 +23,8 @@ Rgb PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) const {
     const Rgb factor = segment.throughput * source_factor(medium);
     const auto add = [&](const Vec3& point, const Rgb& weight) {
       count(work.counters.volume_queries);
-      radiance += factor * weight *
-                  volume_sum(medium.phase, point, -segment.ray.direction, CountedMap{map, work.counters.gather});
+      radiance +=
+          factor * weight * volume_sum(medium.phase, point, -segment.ray.direction, CountedMap{map, work.gather()});
     };
     const SeenThrough seen{segment.ray, segment.columns(work),
                            segment.medium() ? segment.medium()->sigma_t : Rgb(0.0f)};

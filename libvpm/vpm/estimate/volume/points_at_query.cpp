@@ -28,9 +28,9 @@ Rgb PointsAtQuery::at(const EyeSegment& segment, const Vec3& point, EyeWork& wor
   const Rgb factor = source_factor(medium);
   count(work.counters.volume_queries);
   if (map.settings.boundary == BoundaryRule::none)
-    return factor * volume_sum(medium.phase, point, towards_eye, CountedMap{map, work.counters.gather});
+    return factor * volume_sum(medium.phase, point, towards_eye, CountedMap{map, work.gather()});
   const VolumeRegion region(scene_, segment.number, point, map.settings.kernel);
-  return factor * volume_sum(medium.phase, point, towards_eye, BoundedMap{map, region, work.counters.gather});
+  return factor * volume_sum(medium.phase, point, towards_eye, BoundedMap{map, region, work.gather()});
 }
 
 }  // namespace vpm

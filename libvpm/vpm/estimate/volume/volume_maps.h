@@ -9,7 +9,7 @@ namespace vpm {
 
 /// What an estimator by photons of media is told.
 struct VolumeMapSettings {
-  GatherSettings gather;  // its radius, m, is that of the first pass; 0: chosen by the size of the medium
+  AskedGather gather;
   VolumeForm form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // in [0, 1], see stored_power()
   bool once = true;            // gather photons, too, that come straight from lights

@@ -15,7 +15,7 @@ namespace vpm {
 Flight Decomposition::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                              Rng& rng) const {
   return track_bricks(
-      medium, ray, interval, power, rng, [](float max) { return max; },
+      medium, ray, interval, NullCollisionFlight(medium, interval, power, rng), [](float max) { return max; },
       [&](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
         if (!flight.is_real(stretch.min / majorant)) return flight.meet(t, stretch, majorant);
         if (needs_density_) flight.count_lookup();

@@ -10,7 +10,7 @@ namespace vpm {
 Flight DeltaLocal::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                           Rng& rng) const {
   return track_bricks(
-      medium, ray, interval, power, rng, [](float max) { return max; },
+      medium, ray, interval, NullCollisionFlight(medium, interval, power, rng), [](float max) { return max; },
       [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
         return flight.meet(t, stretch, majorant);
       });

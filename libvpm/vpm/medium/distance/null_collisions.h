@@ -119,12 +119,11 @@ class NullCollisionFlight {
   Rgbd weight_{1.0};   // in chromatic media; the sum of shares_ times magnitudes stays as it was
 };
 
-/// Flies through the bricks on the way, in each under the majorant that majorant(its largest density) says, to the
-/// first tentative collision of which meets(flight, t, stretch, majorant) is true.
+/// Carries a flight through the bricks on the way, in each under the majorant that majorant(its largest density) says,
+/// to the first tentative collision of which meets(flight, t, stretch, majorant) is true.
 template <class Majorant, class Meets>
-Flight track_bricks(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng,
+Flight track_bricks(const Medium& medium, const Ray& ray, const Interval& interval, NullCollisionFlight flight,
                     Majorant&& majorant, Meets&& meets) {
-  NullCollisionFlight flight(medium, interval, power, rng);
   const auto passes = [&](double length, float max) { return flight.passes(length, majorant(max)); };
   const auto visit = [&](const DensityStretch& stretch) {
     const double most = majorant(stretch.max);

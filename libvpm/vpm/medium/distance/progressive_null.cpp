@@ -18,7 +18,8 @@ Flight ProgressiveNull::sample(const Medium& medium, const Ray& ray, const Inter
                                Rng& rng) const {
   const double most = share_ * static_cast<double>(medium.max_density());
   return track_bricks(
-      medium, ray, interval, power, rng, [&](float max) { return std::min<double>(max, most); },
+      medium, ray, interval, NullCollisionFlight(medium, interval, power, rng),
+      [&](float max) { return std::min<double>(max, most); },
       [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
         return flight.meet(t, stretch, majorant);
       });

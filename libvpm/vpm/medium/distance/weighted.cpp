@@ -15,7 +15,8 @@ Flight Weighted::sample(const Medium& medium, const Ray& ray, const Interval& in
                         Rng& rng) const {
   const double most = double{majorant_} * static_cast<double>(medium.max_density());
   return track_bricks(
-      medium, ray, interval, power, rng, [&](float max) { return std::min<double>(max, most); },
+      medium, ray, interval, NullCollisionFlight(medium, interval, power, rng),
+      [&](float max) { return std::min<double>(max, most); },
       [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
         return flight.meet_weighted(t, stretch.density(t), majorant);
       });

@@ -96,7 +96,7 @@ Moments estimate_airlight(const Airlight& a, double log10_scale, uint64_t sample
       // A ray of its own for each stretch: distances along it are short, as behind a boundary.
       const double before = log_transmittance(scene, *estimator, from(-a.t_light), ends[i] + a.t_light, rng);
       const Interval stretch{0.0f, static_cast<float>(ends[i + 1] - ends[i])};
-      marcher.march(medium, from(ends[i]), stretch, {kInfinity, kOpticalStep}, glm::bvec3(true), rng,
+      marcher.march(medium, from(ends[i]), stretch, {kInfinity, kOpticalStep}, rng,
                     [&](const Vec3& point, const Rgb& weight) {
                       Vec3 towards(0.0f);
                       const double irradiance = log_irradiance(scene, *estimator, point, rng, towards);

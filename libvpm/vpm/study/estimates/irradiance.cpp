@@ -48,7 +48,7 @@ MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& rece
   scene.lights.push_back(light);
   // It sees the disc of radius h and what is around it.
   const auto above = static_cast<float>(4.0 * h);
-  scene.camera = make_camera(receiver + above * kUp, receiver, Vec3(0.0f, 1.0f, 0.0f), 40.0f, 1, 1, {});
+  scene.camera = make_camera(receiver + above * kUp, receiver, Vec3(0.0f, 1.0f, 0.0f), 40.0f, {1, 1});
   scene.geometry.commit();
   finish(scene);
   const auto strategy = make_distance_strategy({});

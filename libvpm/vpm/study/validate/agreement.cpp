@@ -50,9 +50,8 @@ Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order
   const double half = order == BiasOrder::smooth ? 4.0 / 3.0 : 2.0;  // the weight of half the radius
   settings.radii = RadiusSchedule::constant;
   RenderSettings halved = settings;
-  halved.volume.radius *= 0.5f;
-  halved.surface.radius *= 0.5f;
-  halved.caustics.radius *= 0.5f;
+  for (AskedGather* gather : {&halved.volume, &halved.surface, &halved.caustics})
+    gather->radius = 0.5f * gather->radius.metres();
   std::vector<Rgbd> means(static_cast<size_t>(passes));
   std::vector<double> effective(means.size());
   parallel_for_chunks(means.size(), 1, [&](size_t i, size_t, size_t) {
@@ -134,7 +133,7 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
       all.emplace_back(name + ", equiangular in media", settings);
     }
   RenderSettings nearest = base;
-  for (GatherSettings* gather : {&nearest.volume, &nearest.surface}) {
+  for (AskedGather* gather : {&nearest.volume, &nearest.surface}) {
     gather->mode = GatherMode::nearest;
     gather->count = 200'000;  // more than lie within the radius, so that this is what bounds the search
   }

@@ -194,12 +194,14 @@ Estimator estimator(bool flat, const Scene& scene, const Vec3& point, const Gath
   if (!flat)
     return [&scene, point, settings](const PhotonMap& map, GatherCounters& counters) {
       const VolumeRegion region(scene, 0, point, settings.kernel);
-      return fluence(Rgb(1.0f), point, BoundedMap{map, region, counters}).g;
+      Neighbours near;
+      return fluence(Rgb(1.0f), point, BoundedMap{map, region, GatherWork{counters, near}}).g;
     };
   const Hit hit = on_square(scene, point);
   return [&scene, hit, settings](const PhotonMap& map, GatherCounters& counters) {
     const SurfaceRegion region(scene, hit, kUp, settings);
-    return surface_irradiance(hit.position, kUp, BoundedMap{map, region, counters}).g;
+    Neighbours near;
+    return surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{counters, near}}).g;
   };
 }
 

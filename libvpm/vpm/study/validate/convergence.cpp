@@ -70,7 +70,7 @@ std::vector<Check> referee(const Effort& effort) {
   const Interface media{0, kVacuum};
   add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Boundary{}, &media);
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 20.0f, 6, 6, {});
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 20.0f, {6, 6});
   scene.geometry.commit();
   finish(scene);
   const std::vector<int> n = pass_counts(8, static_cast<int>(effort.count(128, 1024)));
@@ -81,7 +81,8 @@ std::vector<Check> referee(const Effort& effort) {
     Film film(scene.camera.width, scene.camera.height);
     std::vector<double> errors;
     for (const int count : n) {
-      while (film.passes() < count) film.add(film.passes(), render_path_pass(scene, settings, film.passes(), kGoOn).image);
+      while (film.passes() < count)
+        film.add(film.passes(), render_path_pass(scene, settings, film.passes(), kGoOn).image);
       double sum = 0.0;
       for (const Rgb& pixel : film.mean().pixels) sum += (pixel.g - 1.0) * (pixel.g - 1.0) / 36.0;
       errors.push_back(sum);

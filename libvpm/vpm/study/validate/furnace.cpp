@@ -104,7 +104,7 @@ std::vector<Check> check_inside_glass(const Effort& effort) {
   Scene scene;
   add_shape(scene, SphereShape{Vec3(0.3f, -0.2f, 0.5f), 1.0f}, Dielectric{kIor});
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.5f, 0.0f, 0.4f), Vec3(0.0f), Vec3(0, 1, 0), 100.0f, 16, 16, {});
+  scene.camera = make_camera(Vec3(0.5f, 0.0f, 0.4f), Vec3(0.0f), Vec3(0, 1, 0), 100.0f, {16, 16});
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings;
@@ -207,7 +207,8 @@ std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point
         PhotonLists photons = small_pass(body.scene, *strategy, rng);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         GatherCounters counters;
-        const BoundedMap bounded{map, region, counters};
+        Neighbours near;
+        const BoundedMap bounded{map, region, GatherWork{counters, near}};
         out[0] = fluence(medium.majorant(), point, bounded).g;
         out[1] = volume_sum(medium.phase, point, uniform_sphere(rng.uniform2()), bounded).g / medium.majorant().g;
       });
@@ -237,7 +238,9 @@ std::vector<Check> check_sheet(const Effort& effort) {
           const PhotonLists photons = small_pass(scene, *strategy, rng);
           const PhotonMap map = make_photon_map(photons.surface, gather, photons.ledger.emitted_count);
           GatherCounters counters;
-          out[0] = scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, counters}).g;
+          Neighbours near;
+          out[0] =
+              scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, GatherWork{counters, near}}).g;
         });
     checks.push_back(region.share(gather.radius).inside < 1.0f ? check_within(name, samples[0], 1.0, kShareError)
                                                                : check_mean(name, samples[0], 1.0));

@@ -30,7 +30,7 @@ Scene nested_media() {
   add_shape(scene, SphereShape{Vec3(0.4f, 0.1f, 0.0f), 0.5f}, Dielectric{1.4f}, &milk);
   add_shape(scene, SphereShape{Vec3(3.0f, 0.0f, -1.0f), 0.6f}, Mirror{Rgb(0.9f)});
   scene.lights = {PointLight{Vec3(-0.6f, 0.7f, 0.3f), Rgb(1.0f)}, PointLight{Vec3(0.3f, 3.0f, 0.5f), Rgb(2.0f)}};
-  scene.camera = make_camera(Vec3(0.0f, 0.0f, 1.8f), Vec3(0.4f, 0.0f, 0.0f), Vec3(0, 1, 0), 60.0f, 8, 8, {});
+  scene.camera = make_camera(Vec3(0.0f, 0.0f, 1.8f), Vec3(0.4f, 0.0f, 0.0f), Vec3(0, 1, 0), 60.0f, {8, 8});
   scene.geometry.commit();
   finish(scene);
   scene.camera_medium = medium_at(scene, scene.camera.position);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "vpm/base/parallel.h"
+#include "vpm/job/render.h"
 #include "vpm/render/photon_pass.h"
-#include "vpm/render/render.h"
 #include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/small_scenes.h"
 
@@ -36,17 +36,19 @@ std::vector<Check> check_radii(const Effort& effort) {
       const double exact = first * std::pow(measure, 1.0 / d);
       checks.push_back(check_bound(fmt::format("{} of pass {}", name, pass), radius, exact, 1e-5 * exact));
     };
-    check("volume radius", found.last_volume_radius, settings.volume.radius, 3.0);
-    check("surface radius", found.last_surface_radius, settings.surface.radius, 2.0);
+    check("volume radius", found.last_volume_radius, settings.volume.radius.metres(), 3.0);
+    check("surface radius", found.last_surface_radius, settings.surface.radius.metres(), 2.0);
     RenderSettings beams = settings;
     beams.volume.mode = GatherMode::beam;
     check("radius beside rays", render_photon_pass(scene, beams, pass, kGoOn).statistics.last_volume_radius,
-          settings.volume.radius, 2.0);
+          settings.volume.radius.metres(), 2.0);
   }
   settings.radii = RadiusSchedule::constant;
   const RenderStatistics found = render_photon_pass(scene, settings, 30, kGoOn).statistics;
-  checks.push_back(check_bound("volume radius that stays", found.last_volume_radius, settings.volume.radius, 0.0));
-  checks.push_back(check_bound("surface radius that stays", found.last_surface_radius, settings.surface.radius, 0.0));
+  checks.push_back(
+      check_bound("volume radius that stays", found.last_volume_radius, settings.volume.radius.metres(), 0.0));
+  checks.push_back(
+      check_bound("surface radius that stays", found.last_surface_radius, settings.surface.radius.metres(), 0.0));
   return checks;
 }
 
@@ -70,27 +72,28 @@ std::vector<Check> check_pixels(const Effort& effort) {
   static const std::atomic<bool> kGoOn{false};
   const Scene scene = bare_floor();
   RenderSettings settings = pass_settings(effort.seed_of("pixels"));
-  settings.passes = static_cast<int>(effort.count(12, 100));
+  settings.until.passes = static_cast<int>(effort.count(12, 100));
   settings.photons_emitted = 2000;
   settings.radii = RadiusSchedule::per_pixel;
   settings.surface.kernel = KernelKind::constant;
   settings.surface_direct = DirectLight::photons;
   RenderResult result = nothing_rendered(scene.camera);
-  std::vector<TextbookPixel> textbook(result.film.mean().pixels.size(), {settings.surface.radius});
+  std::vector<TextbookPixel> textbook(result.film.mean().pixels.size(), {settings.surface.radius.metres()});
   const double power = light_power(scene.lights[0], scene.bounds).g;  // of every photon
   const auto run = [&](const RenderResult& so_far, const PassProgress& progress) {
     Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.passes(), kGoOn, progress});
     for (size_t i = 0; i < textbook.size(); ++i) textbook[i].add(static_cast<double>(pass.found[i]), power);
     return pass;
   };
-  result = run_passes(settings, run, tile_count(scene.camera), std::move(result), kGoOn, ProgressMode::never);
-  const double per_flux = 0.5 / kPiD / (kPiD * settings.passes * static_cast<double>(settings.photons_emitted));
+  result = run_passes(settings.until, {run, tile_count(scene.camera)}, std::move(result), {kGoOn});
+  const double per_flux = 0.5 / kPiD / (kPiD * settings.until.passes * static_cast<double>(settings.photons_emitted));
   const Image mean = result.film.mean();
   double radius_off = 0.0, radiance_off = 0.0;
   for (size_t i = 0; i < textbook.size(); ++i) {
     const auto [radius, photons, flux] = textbook[i];
     const double radiance = per_flux * flux / (radius * radius);
-    radius_off = std::max(radius_off, std::abs(disc_radius(result.discs[i], settings.surface.radius) / radius - 1.0));
+    radius_off =
+        std::max(radius_off, std::abs(disc_radius(result.discs[i], settings.surface.radius.metres()) / radius - 1.0));
     radiance_off = std::max(radiance_off, std::abs(mean.pixels[i].g - radiance) / (radiance + 1e-3));
   }
   return {check_bound("R, relative, at the most", radius_off, 0.0, 1e-5),
@@ -106,9 +109,9 @@ std::vector<Check> check_variance(const Effort& effort) {
   parallel_for_chunks(pairs, 1, [&](size_t i, size_t, size_t) {
     const auto film = [&](const char* which) {
       RenderSettings settings = pass_settings(effort.seed_of(fmt::format("film {} {}", which, i)));
-      settings.passes = 4;
+      settings.until.passes = 4;
       settings.radii = RadiusSchedule::constant;  // passes of one distribution
-      return render(scene, settings, nothing_rendered(scene.camera), kGoOn, ProgressMode::never).film;
+      return render(scene, settings, nothing_rendered(scene.camera), {kGoOn}).film;
     };
     const Film a = film("a"), b = film("b");
     const Image mean_a = a.mean(), mean_b = b.mean(), variance_a = a.variance_of_mean(),

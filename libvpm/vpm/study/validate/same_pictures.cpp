@@ -31,7 +31,7 @@ Scene lit_by(const std::vector<float>& shares, Lamp lamp) {
     add_shape(scene, box_mesh(Vec3d(-5, -2, -5), Vec3d(5, 0.8, 5)), Boundary{}, &fog_inside);
   add_shape(scene, quad_mesh(Vec3d(-4, -1, 4), Vec3d(8, 0, 0), Vec3d(0, 0, -8)), Lambertian{Rgb(0.3f)});
   for (const float share : shares) scene.lights.push_back(PointLight{Vec3(0.4f, 1.2f, 0.0f), Rgb(share)});
-  scene.camera = make_camera(Vec3(0, 0.3f, 3), Vec3(0.0f), Vec3(0, 1, 0), 40.0f, 6, 6, {});
+  scene.camera = make_camera(Vec3(0, 0.3f, 3), Vec3(0.0f), Vec3(0, 1, 0), 40.0f, {6, 6});
   scene.geometry.commit();
   finish(scene);
   scene.camera_medium = 0;
@@ -77,7 +77,7 @@ std::vector<Check> check_final_gathering(const Effort& effort) {
   Scene scene;
   add_shape(scene, SphereShape{Vec3(0.0f), kRadius}, Lambertian{Rgb(kReflectance)});
   scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f / (4.0f * kPi))});
-  scene.camera = make_camera(Vec3(0.3f, 0.2f, 0.1f), Vec3(0.6f, -0.5f, 0.3f), Vec3(0, 1, 0), 60.0f, 4, 4, {});
+  scene.camera = make_camera(Vec3(0.3f, 0.2f, 0.1f), Vec3(0.6f, -0.5f, 0.3f), Vec3(0, 1, 0), 60.0f, {4, 4});
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings;

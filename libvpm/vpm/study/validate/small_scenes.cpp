@@ -11,7 +11,7 @@ namespace {
 constexpr int kFilm = 6;  // pixels along an edge
 
 void look(Scene& scene, const Vec3& from, const Vec3& at, float fov) {
-  scene.camera = make_camera(from, at, Vec3(0.0f, 1.0f, 0.01f), fov, kFilm, kFilm, {});
+  scene.camera = make_camera(from, at, Vec3(0.0f, 1.0f, 0.01f), fov, {kFilm, kFilm});
 }
 
 Scene finished(Scene scene) {

@@ -134,7 +134,7 @@ std::vector<Check> check_march(const Effort& effort) {
   const StepLimits limits{.length = kInfinity, .optical = 0.5f};
   const auto samples =
       sample_moments(1, effort.count(20'000, 2'000'000), effort.seed_of("march"), [&](Rng& rng, double* out) {
-        Marcher().march(medium, ray, {0.0f, static_cast<float>(kDepth)}, limits, glm::bvec3(true), rng,
+        Marcher().march(medium, ray, {0.0f, static_cast<float>(kDepth)}, limits, rng,
                         [&](const Vec3& point, const Rgb& weight) { out[0] += weight.g * std::exp(kRise * point.z); });
       });
   const double exact = -std::expm1((kRise - 1.0) * kDepth) / (1.0 - kRise);

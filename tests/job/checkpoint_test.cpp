@@ -1,5 +1,5 @@
 // Checkpoints: back to the last bit, or refused.
-#include "vpm/input/checkpoint.h"
+#include "vpm/job/checkpoint.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,8 @@ namespace vpm {
 namespace {
 
 namespace fs = std::filesystem;
+
+const Identity kRender{{"render.seed", "1"}, {"volume.radius", "0.25"}};
 
 class Checkpoint : public ::testing::Test {
  protected:
@@ -40,7 +42,7 @@ class Checkpoint : public ::testing::Test {
   }
   void put(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
 
-  void refuses(const std::string& identity, const std::string& why) const {
+  void refuses(const Identity& identity, const std::string& why) const {
     try {
       read_checkpoint(path_, identity);
       FAIL() << "expected: " << why;
@@ -55,9 +57,9 @@ class Checkpoint : public ::testing::Test {
 
 TEST_F(Checkpoint, ComesBackToTheLastBit) {
   const RenderResult before = some_result();
-  write_checkpoint(path_, "a render", before);
+  write_checkpoint(path_, kRender, before);
   const std::string written = bytes();
-  const RenderResult after = read_checkpoint(path_, "a render");
+  const RenderResult after = read_checkpoint(path_, kRender);
   EXPECT_EQ(after.film.width(), 3);
   EXPECT_EQ(after.film.height(), 2);
   EXPECT_EQ(after.film.passes(), 3);
@@ -65,7 +67,7 @@ TEST_F(Checkpoint, ComesBackToTheLastBit) {
   EXPECT_EQ(after.seconds, 1.5);
   EXPECT_EQ(after.statistics.ledger.imbalance.mean(), 0.25);
   EXPECT_TRUE(after.discs.empty());
-  write_checkpoint(path_, "a render", after);
+  write_checkpoint(path_, kRender, after);
   EXPECT_TRUE(bytes() == written);
 }
 
@@ -78,8 +80,8 @@ TEST_F(Checkpoint, BringsBackEveryCounter) {
   EXPECT_GT(counters, 40);
   before.statistics.ledger.escaped = Rgbd(0.5, 0.25, 7.0);
   before.statistics.eye.weights.add(-3.0);
-  write_checkpoint(path_, "a render", before);
-  const RenderStatistics after = read_checkpoint(path_, "a render").statistics;
+  write_checkpoint(path_, kRender, before);
+  const RenderStatistics after = read_checkpoint(path_, kRender).statistics;
   int expected = 0;
   for_each_counter(after, [&](const std::string& name, const auto& number) {
     if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(number)>>) EXPECT_EQ(number, ++expected) << name;
@@ -92,42 +94,45 @@ TEST_F(Checkpoint, BringsBackEveryCounter) {
 TEST_F(Checkpoint, BringsBackTheRadiiOfPixels) {
   RenderResult before = some_result();
   for (int i = 0; i < 6; ++i) before.discs.push_back({1.0 / (i + 3), i / 7.0});
-  write_checkpoint(path_, "a render", before);
-  const RenderResult after = read_checkpoint(path_, "a render");
+  write_checkpoint(path_, kRender, before);
+  const RenderResult after = read_checkpoint(path_, kRender);
   ASSERT_EQ(after.discs.size(), 6u);
   EXPECT_EQ(std::memcmp(after.discs.data(), before.discs.data(), 6 * sizeof(PixelDisc)), 0);
   EXPECT_EQ(after.film.sums(), before.film.sums());
 }
 
 TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
-  write_checkpoint(path_, "a render", some_result());
-  refuses("another render", "it is of another render");
+  write_checkpoint(path_, kRender, some_result());
+  refuses(
+      {{"render.seed", "2"}, {"scene", "fog"}},
+      "it is of another render; remove it, or render again what it is of\n  render.seed: 1 in the file, 2 asked for\n"
+      "  volume.radius: 0.25 in the file, nothing asked for\n  scene: nothing in the file, fog asked for");
 }
 
 TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
-  refuses("a render", "there is no such file");
+  refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
-  refuses("a render", "it is no checkpoint");
-  std::ofstream(path_) << "vpm checkpoint of a render\nformat 2\na render";
-  refuses("a render", "it is damaged or not whole");
-  write_checkpoint(path_, "a render", some_result());
+  refuses(kRender, "it is no checkpoint");
+  std::ofstream(path_) << "vpm checkpoint of a render\nformat 2\nidentity 2\nrender.seed=1\n";
+  refuses(kRender, "it is damaged or not whole");
+  write_checkpoint(path_, kRender, some_result());
   const uintmax_t size = fs::file_size(path_);
   for (const uintmax_t left : {size - 1, size / 2, uintmax_t{60}}) {
     fs::resize_file(path_, left);
-    refuses("a render", "it is damaged or not whole");
+    refuses(kRender, "it is damaged or not whole");
   }
   fs::resize_file(path_, size + 8);
-  refuses("a render", "it is damaged or not whole");
+  refuses(kRender, "it is damaged or not whole");
 }
 
 TEST_F(Checkpoint, OfWhichAnyByteIsAnotherIsRefused) {
-  write_checkpoint(path_, "a render", some_result());
+  write_checkpoint(path_, kRender, some_result());
   const std::string whole = bytes();
   for (size_t at = 0; at < whole.size(); at += 5) {
     std::string flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ 1 << at % 8);
     put(flipped);
-    refuses("a render", "cannot resume from");
+    refuses(kRender, "cannot resume from");
   }
 }
 
@@ -143,26 +148,26 @@ std::string bytes_of(T number) {
 }
 
 TEST_F(Checkpoint, OfAnotherFormatIsRefused) {
-  write_checkpoint(path_, "a render", some_result());
+  write_checkpoint(path_, kRender, some_result());
   const std::string content = bytes();
   put(with(content, "format 2\n", "format 3\n"));
-  refuses("a render", "it is written by another format of checkpoints, 3; this program reads 2");
+  refuses(kRender, "it is written by another format of checkpoints, 3; this program reads 2");
   EXPECT_THROW(checkpoint_identity(path_), InputError);
   put(with(content, "format 2\n", ""));  // as they were before they told it
-  refuses("a render", "it is written by another format of checkpoints, 1; this program reads 2");
+  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 2");
 }
 
 TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
   RenderResult result = some_result();
   result.discs.resize(6);
-  write_checkpoint(path_, "a render", result);
+  write_checkpoint(path_, kRender, result);
   std::string content = bytes();
   content.resize(content.size() - 16);
   const auto refuses_text = [&](const std::string& changed, const std::string& why) {
     Fnv1a hash;
     hash.add(std::string_view(changed));
     put(changed + hash.digits());
-    refuses("a render", why);
+    refuses(kRender, why);
   };
   const auto refuses_with = [&](const std::string& what, const std::string& other, const std::string& why) {
     refuses_text(with(content, what, other), why);

@@ -2,15 +2,31 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
+#include <vector>
 
-#include "vpm/render/automatic.h"
+#include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
 
 namespace vpm {
 
+/// What flights of a pilot have counted, by strategy.
+struct StrategyCost {
+  std::string_view name;
+  double cost = 0.0;  // of flights of one photon, in look-ups of density
+};
 /// What flights cost under each strategy that is exact in the scene's media and keeps weights bounded: a pure function
 /// of scene and settings.
 std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSettings& settings);
 
+/// How dense photons lie where they are gathered.
+struct MapDensity {
+  double reach = 0.0;      // m: at a typical place as many photons as `within` lie within it ...
+  double within = 0.0;     // > 0
+  double emitted = 0.0;    // ... of this many emitted
+  int dimension = 3;       // of the kernel
+  double footprint = 0.0;  // m: of a pixel at a typical place
+};
 /// Of the maps that the render uses; none where the pilot says too little of one.
 struct MapDensities {
   std::optional<MapDensity> volume, surface, caustics;
@@ -19,6 +35,12 @@ struct MapDensities {
 /// Where the eye gathers, how near the photons are: a pure function of scene and settings.
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings);
 
+/// What a pass costs, s.
+struct PassCost {
+  double photon = 0.0;             // tracing and sorting, of one emitted photon; > 0
+  double eye = 0.0;                // the eye pass
+  double stored_per_photon = 0.0;  // by all maps
+};
 /// Times the photons of a pass, a million stored ones at the most, and a sample of its rays.
 PassCost time_pass(const Scene& scene, const RenderSettings& settings);
 

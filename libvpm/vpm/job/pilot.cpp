@@ -1,5 +1,5 @@
 // Pilot photons, and the places at which the eye gathers them.
-#include "vpm/render/pilot.h"
+#include "vpm/job/pilot.h"
 
 #include <algorithm>
 #include <array>

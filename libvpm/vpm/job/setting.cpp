@@ -1,5 +1,5 @@
 // Values and texts of settings, by their declarations.
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "vpm/render/declare.h"
+#include "vpm/job/declare.h"
 
 namespace vpm {
 namespace {

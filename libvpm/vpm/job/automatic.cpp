@@ -1,5 +1,5 @@
 // The rules, and the order in which they are asked: the strategy, the photons, the radii.
-#include "vpm/render/automatic.h"
+#include "vpm/job/automatic.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,10 +9,10 @@
 #include "vpm/base/count.h"
 #include "vpm/base/error.h"
 #include "vpm/estimate/pass_map.h"
-#include "vpm/render/pilot.h"
+#include "vpm/job/pilot.h"
+#include "vpm/job/render.h"
+#include "vpm/job/setting.h"
 #include "vpm/render/plan.h"
-#include "vpm/render/render.h"
-#include "vpm/render/setting.h"
 
 namespace vpm {
 namespace {
@@ -40,7 +40,7 @@ double emitted_of(const RenderSettings& settings, const MapDensities& densities)
 /// A gather radius to be chosen.
 struct OpenRadius {
   const char* key;
-  GatherSettings& gather;
+  AskedGather& gather;
   const std::optional<MapDensity>& density;
   double emitted;
 };
@@ -110,7 +110,7 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
   ChosenCount chosen;
   for (int round = 0; round < 2; ++round) {
     choose_radii(scene, automatic, densities, tried);
-    chosen = choose_count(time_pass(scene, tried), settings.seconds);
+    chosen = choose_count(time_pass(scene, tried), settings.until.seconds);
     tried.photons_emitted = std::min(chosen.count, kMost);
   }
   settings.photons_emitted = chosen.count;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
-#include "vpm/render/render.h"
+#include "vpm/job/identity.h"
+#include "vpm/job/render.h"
 
 namespace vpm {
 
@@ -12,16 +12,19 @@ namespace vpm {
 /// another number is refused. (1: files that do not tell theirs.)
 inline constexpr int kCheckpointFormat = 2;
 
-/// Writes what is rendered so far: whole or not at all. `identity` is one line that tells what is rendered: program,
-/// scene, settings, seed. Throws InputError where the file cannot be written.
-void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const RenderResult& result);
+/// About how many bytes a checkpoint of the job takes.
+uint64_t checkpoint_bytes(const RenderJob& job);
+
+/// Writes what is rendered so far: whole or not at all. `identity` tells what is rendered. Throws InputError where the
+/// file cannot be written.
+void write_checkpoint(const std::filesystem::path& path, const Identity& identity, const RenderResult& result);
 
 /// Reads it back to the last bit. Throws InputError where the file is missing, damaged, of another format, or of
-/// another identity: passes of different renders do not add up.
-RenderResult read_checkpoint(const std::filesystem::path& path, const std::string& identity);
+/// another identity, and tells in what that differs.
+RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& identity);
 
 /// The identity that a checkpoint was written with. Throws InputError where the file is missing, no checkpoint or of
 /// another format.
-std::string checkpoint_identity(const std::filesystem::path& path);
+Identity checkpoint_identity(const std::filesystem::path& path);
 
 }  // namespace vpm

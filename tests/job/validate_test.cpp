@@ -1,12 +1,12 @@
 // Settings that contradict themselves or the scene are refused from code, too, by the key that is wrong.
-#include "vpm/render/validate.h"
+#include "vpm/job/validate.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
+#include "vpm/job/render.h"
 #include "vpm/render/light_map.h"
-#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {
@@ -61,7 +61,7 @@ const Contradiction kContradictions[] = {
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface_indirect = IndirectLight::final_gather; }},
     {"surface.boundary",
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.boundary = BoundaryRule::corrected; }},
-    {"render.passes", [](S& s) { s.passes = 0; }},
+    {"render.passes", [](S& s) { s.until.passes = 0; }},
     {"render.max_optical_step", [](S& s) { s.max_optical_step = 0.0f; }},
     {"volume.radius", [](S& s) { s.volume.radius = -1.0f; }},
     {"volume.density_floor", [](S& s) { s.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
@@ -117,8 +117,8 @@ TEST(Validate, StandsBeforeEveryRender) {
   const std::atomic<bool> stop{true};
   RenderSettings s;
   s.guide.scatter = true;
-  EXPECT_THROW(render(scene, s, {Film(1, 1), {}, 0.0, {}}, stop, ProgressMode::never), SettingError);
-  EXPECT_THROW(bake_light_map(scene, s, {}, stop, ProgressMode::never), SettingError);
+  EXPECT_THROW(render(scene, s, {Film(1, 1), {}, 0.0, {}}, {stop}), SettingError);
+  EXPECT_THROW(bake_light_map(scene, s, {}, {stop}), SettingError);
 }
 
 }  // namespace

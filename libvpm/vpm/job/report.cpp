@@ -1,19 +1,19 @@
 // What a render tells of itself.
-#include "report.h"
+#include "vpm/job/report.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "stage_lines.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
 #include "vpm/estimate/pass_map.h"
+#include "vpm/job/setting.h"
+#include "vpm/job/stage_lines.h"
 #include "vpm/render/plan.h"
-#include "vpm/render/setting.h"
 
-namespace vpm::tools {
+namespace vpm {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -87,12 +87,12 @@ Json rates(const RenderStatistics& s) {
 }
 
 /// What each light sends into the scene, exactly; `share`: of the power of all, and of the photons.
-Json lights(const LoadedScene& loaded) {
-  const Scene& scene = loaded.scene;
+Json lights(const RenderJob& job) {
+  const Scene& scene = job.scene;
   Json all = Json::array();
   for (size_t i = 0; i < scene.lights.size(); ++i)
     all.push_back({{"number", i},
-                   {"name", loaded.light_names[i]},
+                   {"name", job.light_names[i]},
                    {"kind", light_kind(scene.lights[i])},
                    {"power_W", rgb(Rgbd(light_power(scene.lights[i], scene.bounds)))},
                    {"share", scene.light_probability[i]}});
@@ -107,7 +107,7 @@ Json texels(Json eye) {
 }
 
 /// How far the image is estimated to be from the truth.
-Json errors(const LoadedScene& loaded, const RenderResult& result) {
+Json errors(const RenderJob& job, const RenderResult& result) {
   const Film& film = result.film;
   if (film.passes() < kLeastPasses) return nullptr;
   const FilmErrors& e = *result.errors;
@@ -115,13 +115,13 @@ Json errors(const LoadedScene& loaded, const RenderResult& result) {
           {"estimated", estimated_error(result)},
           {"variance", e.variance_part},
           {"squared_bias", film.shows_bias() ? Json(e.bias_part) : Json()},
-          {"bias_not_seen_of", maps_of_unseen_bias(loaded.scene, loaded.settings)}};
+          {"bias_not_seen_of", maps_of_unseen_bias(job.scene, job.settings)}};
 }
 
 /// Of the discs of pixels, for the next pass; null where pixels have none.
-Json disc_radii(const LoadedScene& loaded, const PixelDiscs& discs) {
+Json disc_radii(const RenderJob& job, const PixelDiscs& discs) {
   if (discs.empty()) return nullptr;
-  const float first = first_radius(loaded.settings.surface, loaded.scene);
+  const float first = first_radius(job.settings.surface, job.scene);
   Moments radii;
   float smallest = first, largest = 0.0f;
   for (const PixelDisc& disc : discs) {
@@ -155,56 +155,55 @@ Json memory(const Scene& scene, const RenderResult& result) {
 }
 
 /// What the report of a render and of a light map have in common.
-Json report_of(const std::string& scene_path, const std::string& image, const std::string& quantity,
-               const LoadedScene& loaded, const Scattering& shown, const RenderResult& result) {
+Json report_of(const RenderJob& job, const std::string& image, const std::string& quantity, const Scattering& shown,
+               const RenderResult& result) {
   const RenderStatistics& s = result.statistics;
   const Json counts = counted(s);
   WalkCounters walk = s.ledger.walk;
   walk.merge(s.eye.walk);
   return {{"program", fmt::format("vpm {}", version())},
-          {"scene", scene_path},
-          {"scene_hash", loaded.hash},
+          {"scene", job.source},
+          {"scene_hash", job.hash},
           {"image", image},
           {"quantity", quantity},
           {"width", result.film.width()},
           {"height", result.film.height()},
-          {"seed", loaded.settings.seed},
+          {"seed", job.settings.seed},
           {"threads", thread_count()},
           {"passes", s.passes},
-          {"settings", settings(loaded.settings)},
-          {"stages", stage_lines(loaded.scene, loaded.settings, shown)},
-          {"notes", loaded.notes},
-          {"clamped_density_values", loaded.clamped_density_values},
+          {"settings", settings(job.settings)},
+          {"stages", stage_lines(job.scene, job.settings, shown)},
+          {"notes", job.notes},
+          {"clamped_density_values", job.clamped_density_values},
           {"times", section({{"unit", "s, wall clock"}, {"total", result.seconds}}, counts["times"])},
-          {"lights", lights(loaded)},
+          {"lights", lights(job)},
           {"photons", section(counts["photons"], rates(s))},
           {"energy", section({{"unit", "W"}}, counts["energy"])},
           {"boundaries", {{"crossings", walk.crossings}, {"met_in_another_medium", walk.medium_mismatches}}},
-          {"memory", section(memory(loaded.scene, result), counts["memory"])}};
+          {"memory", section(memory(job.scene, result), counts["memory"])}};
 }
 
 }  // namespace
 
-std::string render_report(const std::string& scene_path, const std::string& image, const LoadedScene& loaded,
-                          const RenderResult& result) {
-  Json report = report_of(scene_path, image, "radiance, W/(m^2 sr)", loaded, scattering_of(loaded.scene), result);
-  report["error"] = errors(loaded, result);
+std::string render_report(const RenderJob& job, const std::string& image, const RenderResult& result) {
+  Json report = report_of(job, image, "radiance, W/(m^2 sr)", scattering_of(job.scene), result);
+  report["error"] = errors(job, result);
   report["eye"] = counted(result.statistics)["eye"];
-  report["radii_of_pixels"] = disc_radii(loaded, result.discs);
+  report["radii_of_pixels"] = disc_radii(job, result.discs);
   return report.dump(2) + "\n";
 }
 
-std::string light_map_report(const std::string& scene_path, const std::string& image, const std::string& mesh,
-                             const LoadedScene& loaded, const UvLayout& layout, const RenderResult& result) {
-  Json report = report_of(scene_path, image, "irradiance, W/m^2", loaded, {.surfaces = true}, result);
+std::string light_map_report(const RenderJob& job, const std::string& image, const std::string& mesh,
+                             const UvLayout& layout, const RenderResult& result) {
+  Json report = report_of(job, image, "irradiance, W/m^2", {.surfaces = true}, result);
   report["texels"] = texels(counted(result.statistics)["eye"]);
   report["light_map"] = {{"mesh", mesh},
                          {"covered_texels", layout.covered_texels()},
                          {"area_m2", std::accumulate(layout.areas.begin(), layout.areas.end(), 0.0)},
-                         {"area_of_mesh_m2", loaded.scene.geometry.area(layout.shape)},
+                         {"area_of_mesh_m2", job.scene.geometry.area(layout.shape)},
                          {"triangles_without_texels", layout.flat_triangles},
                          {"power_received_W", rgb(received_power(layout, result.film.mean()))}};
   return report.dump(2) + "\n";
 }
 
-}  // namespace vpm::tools
+}  // namespace vpm

@@ -1,14 +1,14 @@
 // Settings that a render chooses: the rules are exact; the pilot is a pure function, and changes nothing that is given.
-#include "vpm/render/automatic.h"
+#include "vpm/job/automatic.h"
 
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/render/pilot.h"
-#include "vpm/render/render.h"
-#include "vpm/render/setting.h"
+#include "vpm/job/pilot.h"
+#include "vpm/job/render.h"
+#include "vpm/job/setting.h"
 
 namespace vpm {
 namespace {
@@ -55,7 +55,7 @@ TEST(Automatic, TheCheapestStrategyIsTheFirstOfEquals) {
 TEST(Automatic, RefusesChoicesThatAreNone) {
   RenderSettings settings;
   set_chosen(settings, "volume.radius", "0.0123");
-  EXPECT_EQ(settings.volume.radius, 0.0123f);
+  EXPECT_EQ(settings.volume.radius.metres(), 0.0123f);
   set_chosen(settings, "photons.emitted", "170000");
   EXPECT_EQ(settings.photons_emitted, 170'000u);
   set_chosen(settings, "distance.strategy", "delta");
@@ -81,8 +81,7 @@ Scene cloud_over_floor(bool grid) {
   add_shape(scene, quad_mesh(Vec3d(-3.0, -1.5, 3.0), Vec3d(6.0, 0.0, 0.0), Vec3d(0.0, 0.0, -6.0)),
             Lambertian{Rgb(0.5f)});
   scene.lights.push_back(PointLight{Vec3(0.0f, 3.0f, 0.0f), Rgb(10.0f)});
-  scene.camera =
-      make_camera(Vec3(0.0f, 0.5f, 5.0f), Vec3(0.0f, -0.5f, 0.0f), Vec3(0.0f, 1.0f, 0.0f), 45.0f, 64, 48, {});
+  scene.camera = make_camera(Vec3(0.0f, 0.5f, 5.0f), Vec3(0.0f, -0.5f, 0.0f), Vec3(0.0f, 1.0f, 0.0f), 45.0f, {64, 48});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -96,8 +95,8 @@ TEST(Automatic, ChoosesTheSameOnAnyNumberOfThreads) {
     set_threads(threads);
     RenderSettings settings;
     chosen.push_back(choose_settings(scene, automatic, settings));
-    EXPECT_GT(settings.volume.radius, 0.0f);
-    EXPECT_GT(settings.surface.radius, 0.0f);
+    EXPECT_GT(settings.volume.radius.metres(), 0.0f);
+    EXPECT_GT(settings.surface.radius.metres(), 0.0f);
   }
   set_threads(0);
   ASSERT_EQ(chosen[0].size(), 3u);
@@ -119,9 +118,9 @@ TEST(Automatic, ChangesNothingThatIsGiven) {
   RenderSettings settings = given;
   EXPECT_TRUE(choose_settings(scene, {}, settings).empty());
   EXPECT_EQ(choose_settings(scene, {{"surface.radius"}}, settings).size(), 1u);
-  EXPECT_EQ(settings.volume.radius, 0.3f);
-  EXPECT_NE(settings.surface.radius, 0.4f);
-  EXPECT_EQ(settings.caustics.radius, 0.5f);
+  EXPECT_EQ(settings.volume.radius.metres(), 0.3f);
+  EXPECT_NE(settings.surface.radius.metres(), 0.4f);
+  EXPECT_EQ(settings.caustics.radius.metres(), 0.5f);
   EXPECT_EQ(settings.photons_emitted, 12'345u);
   EXPECT_EQ(settings.distance.strategy, "delta");
 }
@@ -138,7 +137,7 @@ TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(settings.distance.strategy, "homogeneous");
   EXPECT_EQ(settings.photons_emitted, RenderSettings{}.photons_emitted);
-  EXPECT_EQ(settings.volume.radius, 0.0f);
+  EXPECT_FALSE(settings.volume.radius.is_given());
 }
 
 // Cells are far smaller than free paths here: to visit all is the dearest way.
@@ -158,7 +157,7 @@ TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
   scene.lights.push_back(BeamLight{Vec3(0.0f, 2.0f, 0.0f), Vec3(0.0f, -1.0f, 0.0f), 0.9f, Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.0f, 0.0f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 10.0f, 64, 64, {});
+  scene.camera = make_camera(Vec3(0.0f, 0.0f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 10.0f, {64, 64});
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings;
@@ -167,7 +166,7 @@ TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
   choose_settings(scene, {{"volume.radius"}}, settings);
   // Of a cylinder through the box, 2 m long, that a share of 1 - exp(-0.02) collides in; few do so twice.
   const double collisions = -std::expm1(-0.02) * settings.photons_emitted;
-  const double share = 4.0 / 3.0 * std::pow(settings.volume.radius, 3.0) / (0.9 * 0.9 * 2.0);
+  const double share = 4.0 / 3.0 * std::pow(settings.volume.radius.metres(), 3.0) / (0.9 * 0.9 * 2.0);
   EXPECT_NEAR(share * collisions, kPhotonsWithin, 0.15 * kPhotonsWithin);
 }
 
@@ -178,14 +177,14 @@ TEST(Automatic, TheRadiusHoldsThePhotonsThatItPromises) {
   add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
             Lambertian{Rgb(0.5f)});
   scene.lights.push_back(BeamLight{Vec3(0.0f, 2.0f, 0.0f), Vec3(0.0f, -1.0f, 0.0f), 0.9f, Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.0f, 3.0f, 0.0f), Vec3(0.0f), Vec3(0.0f, 0.0f, -1.0f), 20.0f, 64, 64, {});
+  scene.camera = make_camera(Vec3(0.0f, 3.0f, 0.0f), Vec3(0.0f), Vec3(0.0f, 0.0f, -1.0f), 20.0f, {64, 64});
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings;
   settings.surface_direct = DirectLight::photons;
   settings.photons_emitted = 400'000;
   choose_settings(scene, {{"surface.radius"}}, settings);
-  const double share = std::pow(settings.surface.radius / 0.9, 2.0);  // of the photons
+  const double share = std::pow(settings.surface.radius.metres() / 0.9, 2.0);  // of the photons
   // The median over 512 places of densities told by 16 photons each: off by 2 % or so, and by 4 % as the median of a
   // gamma distribution is; a tenth is four standard deviations at least.
   EXPECT_NEAR(share * 400'000, kPhotonsWithin, 0.1 * kPhotonsWithin);

@@ -1,5 +1,5 @@
 // The declarations of settings: each reaches the member it names and no other, and its values survive being written.
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "vpm/render/settings_table.h"
+#include "vpm/job/settings_table.h"
 
 namespace vpm {
 namespace {
@@ -135,7 +135,7 @@ TEST(Setting, IsReadAgainFromItsText) {
 
 TEST(Setting, OfWhatPassesEstimateIsTold) {
   RenderSettings s;
-  s.passes = 3;
+  s.until.passes = 3;
   s.seed = 4;
   s.volume.radius = 0.1f;
   const std::string line = settings_line(s);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vpm/job/pilot.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
 
@@ -41,14 +42,6 @@ void set_chosen(RenderSettings& settings, const std::string& key, const std::str
 
 // The rules, each a pure function.
 
-/// How dense photons lie where they are gathered.
-struct MapDensity {
-  double reach = 0.0;      // m: at a typical place as many photons as `within` lie within it ...
-  double within = 0.0;     // > 0
-  double emitted = 0.0;    // ... of this many emitted
-  int dimension = 3;       // of the kernel
-  double footprint = 0.0;  // m: of a pixel at a typical place
-};
 struct ChosenRadius {
   float radius = 0.0f;  // m, of three digits
   std::string reason;
@@ -58,12 +51,6 @@ struct ChosenRadius {
 ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal);
 inline constexpr double kPhotonsWithin = 50.0;
 
-/// What a pass costs, s.
-struct PassCost {
-  double photon = 0.0;             // tracing and sorting, of one emitted photon; > 0
-  double eye = 0.0;                // the eye pass
-  double stored_per_photon = 0.0;  // by all maps
-};
 struct ChosenCount {
   uint64_t count = 0;  // of two digits
   std::string reason;
@@ -74,11 +61,6 @@ ChosenCount choose_count(const PassCost& cost, double seconds);
 inline constexpr uint64_t kLeastCount = 1000;
 inline constexpr double kMostStored = 2e7;
 
-/// What flights of a pilot have counted, by strategy.
-struct StrategyCost {
-  std::string_view name;
-  double cost = 0.0;  // of flights of one photon, in look-ups of density
-};
 /// The cheapest; of equals the first.
 StrategyCost cheapest(std::span<const StrategyCost> costs);
 

@@ -1,11 +1,11 @@
 // A row for each declaration: section, key, meaning, values, default.
-#include "vpm/render/settings_table.h"
+#include "vpm/job/settings_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
 
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // The settings of [volume], [surface] and [caustics]: how photons are gathered, and what light comes from elsewhere.
-#include "vpm/render/declare.h"
+#include "vpm/job/declare.h"
 
 namespace vpm {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::string_view kCountInstead = "leave out 'count', or set gather = \
 /// How photons are gathered from the map of a section, whose settings are the member `Gather`.
 template <auto Gather>
 std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
-  using G = GatherSettings;
+  using G = AskedGather;
   return {
       {.key = section + ".gather",
        .member = at<Gather, &G::mode>(),
@@ -48,7 +48,7 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
 
 Setting declare_beam_count() {
   return {.key = "volume.count",
-          .member = at<&S::volume, &GatherSettings::beam_count>(),
+          .member = at<&S::volume, &AskedGather::beam_count>(),
           .domain = Integers{0, 1'000'000},
           .meaning =
               "with `\"beam\"`, where > 0: each photon has a radius of its own, of a ball of about so many "
@@ -68,7 +68,7 @@ std::vector<Setting> declare_volume() {
        .meaning = "where the scattering coefficient is taken: `\"density-at-query\"` is sharp, `\"density-at-photon\"` "
                   "bounds weights, see below"},
       {.key = "volume.boundary",
-       .member = at<&S::volume, &GatherSettings::boundary>(),
+       .member = at<&S::volume, &AskedGather::boundary>(),
        .domain = words_of<BoundaryRule>(),
        .meaning = kBoundary},
       {.key = "volume.density_floor",
@@ -122,14 +122,14 @@ void set_method(S& s, const SettingValue& value) {
 }
 
 void set_boundary(S& s, const SettingValue& value) {
-  set_member<&S::surface, &GatherSettings::boundary>(s, value);
+  set_member<&S::surface, &AskedGather::boundary>(s, value);
   s.caustics.boundary = s.surface.boundary;
 }
 
 std::vector<Setting> declare_surface_light() {
   return {
       {.key = "surface.boundary",
-       .member = {get_member<&S::surface, &GatherSettings::boundary>, set_boundary},
+       .member = {get_member<&S::surface, &AskedGather::boundary>, set_boundary},
        .domain = words_of<BoundaryRule>(),
        .meaning = kBoundary},
       {.key = "surface.method",

@@ -1,10 +1,10 @@
 // What runs, how, and what does not and why.
-#include "stage_lines.h"
+#include "vpm/job/stage_lines.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace vpm::tools {
+namespace vpm {
 namespace {
 
 /// A strategy or an estimator with what its list says of it: "regular (exact in any medium: ...)", "ray-march (biased;
@@ -47,7 +47,7 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
             line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
   const bool photons = media || surfaces,
              gathers = surfaces && settings.surface_indirect == IndirectLight::final_gather;
-  const auto corrected = [](const GatherSettings& gather) { return gather.boundary == BoundaryRule::corrected; };
+  const auto corrected = [](const AskedGather& gather) { return gather.boundary == BoundaryRule::corrected; };
   return {line(photons, "photon tracing", distances, "nothing stores photons"),
           line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                photons ? "photons go where power does" : "nothing stores photons"),
@@ -76,4 +76,4 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
           channels};
 }
 
-}  // namespace vpm::tools
+}  // namespace vpm

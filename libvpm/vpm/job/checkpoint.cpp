@@ -1,15 +1,17 @@
-// The file: a line of its own kind, that of its format, that of identity, named fields, and the checksum of all.
-#include "vpm/input/checkpoint.h"
+// The file: a line of its own kind, that of its format, those of identity, named fields, and the checksum of all.
+#include "vpm/job/checkpoint.h"
 
 #include <fmt/format.h>
 #include <cassert>
+#include <charconv>
 #include <fstream>
 #include <sstream>
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
-#include "vpm/input/named_fields.h"
+#include "vpm/job/named_fields.h"
+#include "vpm/render/plan.h"
 
 namespace vpm {
 
@@ -57,8 +59,28 @@ bool take_line(std::string_view& bytes, std::string_view& line) {
 }
 
 struct Parts {
-  std::string_view identity, rest;  // fields and checksum
+  Identity identity;
+  std::string_view rest;  // fields and checksum
 };
+
+/// Takes the lines "identity N" and N times "name=value"; false where they are not that.
+bool take_identity(std::string_view& bytes, Identity& identity) {
+  constexpr std::string_view kTitle = "identity ";
+  std::string_view line;
+  if (!take_line(bytes, line) || !line.starts_with(kTitle)) return false;
+  const std::string_view number = line.substr(kTitle.size());
+  size_t count = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+  if (error != std::errc() || end != number.data() + number.size()) return false;
+  for (size_t i = 0; i < count; ++i) {
+    if (!take_line(bytes, line)) return false;
+    const size_t equals = line.find('=');
+    if (equals == std::string_view::npos) return false;
+    identity.emplace_back(line.substr(0, equals), line.substr(equals + 1));
+  }
+  return true;
+}
+
 /// Checks kind and format.
 Parts parts_of(const std::filesystem::path& path, std::string_view bytes) {
   constexpr std::string_view kFormat = "format ";
@@ -70,7 +92,7 @@ Parts parts_of(const std::filesystem::path& path, std::string_view bytes) {
     refuse(path, fmt::format("it is written by another format of checkpoints, {}; this program reads {}; render again",
                              number, kCheckpointFormat));
   Parts parts;
-  if (!take_line(bytes, parts.identity)) refuse(path, "it is damaged or not whole: it does not tell what it is of");
+  if (!take_identity(bytes, parts.identity)) refuse(path, "it is damaged or not whole: it does not tell what it is of");
   parts.rest = bytes;
   return parts;
 }
@@ -153,14 +175,24 @@ RenderResult take_result(NamedFields fields) {
 
 }  // namespace
 
-std::string checkpoint_identity(const std::filesystem::path& path) {
+Identity checkpoint_identity(const std::filesystem::path& path) {
   const std::string bytes = text_of(path);
-  return std::string(parts_of(path, bytes).identity);
+  return parts_of(path, bytes).identity;
 }
 
-void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const RenderResult& result) {
-  assert(identity.find('\n') == std::string::npos);
-  std::string bytes = fmt::format("{}\nformat {}\n{}\n", kKind, kCheckpointFormat, identity);
+uint64_t checkpoint_bytes(const RenderJob& job) {
+  const bool discs = job.settings.radii == RadiusSchedule::per_pixel && scattering_of(job.scene).surfaces;
+  const Camera& camera = job.scene.camera;
+  const uint64_t pixels = static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height);
+  return pixels * (Film::kBytesOfPixel + (discs ? sizeof(PixelDisc) : 0));
+}
+
+void write_checkpoint(const std::filesystem::path& path, const Identity& identity, const RenderResult& result) {
+  std::string bytes = fmt::format("{}\nformat {}\nidentity {}\n", kKind, kCheckpointFormat, identity.size());
+  for (const auto& [name, value] : identity) {
+    assert(name.find_first_of("=\n") == std::string::npos && value.find('\n') == std::string::npos);
+    bytes += fmt::format("{}={}\n", name, value);
+  }
   append_field(bytes, "seconds", result.seconds);
   append_field(bytes, "discs", std::span<const PixelDisc>(result.discs));
   for_each_counter(
@@ -170,13 +202,11 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
   write_text(path, bytes + checksum(bytes));
 }
 
-RenderResult read_checkpoint(const std::filesystem::path& path, const std::string& identity) {
+RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& identity) {
   const std::string bytes = text_of(path);
   const auto [found, rest] = parts_of(path, bytes);
   if (found != identity)
-    refuse(path,
-           fmt::format("it is of another render; remove it, or render again what it is of\n  file:   {}\n  asked:  {}",
-                       found, identity));
+    refuse(path, "it is of another render; remove it, or render again what it is of" + differences(found, identity));
   const size_t sum_at = bytes.size() - std::min(rest.size(), kChecksum);
   if (checksum(std::string_view(bytes).substr(0, sum_at)) != bytes.substr(sum_at))
     refuse(path, "it is damaged or not whole: its checksum is wrong");

@@ -1,5 +1,5 @@
 // The settings of [distance] and [transmittance]: how photons and paths fly, and how shadow rays are attenuated.
-#include "vpm/render/declare.h"
+#include "vpm/job/declare.h"
 
 namespace vpm {
 namespace {

@@ -9,7 +9,7 @@
 #include <span>
 #include <type_traits>
 
-#include "vpm/render/setting.h"
+#include "vpm/job/setting.h"
 
 namespace vpm {
 
@@ -83,7 +83,7 @@ Words names_of(std::span<const Info> infos) {
   return names;
 }
 
-/// The value at the end of a path of pointers to members: &RenderSettings::volume, &GatherSettings::radius.
+/// The value at the end of a path of pointers to members: &RenderSettings::volume, &AskedGather::radius.
 template <auto... Path>
 SettingValue get_member(const RenderSettings& settings) {
   const auto& member = (settings.*....*Path);
@@ -92,6 +92,8 @@ SettingValue get_member(const RenderSettings& settings) {
     return word_of(member);
   else if constexpr (std::integral<Value> && !std::same_as<Value, bool>)
     return static_cast<uint64_t>(member);
+  else if constexpr (std::same_as<Value, AskedRadius>)
+    return member.metres();
   else
     return member;
 }
@@ -105,9 +107,10 @@ void set_member(RenderSettings& settings, const SettingValue& value) {
     const auto found = std::find(words.begin(), words.end(), std::get<std::string>(value));
     assert(found != words.end());
     member = static_cast<Value>(found - words.begin());
-  } else if constexpr (std::floating_point<Value>) {
+  } else if constexpr (std::floating_point<Value> || std::same_as<Value, AskedRadius>) {
+    using Number = std::conditional_t<std::same_as<Value, AskedRadius>, float, Value>;
     const auto* single = std::get_if<float>(&value);
-    member = static_cast<Value>(single ? *single : std::get<double>(value));
+    member = static_cast<Number>(single ? *single : std::get<double>(value));
   } else if constexpr (std::integral<Value> && !std::same_as<Value, bool>) {
     member = static_cast<Value>(std::get<uint64_t>(value));
   } else {

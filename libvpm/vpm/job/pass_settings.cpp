@@ -1,5 +1,5 @@
 // The settings of [render], [photons] and [importance]: which passes there are, and of how many paths they are made.
-#include "vpm/render/declare.h"
+#include "vpm/job/declare.h"
 
 namespace vpm {
 namespace {
@@ -16,18 +16,18 @@ std::vector<Setting> declare_render() {
        .domain = words_of<Integrator>(),
        .meaning = "photon mapping, or the path tracer, the unbiased referee"},
       {.key = "render.passes",
-       .member = at<&S::passes>(),
+       .member = at<&S::until, &StopRule::passes>(),
        .domain = Integers{1, kMostPasses},
        .meaning = "independent passes that are averaged",
        .of_passes = true},
       {.key = "render.seconds",
-       .member = at<&S::seconds>(),
+       .member = at<&S::until, &StopRule::seconds>(),
        .domain = Numbers{kNotNegative},
        .meaning = "> 0: passes start until this time is over, instead",
        .unit = "s",
        .of_passes = true},
       {.key = "render.error",
-       .member = at<&S::error>(),
+       .member = at<&S::until, &StopRule::error>(),
        .domain = Numbers{kNotNegative},
        .meaning = "> 0: passes start until the estimated relative MSE is no more than that, instead",
        .of_passes = true},

@@ -1,5 +1,5 @@
 // A field's line: name, type, count and size of its numbers, so that all of it can be skipped by who does not know it.
-#include "vpm/input/named_fields.h"
+#include "vpm/job/named_fields.h"
 
 #include <fmt/format.h>
 #include <array>

@@ -1,12 +1,12 @@
 // The rules: ranges and needs by the declarations, then what settings ask of each other, section by section.
-#include "vpm/render/validate.h"
+#include "vpm/job/validate.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <vector>
 
+#include "vpm/job/setting.h"
 #include "vpm/render/plan.h"
-#include "vpm/render/setting.h"
 
 namespace vpm {
 namespace {

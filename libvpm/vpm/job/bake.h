@@ -1,0 +1,14 @@
+// Light maps baked in many passes.
+#pragma once
+
+#include "vpm/job/render.h"
+#include "vpm/render/light_map.h"
+
+namespace vpm {
+
+/// Passes of a light map until the settings' stop rule is met, as render() (its error also counts texels that show
+/// nothing). The picture is not dilated(). Throws a SettingError as render() does.
+RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
+                            const RunControl& control);
+
+}  // namespace vpm

@@ -1,0 +1,25 @@
+// What tells one render from another: passes of different renders do not add up.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vpm/job/render_job.h"
+
+namespace vpm {
+
+/// Names and values, without line feeds: the program, the scene, the seed, every setting that decides what passes
+/// estimate, and, where the job leaves settings to be chosen, which of them were.
+using Identity = std::vector<std::pair<std::string, std::string>>;
+
+/// The identity of a job after choose(). Two scenes made in code are told apart by RenderJob::hash alone.
+Identity identity_of(const RenderJob& job);
+
+/// The settings that were chosen when the render of this identity began.
+std::vector<Choice> choices_of(const Identity& identity);
+
+/// A line for each field in which they differ: "render.seed: 1 in the file, 9 asked for".
+std::string differences(const Identity& in_file, const Identity& asked);
+
+}  // namespace vpm

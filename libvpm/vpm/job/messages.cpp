@@ -1,0 +1,51 @@
+// Warnings, and the estimated error.
+#include "vpm/job/messages.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vpm {
+
+std::vector<std::string> warnings_of(const Scattering& shown, const RenderSettings& settings,
+                                     const RenderStatistics& s) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](uint64_t count, const char* what) {
+    if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
+  };
+  const bool photons = settings.integrator == Integrator::photon;
+  if (photons && shown.media && s.volume_photons == 0)
+    warnings.emplace_back("the volume photon map is empty: no photon scattered in a medium");
+  if (photons && shown.surfaces && s.surface_photons == 0)
+    warnings.emplace_back("the surface photon map is empty: no photon to store met a rough surface");
+  warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
+  warn(s.eye.non_finite, "samples were dropped because they were not finite");
+  warn(s.ledger.cut_count, "photons were cut at render.max_events");
+  warn(s.eye.gather.least_shares, "estimates at borders had less than a 64th of their kernel left, and are too dark");
+  warn(s.eye.cut_paths, "eye paths were cut at render.max_events");
+  // Rays through the very edges of boundaries need a correction now and then: some in 1e7. More means media that
+  // overlap.
+  WalkCounters walk = s.ledger.walk;
+  walk.merge(s.eye.walk);
+  warn(walk.majorant_violations,
+       strategy_info(settings.distance.strategy).positive
+           ? "look-ups found more density than a majorant, which cut it: passes are biased until majorants have grown"
+           : "look-ups found more density than a majorant: weights grow there and change their signs");
+  if (walk.medium_mismatches > 100 + walk.crossings / 1'000'000)
+    warn(walk.medium_mismatches,
+         "boundaries were met from a medium that is not the one before them: check that media do not overlap");
+  return warnings;
+}
+
+std::string error_text(const RenderJob& job, const RenderResult& result) {
+  if (result.film.passes() < kLeastPasses) return "";
+  const FilmErrors& errors = *result.errors;
+  const std::vector<std::string> unseen = maps_of_unseen_bias(job.scene, job.settings);
+  return fmt::format(
+      "estimated relative MSE {:.2g} (variance {:.2g}, {}{})", estimated_error(result), errors.variance_part,
+      result.film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen",
+      unseen.empty()
+          ? ""
+          : fmt::format("; not seen: that of [{}], whose radii are not those of passes", fmt::join(unseen, "], [")));
+}
+
+}  // namespace vpm

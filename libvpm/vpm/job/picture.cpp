@@ -1,0 +1,70 @@
+// Layers and metadata of pictures.
+#include "vpm/job/picture.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+
+#include "vpm/base/version.h"
+#include "vpm/image/exr.h"
+#include "vpm/job/setting.h"
+
+namespace vpm {
+namespace {
+
+/// What pictures tell of where they are from.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+Metadata provenance(const RenderJob& job, const Film& film) {
+  return {{"vpm.version", std::string(version())},
+          {"vpm.scene", std::filesystem::path(job.source).filename().string()},
+          {"vpm.sceneHash", job.hash},
+          {"vpm.overrides", fmt::format("{}", fmt::join(job.overrides, " "))},
+          {"vpm.settings", settings_line(job.settings)},
+          {"vpm.seed", std::to_string(job.settings.seed)},
+          {"vpm.passes", std::to_string(film.passes())}};
+}
+
+Image grey_image(const UvLayout& layout, const std::vector<float>& values) {
+  Image image(layout.resolution, layout.resolution);
+  std::transform(values.begin(), values.end(), image.pixels.begin(), [](float value) { return Rgb(value); });
+  return image;
+}
+
+}  // namespace
+
+void write_picture(const std::filesystem::path& path, const RenderJob& job, const RenderResult& result) {
+  Metadata metadata = provenance(job, result.film);
+  metadata.emplace_back(
+      "vpm.quantity",
+      "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as "
+      "the passes show it");
+  std::vector<ExrLayer> layers;
+  if (result.errors) layers.push_back({"variance", result.errors->variance});
+  if (result.errors && result.film.shows_bias()) layers.push_back({"bias", result.errors->bias});
+  write_exr(path, result.film.mean(), layers, metadata);
+}
+
+Image light_map_of(const UvLayout& layout, const RenderResult& result) {
+  return dilated(result.film.mean(), layout, kDilation);
+}
+
+void write_light_map(const std::filesystem::path& path, const RenderJob& job, const std::string& mesh,
+                     const UvLayout& layout, const RenderResult& result) {
+  const Image coverage = grey_image(layout, layout.coverage);
+  std::vector<ExrLayer> layers{{"coverage", coverage}};
+  if (result.errors) layers.push_back({"variance", result.errors->variance});
+  Metadata metadata = provenance(job, result.film);
+  metadata.emplace_back("vpm.mesh", mesh);
+  metadata.emplace_back("vpm.quantity",
+                        "irradiance on the side of the outward normal, W/m^2; variance.*: variance of the mean of "
+                        "passes; coverage.*: share of the texel that the mesh covers");
+  metadata.emplace_back(
+      "vpm.uncovered",
+      fmt::format("texels of coverage 0, {} of {}: black, but within {} texels of covered ones the mean of their "
+                  "neighbours; their variance is given as 0",
+                  layout.texels() - layout.covered_texels(), layout.texels(), kDilation));
+  write_exr(path, light_map_of(layout, result), layers, metadata);
+}
+
+}  // namespace vpm

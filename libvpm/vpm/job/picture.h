@@ -1,0 +1,27 @@
+// The picture of a render or a light map as a file: linear EXR with what its passes tell of its error, and where it is
+// from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "vpm/job/render.h"
+#include "vpm/job/render_job.h"
+#include "vpm/render/uv_layout.h"
+
+namespace vpm {
+
+/// Writes the mean of the passes, W/(m^2 sr), from two passes on with the variance of that mean (layer "variance") and,
+/// where radii shrink, the bias that the passes show (layer "bias"), and metadata under "vpm....". The file appears
+/// whole or not at all; throws InputError where it cannot be written.
+void write_picture(const std::filesystem::path& path, const RenderJob& job, const RenderResult& result);
+
+/// A light map as it is written: the mean of its passes, dilated() by kDilation texels.
+Image light_map_of(const UvLayout& layout, const RenderResult& result);
+inline constexpr int kDilation = 2;  // texels
+/// Writes the light map of the shape named `mesh`, W/m^2, with the layers "coverage" and, from two passes on,
+/// "variance". Throws InputError as write_picture().
+void write_light_map(const std::filesystem::path& path, const RenderJob& job, const std::string& mesh,
+                     const UvLayout& layout, const RenderResult& result);
+
+}  // namespace vpm

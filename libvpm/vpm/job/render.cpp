@@ -1,0 +1,91 @@
+// The loop over passes.
+#include "vpm/job/render.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+
+#include "vpm/job/validate.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/photon_pass.h"
+
+namespace vpm {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How far a render is, from 0 to 1, in what limits it: passes, time or error (which falls about as passes grow).
+double share_done(const StopRule& until, const RenderResult& result) {
+  if (until.counts_passes()) return static_cast<double>(result.film.passes()) / until.passes;
+  if (result.film.passes() == 0) return 0.0;
+  double share = 0.0;
+  if (until.seconds > 0.0) share = result.seconds / until.seconds;
+  if (until.error > 0.0) share = std::max(share, until.error / estimated_error(result));
+  return share;
+}
+
+/// Reads the errors off the film, where there are any.
+void estimate_errors(RenderResult& result) {
+  if (result.film.passes() > 1) result.errors = result.film.errors();
+}
+
+/// Adds the next pass.
+void add(RenderResult& result, const Pass& pass) {
+  result.film.add(result.film.passes(), pass.image, pass.relative_square);
+  result.errors.reset();
+  result.discs.resize(pass.found.size());
+  for (size_t i = 0; i < pass.found.size(); ++i) shrink(result.discs[i], pass.found[i]);
+  result.statistics.merge(pass.statistics);
+}
+
+}  // namespace
+
+RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0, {}}; }
+
+double estimated_error(const RenderResult& result) {
+  if (result.film.passes() < kLeastPasses) return std::numeric_limits<double>::infinity();
+  assert(result.errors);
+  return result.errors->variance_part + std::max(0.0, result.errors->bias_part);
+}
+
+RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
+                    const RunControl& control) {
+  validate(settings, facts_of(scene));
+  const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
+    const int pass = so_far.film.passes();
+    return settings.integrator == Integrator::path
+               ? render_path_pass(scene, settings, pass, control.stop, shown)
+               : render_photon_pass_after(so_far.discs, scene, settings, {pass, control.stop, shown});
+  };
+  return run_passes(settings.until, {make, tile_count(scene.camera)}, std::move(result), control);
+}
+
+RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result,
+                        const RunControl& control) {
+  const Clock::time_point start = Clock::now();
+  const double before = result.seconds;
+  // One pass shows its stages. Of several the whole is shown: as work of all passes, or as thousandths of the limit.
+  const bool counted = until.counts_passes(), shown = progress_enabled(control.progress);
+  const int missing = counted ? std::max(0, until.passes - result.film.passes()) : 0;
+  const bool single = counted && missing == 1;
+  Progress bar("render", counted ? passes.work * static_cast<uint64_t>(missing) : 1000, shown && !single);
+  const PassProgress pass_progress{shown && single, counted ? &bar : nullptr};
+  if (until.error > 0.0) estimate_errors(result);  // of a render that goes on
+  while (!control.stop && share_done(until, result) < 1.0) {
+    const Pass done = passes.make(result, pass_progress);
+    if (control.stop) break;
+    add(result, done);
+    if (until.error > 0.0) estimate_errors(result);
+    result.seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
+    if (!counted) {
+      const auto reached = static_cast<uint64_t>(1000.0 * std::min(1.0, share_done(until, result)));
+      bar.advance(reached - std::min(reached, bar.done()));  // estimates of the error may rise
+    }
+    if (control.finished) control.finished(result);
+  }
+  bar.finish();
+  if (!result.errors) estimate_errors(result);
+  return result;
+}
+
+}  // namespace vpm

@@ -1,0 +1,56 @@
+// A render: a sum of passes, one after the other, until a stop rule is met, or a stop.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "vpm/base/progress.h"
+#include "vpm/estimate/statistics.h"
+#include "vpm/render/film.h"
+#include "vpm/render/image_pass.h"
+#include "vpm/render/pixel_disc.h"
+#include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// What is rendered so far, and all that the next pass needs to know of it.
+struct RenderResult {
+  Film film;
+  RenderStatistics statistics;
+  double seconds = 0.0;                   // wall clock, of all runs together where a render was resumed
+  PixelDiscs discs;                       // where pixels have radii of their own, once there is a pass
+  std::optional<FilmErrors> errors = {};  // of the film, once it has two passes and run_passes() has come to its end,
+                                          // or to the end of a pass where the stop rule asks for an error
+};
+
+/// How a render is watched and stopped.
+struct RunControl {
+  const std::atomic<bool>& stop;  // once set, the pass under way is dropped; those finished are kept
+  ProgressMode progress = ProgressMode::never;
+  std::function<void(const RenderResult&)> finished = {};  // is told of each further pass
+};
+
+/// Renders passes until the settings' stop rule is met, at least one pass where that asks for a time or an error.
+/// `result` is nothing_rendered() or what an earlier run has left off with, for the same scene and settings: passes go
+/// on where it ended. Throws a SettingError where settings contradict themselves or the scene.
+RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result, const RunControl& control);
+
+/// A pass of any kind, to be made after those in `so_far`. It tells its bar of `work` units in its course.
+struct PassMaker {
+  std::function<Pass(const RenderResult& so_far, const PassProgress& progress)> make;
+  uint64_t work = 0;
+};
+/// The same loop over any passes of a film.
+RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result, const RunControl& control);
+
+/// A render of the camera's film before its first pass.
+RenderResult nothing_rendered(const Camera& camera);
+
+/// The relative MSE that passes so far are estimated to have: variance and squared bias (where noise makes the latter's
+/// estimate negative: none) by RenderResult::errors. Infinite below kLeastPasses passes, which say too little.
+double estimated_error(const RenderResult& result);
+inline constexpr int kLeastPasses = 8;
+
+}  // namespace vpm

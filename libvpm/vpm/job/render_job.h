@@ -1,0 +1,45 @@
+// A job: a scene, how it is to be rendered, and what reports and pictures tell of where it is from. Scene files become
+// one, and so do parts put together in code; every front end runs it by the same few calls:
+//
+//   RenderJob job = load_scene("fog.toml");                    // or make_job(assemble(parts))
+//   choose(job);                                               // what is "auto"
+//   const RenderResult result = render(job.scene, job.settings, nothing_rendered(job.scene.camera), {stop});
+//   write_picture("fog.exr", job, result);
+//   write_text("fog.json", render_report(job, "fog.exr", result));
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vpm/job/automatic.h"
+#include "vpm/render/settings.h"
+#include "vpm/scene/assemble.h"
+
+namespace vpm {
+
+struct RenderJob {
+  Scene scene;  // finished
+  RenderSettings settings;
+  AutomaticSettings automatic;           // those of the settings that choose() is to choose; they hold defaults
+  std::vector<Choice> choices{};         // what it chose
+  std::vector<std::string> light_names;  // of Scene::lights: those of shapes that emit; empty where none is given
+  std::vector<std::string> notes;        // what a user should know of, e.g. clamped densities
+  std::string source{};                  // the scene file; empty: made in code
+  std::vector<std::string> overrides{};  // "key.path=value" options that changed that file
+  std::vector<std::string> files{};      // that it names: grids, meshes, textures, environments
+  std::string hash{};                    // tells this scene from others: of the scene file, the options, and the bytes
+                                         // of those files, 16 hex digits; of scenes made in code what their maker says
+  uint64_t clamped_density_values = 0;   // negative densities set to 0 on the scene's request, over all grids
+};
+
+/// The job of a scene made in code.
+RenderJob make_job(AssembledScene assembled, const RenderSettings& settings = {});
+
+/// Chooses the settings that are left to it, after a short pilot, and tells so in the job's notes. Does nothing where
+/// there are none. Throws InputError as choose_settings().
+void choose(RenderJob& job);
+/// The same with the choices of an earlier run, in the place of a pilot. Throws InputError as set_chosen().
+void choose_again(RenderJob& job, std::vector<Choice> choices);
+
+}  // namespace vpm

@@ -1,0 +1,89 @@
+// Jobs made in code, and the loop over passes: when it ends, and what it leaves.
+#include "vpm/job/render.h"
+
+#include <gtest/gtest.h>
+
+#include "vpm/image/exr.h"
+#include "vpm/job/messages.h"
+#include "vpm/job/picture.h"
+#include "vpm/job/render_job.h"
+#include "vpm/job/report.h"
+#include "vpm/surface/procedural_mesh.h"
+
+namespace vpm {
+namespace {
+
+const std::atomic<bool> kGoOn{false};
+
+/// A lamp over a floor, seen from above, by photons within 0.1 m in every pass.
+RenderJob lit_floor() {
+  SceneParts parts;
+  parts.materials = {{Lambertian{Rgb(0.6f, 0.5f, 0.4f)}}};
+  parts.shapes = {{.name = "floor", .surface = quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6))}};
+  parts.lights = {{"lamp", PointLight{Vec3(0.2f, 1.5f, 0.1f), Rgb(10.0f, 5.0f, 2.0f)}}};
+  parts.camera = make_camera(Vec3(1.5f, 1.2f, 1.5f), Vec3(0.2f, 0.0f, 0.2f), Vec3(0, 1, 0), 30.0f, {12, 12});
+  RenderSettings settings;
+  settings.photons_emitted = 500;
+  settings.surface.radius = 0.1f;
+  settings.radii = RadiusSchedule::constant;
+  settings.surface_direct = DirectLight::photons;
+  return make_job(assemble(std::move(parts)), settings);
+}
+
+RenderResult render_until(const RenderJob& job, const StopRule& until, const std::atomic<bool>& stop = kGoOn) {
+  RenderSettings settings = job.settings;
+  settings.until = until;
+  return render(job.scene, settings, nothing_rendered(job.scene.camera), {stop});
+}
+
+TEST(Render, StopsByCountTimeAndSignal) {
+  const RenderJob job = lit_floor();
+  const RenderResult counted = render_until(job, {.passes = 3});
+  EXPECT_EQ(counted.film.passes(), 3);
+  ASSERT_TRUE(counted.errors);
+  for (const Rgb& v : counted.errors->variance.pixels) EXPECT_GT(v.g, 0.0f);  // passes have random numbers of their own
+  const std::atomic<bool> stop{true};
+  const RenderResult stopped = render_until(job, {.passes = 3}, stop);
+  EXPECT_EQ(stopped.film.passes(), 0);
+  EXPECT_FALSE(stopped.errors);
+  const RenderResult timed = render_until(job, {.seconds = 0.3});
+  EXPECT_GT(timed.film.passes(), 3);
+  EXPECT_LT(timed.seconds, 2.0);
+}
+
+TEST(Render, StopsOnceTheEstimatedErrorIsReached) {
+  const RenderJob job = lit_floor();
+  const double asked = estimated_error(render_until(job, {.passes = 20}));
+  const RenderResult result = render_until(job, {.error = asked});
+  EXPECT_LE(estimated_error(result), asked);
+  EXPECT_LE(result.film.passes(), 20);
+  EXPECT_GE(result.film.passes(), kLeastPasses);
+}
+
+TEST(Render, GoesOnToTheSameBits) {
+  const RenderJob job = lit_floor();
+  RenderSettings settings = job.settings;
+  settings.until.passes = 5;
+  const RenderResult whole = render(job.scene, settings, nothing_rendered(job.scene.camera), {kGoOn});
+  const RenderResult resumed = render(job.scene, settings, render_until(job, {.passes = 2}), {kGoOn});
+  EXPECT_EQ(resumed.film.sums(), whole.film.sums());
+  EXPECT_EQ(resumed.statistics.passes, 5);
+}
+
+TEST(RenderJob, OfCodeBecomesPictureReportAndMessages) {
+  const RenderJob job = lit_floor();
+  const RenderResult result = render_until(job, {.passes = kLeastPasses});
+  const std::string path = ::testing::TempDir() + "/lit_floor.exr";
+  write_picture(path, job, result);
+  const ExrChannels picture = read_exr_channels(path);
+  EXPECT_TRUE(picture.planes.contains("R"));
+  EXPECT_TRUE(picture.planes.contains("variance.G"));
+  EXPECT_FALSE(picture.planes.contains("bias.G"));  // radii do not shrink
+  EXPECT_EQ(picture.metadata.at("vpm.passes"), std::to_string(kLeastPasses));
+  EXPECT_NE(render_report(job, path, result).find("\"lamp\""), std::string::npos);
+  EXPECT_NE(error_text(job, result).find("estimated relative MSE"), std::string::npos);
+  EXPECT_TRUE(warnings_of(scattering_of(job.scene), job.settings, result.statistics).empty());
+}
+
+}  // namespace
+}  // namespace vpm
