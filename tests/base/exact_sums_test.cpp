@@ -126,6 +126,7 @@ TEST(ExactSums, RefuseWhatTheyCannotHold) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double term : {infinity, -infinity, std::nan(""), 0x1p320, -0x1p400, 0x1p-321, 0x1.8p-320, 5e-324})
     EXPECT_THROW(ExactSums().add({0.0, term}), std::domain_error) << term;
+  EXPECT_THROW(ExactSums().add({0x1p300, 5e-324}), std::domain_error);
   for (const double term : {0x1.8p319, 0x1p-320, -0x1.8p-319}) EXPECT_NO_THROW(ExactSums().add({0.0, term})) << term;
   const auto words = [](size_t count) { return std::vector<uint32_t>(count); };
   EXPECT_NO_THROW(ExactSums(-10, words(2 * ExactSums::kCount)));

@@ -58,13 +58,15 @@ class Film {
 
   /// Adds pass number `pass`, which the film has not got yet, >= 0; its image has the film's size and finite pixels.
   /// Its kernels' squared radii are `relative_square` times those of the first pass (0: the pass has no kernel). Throws
-  /// std::domain_error where a pixel is not finite.
+  /// std::domain_error where a pixel is not finite; the film is of no use then.
   void add(int pass, const Image& image, float relative_square = 0.0f);
   /// Adds the passes of another film of the same size. Throws InputError where both have one of the same number.
   void merge(const Film& other);
   int width() const { return width_; }
   int height() const { return height_; }
   int passes() const { return sums_.passes.count(); }
+  /// The number of the next pass: the least that the film has not got.
+  int next_pass() const { return sums_.passes.first_missing(); }
   const FilmSums& sums() const { return sums_; }
   /// The mean of the passes, W/(m^2 sr); black where there is none.
   Image mean() const;

@@ -97,7 +97,7 @@ RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, 
                             const std::atomic<bool>& stop, ProgressMode progress) {
   validate(settings, facts_of(scene));
   const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
-    return light_map_pass(scene, settings, layout, so_far.film.passes(), stop, shown);
+    return light_map_pass(scene, settings, layout, so_far.film.next_pass(), stop, shown);
   };
   return run_passes(settings, run, chunk_count(layout.texels(), kChunk),
                     {Film(layout.resolution, layout.resolution), {}, 0.0, {}}, stop, progress);

@@ -45,7 +45,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
                     const std::function<void(const RenderResult&)>& finished) {
   validate(settings, facts_of(scene));
   const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
-    const int pass = so_far.film.passes();
+    const int pass = so_far.film.next_pass();
     return settings.integrator == Integrator::path
                ? render_path_pass(scene, settings, pass, stop, shown)
                : render_photon_pass_after(so_far.discs, scene, settings, {pass, stop, shown});
@@ -68,7 +68,7 @@ RenderResult run_passes(const RenderSettings& settings, const RunPass& run, uint
   while (!stop && share_done(settings, result) < 1.0) {
     const Pass done = run(result, pass_progress);
     if (stop) break;
-    result.film.add(result.film.passes(), done.image, done.relative_square);
+    result.film.add(result.film.next_pass(), done.image, done.relative_square);
     result.errors.reset();
     if (settings.error > 0.0) estimate_errors(result);
     result.discs.resize(done.found.size());

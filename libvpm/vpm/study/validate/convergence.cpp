@@ -81,7 +81,8 @@ std::vector<Check> referee(const Effort& effort) {
     Film film(scene.camera.width, scene.camera.height);
     std::vector<double> errors;
     for (const int count : n) {
-      while (film.passes() < count) film.add(film.passes(), render_path_pass(scene, settings, film.passes(), kGoOn).image);
+      while (film.passes() < count)
+        film.add(film.passes(), render_path_pass(scene, settings, film.passes(), kGoOn).image);
       double sum = 0.0;
       for (const Rgb& pixel : film.mean().pixels) sum += (pixel.g - 1.0) * (pixel.g - 1.0) / 36.0;
       errors.push_back(sum);
