@@ -97,6 +97,33 @@ TEST(ExactSums, AreTheSameInAnyOrderAndGrouping) {
   }
 }
 
+TEST(ExactSums, OfOtherWordsMergeEitherWay) {
+  const std::vector<ExactSums::Values> terms{
+      {-1.0, 1.0, -0x1p-70}, {0x1p100, -0x1p100, 3.0}, {-0x1p-200, 0x1p-200, -5.0}, {0x1.8p40, -0x1.8p40, 0x1p90}};
+  const ExactSums whole = sum_of(terms);
+  for (const ExactSums::Values& first : terms)
+    for (const ExactSums::Values& second : terms) {
+      if (&first == &second) continue;
+      ExactSums merged = sum_of({first});
+      merged.merge(sum_of({second}));
+      EXPECT_EQ(merged, sum_of({second, first}));
+      for (const ExactSums::Values& other : terms)
+        if (&other != &first && &other != &second) merged.merge(sum_of({other}));
+      EXPECT_EQ(merged, whole);
+    }
+  EXPECT_EQ(whole.totals().high[0], 0x1p100 + 0x1.8p40);
+}
+
+TEST(ExactSums, AreReadToTwoDoubles) {
+  ExactSums sums;
+  for (const double term : {1.0, 0x1p-60, 0x1p-90}) sums.add({term, -term});
+  for (const size_t i : {0u, 1u}) {
+    const double sign = i == 0 ? 1.0 : -1.0;
+    EXPECT_EQ(sums.totals()[i].high, sign);
+    EXPECT_EQ(sums.totals()[i].low, sign * (0x1p-60 + 0x1p-90));
+  }
+}
+
 TEST(ExactSums, TakeTheRoomThatTermsSpan) {
   ExactSums sums;
   sums.add({});
@@ -107,6 +134,13 @@ TEST(ExactSums, TakeTheRoomThatTermsSpan) {
   EXPECT_EQ(sums.words().size(), 3 * ExactSums::kCount);
   sums.add({0x1p32});
   EXPECT_EQ(sums.words().size(), 4 * ExactSums::kCount);
+  for (int bit = -320; bit < 320; ++bit) {
+    ExactSums one;
+    one.add({std::ldexp(1.0, bit)});
+    EXPECT_EQ(one.words().size(), 2 * ExactSums::kCount) << bit;
+    EXPECT_EQ(one.lowest_word(), (bit + 320) / 32 - 10) << bit;
+    EXPECT_EQ(one.totals().high[0], std::ldexp(1.0, bit));
+  }
 }
 
 TEST(ExactSums, TakeWhatFloatsAndTheirProductsCanBe) {
