@@ -97,6 +97,33 @@ TEST(ExactSums, AreTheSameInAnyOrderAndGrouping) {
   }
 }
 
+TEST(ExactSums, OfOtherWordsMergeEitherWay) {
+  const std::vector<ExactSums::Values> terms{
+      {-1.0, 1.0, -0x1p-70}, {0x1p100, -0x1p100, 3.0}, {-0x1p-200, 0x1p-200, -5.0}, {0x1.8p40, -0x1.8p40, 0x1p90}};
+  const ExactSums whole = sum_of(terms);
+  for (const ExactSums::Values& first : terms)
+    for (const ExactSums::Values& second : terms) {
+      if (&first == &second) continue;
+      ExactSums merged = sum_of({first});
+      merged.merge(sum_of({second}));
+      EXPECT_EQ(merged, sum_of({second, first}));
+      for (const ExactSums::Values& other : terms)
+        if (&other != &first && &other != &second) merged.merge(sum_of({other}));
+      EXPECT_EQ(merged, whole);
+    }
+  EXPECT_EQ(whole.totals().high[0], 0x1p100 + 0x1.8p40);
+}
+
+TEST(ExactSums, AreReadToTwoDoubles) {
+  ExactSums sums;
+  for (const double term : {1.0, 0x1p-60, 0x1p-90}) sums.add({term, -term});
+  for (const size_t i : {0u, 1u}) {
+    const double sign = i == 0 ? 1.0 : -1.0;
+    EXPECT_EQ(sums.totals()[i].high, sign);
+    EXPECT_EQ(sums.totals()[i].low, sign * (0x1p-60 + 0x1p-90));
+  }
+}
+
 TEST(ExactSums, TakeTheRoomThatTermsSpan) {
   ExactSums sums;
   sums.add({});
@@ -107,6 +134,13 @@ TEST(ExactSums, TakeTheRoomThatTermsSpan) {
   EXPECT_EQ(sums.words().size(), 3 * ExactSums::kCount);
   sums.add({0x1p32});
   EXPECT_EQ(sums.words().size(), 4 * ExactSums::kCount);
+  for (int bit = -320; bit < 320; ++bit) {
+    ExactSums one;
+    one.add({std::ldexp(1.0, bit)});
+    EXPECT_EQ(one.words().size(), 2 * ExactSums::kCount) << bit;
+    EXPECT_EQ(one.lowest_word(), (bit + 320) / 32 - 10) << bit;
+    EXPECT_EQ(one.totals().high[0], std::ldexp(1.0, bit));
+  }
 }
 
 TEST(ExactSums, TakeWhatFloatsAndTheirProductsCanBe) {
@@ -126,6 +160,7 @@ TEST(ExactSums, RefuseWhatTheyCannotHold) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double term : {infinity, -infinity, std::nan(""), 0x1p320, -0x1p400, 0x1p-321, 0x1.8p-320, 5e-324})
     EXPECT_THROW(ExactSums().add({0.0, term}), std::domain_error) << term;
+  EXPECT_THROW(ExactSums().add({0x1p300, 5e-324}), std::domain_error);
   for (const double term : {0x1.8p319, 0x1p-320, -0x1.8p-319}) EXPECT_NO_THROW(ExactSums().add({0.0, term})) << term;
   const auto words = [](size_t count) { return std::vector<uint32_t>(count); };
   EXPECT_NO_THROW(ExactSums(-10, words(2 * ExactSums::kCount)));

@@ -159,6 +159,7 @@ TEST(Film, TellsHalvesByThePassesNumbers) {
   film.add(3, two);
   film.add(4, one);
   EXPECT_EQ(film.sums().passes.ranges(), (std::vector<PassRange>{{3, 5}, {7, 8}}));
+  EXPECT_EQ(film.next_pass(), 0);
   EXPECT_EQ(film.sums().passes.count_of(0), 1);
   EXPECT_EQ(film.sums().passes.count_of(1), 2);
   EXPECT_EQ(film.sums().halves[1].values[0].totals().high[0], 3.0);
@@ -166,6 +167,10 @@ TEST(Film, TellsHalvesByThePassesNumbers) {
   other.add(4, two);
   EXPECT_THROW(film.merge(other), InputError);
   EXPECT_EQ(film.passes(), 3);
+  for (const int pass : {1, 0, 2}) film.add(pass, one);
+  EXPECT_EQ(film.next_pass(), 5);
+  for (const int pass : {6, 5}) film.add(pass, one);
+  EXPECT_EQ(film.sums().passes.ranges(), (std::vector<PassRange>{{0, 8}}));
 }
 
 TEST(Film, RefusesPixelsThatAreNotFinite) {

@@ -145,7 +145,7 @@ TEST(RadiiOfPixels, ARenderIsTheTextbooksPixelByPixel) {
     std::vector<Textbook> textbook(pixels, Textbook{settings.surface.radius.metres()});
     const double power = light_power(scene.lights[0], scene.bounds).g;
     const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
-      Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.passes(), kGoOn, shown});
+      Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kGoOn, shown});
       EXPECT_EQ(pass.found.size(), pixels);
       for (size_t i = 0; i < pixels; ++i) {
         const auto found = static_cast<double>(pass.found[i]);

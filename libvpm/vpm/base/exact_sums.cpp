@@ -11,9 +11,8 @@ namespace {
 
 constexpr size_t kCount = ExactSums::kCount;
 constexpr int kWords = ExactSums::kHighestWord - ExactSums::kLowestWord + 1;
-constexpr double kWord = 0x1p32;  // units of a word in one of the next
 
-/// 2^(32 word), 1 <= |word| <= 31.
+/// 2^(32 word), |word| < 32.
 double weight(int word) { return std::bit_cast<double>(static_cast<uint64_t>(1023 + 32 * word) << 52); }
 
 /// The word that the highest bit of a positive number stands in.
@@ -30,29 +29,35 @@ uint64_t largest_bits(const ExactSums::Values& values) {
   return static_cast<uint64_t>(largest);
 }
 
-using Slice = std::array<int64_t, kCount>;
+using Words = std::array<uint32_t, kCount>;  // one of each number
 
-/// Takes the whole parts off numbers below 2^32 and multiplies what is left by 2^32. Is there any?
-bool cut(ExactSums::Values& rest, Slice& whole) {
-  constexpr double kMantissa = 0x1.8p52;  // added to an integer it leaves that as its lowest bits
+constexpr double kMantissa = 0x1p52;  // added to an integer from 0 to 2^52, it leaves that as its lowest bits
+
+/// Takes multiples of `weight` off numbers >= 0 that are below 2^32 times that; to the multiples kMantissa is added. Is
+/// there anything left?
+bool cut(ExactSums::Values& rest, double weight, ExactSums::Values& multiples) {
+  const double inverse = 1.0 / weight;
   uint64_t left = 0;
   for (size_t i = 0; i < kCount; ++i) {
-    const double part = std::trunc(rest[i]);
-    whole[i] = std::bit_cast<int64_t>(part + kMantissa) - std::bit_cast<int64_t>(kMantissa);
-    rest[i] = (rest[i] - part) * kWord;
-    left |= std::bit_cast<uint64_t>(rest[i]) << 1;
+    const double multiple = std::trunc(rest[i] * inverse);
+    multiples[i] = multiple + kMantissa;
+    rest[i] -= multiple * weight;
+    left |= std::bit_cast<uint64_t>(rest[i]);
   }
   return left != 0;
 }
 
-/// Adds to the words of one weight, and leaves what goes over to the next.
-void add_to(uint32_t* words, const int64_t* terms, Slice& carry) {
+/// Adds to the words of one weight other(i) each, and leaves what goes over to the next: 0 or 1.
+void add_to(uint32_t* words, const auto& other, Words& carry) {
   for (size_t i = 0; i < kCount; ++i) {
-    const int64_t sum = static_cast<int64_t>(words[i]) + terms[i] + carry[i];
-    words[i] = static_cast<uint32_t>(sum);
-    carry[i] = sum >> 32;
+    const uint32_t word = other(i), sum = words[i] + word, with_carry = sum + carry[i];
+    carry[i] = static_cast<uint32_t>(sum < word) | static_cast<uint32_t>(with_carry < sum);
+    words[i] = with_carry;
   }
 }
+
+/// All bits of a word that is below 0, none of another.
+uint32_t sign_of(uint32_t word) { return static_cast<uint32_t>(static_cast<int32_t>(word) >> 31); }
 
 }  // namespace
 
@@ -64,23 +69,20 @@ ExactSums::ExactSums(int lowest_word, std::vector<uint32_t> words) : lowest_(low
     throw std::domain_error("these are no words of exact sums");
 }
 
-/// Makes room for words from `lowest` to before `sign_word`.
+/// Makes room for words from `lowest` to before `sign_word`, and no more.
 void ExactSums::cover(int lowest, int sign_word) {
-  if (words_.empty()) {
-    lowest_ = lowest;
-    words_.assign(static_cast<size_t>(sign_word - lowest + 1) * kCount, 0);
-    return;
+  if (!words_.empty()) {
+    if (lowest >= lowest_ && sign_word <= this->sign_word()) return;
+    lowest = std::min(lowest, lowest_);
+    sign_word = std::max(sign_word, this->sign_word());
   }
-  if (lowest < lowest_) {
-    words_.insert(words_.begin(), static_cast<size_t>(lowest_ - lowest) * kCount, 0);
-    lowest_ = lowest;
+  std::vector<uint32_t> words(static_cast<size_t>(sign_word - lowest + 1) * kCount);
+  if (!words_.empty()) {
+    auto end = std::copy(words_.begin(), words_.end(), words.begin() + (lowest_ - lowest) * static_cast<int>(kCount));
+    for (; end != words.end(); ++end) *end = sign_of(*(end - kCount));
   }
-  while (this->sign_word() < sign_word) {
-    const size_t last = words_.size() - kCount;
-    words_.resize(words_.size() + kCount);
-    for (size_t i = 0; i < kCount; ++i)
-      words_[last + kCount + i] = static_cast<uint32_t>(static_cast<int32_t>(words_[last + i]) >> 31);
-  }
+  words_ = std::move(words);
+  lowest_ = lowest;
 }
 
 void ExactSums::add(const Values& terms) {
@@ -89,46 +91,57 @@ void ExactSums::add(const Values& terms) {
   if (largest >= std::bit_cast<uint64_t>(weight(kHighestWord + 1)))
     throw std::domain_error("terms of exact sums must be finite and below 2^320");
   const int highest = std::max(word_of(std::bit_cast<double>(largest)), kLowestWord);
-  std::array<Slice, kWords> slices;
-  const double scale = weight(-highest);
+  std::array<Values, kWords> multiples;  // from the highest word to the lowest
   Values rest;
-  for (size_t i = 0; i < kCount; ++i) rest[i] = terms[i] * scale;
+  for (size_t i = 0; i < kCount; ++i) rest[i] = std::fabs(terms[i]);
   int lowest = highest;
-  while (cut(rest, slices[static_cast<size_t>(highest - lowest)])) {
+  while (cut(rest, weight(lowest), multiples[static_cast<size_t>(highest - lowest)])) {
     if (lowest == kLowestWord) throw std::domain_error("terms of exact sums must be multiples of 2^-320");
     --lowest;
   }
   cover(lowest, highest + 1);
-  Slice carry{};
-  constexpr Slice kNothing{};
-  for (int word = lowest; word <= sign_word(); ++word)
-    add_to(plane(word), word <= highest ? slices[static_cast<size_t>(highest - word)].data() : kNothing.data(), carry);
+  // The two's complement of what is below 0: all bits the other way, and 1 more, which is the first carry.
+  Words negative, carry;
+  for (size_t i = 0; i < kCount; ++i) {
+    negative[i] = static_cast<uint32_t>(std::bit_cast<int64_t>(terms[i]) >> 63);
+    carry[i] = negative[i] & 1u;
+  }
+  for (int word = lowest; word <= highest; ++word) {
+    const Values& digits = multiples[static_cast<size_t>(highest - word)];
+    const auto flipped = [&](size_t i) {
+      return static_cast<uint32_t>(std::bit_cast<uint64_t>(digits[i])) ^ negative[i];
+    };
+    add_to(plane(word), flipped, carry);
+  }
+  for (int word = highest + 1; word <= sign_word(); ++word)
+    add_to(
+        plane(word), [&](size_t i) { return negative[i]; }, carry);
 }
 
 void ExactSums::merge(const ExactSums& other) {
   if (other.words_.empty()) return;
   cover(other.lowest_, other.sign_word());
-  Slice carry{}, terms{};
-  for (int word = other.lowest_; word <= sign_word(); ++word) {
-    if (word < other.sign_word())
-      std::copy_n(other.plane(word), kCount, terms.begin());
-    else if (word == other.sign_word())
-      for (size_t i = 0; i < kCount; ++i) terms[i] = static_cast<int32_t>(other.plane(word)[i]);
-    else
-      terms.fill(0);
-    add_to(plane(word), terms.data(), carry);
+  Words carry{};
+  for (int word = other.lowest_; word <= other.sign_word(); ++word) {
+    const uint32_t* others = other.plane(word);
+    add_to(
+        plane(word), [&](size_t i) { return others[i]; }, carry);
   }
+  const uint32_t* signs = other.plane(other.sign_word());
+  for (int word = other.sign_word() + 1; word <= sign_word(); ++word)
+    add_to(
+        plane(word), [&](size_t i) { return sign_of(signs[i]); }, carry);
 }
 
 ExactSums::Totals ExactSums::totals() const {
   Totals totals{};
   if (words_.empty()) return totals;
   // Of magnitudes, whose words add up without cancelling.
-  std::array<std::array<uint32_t, kCount>, kWords + 1> magnitudes;
-  std::array<uint32_t, kCount> flip;
+  std::array<Words, kWords + 1> magnitudes;
+  Words flip;
   std::array<uint64_t, kCount> carry;
   for (size_t i = 0; i < kCount; ++i) {
-    flip[i] = static_cast<uint32_t>(static_cast<int32_t>(plane(sign_word())[i]) >> 31);
+    flip[i] = sign_of(plane(sign_word())[i]);
     carry[i] = flip[i] & 1u;
   }
   for (int word = lowest_; word <= sign_word(); ++word)

@@ -31,7 +31,7 @@ void estimate_errors(RenderResult& result) {
 
 /// Adds the next pass.
 void add(RenderResult& result, const Pass& pass) {
-  result.film.add(result.film.passes(), pass.image, pass.relative_square);
+  result.film.add(result.film.next_pass(), pass.image, pass.relative_square);
   result.errors.reset();
   result.discs.resize(pass.found.size());
   for (size_t i = 0; i < pass.found.size(); ++i) shrink(result.discs[i], pass.found[i]);
@@ -52,7 +52,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
                     const RunControl& control) {
   validate(settings, facts_of(scene));
   const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
-    const int pass = so_far.film.passes();
+    const int pass = so_far.film.next_pass();
     return settings.integrator == Integrator::path
                ? render_path_pass(scene, settings, pass, control.stop, shown)
                : render_photon_pass_after(so_far.discs, scene, settings, {pass, control.stop, shown});

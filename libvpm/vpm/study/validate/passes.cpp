@@ -81,7 +81,7 @@ std::vector<Check> check_pixels(const Effort& effort) {
   std::vector<TextbookPixel> textbook(result.film.mean().pixels.size(), {settings.surface.radius.metres()});
   const double power = light_power(scene.lights[0], scene.bounds).g;  // of every photon
   const auto run = [&](const RenderResult& so_far, const PassProgress& progress) {
-    Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.passes(), kGoOn, progress});
+    Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kGoOn, progress});
     for (size_t i = 0; i < textbook.size(); ++i) textbook[i].add(static_cast<double>(pass.found[i]), power);
     return pass;
   };
