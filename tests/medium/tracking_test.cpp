@@ -103,7 +103,8 @@ TEST(Tracking, BoundsOfBlocksSaveLookUpsAndChangeNoFlight) {
       for (uint64_t i = 0; i < 2000; ++i) {
         Rng rng(5, rng_stream(RngUse::test, 0), i);
         const Flight looks_up = track_bricks(
-            medium, kRay, kReach, Rgb(1.0f, 0.5f, 2.0f), rng, [](float max) { return max; },
+            medium, kRay, kReach, NullCollisionFlight(medium, kReach, Rgb(1.0f, 0.5f, 2.0f), rng),
+            [](float max) { return max; },
             [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
               return flight.meet(t, stretch.density(t), majorant);
             });
