@@ -85,7 +85,9 @@ TEST_F(Checkpoint, BringsBackEveryCounter) {
   const RenderStatistics after = read_checkpoint(path_, kRender).statistics;
   int expected = 0;
   for_each_counter(after, [&](const std::string& name, const auto& number) {
-    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(number)>>) EXPECT_EQ(number, ++expected) << name;
+    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(number)>>) {
+      EXPECT_EQ(number, ++expected) << name;
+    }
   });
   EXPECT_EQ(after.ledger.escaped, Rgbd(0.5, 0.25, 7.0));
   EXPECT_EQ(after.eye.weights.sum, -3.0);
@@ -129,7 +131,7 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
 TEST_F(Checkpoint, OfWhichAnyByteIsAnotherIsRefused) {
   write_checkpoint(path_, kRender, some_result());
   const std::string whole = bytes();
-  for (size_t at = 0; at < whole.size(); at += 5) {
+  for (size_t at = 0; at < whole.size(); at += 23) {
     std::string flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ 1 << at % 8);
     put(flipped);
@@ -198,6 +200,21 @@ TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
     std::memcpy(changed.data() + at + offset, &number, sizeof number);
     refuses_text(changed, "its field 'film.squares' holds no sums of that many pixels");
   }
+}
+
+TEST_F(Checkpoint, OfMoreSumsThanPixelsIsRefused) {
+  Image image(30, 2);  // of two blocks of sums, where 3 x 2 pixels have one
+  for (Rgb& pixel : image.pixels) pixel = Rgb(1.0f);
+  RenderResult result{Film(30, 2), {}, 1.5, {}};
+  result.film.add(0, image, 1.0f);
+  write_checkpoint(path_, "a render", result);
+  const std::string width = "film.width i32 1 4\n";
+  std::string content = with(bytes(), width + bytes_of(30), width + bytes_of(3));
+  content.resize(content.size() - 16);
+  Fnv1a hash;
+  hash.add(std::string_view(content));
+  put(content + hash.digits());
+  refuses("a render", "its field 'film.squares' holds no sums of that many pixels");
 }
 
 /// What is refused, and why, of the fuzz target's seeds; all others are accepted.

@@ -44,7 +44,7 @@ inline TwoDoubles operator*(const TwoDoubles& a, const TwoDoubles& b) {
 /// 2^320 in magnitude (floats, their products and squares are), fewer than 2^31 for each sum.
 class ExactSums {
  public:
-  static constexpr size_t kCount = 64;
+  static constexpr size_t kCount = 128;
   static constexpr int kLowestWord = -10, kHighestWord = 9;  // in units of 2^(32 word)
   using Values = std::array<double, kCount>;
   struct Totals {

@@ -44,8 +44,9 @@ struct FilmSums {
 /// what is read off the sums. A mean's relative error is that of a double; so is that of a variance, though it is a
 /// difference of nearly equal sums, or about n 2^-54 of n passes that differ in the last bits of their floats alone.
 ///
-/// A pixel takes 190 bytes where a block of 21 pixels has nearly one brightness, 260 where the passes of each block span
-/// 4 decades, 280 where they span 10 and 340 where they span 20 (512 x 512 pixels after 64 passes: 50, 68, 74 and 89 MB).
+/// A pixel takes 190 bytes where a block of 42 pixels has nearly one brightness, 260 where the passes of each block
+/// span 4 decades, 280 where they span 10 and 340 where they span 20 (512 x 512 pixels after 64 passes: 49, 67, 74 and
+/// 89 MB).
 class Film {
  public:
   static constexpr size_t kBytesOfPixel = 300;  // to reckon with
