@@ -10,6 +10,7 @@
 #include "support/statistics.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
+#include "vpm/job/bake.h"
 #include "vpm/scene/build.h"
 
 namespace vpm {
@@ -224,7 +225,7 @@ TEST(LightMap, IsTheSameOnAnyNumberOfThreads) {
   const Scene scene = cube_of_quads();
   RenderSettings settings = fixed_radius(0.1f, 5000);
   settings.surface_indirect = IndirectLight::final_gather;
-  settings.passes = 2;
+  settings.until.passes = 2;
   const UvLayout layout = lay_out_light_map(scene, 0, 40);
   std::vector<Image> maps;
   for (const int threads : {1, 2}) {
