@@ -1,0 +1,45 @@
+// A scene built in code: a box of fog on a floor, with a lamp above it, rendered to an EXR file: fog_box FILE.exr
+#include <atomic>
+#include <cstdio>
+
+#include "vpm/base/error.h"
+#include "vpm/image/exr.h"
+#include "vpm/render/render.h"
+#include "vpm/scene/assemble.h"
+
+namespace {
+
+vpm::SceneParts fog_in_a_box() {
+  vpm::Medium fog;
+  fog.sigma_t = vpm::Rgb(1.0f);  // 1/m
+  fog.sigma_s = vpm::Rgb(0.9f);
+  fog.phase = vpm::HenyeyGreenstein{0.5f};
+  const vpm::Interface fog_inside{.inside = 0};  // the first of the media; outside is vacuum
+
+  vpm::SceneParts parts;
+  parts.media = {{fog}};
+  parts.materials = {{vpm::Boundary{}}, {vpm::Lambertian{vpm::Rgb(0.6f, 0.5f, 0.4f)}}};
+  parts.shapes = {{.surface = vpm::box_mesh({-1.0, 0.01, -1.0}, {1.0, 2.01, 1.0}), .material = 0, .media = fog_inside},
+                  {.surface = vpm::quad_mesh({-4.0, 0.0, 4.0}, {8.0, 0.0, 0.0}, {0.0, 0.0, -8.0}), .material = 1}};
+  parts.lights = {{"lamp", vpm::PointLight{vpm::Vec3(0.5f, 4.0f, 1.0f), vpm::Rgb(30.0f)}}};  // m, W/sr
+  parts.camera = vpm::make_camera({1.0f, 2.5f, 6.0f}, {0.0f, 0.8f, 0.0f}, {0.0f, 1.0f, 0.0f}, 40.0f, 96, 72, {});
+  return parts;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  if (count != 2) throw vpm::InputError("usage: fog_box FILE.exr");
+  const vpm::Scene scene = assemble(fog_in_a_box()).scene;
+  vpm::RenderSettings settings;
+  settings.passes = 4;
+  settings.photons_emitted = 50'000;                        // per pass
+  settings.volume.radius = settings.surface.radius = 0.1f;  // m, of the first pass
+  const std::atomic<bool> stop{false};
+  const vpm::RenderResult result =
+      render(scene, settings, vpm::nothing_rendered(scene.camera), stop, vpm::ProgressMode::automatic);
+  vpm::write_exr(arguments[1], result.film.mean(), {}, {});
+} catch (const vpm::InputError& error) {
+  std::fprintf(stderr, "fog_box: %s\n", error.what());
+  return 2;
+}
