@@ -22,7 +22,7 @@ vpm::SceneParts fog_in_a_box() {
   parts.shapes = {{.surface = vpm::box_mesh({-1.0, 0.01, -1.0}, {1.0, 2.01, 1.0}), .material = 0, .media = fog_inside},
                   {.surface = vpm::quad_mesh({-4.0, 0.0, 4.0}, {8.0, 0.0, 0.0}, {0.0, 0.0, -8.0}), .material = 1}};
   parts.lights = {{"lamp", vpm::PointLight{vpm::Vec3(0.5f, 4.0f, 1.0f), vpm::Rgb(30.0f)}}};  // m, W/sr
-  parts.camera = vpm::make_camera({1.0f, 2.5f, 6.0f}, {0.0f, 0.8f, 0.0f}, {0.0f, 1.0f, 0.0f}, 40.0f, 96, 72, {});
+  parts.camera = vpm::make_camera({1.0f, 2.5f, 6.0f}, {0.0f, 0.8f, 0.0f}, {0.0f, 1.0f, 0.0f}, 40.0f, 256, 192, {});
   return parts;
 }
 
@@ -32,8 +32,7 @@ int main(int count, char** arguments) try {
   if (count != 2) throw vpm::InputError("usage: fog_box FILE.exr");
   const vpm::Scene scene = assemble(fog_in_a_box()).scene;
   vpm::RenderSettings settings;
-  settings.passes = 4;
-  settings.photons_emitted = 50'000;                        // per pass
+  settings.passes = 16;                                     // of 200,000 photons each, unless told otherwise
   settings.volume.radius = settings.surface.radius = 0.1f;  // m, of the first pass
   const std::atomic<bool> stop{false};
   const vpm::RenderResult result =
