@@ -82,7 +82,7 @@ TEST(RenderJob, OfCodeBecomesPictureReportAndMessages) {
   EXPECT_EQ(picture.metadata.at("vpm.passes"), std::to_string(kLeastPasses));
   EXPECT_NE(render_report(job, path, result).find("\"lamp\""), std::string::npos);
   EXPECT_NE(error_text(job, result).find("estimated relative MSE"), std::string::npos);
-  EXPECT_TRUE(warnings_of(scattering_of(job.scene), job.settings, result.statistics).empty());
+  EXPECT_TRUE(warnings_of(job, result).empty());
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 #include "tools/vpm_binary.h"
 #include "vpm/image/exr.h"
-#include "vpm/input/experiment_file.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/study/compare/exact_picture.h"
+#include "vpm/study/compare/experiment_file.h"
 
 namespace vpm {
 namespace {

@@ -75,7 +75,7 @@ int bake_command(const BakeOptions& options) {
   print_notes(job);
   const std::atomic<bool>& stop = stop_on_signals();
   const RenderResult result = bake_light_map(job.scene, job.settings, layout, {stop, options.progress});
-  print_warnings(warnings_of({.surfaces = true}, job.settings, result.statistics));
+  print_warnings(warnings_of_light_map(job, result));
   if (layout.flat_triangles > 0)
     fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
                layout.flat_triangles);

@@ -69,7 +69,7 @@ int render_command(const RenderOptions& options) {
     if (log) log->add(so_far);
   };
   const RenderResult result = render(job.scene, job.settings, std::move(begun), {stop, options.progress, finished});
-  print_warnings(warnings_of(scattering_of(job.scene), job.settings, result.statistics));
+  print_warnings(warnings_of(job, result));
   if (result.film.passes() == 0) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;

@@ -17,6 +17,8 @@ using Mat4d = glm::dmat4;
 /// A quantity per colour channel (linear sRGB primaries). Its unit stands where it is declared.
 using Rgb = glm::vec3;
 using Rgbd = glm::dvec3;
+static_assert(sizeof(Vec3) == 12 && sizeof(Vec3d) == 24,
+              "the library is built with packed vectors: include it without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
 
 inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr double kPiD = 3.14159265358979323846;

@@ -38,7 +38,7 @@ struct EyeCounters {
                       Counter{"", &E::gather},
                       Counter{"", &E::walk}};
   }
-  void merge(const EyeCounters& other) { merge_counters(*this, other); }
+  void merge(const EyeCounters& other);
 };
 static_assert(lists_every_member<EyeCounters>());
 
@@ -75,7 +75,7 @@ struct RenderStatistics {
                       Counter{"eye", &S::eye}};
   }
   /// Adds a further pass.
-  void merge(const RenderStatistics& pass) { merge_counters(*this, pass); }
+  void merge(const RenderStatistics& pass);
 };
 static_assert(lists_every_member<RenderStatistics>());
 

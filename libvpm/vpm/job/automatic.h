@@ -2,33 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "vpm/job/choice.h"
 #include "vpm/job/pilot.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {
-
-/// Which settings are to be chosen, by their keys; those that may be are declared Setting::automatic. What is not to be
-/// chosen is never changed.
-struct AutomaticSettings {
-  std::set<std::string, std::less<>> keys;
-
-  bool any() const { return !keys.empty(); }
-  bool has(std::string_view key) const { return keys.find(key) != keys.end(); }
-};
-
-/// A setting that was chosen.
-struct Choice {
-  std::string key;    // of scene files: "volume.radius"
-  std::string value;  // as --set takes it, to the last bit
-  std::string reason;
-};
 
 /// Chooses what is asked for, after a short pilot, and puts it into the settings. Radii and the strategy are a pure
 /// function of scene and settings: the strategy's cost is counted, not timed. The number of photons is not, it rests on

@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace vpm {
+#include "vpm/render/plan.h"
 
-std::vector<std::string> warnings_of(const Scattering& shown, const RenderSettings& settings,
-                                     const RenderStatistics& s) {
+namespace vpm {
+namespace {
+
+/// `shown`: what of the scene's scattering the picture shows.
+std::vector<std::string> warnings_about(const Scattering& shown, const RenderSettings& settings,
+                                        const RenderStatistics& s) {
   std::vector<std::string> warnings;
   const auto warn = [&](uint64_t count, const char* what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
@@ -34,6 +38,16 @@ std::vector<std::string> warnings_of(const Scattering& shown, const RenderSettin
     warn(walk.medium_mismatches,
          "boundaries were met from a medium that is not the one before them: check that media do not overlap");
   return warnings;
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const RenderJob& job, const RenderResult& result) {
+  return warnings_about(scattering_of(job.scene), job.settings, result.statistics);
+}
+
+std::vector<std::string> warnings_of_light_map(const RenderJob& job, const RenderResult& result) {
+  return warnings_about({.surfaces = true}, job.settings, result.statistics);
 }
 
 std::string error_text(const RenderJob& job, const RenderResult& result) {

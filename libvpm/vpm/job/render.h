@@ -8,7 +8,7 @@
 #include "vpm/base/progress.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/render/film.h"
-#include "vpm/render/image_pass.h"
+#include "vpm/render/pass.h"
 #include "vpm/render/pixel_disc.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <chrono>
 
+#include "vpm/job/automatic.h"
+
 namespace vpm {
 namespace {
 

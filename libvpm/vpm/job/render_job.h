@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "vpm/job/automatic.h"
+#include "vpm/job/choice.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/assemble.h"
 

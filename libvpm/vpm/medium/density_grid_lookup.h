@@ -1,8 +1,9 @@
-// Looking a density grid up at points. Included by density_grid.h only.
+// Looking a density grid up at points. The end of density_grid.h, which is what others include.
 #pragma once
 
 #include <algorithm>
 
+#include "vpm/medium/density_grid.h"
 #include "vpm/medium/trilinear.h"
 
 namespace vpm {

@@ -1,10 +1,11 @@
-// Walking a ray through a density grid: bricks first, then the cells of those that are not uniform. Included by
-// density_grid.h only.
+// Walking a ray through a density grid: bricks first, then the cells of those that are not uniform. The end of
+// density_grid.h, which is what others include.
 #pragma once
 
 #include <utility>
 
 #include "vpm/base/count.h"
+#include "vpm/medium/density_grid.h"
 
 namespace vpm {
 

@@ -43,7 +43,7 @@ struct Ledger {
                       Counter{"photons.dropped_non_finite", &L::non_finite},
                       Counter{"photons", &L::walk}};
   }
-  void merge(const Ledger& other) { merge_counters(*this, other); }
+  void merge(const Ledger& other);
 };
 static_assert(lists_every_member<Ledger>());
 

@@ -14,7 +14,7 @@ namespace vpm {
 class PackedDirection {
  public:
   PackedDirection() = default;
-  explicit PackedDirection(const Vec3& d) {
+  [[gnu::always_inline]] explicit PackedDirection(const Vec3& d) {
     const float scale = 1.0f / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
     const Vec2 p = d.z < 0.0f ? fold({d.x * scale, d.y * scale}) : Vec2(d.x * scale, d.y * scale);
     bits_ = step_of(p.x) << 16 | (step_of(p.y) & 0xffffu);

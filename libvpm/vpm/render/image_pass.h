@@ -3,29 +3,15 @@
 
 #include <atomic>
 #include <functional>
-#include <vector>
 
 #include "vpm/base/count.h"
-#include "vpm/base/progress.h"
 #include "vpm/estimate/eye_work.h"
-#include "vpm/image/image.h"
+#include "vpm/render/pass.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {
 
-struct Pass {
-  Image image;                   // radiance, W/(m^2 sr)
-  float relative_square = 0.0f;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
-  std::vector<uint64_t> found;   // photons in each pixel's disc, over its samples, where pixels have discs of their own
-  RenderStatistics statistics;
-};
-
-/// Where a pass tells how far it is. Either may be missing.
-struct PassProgress {
-  bool stages = false;        // a bar for each stage of the pass
-  Progress* tiles = nullptr;  // advanced by tile_count() in the course of the pass
-};
 /// The units of work of a pass's image.
 uint64_t tile_count(const Camera& camera);
 

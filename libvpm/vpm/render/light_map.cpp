@@ -6,6 +6,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {

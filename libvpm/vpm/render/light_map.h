@@ -2,8 +2,12 @@
 // shadow rays.
 #pragma once
 
-#include "vpm/render/photon_pass.h"
+#include <atomic>
+
+#include "vpm/render/pass.h"
+#include "vpm/render/settings.h"
 #include "vpm/render/uv_layout.h"
+#include "vpm/scene/scene.h"
 
 namespace vpm {
 

@@ -16,7 +16,7 @@ namespace vpm {
 /// A material and the picture that its reflectance is read from, in [0, 1].
 struct MaterialPart {
   Material material = Boundary{};
-  std::shared_ptr<const Texture> texture;  // null: the material's own reflectance, everywhere
+  std::shared_ptr<const Texture> texture{};  // null: the material's own reflectance, everywhere
 };
 
 /// Who draws the surface within which a grid medium is met: a box around the grid's support, or shapes that name the
@@ -25,9 +25,9 @@ enum class GridBoundary { automatic, box, shapes };
 
 /// A medium, and where it ends if it is a grid.
 struct MediumPart {
-  Medium medium;
+  Medium medium{};
   GridBoundary boundary = GridBoundary::automatic;
-  std::optional<MediumId> outside;  // of the grid's box; nothing: the world's medium
+  std::optional<MediumId> outside{};  // of the grid's box; nothing: the world's medium
 };
 
 /// The surfaces that shapes have.
@@ -35,19 +35,19 @@ using Surface = std::variant<TriangleMesh, QuadMesh, SphereShape, DiscShape>;
 
 /// A shape and what it does to light.
 struct ShapePart {
-  std::string name;   // of its own; empty: "shape 3", by its number
-  std::string title;  // what errors call it; empty: "shape 'name'"
-  Surface surface;
+  std::string name{};   // of its own; empty: "shape 3", by its number
+  std::string title{};  // what errors call it; empty: "shape 'name'"
+  Surface surface{};
   uint32_t material = 0;              // its number in SceneParts::materials
-  std::optional<Interface> media;     // that meet at it; nothing: the medium is the same on both sides
-  std::optional<Rgb> emission;        // W/(m^2 sr), to the side of the outward normal
+  std::optional<Interface> media{};   // that meet at it; nothing: the medium is the same on both sides
+  std::optional<Rgb> emission{};      // W/(m^2 sr), to the side of the outward normal
   uint64_t degenerate_triangles = 0;  // that its mesh had and that were dropped from it, to be noted
 };
 
 /// A light that is no shape.
 struct LightPart {
-  std::string name;  // empty where it has none
-  Light light;
+  std::string name{};  // empty where it has none
+  Light light{};
 };
 
 /// Numbers of media and materials are places in these lists.

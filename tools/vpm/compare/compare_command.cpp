@@ -16,11 +16,11 @@
 #include "vpm/base/progress.h"
 #include "vpm/base/version.h"
 #include "vpm/image/metrics.h"
-#include "vpm/input/experiment_file.h"
 #include "vpm/input/source.h"
 #include "vpm/job/setting.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/study/compare/exact_picture.h"
+#include "vpm/study/compare/experiment_file.h"
 #include "vpm/study/validate/check.h"
 
 namespace vpm::tools {

@@ -1,5 +1,5 @@
 // The sections of an experiment's file, and the product of its settings.
-#include "vpm/input/experiment_file.h"
+#include "vpm/study/compare/experiment_file.h"
 
 #include <fmt/format.h>
 #include <algorithm>
