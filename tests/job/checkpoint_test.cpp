@@ -207,14 +207,14 @@ TEST_F(Checkpoint, OfMoreSumsThanPixelsIsRefused) {
   for (Rgb& pixel : image.pixels) pixel = Rgb(1.0f);
   RenderResult result{Film(30, 2), {}, 1.5, {}};
   result.film.add(0, image, 1.0f);
-  write_checkpoint(path_, "a render", result);
+  write_checkpoint(path_, kRender, result);
   const std::string width = "film.width i32 1 4\n";
   std::string content = with(bytes(), width + bytes_of(30), width + bytes_of(3));
   content.resize(content.size() - 16);
   Fnv1a hash;
   hash.add(std::string_view(content));
   put(content + hash.digits());
-  refuses("a render", "its field 'film.squares' holds no sums of that many pixels");
+  refuses(kRender, "its field 'film.squares' holds no sums of that many pixels");
 }
 
 /// What is refused, and why, of the fuzz target's seeds; all others are accepted.

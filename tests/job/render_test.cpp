@@ -15,7 +15,7 @@ namespace {
 
 const std::atomic<bool> kGoOn{false};
 
-/// A lamp over a floor, seen from above, by photons within 0.1 m in every pass.
+/// A lamp over a floor, seen from above, by photons within 0.5 m in every pass.
 RenderJob lit_floor() {
   SceneParts parts;
   parts.materials = {{Lambertian{Rgb(0.6f, 0.5f, 0.4f)}}};
@@ -23,8 +23,8 @@ RenderJob lit_floor() {
   parts.lights = {{"lamp", PointLight{Vec3(0.2f, 1.5f, 0.1f), Rgb(10.0f, 5.0f, 2.0f)}}};
   parts.camera = make_camera(Vec3(1.5f, 1.2f, 1.5f), Vec3(0.2f, 0.0f, 0.2f), Vec3(0, 1, 0), 30.0f, {12, 12});
   RenderSettings settings;
-  settings.photons_emitted = 500;
-  settings.surface.radius = 0.1f;
+  settings.photons_emitted = 2000;
+  settings.surface.radius = 0.5f;
   settings.radii = RadiusSchedule::constant;
   settings.surface_direct = DirectLight::photons;
   return make_job(assemble(std::move(parts)), settings);

@@ -61,18 +61,19 @@ TEST(Setting, HasAKeyOfItsOwnOrOfNeedsThatExcludeEachOther) {
 /// A member that is added to the settings does not compile here until it is named, and counted: then it is declared.
 TEST(Setting, IsEveryMemberOfTheSettings) {
   const RenderSettings s;
-  const auto& [integrator, seed, passes, seconds, error, samples, emitted, stored, in_cube, max_events, guide, distance,
-               transmittance, volume, surface, caustics, aimed, radii, form, floor, volume_direct, direct_samples,
-               surface_direct, indirect, gather_rays, gather_by, irradiance, step] = s;
+  const auto& [integrator, seed, until, samples, emitted, stored, in_cube, max_events, guide, distance, transmittance,
+               volume, surface, caustics, aimed, radii, form, floor, volume_direct, direct_samples, surface_direct,
+               indirect, gather_rays, gather_by, irradiance, step] = s;
+  [[maybe_unused]] const auto& [passes, seconds, error] = until;
   [[maybe_unused]] const auto& [importons, aim, split, scatter] = guide;
   [[maybe_unused]] const auto& [strategy, length, optical, majorant, extinction] = distance;
   [[maybe_unused]] const auto& [estimator, march, comb] = transmittance;
   [[maybe_unused]] const auto& [mode, radius, count, kernel, boundary, beam_count] = volume;
-  constexpr size_t kOwn = 28 - 6, kOfGuide = 4, kOfDistance = 5, kOfTransmittance = 3, kOfGather = 6;
+  constexpr size_t kOwn = 26 - 7, kOfStopRule = 3, kOfGuide = 4, kOfDistance = 5, kOfTransmittance = 3, kOfGather = 6;
   constexpr size_t kUndeclared = 3;  // surface.beam_count, caustics.beam_count, and caustics.boundary, the surface's
   constexpr size_t kCombined = 1;    // surface.method
   EXPECT_EQ(all_settings().size(),
-            kOwn + kOfGuide + kOfDistance + kOfTransmittance + 3 * kOfGather - kUndeclared + kCombined);
+            kOwn + kOfStopRule + kOfGuide + kOfDistance + kOfTransmittance + 3 * kOfGather - kUndeclared + kCombined);
 }
 
 TEST(Setting, ReachesItsMemberAndNoOther) {

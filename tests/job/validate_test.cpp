@@ -5,8 +5,8 @@
 
 #include <functional>
 
+#include "vpm/job/bake.h"
 #include "vpm/job/render.h"
-#include "vpm/render/light_map.h"
 
 namespace vpm {
 namespace {

@@ -90,8 +90,8 @@ TEST(PixelDisc, TheMeanOfPassesIsTheTextbooksRadiance) {
       GatherSettings own = made;
       own.radius = disc_radius(disc, kFirst);
       GatherCounters counters;
-      Neighbours near;
-      sum += surface_irradiance(at, up, CountedMap{map, GatherWork{counters, near}, own}).g;
+      Neighbours neighbours;
+      sum += surface_irradiance(at, up, CountedMap{map, GatherWork{counters, neighbours}, own}).g;
       shrink(disc, counters.used);
 
       double near = 0.0, power = 0.0;
