@@ -151,5 +151,18 @@ TEST(SlowIrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
   EXPECT_LT(std::sqrt(means.variance_of_mean()), 0.005 * means.mean());
 }
 
+TEST(IrradiancePoints, AreNoneOnBlackSurfaces) {
+  Scene scene;
+  add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Lambertian{Rgb(0.0f)});
+  scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  TraceSettings settings;
+  settings.emitted = 100;
+  SiteRecorder sites(scene);
+  trace_into(scene, settings, {&sites});
+  EXPECT_TRUE(sites.sites.empty());
+}
+
 }  // namespace
 }  // namespace vpm

@@ -107,6 +107,18 @@ TEST(Automatic, ChoosesTheSameOnAnyNumberOfThreads) {
   }
 }
 
+/// Paths fly as photons do, though they leave no map; and what absorbs all has flights, too.
+TEST(Automatic, ComparesStrategiesWhereThereIsNoMap) {
+  Scene scene = cloud_over_floor(true);
+  RenderSettings paths;
+  paths.integrator = Integrator::path;
+  for (const StrategyCost& each : strategy_costs(scene, paths)) EXPECT_GT(each.cost, 0.0) << each.name;
+  scene.media[0].sigma_s = Rgb(0.0f);
+  for (Material& material : scene.materials)
+    if (!is_boundary(material)) material = Lambertian{Rgb(0.0f)};
+  for (const StrategyCost& each : strategy_costs(scene, {})) EXPECT_GT(each.cost, 0.0) << each.name;
+}
+
 TEST(Automatic, ChangesNothingThatIsGiven) {
   const Scene scene = cloud_over_floor(true);
   RenderSettings given;

@@ -181,7 +181,8 @@ def add_light_maps(cases):
             "volume.direct=equiangular", "transmittance.estimator=ratio", "distance.strategy=delta"]
     for scene in ("cornell", "keyhole_fog", "smoke"):
         cases.combine("light maps", scene, "importance.importons=200 surface.radius=0.3", ways, bake="floor")
-    cases.add("light maps", "ring_caustic", ['materials.gold={type="lambertian",reflectance=0.5}'], bake="ring")
+    square = f'shapes.new={{name="square",type="mesh",path="{cases.folder / "square.obj"}",material="white"}}'
+    cases.add("light maps", "cornell", [square, "surface.radius=0.3"], bake="square")
 
 
 def add_own(cases):

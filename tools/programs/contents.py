@@ -81,7 +81,8 @@ def add_contents(cases):
     thin = 'media.thin={type="homogeneous",sigma_s=0.1,sigma_a=0}'
     path = f'type="grid",path="{cases.folder / "smoke.vdb"}",sigma_t=[30,40,50]'
     for grid in grids():
-        add("smoke", thin, f"media.smoke={{{path},{grid}}}")
+        around = ['shapes.new={type="sphere",center=[0,0.5,0],radius=2,material={type="boundary"},inside="thin"}'] if "thin" in grid else []
+        add("smoke", thin, *around, f"media.smoke={{{path},{grid}}}")
     ball = 'shapes.new={type="sphere",center=[0,0.5,0],radius=0.4,material={type="boundary"},inside="smoke"}'
     add("smoke", ball)
     add("smoke", ball, 'media.smoke.boundary="shapes"', 'media.smoke.interpolation="nearest"')

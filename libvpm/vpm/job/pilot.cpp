@@ -8,6 +8,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/path/follow.h"
 #include "vpm/photon/nearest_map.h"
+#include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/render/photon_pass.h"
 
@@ -118,6 +119,34 @@ std::vector<Photon> photons_of(const MapInfo& map) {
   return all;
 }
 
+/// Counts collisions alone, so that tracing ends once there are many.
+class CollisionCount final : public PhotonRecorder {
+ public:
+  std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<CollisionCount>(); }
+  void join(PhotonRecorder& part) override { number_ += static_cast<CollisionCount&>(part).number_; }
+  size_t stored() const override { return number_; }
+  void collided(const ArrivingPhoton&) override { ++number_; }
+
+ private:
+  size_t number_ = 0;
+};
+
+/// What photons count on their way, also in renders that have no map.
+Ledger flights_of(const Scene& scene, const RenderSettings& settings) {
+  CollisionCount collisions;
+  TraceSettings trace;
+  trace.seed = settings.seed;
+  trace.emitted = settings.photons_emitted;
+  trace.stored = settings.photons_stored;
+  trace.max_events = settings.max_events;
+  trace.stop = &kGoOn;
+  const bool maps_density =
+      settings.integrator == Integrator::photon && settings.volume_form == VolumeForm::density_at_query;
+  const auto strategy = make_distance_strategy(settings.distance, {.density = maps_density});
+  Progress silent("photons", 0, false);
+  return trace_photons(scene, *strategy, trace, {&collisions}, silent);
+}
+
 /// The pilot's only pass, traced.
 struct PilotPass {
   Estimators estimators;
@@ -155,7 +184,7 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
     if (!info.heterogeneous || !info.unbiased || !info.bounded_weight || !info.positive) continue;
     RenderSettings tried = pilot_settings(settings, kFlights);
     tried.distance.strategy = info.name;
-    const Ledger ledger = trace(scene, tried).ledger;
+    const Ledger ledger = flights_of(scene, tried);
     const double lookup = info.name == "regular" ? kCellCost : kLookupCost;
     const double cost =
         lookup * static_cast<double>(ledger.walk.lookups) + kBrickCost * static_cast<double>(ledger.walk.bricks);

@@ -81,7 +81,8 @@ void SiteRecorder::join(PhotonRecorder& part) { append(sites, static_cast<SiteRe
 
 void SiteRecorder::hit(const ArrivingPhoton& photon) {
   const Hit& hit = photon.event.hit;
-  if (!finds_sites(photon.number) || !is_diffuse(scene_.material_of(hit))) return;
+  const Material& material = scene_.material_of(hit);
+  if (!finds_sites(photon.number) || !is_diffuse(material) || !is_rough(material)) return;  // black ones are not rough
   const float side = glm::dot(hit.normal, photon.state.ray.direction) < 0.0f ? 1.0f : -1.0f;
   sites.push_back({hit.position, PackedDirection(side * hit.normal), PackedDirection(side * hit.shading_normal)});
 }
