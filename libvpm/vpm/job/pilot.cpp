@@ -125,6 +125,7 @@ class CollisionCount final : public PhotonRecorder {
   std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<CollisionCount>(); }
   void join(PhotonRecorder& part) override { number_ += static_cast<CollisionCount&>(part).number_; }
   size_t stored() const override { return number_; }
+  RecordNeeds needs() const override { return {.flights = false, .hits = false}; }
   void collided(const ArrivingPhoton&) override { ++number_; }
 
  private:

@@ -28,6 +28,9 @@ struct GridFrame {
   float background = 0.0f;  // density outside the index box, >= 0
 };
 
+template <int spacing>
+class LatticeWalk;
+
 class DensityGrid {
  public:
   static constexpr int kCells = DensityStretch::kCells;
@@ -140,16 +143,12 @@ class DensityGrid {
   const float* values_of(const Brick& brick) const {
     return values_.data() + static_cast<size_t>(brick.first) * kBrickValues;
   }
-  /// A part of a ray.
-  struct Span {
-    double t0, t1;
-  };
   /// Calls inside(walk, t0, t1) for the ray's part in each brick, where the walk is, and outside(t0, t1) for those
   /// outside of all where the background is not empty; in order, until one returns false.
   template <class Inside, class Outside>
   void visit_bricks(const LatticeRay& ray, const Interval& interval, Inside&& inside, Outside&& outside) const;
   template <class Visit>
-  bool visit_brick(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, const Span& span, uint32_t& read,
+  bool visit_brick(const LatticeWalk<kCells>& at, const LatticeRay& ray, double t0, double t1, uint32_t& read,
                    Visit& visit) const;
   template <class Visit>
   bool visit_stretch(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, double t0, double t1,

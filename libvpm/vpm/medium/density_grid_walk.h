@@ -128,9 +128,9 @@ void DensityGrid::visit_bricks(const LatticeRay& ray, const Interval& interval, 
 }
 
 template <class Visit>
-bool DensityGrid::visit_brick(const Brick& brick, const Vec3d& corner, const LatticeRay& ray, const Span& span,
+bool DensityGrid::visit_brick(const LatticeWalk<kCells>& at, const LatticeRay& ray, double t0, double t1,
                               uint32_t& read, Visit& visit) const {
-  const auto [t0, t1] = span;
+  const Brick& brick = bricks_[at.number()];
   if (brick.max == 0.0f) return true;
   if (brick.uniform()) {
     count(read);
@@ -140,7 +140,7 @@ bool DensityGrid::visit_brick(const Brick& brick, const Vec3d& corner, const Lat
   // A ray reads most of a brick's cache lines, in an order that hardware does not predict: all are prefetched.
   constexpr int kLine = 64 / sizeof(float);
   for (int i = 0; i < kBrickValues; i += kLine) __builtin_prefetch(values + i);
-  const Vec3i lo(corner);
+  const Vec3i lo(at.corner());
   LatticeWalk<1> walk(ray.origin, ray.direction, t0, lo, lo + (kCells - 1), {1, kValues, kValues * kValues});
   const Vec3 step(ray.direction);
   for (double t = t0; t < t1; walk.advance()) {
@@ -165,7 +165,7 @@ uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Vis
   visit_bricks(
       in, interval,
       [&](const LatticeWalk<kCells>& walk, double t0, double t1) {
-        return visit_brick(bricks_[walk.number()], walk.corner(), in, {t0, t1}, read, visit);
+        return visit_brick(walk, in, t0, t1, read, visit);
       },
       [&](double t0, double t1) {
         return visit(DensityPiece{t0, t1, frame_.background, 0.0, 0.0, 0.0});

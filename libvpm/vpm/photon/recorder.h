@@ -20,6 +20,11 @@ struct ArrivingPhoton {
   bool from_rough;  // mirrors and glass apart, a rough surface scattered it last
 };
 
+/// Which events a recorder is told of.
+struct RecordNeeds {
+  bool flights = true, collisions = true, hits = true;
+};
+
 /// Keeps what it wants of the photons of one pass. Photons are traced in chunks, each of which has a recorder of its
 /// own; these are joined in the photons' order, so that what is kept does not depend on the number of threads. One
 /// virtual call costs some nanoseconds, the event that it tells of a microsecond.
@@ -32,6 +37,8 @@ class PhotonRecorder {
   virtual void join(PhotonRecorder& part) = 0;
   /// How many photons it has, of those that TraceSettings::stored counts.
   virtual size_t stored() const { return 0; }
+  /// What flew(), collided() and hit() tell it of; what it is not told costs nothing.
+  virtual RecordNeeds needs() const { return {}; }
   /// Does it read Event::density? Strategies that know it for free only need not be asked (FlightUse::density).
   virtual bool reads_density() const { return false; }
 

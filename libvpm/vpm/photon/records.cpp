@@ -21,18 +21,14 @@ Photon as_photon(const ArrivingPhoton& arriving, const Rgb& power) {
 }  // namespace
 
 PhotonFilter caustic_photons(bool direct, bool specular) {
-  return [direct, specular](const ArrivingPhoton& photon) {
-    if (photon.from_rough) return false;
-    return photon.direct ? direct : !photon.specular || specular;
-  };
+  return PhotonFilter([&](bool is_direct, bool is_specular, bool from_rough) {
+    if (from_rough) return false;
+    return is_direct ? direct : !is_specular || specular;
+  });
 }
 
 CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter)
-    : photons(scene.media.size()),
-      scene_(scene),
-      form_(form),
-      density_floor_(density_floor),
-      filter_(std::move(filter)) {}
+    : photons(scene.media.size()), scene_(scene), form_(form), density_floor_(density_floor), filter_(filter) {}
 
 std::unique_ptr<PhotonRecorder> CollisionRecorder::part() const {
   return std::make_unique<CollisionRecorder>(scene_, form_, density_floor_, filter_);
@@ -60,7 +56,7 @@ void CollisionRecorder::collided(const ArrivingPhoton& photon) {
 }
 
 HitRecorder::HitRecorder(const Scene& scene, PhotonFilter filter, HitUse use)
-    : scene_(scene), filter_(std::move(filter)), use_(use) {}
+    : scene_(scene), filter_(filter), use_(use) {}
 
 std::unique_ptr<PhotonRecorder> HitRecorder::part() const {
   return std::make_unique<HitRecorder>(scene_, filter_, use_);

@@ -1,21 +1,37 @@
 // Recorders of photons where they collide and where they meet rough surfaces.
 #pragma once
 
-#include <functional>
+#include <concepts>
+#include <cstdint>
 
 #include "vpm/photon/photon.h"
 #include "vpm/photon/recorder.h"
 
 namespace vpm {
 
-/// Which photons a recorder keeps of those that arrive.
-using PhotonFilter = std::function<bool(const ArrivingPhoton&)>;
+/// Which photons a recorder keeps of those that arrive, by where they come from: one bit for each of the eight answers.
+class PhotonFilter {
+ public:
+  /// Those for which keeps(direct, specular, from_rough) holds, see ArrivingPhoton.
+  template <std::predicate<bool, bool, bool> Keeps>
+  constexpr explicit PhotonFilter(Keeps&& keeps) {
+    for (uint32_t answer = 0; answer < 8; ++answer)
+      kept_ |= static_cast<uint32_t>(keeps((answer & 1) != 0, (answer & 2) != 0, (answer & 4) != 0)) << answer;
+  }
+  bool operator()(const ArrivingPhoton& photon) const {
+    const uint32_t answer = uint32_t{photon.direct} | uint32_t{photon.specular} << 1 | uint32_t{photon.from_rough} << 2;
+    return (kept_ >> answer & 1) != 0;
+  }
+
+ private:
+  uint32_t kept_ = 0;
+};
 
 /// Keeps every photon, and those that something has scattered, reflected or refracted.
-inline bool any_photon(const ArrivingPhoton&) { return true; }
-inline bool indirect_photon(const ArrivingPhoton& photon) { return !photon.direct; }
+inline constexpr PhotonFilter any_photon([](bool, bool, bool) { return true; });
+inline constexpr PhotonFilter indirect_photon([](bool direct, bool, bool) { return !direct; });
 /// Keeps photons that a rough surface scattered last.
-inline bool photon_from_rough(const ArrivingPhoton& photon) { return photon.from_rough; }
+inline constexpr PhotonFilter photon_from_rough([](bool, bool, bool from_rough) { return from_rough; });
 /// Keeps photons that no rough surface scattered last; those straight from lights only if `direct`, those that nothing
 /// but mirrors and glass has scattered only if `specular`.
 PhotonFilter caustic_photons(bool direct, bool specular);
@@ -30,6 +46,7 @@ class CollisionRecorder : public PhotonRecorder {
   std::unique_ptr<PhotonRecorder> part() const override;
   void join(PhotonRecorder& part) override;
   size_t stored() const override;
+  RecordNeeds needs() const override { return {.flights = false, .hits = false}; }
   bool reads_density() const override { return form_ == VolumeForm::density_at_query; }
   void collided(const ArrivingPhoton& photon) override;
 
@@ -59,6 +76,7 @@ class HitRecorder : public PhotonRecorder {
   std::unique_ptr<PhotonRecorder> part() const override;
   void join(PhotonRecorder& part) override;
   size_t stored() const override { return use_ == HitUse::other_map ? 0 : photons.size(); }
+  RecordNeeds needs() const override { return {.flights = false, .collisions = false}; }
   void emitted(uint64_t number) override { emitted_count += leaves_out(number) ? 0 : 1; }
   void hit(const ArrivingPhoton& photon) override;
 
@@ -87,6 +105,7 @@ class SiteRecorder : public PhotonRecorder {
 
   std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<SiteRecorder>(scene_); }
   void join(PhotonRecorder& part) override;
+  RecordNeeds needs() const override { return {.flights = false, .collisions = false}; }
   void hit(const ArrivingPhoton& photon) override;
 
   std::vector<SurfaceSite> sites;

@@ -33,6 +33,12 @@ class PhotonPath {
   PhotonPath(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, Part& out)
       : scene_(scene), strategy_(strategy), settings_(settings), out_(out) {
     if (settings.guide && settings.guide->directions) directions_ = &*settings.guide->directions;
+    for (const auto& recorder : out.recorders) {
+      const RecordNeeds needs = recorder->needs();
+      if (needs.flights) of_flights_.push_back(recorder.get());
+      if (needs.collisions) of_collisions_.push_back(recorder.get());
+      if (needs.hits) of_hits_.push_back(recorder.get());
+    }
   }
 
   /// Emits and follows photon number `index`.
@@ -83,14 +89,14 @@ class PhotonPath {
     while (alive_) {
       if (at_.events == settings_.max_events) return cut();
       ++at_.events;
-      const PathState from = at_.state;
+      const PathState from = of_flights_.empty() ? PathState{} : at_.state;
       at_.event = next_event(scene_, strategy_, at_.state, rng, out_.ledger.walk, limit());
       if (!is_finite(at_.state.power)) {
         ++out_.ledger.non_finite;
         return;
       }
       weight_.meet(sum_channels(at_.state.power) / emitted_power_, at_.event);
-      for (const auto& recorder : out_.recorders) recorder->flew(from, arriving());
+      for (PhotonRecorder* const recorder : of_flights_) recorder->flew(from, arriving());
       arrive(rng);
       if (!alive_) return;
       split(rng);
@@ -130,7 +136,7 @@ class PhotonPath {
     count(out_.ledger.collisions);
     alive_ = weight > 0.0 && survive_roulette(worth(), at_.state, rng);
     if (!alive_) return;
-    for (const auto& recorder : out_.recorders) recorder->collided(arriving());
+    for (PhotonRecorder* const recorder : of_collisions_) recorder->collided(arriving());
     const Medium& medium = scene_.media[at_.state.medium];
     deposit(out_.ledger.absorbed_in_media, Rgbd(at_.state.power * (Rgb(1.0f) - medium.albedo())));
     at_.direct = at_.specular = at_.from_rough = false;
@@ -141,7 +147,7 @@ class PhotonPath {
     alive_ = max_channel(at_.state.power) > 0.0f;
     if (!alive_) return;
     const bool rough = is_rough(scene_.material_of(at_.event.hit));
-    for (const auto& recorder : out_.recorders) recorder->hit(arriving());
+    for (PhotonRecorder* const recorder : of_hits_) recorder->hit(arriving());
     at_.direct = false;
     at_.from_rough |= rough;
     at_.specular &= !rough;
@@ -190,7 +196,8 @@ class PhotonPath {
   const DistanceStrategy& strategy_;
   const TraceSettings& settings_;
   Part& out_;
-  const DirectionGuide* directions_ = nullptr;  // null: scattering is not guided
+  Recorders of_flights_, of_collisions_, of_hits_;  // those of `out_` that are told of these
+  const DirectionGuide* directions_ = nullptr;      // null: scattering is not guided
   Branch at_;
   std::vector<Branch> waiting_;
   float emitted_power_ = 0.0f;

@@ -23,7 +23,7 @@ class SurfaceMap {
   /// Of the photons that the filter takes.
   SurfaceMap(const Scene& scene, const SurfaceMapSettings& settings, PhotonFilter filter,
              HitUse use = HitUse::surface_map)
-      : scene_(scene), settings_(settings), hits_(scene, std::move(filter), use) {}
+      : scene_(scene), settings_(settings), hits_(scene, filter, use) {}
 
   /// Those of `section` in the scene file.
   MapInfo info() const {
