@@ -164,9 +164,7 @@ uint32_t DensityGrid::visit_pieces(const Ray& ray, const Interval& interval, Vis
   const LatticeRay in = lattice_ray(ray);
   visit_bricks(
       in, interval,
-      [&](const LatticeWalk<kCells>& walk, double t0, double t1) {
-        return visit_brick(walk, in, t0, t1, read, visit);
-      },
+      [&](const LatticeWalk<kCells>& walk, double t0, double t1) { return visit_brick(walk, in, t0, t1, read, visit); },
       [&](double t0, double t1) {
         return visit(DensityPiece{t0, t1, frame_.background, 0.0, 0.0, 0.0});
       });
