@@ -75,7 +75,6 @@ int bake_command(const BakeOptions& options) {
   print_notes(job);
   const std::atomic<bool>& stop = stop_on_signals();
   const RenderResult result = bake_light_map(job.scene, job.settings, layout, {stop, options.progress});
-  print_warnings(warnings_of_light_map(job, result));
   if (layout.flat_triangles > 0)
     fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
                layout.flat_triangles);
@@ -83,6 +82,7 @@ int bake_command(const BakeOptions& options) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;
   }
+  print_warnings(warnings_of_light_map(job, result));
   write_outputs(outputs, options, job, layout, result);
   fmt::print("{}: {} passes in {:.1f} s; {} of {} texels covered; preview {}, report {}\n", outputs.exr.string(),
              result.film.passes(), result.seconds, layout.covered_texels(), layout.texels(), outputs.png.string(),

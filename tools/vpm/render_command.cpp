@@ -69,11 +69,11 @@ int render_command(const RenderOptions& options) {
     if (log) log->add(so_far);
   };
   const RenderResult result = render(job.scene, job.settings, std::move(begun), {stop, options.progress, finished});
-  print_warnings(warnings_of(job, result));
   if (result.film.passes() == 0) {
     fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
     return kInterrupted;
   }
+  print_warnings(warnings_of(job, result));
   if (log) log->finish(result);
   write_outputs(outputs, job, result);
   const std::string error = error_text(job, result);

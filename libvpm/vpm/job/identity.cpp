@@ -26,13 +26,16 @@ std::string value_or_nothing(const std::string* value) { return value ? *value :
 }  // namespace
 
 Identity identity_of(const RenderJob& job) {
+  std::string options = fmt::format("{}", fmt::join(job.overrides, " "));
+  std::replace(options.begin(), options.end(), '\n', ' ');
   Identity identity{{"program", fmt::format("vpm {}", version())},
                     {"scene", job.hash},
+                    {"options", options},
                     {"render.seed", std::to_string(job.settings.seed)}};
   for (const Field& field : estimate_fields(job.settings)) identity.emplace_back(field.key, text_of(field.value));
   std::vector<std::string> keys;
   for (const Choice& choice : job.choices) keys.push_back(choice.key);
-  if (job.automatic.any()) identity.emplace_back(kChosen, fmt::format("{}", fmt::join(keys, ",")));
+  if (!keys.empty()) identity.emplace_back(kChosen, fmt::format("{}", fmt::join(keys, ",")));
   return identity;
 }
 

@@ -9,7 +9,7 @@
 
 namespace vpm {
 
-/// Names and values, without line feeds: the program, the scene, the seed, every setting that decides what passes
+/// Names and values, without line feeds: the program, the scene, the options that changed its file, the seed, every setting that decides what passes
 /// estimate, and, where the job leaves settings to be chosen, which of them were.
 using Identity = std::vector<std::pair<std::string, std::string>>;
 
