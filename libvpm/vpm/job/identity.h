@@ -9,8 +9,8 @@
 
 namespace vpm {
 
-/// Names and values, without line feeds: the program, the scene, the options that changed its file, the seed, every setting that decides what passes
-/// estimate, and, where the job leaves settings to be chosen, which of them were.
+/// Names and values, without line feeds: the program, the scene, the options that changed its file, the seed, every
+/// setting that decides what passes estimate, and, where the job leaves settings to be chosen, which of them were.
 using Identity = std::vector<std::pair<std::string, std::string>>;
 
 /// The identity of a job after choose(). Two scenes made in code are told apart by RenderJob::hash alone.
