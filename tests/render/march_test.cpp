@@ -22,7 +22,7 @@ Medium noise_medium(const Rgb& sigma_t) {
 
 TEST(March, IntegratesAConstantWithoutNoise) {
   for (const float sigma : {1e-7f, 0.3f, 20.0f})
-    for (const StepLimits limits : {StepLimits{0.05f, 10.0f}, StepLimits{0.7f, 0.2f}, StepLimits{100.0f, 1e9f}}) {
+    for (const StepLimits& limits : {StepLimits{0.05f, 10.0f}, StepLimits{0.7f, 0.2f}, StepLimits{100.0f, 1e9f}}) {
       const Medium medium = noise_medium(Rgb(sigma));
       Marcher marcher;
       Rng rng(1, 0, 0);
@@ -56,7 +56,7 @@ double reference(const Medium& medium, float sigma, float t1, bool times_density
 TEST(SlowMarch, IsUnbiasedForAnyStep) {
   const Rgb sigma(0.2f, 1.0f, 6.0f);
   const Medium medium = noise_medium(sigma);
-  for (const StepLimits limits :
+  for (const StepLimits& limits :
        {StepLimits{0.06f, 0.5f}, StepLimits{0.8f, 1e9f}, StepLimits{50.0f, 0.7f}, StepLimits{50.0f, 1e9f}}) {
     std::array<Moments, 3> sums;
     Marcher marcher;
