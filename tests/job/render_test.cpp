@@ -8,6 +8,7 @@
 #include "vpm/job/picture.h"
 #include "vpm/job/render_job.h"
 #include "vpm/job/report.h"
+#include "vpm/job/validate.h"
 #include "vpm/surface/procedural_mesh.h"
 
 namespace vpm {
@@ -83,6 +84,47 @@ TEST(RenderJob, OfCodeBecomesPictureReportAndMessages) {
   EXPECT_NE(render_report(job, path, result).find("\"lamp\""), std::string::npos);
   EXPECT_NE(error_text(job, result).find("estimated relative MSE"), std::string::npos);
   EXPECT_TRUE(warnings_of(job, result).empty());
+}
+
+TEST(RenderJob, TellsItsErrorsAfterEachPass) {
+  const RenderJob job = lit_floor();
+  RenderSettings settings = job.settings;
+  settings.until.passes = kLeastPasses + 1;
+  const std::string path = ::testing::TempDir() + "/after_each_pass.exr";
+  int told = 0;
+  const auto finished = [&](const RenderResult& so_far) {
+    ++told;
+    EXPECT_EQ(so_far.film.passes(), told);
+    EXPECT_EQ(error_text(job, so_far).empty(), told < kLeastPasses);
+    write_picture(path, job, so_far);
+    EXPECT_EQ(read_exr_channels(path).planes.contains("variance.R"), told > 1);
+    EXPECT_FALSE(render_report(job, path, so_far).empty());
+  };
+  render(job.scene, settings, nothing_rendered(job.scene.camera), {kGoOn, ProgressMode::never, finished});
+  EXPECT_EQ(told, kLeastPasses + 1);
+}
+
+TEST(Render, DropsThePassUnderWayWhenItIsStopped) {
+  const RenderJob job = lit_floor();
+  std::atomic<bool> stop{false};
+  const auto make = [&](const RenderResult& so_far, const PassProgress&) {
+    stop = so_far.film.passes() == 2;
+    return Pass{.image = Image(12, 12), .found = {}, .statistics = {}};
+  };
+  const RenderResult result = run_passes({.passes = 5}, {make, 1}, nothing_rendered(job.scene.camera), {stop});
+  EXPECT_EQ(result.film.passes(), 2);
+}
+
+TEST(Render, RefusesToGoOnWithAPictureOfAnotherSize) {
+  const RenderJob job = lit_floor();
+  EXPECT_THROW(render(job.scene, job.settings, {Film(12, 11), {}, 0.0, {}}, {kGoOn}), InputError);
+}
+
+TEST(RenderJob, ChoosesNothingForSettingsThatContradictThemselves) {
+  RenderJob job = lit_floor();
+  job.automatic.keys = {"surface.radius"};
+  job.settings.photons_emitted = 0;
+  EXPECT_THROW(choose(job), SettingError);
 }
 
 }  // namespace

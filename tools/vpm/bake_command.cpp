@@ -14,6 +14,7 @@
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/report.h"
+#include "vpm/job/validate.h"
 
 namespace vpm::tools {
 namespace {
@@ -21,18 +22,6 @@ namespace {
 /// A name apart from that of the scene's pictures.
 std::string usual_name(const BakeOptions& options) {
   return std::filesystem::path(options.scene).stem().string() + "." + options.mesh;
-}
-
-void check_settings(const RenderSettings& settings) {
-  if (settings.integrator != Integrator::photon)
-    throw InputError(
-        "light maps are made of photon maps, but render.integrator is \"path\"; add: --set render.integrator=photon");
-  if (settings.radii == RadiusSchedule::per_pixel)
-    throw InputError(
-        "texels of a light map have no radii of their own, but render.radii is \"per-pixel\"; add: --set "
-        "render.radii=per-pass");
-  if (settings.until.error > 0.0)
-    throw InputError("a light map is not baked until an error is reached, as render.error asks; add: --passes N");
 }
 
 uint32_t find_shape(const Scene& scene, const std::string& name) {
@@ -69,7 +58,7 @@ int bake_command(const BakeOptions& options) {
   RenderJob job = load_scene(options.scene, options.overrides);
   refuse_automatic(job, "vpm bake");
   apply_options(options, job.settings);
-  check_settings(job.settings);
+  validate_light_map(job.settings, facts_of(job.scene));
   const UvLayout layout = lay_out(job.scene, options);
   check_outputs(outputs, layout.texels(), false, job);
   print_notes(job);

@@ -7,7 +7,7 @@ namespace vpm {
 
 RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
                             const RunControl& control) {
-  validate(settings, facts_of(scene));
+  validate_light_map(settings, facts_of(scene));
   const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
     return light_map_pass(scene, settings, layout, so_far.film.next_pass(), control.stop, shown);
   };

@@ -6,8 +6,8 @@
 
 namespace vpm {
 
-/// Passes of a light map until the settings' stop rule is met, as render() (its error also counts texels that show
-/// nothing). The picture is not dilated(). Throws a SettingError as render() does.
+/// Passes of a light map until the settings' stop rule is met, as render(). The picture is not dilated(). Throws a
+/// SettingError where validate_light_map() does.
 RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
                             const RunControl& control);
 

@@ -31,6 +31,7 @@ Identity identity_of(const RenderJob& job) {
   Identity identity{{"program", fmt::format("vpm {}", version())},
                     {"scene", job.hash},
                     {"options", options},
+                    {"film", fmt::format("{} x {}", job.scene.camera.width, job.scene.camera.height)},
                     {"render.seed", std::to_string(job.settings.seed)}};
   for (const Field& field : estimate_fields(job.settings)) identity.emplace_back(field.key, text_of(field.value));
   std::vector<std::string> keys;

@@ -52,7 +52,7 @@ std::vector<std::string> warnings_of_light_map(const RenderJob& job, const Rende
 
 std::string error_text(const RenderJob& job, const RenderResult& result) {
   if (result.film.passes() < kLeastPasses) return "";
-  const FilmErrors& errors = *result.errors;
+  const FilmErrors errors = errors_of(result).value();
   const std::vector<std::string> unseen = maps_of_unseen_bias(job.scene, job.settings);
   return fmt::format(
       "estimated relative MSE {:.2g} (variance {:.2g}, {}{})", estimated_error(result), errors.variance_part,

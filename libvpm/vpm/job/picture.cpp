@@ -39,9 +39,10 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
       "vpm.quantity",
       "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as "
       "the passes show it");
+  const std::optional<FilmErrors> errors = errors_of(result);
   std::vector<ExrLayer> layers;
-  if (result.errors) layers.push_back({"variance", result.errors->variance});
-  if (result.errors && result.film.shows_bias()) layers.push_back({"bias", result.errors->bias});
+  if (errors) layers.push_back({"variance", errors->variance});
+  if (errors && result.film.shows_bias()) layers.push_back({"bias", errors->bias});
   write_exr(path, result.film.mean(), layers, metadata);
 }
 
@@ -52,8 +53,9 @@ Image light_map_of(const UvLayout& layout, const RenderResult& result) {
 void write_light_map(const std::filesystem::path& path, const RenderJob& job, const std::string& mesh,
                      const UvLayout& layout, const RenderResult& result) {
   const Image coverage = grey_image(layout, layout.coverage);
+  const std::optional<FilmErrors> errors = errors_of(result);
   std::vector<ExrLayer> layers{{"coverage", coverage}};
-  if (result.errors) layers.push_back({"variance", result.errors->variance});
+  if (errors) layers.push_back({"variance", errors->variance});
   Metadata metadata = provenance(job, result.film);
   metadata.emplace_back("vpm.mesh", mesh);
   metadata.emplace_back("vpm.quantity",

@@ -1,10 +1,12 @@
 // The loop over passes.
 #include "vpm/job/render.h"
 
+#include <fmt/format.h>
 #include <algorithm>
-#include <cassert>
 #include <chrono>
+#include <limits>
 
+#include "vpm/base/error.h"
 #include "vpm/job/validate.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -29,6 +31,16 @@ void estimate_errors(RenderResult& result) {
   if (result.film.passes() > 1) result.errors = result.film.errors();
 }
 
+/// Passes of a picture of another size do not add up.
+void check_size(const RenderResult& result, const Camera& camera) {
+  const Film& film = result.film;
+  const size_t pixels = static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
+  if (film.width() != camera.width || film.height() != camera.height ||
+      (!result.discs.empty() && result.discs.size() != pixels))
+    throw InputError(fmt::format("what is rendered so far has {} x {} pixels, but the camera {} x {}", film.width(),
+                                 film.height(), camera.width, camera.height));
+}
+
 /// Adds the next pass.
 void add(RenderResult& result, const Pass& pass) {
   result.film.add(result.film.next_pass(), pass.image, pass.relative_square);
@@ -42,15 +54,21 @@ void add(RenderResult& result, const Pass& pass) {
 
 RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0, {}}; }
 
+std::optional<FilmErrors> errors_of(const RenderResult& result) {
+  if (result.errors || result.film.passes() < 2) return result.errors;
+  return result.film.errors();
+}
+
 double estimated_error(const RenderResult& result) {
   if (result.film.passes() < kLeastPasses) return std::numeric_limits<double>::infinity();
-  assert(result.errors);
-  return result.errors->variance_part + std::max(0.0, result.errors->bias_part);
+  const auto sum = [](const FilmErrors& errors) { return errors.variance_part + std::max(0.0, errors.bias_part); };
+  return result.errors ? sum(*result.errors) : sum(result.film.errors());
 }
 
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const RunControl& control) {
   validate(settings, facts_of(scene));
+  check_size(result, scene.camera);
   const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
     const int pass = so_far.film.next_pass();
     return settings.integrator == Integrator::path

@@ -34,7 +34,8 @@ struct RunControl {
 
 /// Renders passes until the settings' stop rule is met, at least one pass where that asks for a time or an error.
 /// `result` is nothing_rendered() or what an earlier run has left off with, for the same scene and settings: passes go
-/// on where it ended. Throws a SettingError where settings contradict themselves or the scene.
+/// on where it ended. Throws a SettingError where settings contradict themselves or the scene, and InputError where the
+/// result is of another size than the camera's film.
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result, const RunControl& control);
 
 /// A pass of any kind, to be made after those in `so_far`. It tells its bar of `work` units in its course.
@@ -48,8 +49,11 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
 /// A render of the camera's film before its first pass.
 RenderResult nothing_rendered(const Camera& camera);
 
+/// The errors of the film, read off it where the result does not hold them; nothing below two passes.
+std::optional<FilmErrors> errors_of(const RenderResult& result);
+
 /// The relative MSE that passes so far are estimated to have: variance and squared bias (where noise makes the latter's
-/// estimate negative: none) by RenderResult::errors. Infinite below kLeastPasses passes, which say too little.
+/// estimate negative: none) by errors_of(). Infinite below kLeastPasses passes, which say too little.
 double estimated_error(const RenderResult& result);
 inline constexpr int kLeastPasses = 8;
 

@@ -5,12 +5,14 @@
 #include <chrono>
 
 #include "vpm/job/automatic.h"
+#include "vpm/job/validate.h"
 
 namespace vpm {
 namespace {
 
 /// What was chosen, and how to have it again.
 void note_choices(RenderJob& job) {
+  if (job.choices.empty()) return;
   std::string again;
   for (const Choice& choice : job.choices) {
     job.notes.push_back(fmt::format("chosen {} = {}: {}", choice.key, choice.value, choice.reason));
@@ -31,6 +33,7 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
 
 void choose(RenderJob& job) {
   if (!job.automatic.any()) return;
+  validate(job.settings, facts_of(job.scene));
   const auto start = std::chrono::steady_clock::now();
   job.choices = choose_settings(job.scene, job.automatic, job.settings);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -23,7 +23,7 @@ struct RenderJob {
   RenderSettings settings;
   AutomaticSettings automatic;           // those of the settings that choose() is to choose; they hold defaults
   std::vector<Choice> choices{};         // what it chose
-  std::vector<std::string> light_names;  // of Scene::lights: those of shapes that emit; empty where none is given
+  std::vector<std::string> light_names;  // one for each of Scene::lights; "" where it has none
   std::vector<std::string> notes;        // what a user should know of, e.g. clamped densities
   std::string source{};                  // the scene file; empty: made in code
   std::vector<std::string> overrides{};  // "key.path=value" options that changed that file

@@ -92,7 +92,7 @@ Json lights(const RenderJob& job) {
   Json all = Json::array();
   for (size_t i = 0; i < scene.lights.size(); ++i)
     all.push_back({{"number", i},
-                   {"name", job.light_names[i]},
+                   {"name", i < job.light_names.size() ? job.light_names[i] : ""},
                    {"kind", light_kind(scene.lights[i])},
                    {"power_W", rgb(Rgbd(light_power(scene.lights[i], scene.bounds)))},
                    {"share", scene.light_probability[i]}});
@@ -110,7 +110,7 @@ Json texels(Json eye) {
 Json errors(const RenderJob& job, const RenderResult& result) {
   const Film& film = result.film;
   if (film.passes() < kLeastPasses) return nullptr;
-  const FilmErrors& e = *result.errors;
+  const FilmErrors e = errors_of(result).value();
   return {{"quantity", "relative MSE: mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2)"},
           {"estimated", estimated_error(result)},
           {"variance", e.variance_part},

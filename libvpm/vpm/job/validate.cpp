@@ -135,4 +135,16 @@ void validate(const RenderSettings& settings, const SceneFacts& facts) {
   check_estimator(settings, facts);
 }
 
+void validate_light_map(const RenderSettings& settings, const SceneFacts& facts) {
+  validate(settings, facts);
+  refuse_if(settings.integrator != Integrator::photon, "render.integrator",
+            "light maps are made of photon maps, but render.integrator is \"path\"",
+            "write \"photon\", or add --set render.integrator=photon");
+  refuse_if(settings.radii == RadiusSchedule::per_pixel, "render.radii",
+            "texels of a light map have no radii of their own, but render.radii is \"per-pixel\"",
+            "write \"per-pass\", or add --set render.radii=per-pass");
+  refuse_if(settings.until.error > 0.0, "render.error", "a light map is not baked until an error is reached",
+            "write 'passes' instead, or add --passes N");
+}
+
 }  // namespace vpm

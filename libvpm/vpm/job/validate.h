@@ -30,5 +30,8 @@ class SettingError : public InputError {
 /// Throws a SettingError where a setting is out of its range, is given a value that nothing uses, or contradicts
 /// another or the scene.
 void validate(const RenderSettings& settings, const SceneFacts& facts);
+/// The same for a light map, which is of photon maps, has no radii of pixels' own, and is not baked until an error is
+/// reached.
+void validate_light_map(const RenderSettings& settings, const SceneFacts& facts);
 
 }  // namespace vpm
