@@ -37,7 +37,7 @@ class PhotonRecorder {
   virtual void join(PhotonRecorder& part) = 0;
   /// How many photons it has, of those that TraceSettings::stored counts.
   virtual size_t stored() const { return 0; }
-  /// What flew(), collided() and hit() tell it of; what it is not told costs nothing.
+  /// Which of flew(), collided() and hit() are called; the same as long as photons are traced.
   virtual RecordNeeds needs() const { return {}; }
   /// Does it read Event::density? Strategies that know it for free only need not be asked (FlightUse::density).
   virtual bool reads_density() const { return false; }

@@ -20,7 +20,7 @@ struct Pass {
 /// Where a pass tells how far it is. Either may be missing.
 struct PassProgress {
   bool stages = false;        // a bar for each stage of the pass
-  Progress* tiles = nullptr;  // advanced by tile_count() in the course of the pass
+  Progress* tiles = nullptr;  // advanced by the pass's units of work in its course
 };
 
 }  // namespace vpm
