@@ -1,6 +1,7 @@
 // Where the eye, the light and the borders are: on boundaries, in media, inside solids; nested and touching glass;
 // total internal reflection at grazing angles.
 #include "hard/hard_scenes.h"
+#include "vpm/base/progress.h"
 #include "vpm/path/direct_light.h"
 
 namespace vpm {
@@ -91,7 +92,6 @@ TEST(BoundariesExtremes, NestedAndTouchingGlassIsInvisibleInUniformLight) {
     finish(scene);
     RenderSettings settings = settings_of(10, 0.1f);
     settings.max_events = 100;  // light may circle for ever in a hollow ball: cut there, and counted
-    static const std::atomic<bool> kGoOn{false};
     const Pass pass = render_photon_pass(scene, settings, 0, kGoOn);
     uint64_t dark = 0;
     for (const Rgb& pixel : pass.image.pixels) {

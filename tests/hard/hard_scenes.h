@@ -5,6 +5,7 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/base/progress.h"
 #include "vpm/photon/photon_lists.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -25,7 +26,6 @@ inline RenderSettings settings_of(uint64_t photons, float radius) {
 
 /// The referee's pass over the same scene: every pixel is finite, and no path was dropped.
 inline void expect_finite_paths(const Scene& scene, const RenderSettings& settings, int pass) {
-  static const std::atomic<bool> kGoOn{false};
   const Pass done = render_path_pass(scene, settings, pass, kGoOn);
   EXPECT_EQ(done.statistics.eye.non_finite, 0u);
   for (const Rgb& p : done.image.pixels) EXPECT_TRUE(is_finite(p));
@@ -33,7 +33,6 @@ inline void expect_finite_paths(const Scene& scene, const RenderSettings& settin
 
 /// Renders pass number `pass`: every pixel is finite, and no sample, photon or path was dropped or cut.
 inline Image clean_image(const Scene& scene, const RenderSettings& settings, int pass = 0) {
-  static const std::atomic<bool> kGoOn{false};
   expect_finite_paths(scene, settings, pass);
   const Pass done = render_photon_pass(scene, settings, pass, kGoOn);
   int bad = 0;

@@ -1,5 +1,6 @@
 // Media from nothing to opaque, from black to white, from forward to backward: against closed forms.
 #include "hard/hard_scenes.h"
+#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/volume/march.h"
 #include "vpm/medium/transmittance/estimator.h"
@@ -279,7 +280,6 @@ TEST(MediaExtremes, TheRefereesWhiteFurnaceIsOneInTheNarrowestPeak) {
       Scene scene = boxed_medium(medium, ConstantEnvironment{Rgb(1.0f)});
       scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 10.0f, {8, 8});
       Moments mean;
-      static const std::atomic<bool> kGoOn{false};
       for (int pass = 0; pass < 16; ++pass) {
         const Pass done = render_path_pass(scene, settings_of(1, 1.0f), pass, kGoOn);
         EXPECT_EQ(done.statistics.eye.non_finite + done.statistics.eye.cut_paths, 0u);

@@ -115,7 +115,7 @@ class Exr : public testing::Test {
 
 TEST_F(Exr, RoundTripIsExact) {
   const Image radiance = random_bits(67, 45, 0), variance = random_bits(67, 45, 1);
-  write_exr(file_, radiance, {{"variance", variance}},
+  write_exr(file_, radiance, {{"variance", &variance}},
             {{"vpm:seed", "7"}, {"vpm:scene", "smoke \"ü\"\n"}, {"empty", ""}});
   EXPECT_EQ(different_bits(read_exr(file_), radiance), 0u);
 
@@ -140,9 +140,9 @@ TEST_F(Exr, WithoutVarianceThereAreThreeChannels) {
 
 TEST_F(Exr, EqualPicturesGiveEqualBytes) {
   const Image image = noise(64, 64);
-  write_exr(file_, image, {{"variance", image}}, {{"a", "1"}, {"b", "2"}});
+  write_exr(file_, image, {{"variance", &image}}, {{"a", "1"}, {"b", "2"}});
   const std::string first = bytes();
-  write_exr(file_, image, {{"variance", image}}, {{"b", "2"}, {"a", "1"}});
+  write_exr(file_, image, {{"variance", &image}}, {{"b", "2"}, {"a", "1"}});
   EXPECT_EQ(bytes(), first);
   EXPECT_EQ(first.find("capDate"), std::string::npos);
   EXPECT_EQ(first.find("chromaticities"), std::string::npos);
@@ -311,7 +311,7 @@ TEST_F(Exr, RefusesTruncatedFiles) {
 
 TEST_F(Exr, DamagedBytesNeverDoMoreThanThrow) {
   const Image image = noise(40, 40);
-  write_exr(file_, image, {{"variance", image}}, {{"note", "text"}});
+  write_exr(file_, image, {{"variance", &image}}, {{"note", "text"}});
   const std::string good = bytes();
   Rng rng(3, rng_stream(RngUse::test, 0), 0);
   int refused = 0;

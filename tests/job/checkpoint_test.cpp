@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -11,6 +12,7 @@
 #include "fuzz/whole_checkpoint.h"
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
+#include "vpm/base/rng.h"
 
 namespace vpm {
 namespace {
@@ -112,6 +114,25 @@ TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
       "  volume.radius: 0.25 in the file, nothing asked for\n  scene: nothing in the file, fog asked for");
 }
 
+/// Of a film whose passes span four decades in each block.
+TEST_F(Checkpoint, TakesTheRoomThatIsTold) {
+  constexpr int kSide = 128;
+  RenderJob job;
+  job.scene.camera = make_camera(Vec3(0.0f, 1.0f, 4.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 40.0f, {kSide, kSide});
+  RenderResult result = nothing_rendered(job.scene.camera);
+  Image image(kSide, kSide);
+  for (int pass = 0; pass < 64; ++pass) {
+    Rng rng(5, static_cast<uint64_t>(pass), 0);
+    for (Rgb& pixel : image.pixels)
+      for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(std::pow(10.0, 4.0 * rng.uniform_double() - 2.0));
+    result.film.add(pass, image, 1.0f / static_cast<float>(pass + 1));
+  }
+  write_checkpoint(path_, kRender, result);
+  const auto told = static_cast<double>(checkpoint_bytes(job)), taken = static_cast<double>(fs::file_size(path_));
+  EXPECT_LE(taken, told);
+  EXPECT_GE(taken, 0.5 * told);
+}
+
 TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
@@ -177,6 +198,7 @@ TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
   };
   const std::string width = "film.width i32 1 4\n", passes = "film.passes range 1 8\n";
   refuses_with(width + bytes_of(3), width + bytes_of(-3), "its film has -3 x 2 pixels");
+  refuses_with(width + bytes_of(3), width + bytes_of(0x7fffffff), "its film has 2147483647 x 2 pixels");
   refuses_with(width + bytes_of(3), width + bytes_of(30), "its field 'film.squares' holds no sums of that many pixels");
   refuses_with(width + bytes_of(3), width + bytes_of(4), "its field 'discs' has 6 numbers for 8 pixels");
   refuses_with(passes + bytes_of(0), passes + bytes_of(3), "its field 'film.passes' holds no ranges in rising order");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "vpm/base/progress.h"
 #include "vpm/image/exr.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
@@ -13,8 +14,6 @@
 
 namespace vpm {
 namespace {
-
-const std::atomic<bool> kGoOn{false};
 
 /// A lamp over a floor, seen from above, by photons within 0.5 m in every pass.
 RenderJob lit_floor() {
@@ -65,8 +64,8 @@ TEST(Render, GoesOnToTheSameBits) {
   const RenderJob job = lit_floor();
   RenderSettings settings = job.settings;
   settings.until.passes = 5;
-  const RenderResult whole = render(job.scene, settings, nothing_rendered(job.scene.camera), {kGoOn});
-  const RenderResult resumed = render(job.scene, settings, render_until(job, {.passes = 2}), {kGoOn});
+  const RenderResult whole = render(job.scene, settings, nothing_rendered(job.scene.camera));
+  const RenderResult resumed = render(job.scene, settings, render_until(job, {.passes = 2}));
   EXPECT_EQ(resumed.film.sums(), whole.film.sums());
   EXPECT_EQ(resumed.statistics.passes, 5);
 }
@@ -117,7 +116,20 @@ TEST(Render, DropsThePassUnderWayWhenItIsStopped) {
 
 TEST(Render, RefusesToGoOnWithAPictureOfAnotherSize) {
   const RenderJob job = lit_floor();
-  EXPECT_THROW(render(job.scene, job.settings, {Film(12, 11), {}, 0.0, {}}, {kGoOn}), InputError);
+  EXPECT_THROW(render(job.scene, job.settings, {Film(12, 11), {}, 0.0, {}}), InputError);
+}
+
+TEST(RenderJob, ChoosesAgainWhatWasChosen) {
+  RenderJob job = lit_floor(), again = lit_floor();
+  for (RenderJob* each : {&job, &again}) each->automatic.keys = {"surface.radius"};
+  choose(job);
+  ASSERT_EQ(job.choices.size(), 1u);
+  EXPECT_NE(job.settings.surface.radius, lit_floor().settings.surface.radius);
+  choose_again(again, job.choices);
+  EXPECT_EQ(again.settings.surface.radius, job.settings.surface.radius);
+  ASSERT_EQ(again.choices.size(), 1u);
+  EXPECT_EQ(again.choices[0].value, job.choices[0].value);
+  EXPECT_THROW(choose_again(again, {{"surface.kernel", "cone", ""}}), InputError);  // it is never chosen
 }
 
 TEST(RenderJob, ChoosesNothingForSettingsThatContradictThemselves) {

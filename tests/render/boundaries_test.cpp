@@ -4,6 +4,7 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/base/progress.h"
 #include "vpm/render/photon_pass.h"
 
 namespace vpm {
@@ -16,7 +17,6 @@ struct Picture {
   GatherCounters gather;
 };
 Picture render(const Scene& scene, const RenderSettings& settings, int passes) {
-  static const std::atomic<bool> kGoOn{false};
   Picture picture;
   for (int pass = 0; pass < passes; ++pass) {
     const Pass found = render_photon_pass(scene, settings, pass, kGoOn);

@@ -4,6 +4,7 @@
 #include "support/recorders.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/image/metrics.h"
 #include "vpm/photon/records.h"
 #include "vpm/render/path_tracer.h"
@@ -31,8 +32,6 @@ Scene hollow_cube(const Medium* fog = nullptr, float reflectance = kReflectance)
   finish(scene);
   return scene;
 }
-
-const std::atomic<bool> kGoOn{false};
 
 /// The mean radiance over a pass's pixels, green.
 template <class RenderPass>

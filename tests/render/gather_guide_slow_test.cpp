@@ -3,6 +3,7 @@
 
 #include "support/recorders.h"
 #include "support/statistics.h"
+#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface/gather_guide.h"
 #include "vpm/medium/make_grid.h"
@@ -15,7 +16,6 @@ namespace vpm {
 namespace {
 
 constexpr double kFalseAlarms = 1e-6;  // of each comparison
-const std::atomic<bool> kGoOn{false};
 
 void expect_same(const Moments& guided, const Moments& plain, double most, const std::string& what) {
   const Check check = check_same("", guided, plain);

@@ -2,6 +2,7 @@
 // light; and a ball of index 1 must leave no shadow once caustics are there.
 #include <gtest/gtest.h>
 
+#include "vpm/base/progress.h"
 #include "vpm/image/metrics.h"
 #include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
@@ -40,7 +41,6 @@ RenderSettings settings_of(DirectLight direct, IndirectLight indirect) {
 
 /// Every pixel's channels over passes, and after them those of the mean.
 std::vector<Moments> pixels(const Scene& scene, RenderSettings settings, uint64_t seed) {
-  static const std::atomic<bool> kGoOn{false};
   settings.seed = seed;
   std::vector<Moments> result(3 * kFilm * kFilm + 3);
   for (int pass = 0; pass < 24; ++pass) {

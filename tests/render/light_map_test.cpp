@@ -10,6 +10,7 @@
 #include "support/statistics.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/job/bake.h"
 #include "vpm/scene/build.h"
 
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kFalseAlarms = 1e-6;  // of each test
 constexpr float kReflectance = 0.5f;
-const std::atomic<bool> kGoOn{false};
 
 /// The quad of 2 m by 2 m about the origin with its normal along +y: u runs along x, v against z.
 TriangleMesh floor_mesh() { return quad_mesh(Vec3d(-1, 0, 1), Vec3d(2, 0, 0), Vec3d(0, 0, -2)); }

@@ -6,6 +6,7 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/base/progress.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/render/path_tracer.h"
 
@@ -16,7 +17,6 @@ constexpr double kFalseAlarms = 1e-6;  // of each comparison
 
 /// The mean over a render's pixels, pass by pass.
 Moments pass_means(const Scene& scene, const RenderSettings& settings, int passes) {
-  static const std::atomic<bool> kGoOn{false};
   Moments means;
   for (int pass = 0; pass < passes; ++pass) {
     const Image image = render_photon_pass(scene, settings, pass, kGoOn).image;
@@ -199,7 +199,6 @@ Scene cone_in_fog(float panel_radiance) {
 
 TEST(PhotonPass, FogDimsBeforeAndBehindThePhotons) {
   const Scene scene = cone_in_fog(1e-7f);  // too faint to send photons of its own, bright against what the fog scatters
-  static const std::atomic<bool> kGoOn{false};
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays, DirectLight::equiangular})
     for (auto [name, settings] : volume_estimates(settings_of(1000, 0.05f))) {
       settings.volume_direct = direct;
@@ -255,7 +254,6 @@ TEST(PhotonPass, OnlyTheDensityAtThePhotonSpreadsBeyondItsMedium) {
 TEST(PhotonPass, RadiiShrinkFromPassToPass) {
   Medium fog = make_medium(nullptr, Rgb(0.5f));
   const Scene scene = lamp_and_floor(&fog, Rgb(0.5f));
-  static const std::atomic<bool> kGoOn{false};
   const auto radii = [&](const RenderSettings& settings, int pass) {
     const RenderStatistics s = render_photon_pass(scene, settings, pass, kGoOn).statistics;
     return Vec2(s.last_volume_radius, s.last_surface_radius);
@@ -333,7 +331,6 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
   finish(scene);
   RenderSettings settings = settings_of(1000, 0.05f);
   const double exact = 0.5 / kPiD * 1.0 / std::sqrt(1.05);
-  static const std::atomic<bool> kGoOn{false};
   for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn).image.pixels) EXPECT_NEAR(pixel.r, exact, 1e-4);
 }
 
@@ -344,7 +341,6 @@ TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
   scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {8, 8});
   RenderSettings settings = settings_of(2000, 0.2f);
   settings.distance = {.strategy = "progressive-null", .majorant = 0.25f};
-  static const std::atomic<bool> kGoOn{false};
   for (const Integrator integrator : {Integrator::photon, Integrator::path}) {
     std::vector<WalkCounters> walks;
     for (int pass = 0; pass < 3; ++pass) {
@@ -371,7 +367,6 @@ TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
   EXPECT_EQ(plan_estimators(no_surface, {}, 0).volume.size(), 1u);
   EXPECT_FALSE(plan_estimators(no_surface, {}, 0).surface);
   EXPECT_FALSE(casts_shadow_rays(scattering_of(no_surface), {}));
-  static const std::atomic<bool> kGoOn{false};
   const auto statistics = [](const Scene& scene) {
     return render_photon_pass(scene, settings_of(100, 0.1f), 0, kGoOn).statistics;
   };

@@ -9,6 +9,7 @@
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/job/render.h"
 #include "vpm/render/photon_pass.h"
@@ -17,7 +18,6 @@ namespace vpm {
 namespace {
 
 constexpr double kFalseAlarms = 1e-6;  // of each comparison
-const std::atomic<bool> kGoOn{false};
 
 /// One pixel of the textbook.
 struct Textbook {

@@ -3,6 +3,7 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/photon/photon_lists.h"
 #include "vpm/render/path_tracer.h"
@@ -154,7 +155,6 @@ TEST(ShadingNormals, ADiffusePlateIsAsBrightAsItsShadingCosine) {
   scene.geometry.commit();
   finish(scene);
   const double expected = 0.6 / kPiD * 3.0 * -glm::dot(d, n);
-  static const std::atomic<bool> kGoOn{false};
   for (const auto& [integrator, direct] : {std::pair(Integrator::path, DirectLight::shadow_rays),
                                            {Integrator::photon, DirectLight::shadow_rays},
                                            {Integrator::photon, DirectLight::photons}}) {

@@ -42,6 +42,7 @@ TEST(Camera, RefusesWhatIsNoCamera) {
   EXPECT_THROW(make_camera(o, z, y, 0, {8, 8}), InputError);
   EXPECT_THROW(make_camera(o, z, y, 180, {8, 8}), InputError);
   EXPECT_THROW(make_camera(o, z, y, 40, {0, 8}), InputError);
+  EXPECT_THROW(make_camera(o, z, y, 40, {8, kLargestFilm + 1}), InputError);
   EXPECT_THROW(make_camera(o, z, y, 40, {8, 8, {FilterKind::box, 0.0f}}), InputError);
   EXPECT_THROW(make_camera(o, {0, 0, kInfinity}, y, 40, {8, 8}), InputError);
 }

@@ -1,5 +1,4 @@
 // A scene built in code: a box of fog on a floor, with a lamp above it, rendered to an EXR file: fog_box FILE.exr
-#include <atomic>
 #include <cstdio>
 
 #include "vpm/base/error.h"
@@ -34,9 +33,8 @@ int main(int count, char** arguments) try {
   settings.until.passes = 16;                               // of 200,000 photons each, unless told otherwise
   settings.volume.radius = settings.surface.radius = 0.1f;  // m, of the first pass
   const vpm::RenderJob job = make_job(assemble(fog_in_a_box()), settings);
-  const std::atomic<bool> stop{false};
-  const vpm::RenderResult result =
-      render(job.scene, job.settings, vpm::nothing_rendered(job.scene.camera), {stop, vpm::ProgressMode::automatic});
+  const vpm::RenderResult result = render(job.scene, job.settings, vpm::nothing_rendered(job.scene.camera),
+                                          {.progress = vpm::ProgressMode::automatic});
   write_picture(arguments[1], job, result);
 } catch (const vpm::InputError& error) {
   std::fprintf(stderr, "fog_box: %s\n", error.what());

@@ -1,4 +1,5 @@
-// How far a stage of work is and how long it will take: one line on the terminal, nothing in a pipe.
+// How far a stage of work is and how long it will take: one line on the terminal, nothing in a pipe; and whether it is
+// to be stopped.
 #pragma once
 
 #include <atomic>
@@ -7,6 +8,9 @@
 #include <string>
 
 namespace vpm {
+
+/// The stop of work that nobody stops.
+inline const std::atomic<bool> kGoOn{false};
 
 /// When progress is shown: automatic = where stderr is a terminal.
 enum class ProgressMode { automatic, always, never };

@@ -161,8 +161,8 @@ void write_exr(const path& file, const Image& radiance, const std::vector<ExrLay
     Imf::FrameBuffer buffer;
     add_channels(header, buffer, "", radiance);
     for (const ExrLayer& layer : layers) {
-      assert(layer.image.width == radiance.width && layer.image.height == radiance.height);
-      add_channels(header, buffer, layer.name + ".", layer.image);
+      assert(layer.image->width == radiance.width && layer.image->height == radiance.height);
+      add_channels(header, buffer, layer.name + ".", *layer.image);
     }
     Imf::StdOFStream stream(out, file.c_str());
     Imf::OutputFile output(stream, header, 0);

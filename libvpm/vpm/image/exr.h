@@ -14,7 +14,7 @@ namespace vpm {
 /// A picture beside the main one in the same file, of the same size.
 struct ExrLayer {
   std::string name;  // of its channels: name.R, name.G, name.B
-  const Image& image;
+  const Image* image;
 };
 
 /// Writes the float channels R, G, B and those of the layers into one part, ZIP compressed (lossless), and each pair of

@@ -111,8 +111,8 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
   int width = 512, height = 512;
   Filter filter;
   if (film) {
-    width = small_integer(*film, "width", 32768, width);
-    height = small_integer(*film, "height", 32768, height);
+    width = small_integer(*film, "width", kLargestFilm, width);
+    height = small_integer(*film, "height", kLargestFilm, height);
     filter = read_filter(*film);
     film->finish();
   }

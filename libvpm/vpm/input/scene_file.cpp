@@ -10,6 +10,7 @@
 #include "vpm/input/sections.h"
 #include "vpm/job/setting.h"
 #include "vpm/scene/assemble.h"
+#include "vpm/scene/check_parts.h"
 
 namespace vpm {
 namespace {

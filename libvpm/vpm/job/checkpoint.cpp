@@ -2,6 +2,7 @@
 #include "vpm/job/checkpoint.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <fstream>
@@ -146,7 +147,8 @@ void append_film(std::string& bytes, const Film& film) {
 
 Film take_film(NamedFields& fields) {
   const int width = fields.take<int>("film.width"), height = fields.take<int>("film.height");
-  if (width < 1 || height < 1) throw FieldError(fmt::format("its film has {} x {} pixels", width, height));
+  if (std::min(width, height) < 1 || std::max(width, height) > kLargestFilm)
+    throw FieldError(fmt::format("its film has {} x {} pixels", width, height));
   const std::vector<PassRange> passes = fields.take_all<PassRange>("film.passes");
   if (!PassSet::is_valid(passes)) throw FieldError("its field 'film.passes' holds no ranges in rising order");
   const size_t blocks = Film::blocks(width, height);

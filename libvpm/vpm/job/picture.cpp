@@ -41,8 +41,8 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
       "the passes show it");
   const std::optional<FilmErrors> errors = errors_of(result);
   std::vector<ExrLayer> layers;
-  if (errors) layers.push_back({"variance", errors->variance});
-  if (errors && result.film.shows_bias()) layers.push_back({"bias", errors->bias});
+  if (errors) layers.push_back({"variance", &errors->variance});
+  if (errors && result.film.shows_bias()) layers.push_back({"bias", &errors->bias});
   write_exr(path, result.film.mean(), layers, metadata);
 }
 
@@ -54,8 +54,8 @@ void write_light_map(const std::filesystem::path& path, const RenderJob& job, co
                      const UvLayout& layout, const RenderResult& result) {
   const Image coverage = grey_image(layout, layout.coverage);
   const std::optional<FilmErrors> errors = errors_of(result);
-  std::vector<ExrLayer> layers{{"coverage", coverage}};
-  if (errors) layers.push_back({"variance", errors->variance});
+  std::vector<ExrLayer> layers{{"coverage", &coverage}};
+  if (errors) layers.push_back({"variance", &errors->variance});
   Metadata metadata = provenance(job, result.film);
   metadata.emplace_back("vpm.mesh", mesh);
   metadata.emplace_back("vpm.quantity",

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/path/follow.h"
 #include "vpm/photon/nearest_map.h"
 #include "vpm/photon/trace.h"
@@ -14,8 +15,6 @@
 
 namespace vpm {
 namespace {
-
-const std::atomic<bool> kGoOn{false};
 
 constexpr uint64_t kFlights = 20'000;       // photons that compare strategies
 constexpr uint64_t kPhotons = 100'000;      // that tell of densities

@@ -27,7 +27,7 @@ struct RenderResult {
 
 /// How a render is watched and stopped.
 struct RunControl {
-  const std::atomic<bool>& stop;  // once set, the pass under way is dropped; those finished are kept
+  const std::atomic<bool>& stop = kGoOn;  // once set, the pass under way is dropped; those finished are kept
   ProgressMode progress = ProgressMode::never;
   std::function<void(const RenderResult&)> finished = {};  // is told of each further pass
 };
@@ -36,7 +36,8 @@ struct RunControl {
 /// `result` is nothing_rendered() or what an earlier run has left off with, for the same scene and settings: passes go
 /// on where it ended. Throws a SettingError where settings contradict themselves or the scene, and InputError where the
 /// result is of another size than the camera's film.
-RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result, const RunControl& control);
+RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
+                    const RunControl& control = {});
 
 /// A pass of any kind, to be made after those in `so_far`. It tells its bar of `work` units in its course.
 struct PassMaker {

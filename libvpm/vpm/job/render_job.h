@@ -3,7 +3,7 @@
 //
 //   RenderJob job = load_scene("fog.toml");                    // or make_job(assemble(parts))
 //   choose(job);                                               // what is "auto"
-//   const RenderResult result = render(job.scene, job.settings, nothing_rendered(job.scene.camera), {stop});
+//   const RenderResult result = render(job.scene, job.settings, nothing_rendered(job.scene.camera));
 //   write_picture("fog.exr", job, result);
 //   write_text("fog.json", render_report(job, "fog.exr", result));
 #pragma once

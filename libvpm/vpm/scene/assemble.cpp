@@ -5,6 +5,7 @@
 #include "vpm/light/of_surface.h"
 #include "vpm/scene/build.h"
 #include "vpm/scene/check_media.h"
+#include "vpm/scene/check_parts.h"
 #include "vpm/scene/notes.h"
 
 namespace vpm {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "vpm/scene/check_parts.h"
 #include "vpm/scene/parts.h"
 
 namespace vpm {
@@ -18,7 +17,7 @@ struct AssembledScene {
 
 /// Puts the parts together: Scene's lists in the order of the parts', followed by the boxes of grids that no shape
 /// bounds; shapes that emit follow the other lights. A material with a texture gets the picture's mean as reflectance.
-/// Throws PartError, which names the part: for what check_parts() and is_boxed() refuse, for shapes that Geometry does,
+/// Throws PartError, which names the part: for what check_parts.h refuses, for shapes that Geometry does,
 /// for grids with a background where a box ends them or without one where they fill the world, for lights at
 /// infinity with nothing to shine on, for lights whose power in all is 0 or infinite, for shapes that contradict each
 /// other about the media around them, and for dielectrics with a common face.

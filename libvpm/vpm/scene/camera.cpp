@@ -1,8 +1,9 @@
 // The perspective camera.
 #include "vpm/scene/camera.h"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cassert>
-#include <string>
 
 #include "vpm/base/error.h"
 
@@ -22,9 +23,9 @@ Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, flo
   if (!(fov > 0.0f && fov < 180.0f)) {
     throw InputError("camera: the field of view is " + std::to_string(fov) + " degrees, it must lie between 0 and 180");
   }
-  if (width < 1 || height < 1) {
-    throw InputError("camera: the film has " + std::to_string(width) + " x " + std::to_string(height) +
-                     " pixels, at least one is needed");
+  if (std::min(width, height) < 1 || std::max(width, height) > kLargestFilm) {
+    throw InputError(
+        fmt::format("camera: the film has {} x {} pixels, each side must have 1 to {}", width, height, kLargestFilm));
   }
   if (!(filter.radius > 0.0f) || std::isinf(filter.radius))
     throw InputError("camera: the filter's radius must be positive");

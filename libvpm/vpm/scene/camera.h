@@ -17,9 +17,12 @@ struct Filter {
 /// uniform in [0, 1)^2.
 Vec2 sample_filter(const Filter& filter, const Vec2& u);
 
+/// Films have at most so many pixels a side.
+inline constexpr int kLargestFilm = 32768;
+
 /// The film: its size and how pixels are reconstructed.
 struct FilmFormat {
-  int width = 256, height = 256;  // pixels
+  int width = 256, height = 256;  // pixels, 1 to kLargestFilm
   Filter filter{};
 };
 
@@ -36,7 +39,7 @@ struct Camera {
 };
 
 /// A camera at `position` (m) that looks at `target`. `fov` is the full vertical angle in degrees, in (0, 180). Throws
-/// InputError where these define no camera, and for a film without pixels or a filter without width.
+/// InputError where these define no camera, for a film of no such size, and for a filter without width.
 Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, const FilmFormat& film);
 
 }  // namespace vpm

@@ -101,7 +101,7 @@ std::optional<Reference> Store::find_reference(const std::string& identity) cons
 }
 
 void Store::add_reference(const std::string& identity, const Reference& reference) const {
-  write_exr(file("references", identity, ".exr"), reference.mean, {{"variance", reference.variance}},
+  write_exr(file("references", identity, ".exr"), reference.mean, {{"variance", &reference.variance}},
             {{"vpm.run", identity}});
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/image/metrics.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -46,7 +47,6 @@ enum class BiasOrder { edges = 1, smooth = 2 };
 
 /// Photon maps: extrapolated passes.
 Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order, int passes) {
-  static const std::atomic<bool> kGoOn{false};
   const double half = order == BiasOrder::smooth ? 4.0 / 3.0 : 2.0;  // the weight of half the radius
   settings.radii = RadiusSchedule::constant;
   RenderSettings halved = settings;

@@ -8,6 +8,7 @@
 
 #include "vpm/base/line_fit.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/estimate/volume_estimate.h"
@@ -75,7 +76,6 @@ std::vector<Check> referee(const Effort& effort) {
   finish(scene);
   const std::vector<int> n = pass_counts(8, static_cast<int>(effort.count(128, 1024)));
   const Groups groups = run_groups(n, effort.count(12, 16), effort, "referee", [&](uint64_t seed) {
-    static const std::atomic<bool> kGoOn{false};
     RenderSettings settings;
     settings.seed = seed;
     Film film(scene.camera.width, scene.camera.height);

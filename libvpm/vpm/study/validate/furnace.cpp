@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <array>
 
+#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface_region.h"
 #include "vpm/estimate/volume_estimate.h"
@@ -100,7 +101,6 @@ Scene glowing_mesh(const Medium& medium) {
 /// totally reflected, and caught.
 std::vector<Check> check_inside_glass(const Effort& effort) {
   constexpr float kIor = 1.5f;
-  static const std::atomic<bool> kGoOn{false};
   Scene scene;
   add_shape(scene, SphereShape{Vec3(0.3f, -0.2f, 0.5f), 1.0f}, Dielectric{kIor});
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});

@@ -1,5 +1,6 @@
 // Level 3: the light map of a floor, in every way that light reaches it, against paths from the points of the floor.
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/render/light_map.h"
 #include "vpm/render/path_tracer.h"
@@ -40,7 +41,6 @@ Rgbd mean_of_inner(const Image& map) {
 
 /// Passes with one radius: over so much of the floor a kernel's blur cancels but for its slope at the border.
 Irradiance by_light_map(const Scene& scene, const RenderSettings& settings, uint64_t passes) {
-  static const std::atomic<bool> kGoOn{false};
   const UvLayout layout = lay_out_light_map(scene, kFloor, kResolution);
   std::vector<Rgbd> means(passes);
   parallel_for_chunks(passes, 1, [&](size_t pass, size_t, size_t) {

@@ -1,5 +1,6 @@
 // The medium a path is in: known at every step from the boundaries it has crossed. What the next shape says can correct
 // it, so that errors do no harm to pictures; here none may be due, but for rays that graze.
+#include "vpm/base/progress.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -38,7 +39,6 @@ Scene nested_media() {
 }
 
 std::vector<Check> check_media(const Effort& effort) {
-  static const std::atomic<bool> kGoOn{false};
   const Scene scene = nested_media();
   RenderSettings settings;
   settings.seed = effort.seed_of("nested media");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/job/render.h"
 #include "vpm/render/photon_pass.h"
 #include "vpm/study/validate/groups.h"
@@ -24,7 +25,6 @@ RenderSettings pass_settings(uint64_t seed) {
 
 /// r_{i+1}^d = r_i^d (i + A) / (i + 1), A = 4/(d + 4) [Knaus2011, sec. 4], and no change where none is wanted.
 std::vector<Check> check_radii(const Effort& effort) {
-  static const std::atomic<bool> kGoOn{false};
   const Scene scene = foggy_floor();
   RenderSettings settings = pass_settings(effort.seed_of("radii"));
   std::vector<Check> checks;
@@ -69,7 +69,6 @@ struct TextbookPixel {
 
 /// Radii of pixels' own, and the mean of passes, by what each pass has found.
 std::vector<Check> check_pixels(const Effort& effort) {
-  static const std::atomic<bool> kGoOn{false};
   const Scene scene = bare_floor();
   RenderSettings settings = pass_settings(effort.seed_of("pixels"));
   settings.until.passes = static_cast<int>(effort.count(12, 100));
@@ -102,7 +101,6 @@ std::vector<Check> check_pixels(const Effort& effort) {
 
 /// Two films of other seeds differ by as much as the variances they state; over their pixels, for many pairs.
 std::vector<Check> check_variance(const Effort& effort) {
-  static const std::atomic<bool> kGoOn{false};
   const Scene scene = foggy_floor();
   const size_t pairs = effort.count(100, 2000);
   std::vector<double> stated(pairs), found(pairs);

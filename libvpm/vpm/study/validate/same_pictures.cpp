@@ -3,6 +3,7 @@
 // and by those among all; by irradiance where gathering rays end, whose picture is known, and by that computed
 // beforehand.
 #include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -41,7 +42,6 @@ Scene lit_by(const std::vector<float>& shares, Lamp lamp) {
 /// Mean radiance of the film in many passes.
 Moments radiance(const Scene& scene, RenderSettings settings, size_t passes, const Effort& effort,
                  const std::string& name) {
-  static const std::atomic<bool> kGoOn{false};
   settings.seed = effort.seed_of(name);
   settings.radii = RadiusSchedule::constant;
   const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
