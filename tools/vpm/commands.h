@@ -87,6 +87,7 @@ int mesh_command(const MeshOptions& options);
 
 struct ValidateOptions {
   std::optional<int> level;  // 0 to 4; none: all
+  std::string only;          // part of the name of each experiment to be run; empty: all of them
   std::string oracles;       // folder of reference numbers to check against instead; empty: none
   bool full = false;         // tight errors
   uint64_t seed = 1;

@@ -153,10 +153,13 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
                                         "Only this level: 0 distributions, 1 identities, 2 transport theory, "
                                         "3 agreement, 4 convergence")
                            ->check(CLI::Range(0, kLevels - 1));
+  CLI::Option* only =
+      command->add_option("--only", options.only, "Only experiments whose name holds this text");
   command
       ->add_option("--oracles", options.oracles,
                    "Instead: check every case of the reference numbers in the files of this folder")
-      ->excludes(level);
+      ->excludes(level)
+      ->excludes(only);
   CLI::Option* quick = command->add_flag_callback(
       "--quick", [&options] { options.full = false; }, "A minute on two cores (the default)");
   command->add_flag("--full", options.full, "Tight errors, some 20 minutes")->excludes(quick);

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "oracles/oracle_command.h"
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
 #include "vpm/study/validate/ladder.h"
@@ -33,10 +34,20 @@ struct Outcome {
   size_t count(Verdict verdict) const { return count_verdicts(checks, verdict); }
 };
 
+/// The experiments that are asked for. Throws InputError where there are none.
+std::vector<Experiment> asked_for(const ValidateOptions& options) {
+  std::vector<Experiment> all = experiments(options.level.value_or(-1));
+  std::erase_if(all, [&](const Experiment& e) { return e.name.find(options.only) == std::string::npos; });
+  if (all.empty())
+    throw InputError(fmt::format("--only: no experiment has '{}' in its name; vpm validate prints their names",
+                                 options.only));
+  return all;
+}
+
 Outcome climb(const ValidateOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const Effort effort{options.seed, options.full};
-  const std::vector<Experiment> all = experiments(options.level.value_or(-1));
+  const std::vector<Experiment> all = asked_for(options);
   Outcome outcome;
   Progress bar("validate", all.size(), progress_enabled(options.progress));
   for (const Experiment& experiment : all) {
