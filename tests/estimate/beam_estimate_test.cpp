@@ -1,5 +1,5 @@
 // The beam radiance estimate: against its brute-force twin, against the integral that even photons stand for, and the
-// columns along a ray that it asks for.
+// density integrals along a ray that it asks for.
 #include "vpm/estimate/beam_estimate.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include "support/photon_layouts.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
-#include "vpm/medium/columns_along.h"
+#include "vpm/medium/density_integrals_along.h"
 #include "vpm/medium/make_grid.h"
 
 namespace vpm {
@@ -45,7 +45,7 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
           // Ends that part photons evenly, and an endless one.
           const Interval interval{0.31f, i % 4 == 0 ? kInfinity : 0.92f};
           GatherCounters counters;
-          const Rgb quick = beam_sum(phase, ray, interval, each_foot(along), map, counters);
+          const Rgb quick = beam_sum(phase, ray, interval, each_distance(along), map, counters);
           const Rgb slow = beam_sum(phase, ray, interval, along, PhotonList{all, settings, 1000});
           // Rounding of distances changes profiles of far photons by parts of 1e-5 of the kernel's height.
           const float height = kernel_norm_2d(kernel.kind, radius) * static_cast<float>(counters.used) * 1e-3f;
@@ -81,7 +81,7 @@ TEST(BeamEstimate, IsTheIntegralThatEvenPhotonsStandFor) {
             .mode = GatherMode::beam, .radius = 0.3f, .kernel = kernel.kind, .beam_count = count};
         const BeamMap map = beam_map(even, settings, n);
         const Rgb sum = beam_sum(Isotropic{}, ray, {0.0f, 10.0f},
-                                 each_foot([&](float t) { return glm::exp(-sigma * t); }), map, counters);
+                                 each_distance([&](float t) { return glm::exp(-sigma * t); }), map, counters);
         for (int c = 0; c < 3; ++c) sums[static_cast<size_t>(c)].add(sum[c]);
       }
       for (int c = 0; c < 3; ++c) {
@@ -101,7 +101,7 @@ TEST(BeamEstimate, EqualsTheSumOverPhotonsWithRadiiOfTheirOwn) {
       const Ray ray = any_ray(photons(layout, 5000), 0.1f, i);
       GatherCounters counters;
       const Rgb quick =
-          beam_sum(Isotropic{}, ray, {0.3f, 0.9f}, each_foot([](float t) { return Rgb(t); }), map, counters);
+          beam_sum(Isotropic{}, ray, {0.3f, 0.9f}, each_distance([](float t) { return Rgb(t); }), map, counters);
       Rgbd slow(0.0);
       double height = 0.0;  // of the kernels added up, at the middle
       for (size_t k = 0; k < map.photons.size(); ++k) {
@@ -157,7 +157,7 @@ TEST(BeamEstimate, IsTheSameOnAnyNumberOfThreads) {
     for (uint64_t i = 0; i < 50; ++i) {
       GatherCounters counters;
       result.push_back(beam_sum(Isotropic{}, any_ray(all, 0.05f, i), {0.0f, 2.0f},
-                                each_foot([](float) { return Rgb(1.0f); }), map, counters));
+                                each_distance([](float) { return Rgb(1.0f); }), map, counters));
     }
     return result;
   };
@@ -172,10 +172,10 @@ TEST(SegmentMap, TakesAtMost28BytesAPhotonAndAnswersWithoutAny) {
     EXPECT_LE(static_cast<double>(map.memory_bytes()) / 20'000.0, 28.0 + 0.1);  // what a map takes beside photons
   }
   const SegmentMap none(std::vector<Photon>{}, {1.0f, 50}, 1.0f);
-  EXPECT_EQ(none.visit_beside({}, {}, [](const PhotonsBeside&) { ADD_FAILURE(); }), 0u);
+  EXPECT_EQ(none.visit_near_ray({}, {}, [](const PhotonsNearRay&) { ADD_FAILURE(); }), 0u);
 }
 
-TEST(ColumnsAlong, AreThoseOfTheMedium) {
+TEST(DensityIntegralsAlong, AreThoseOfTheMedium) {
   const Medium cloud = make_medium(
       make_grid(
           centred_frame(12, 0.1),
@@ -183,7 +183,7 @@ TEST(ColumnsAlong, AreThoseOfTheMedium) {
       Rgb(1.0f));
   const Medium even{.name = "", .sigma_s = Rgb(0.0f), .sigma_t = Rgb(1.0f), .phase = Isotropic{}, .grid = nullptr};
   const Box box = cloud.grid->bounds();
-  ColumnsAlong columns;
+  DensityIntegralsAlong integrals;
   for (const Medium* medium : {static_cast<const Medium*>(nullptr), &even, static_cast<const Medium*>(&cloud)})
     for (uint64_t i = 0; i < 200; ++i) {
       Rng rng(6, rng_stream(RngUse::test, 0), i);
@@ -191,18 +191,19 @@ TEST(ColumnsAlong, AreThoseOfTheMedium) {
       const Vec3 direction = uniform_sphere(rng.uniform2());
       const Ray ray{to - box.diagonal() * direction, direction};
       const Interval interval{0.1f * box.diagonal(), 2.0f * box.diagonal()};
-      columns.walk(medium, ray, interval);
+      integrals.walk(medium, ray, interval);
       for (int k = 0; k < 10; ++k) {
         const float t = interval.t0 + rng.uniform() * interval.length();
-        const auto [column_to, density] = columns.at(t);
-        EXPECT_NEAR(column_to, medium ? column(*medium, ray, {interval.t0, t}).value : 0.0, 1e-6 * box.diagonal());
+        const auto [integral_to, density] = integrals.at(t);
+        EXPECT_NEAR(integral_to, medium ? density_integral(*medium, ray, {interval.t0, t}).value : 0.0,
+                    1e-6 * box.diagonal());
         EXPECT_NEAR(density, medium ? medium->density(ray.at(t)) : 0.0f, 2e-4) << t;
       }
-      const double whole = medium ? column(*medium, ray, interval).value : 0.0;
-      EXPECT_NEAR(columns.column(), whole, 1e-12 * box.diagonal());
+      const double whole = medium ? density_integral(*medium, ray, interval).value : 0.0;
+      EXPECT_NEAR(integrals.integral(), whole, 1e-12 * box.diagonal());
       for (const double part : {0.0, 0.3, 0.7, 0.999})
         if (whole > 0.0) {
-          EXPECT_NEAR(columns.at(columns.where(part * whole)).column, part * whole, 1e-10 * whole);
+          EXPECT_NEAR(integrals.at(integrals.where(part * whole)).integral, part * whole, 1e-10 * whole);
         }
     }
 }

@@ -17,8 +17,8 @@ GridFrame frame_of(const Vec3i& lo, const Vec3i& hi, const Vec3d& voxel = Vec3d(
   return frame;
 }
 
-double column_of(const std::shared_ptr<const DensityGrid>& grid, const Ray& ray, const Interval& interval = {}) {
-  return column(make_medium(grid, Rgb(1.0f)), ray, interval).value;
+double integral_of(const std::shared_ptr<const DensityGrid>& grid, const Ray& ray, const Interval& interval = {}) {
+  return density_integral(make_medium(grid, Rgb(1.0f)), ray, interval).value;
 }
 
 TEST(GridsExtremes, AnEmptyGridIsVacuum) {
@@ -44,7 +44,7 @@ TEST(GridsExtremes, AnEmptyGridIsVacuum) {
 }
 
 TEST(GridsExtremes, OneVoxelIsATentOrABox) {
-  Worst worst("relative error of columns");
+  Worst worst("relative error of density integrals");
   for (const double size : {1e-5, 1.0, 1e5}) {
     GridFrame frame = frame_of(Vec3i(0), Vec3i(0), Vec3d(size, 2 * size, 3 * size));
     const auto tent = make_grid(frame, [](int, int, int) { return 4.0; });
@@ -55,17 +55,17 @@ TEST(GridsExtremes, OneVoxelIsATentOrABox) {
       direction[axis] = 1.0f;
       origin[axis] = static_cast<float>(-10.0 * size);
       const double edge = (axis + 1) * size;
-      worst.see(column_of(tent, {origin, direction}) / (4.0 * edge) - 1.0);
-      EXPECT_NEAR(column_of(tent, {origin, direction}) / (4.0 * edge), 1.0, 1e-6);  // the tent's triangle
-      EXPECT_NEAR(column_of(box, {origin, direction}) / (4.0 * edge), 1.0, 1e-6);
+      worst.see(integral_of(tent, {origin, direction}) / (4.0 * edge) - 1.0);
+      EXPECT_NEAR(integral_of(tent, {origin, direction}) / (4.0 * edge), 1.0, 1e-6);  // the tent's triangle
+      EXPECT_NEAR(integral_of(box, {origin, direction}) / (4.0 * edge), 1.0, 1e-6);
     }
     EXPECT_FLOAT_EQ(static_cast<float>(tent->mean_density()), 0.5f);  // 4 over 2^3 cells
     EXPECT_FLOAT_EQ(static_cast<float>(box->mean_density()), 4.0f);
     EXPECT_FLOAT_EQ(tent->density(Vec3(0.0f)), 4.0f);
-    // The column along the space diagonal, by (1 - s)^3 on both sides of the middle.
+    // The density integral along the space diagonal, by (1 - s)^3 on both sides of the middle.
     const Vec3 diagonal(Vec3d(size, 2 * size, 3 * size));
     const double length = glm::length(Vec3d(diagonal));
-    EXPECT_NEAR(column_of(tent, {-2.0f * diagonal, glm::normalize(diagonal)}) / (2.0 * length), 1.0, 1e-5);
+    EXPECT_NEAR(integral_of(tent, {-2.0f * diagonal, glm::normalize(diagonal)}) / (2.0 * length), 1.0, 1e-5);
   }
 }
 
@@ -79,11 +79,11 @@ TEST(GridsExtremes, MillionsOfVoxelsWideKeepEverySpike) {
     const Ray ray{Vec3(from, 0.04f, 0.04f), Vec3(from < 0.0f ? 1 : -1, 0, 0)};
     uint32_t read = 0;
     const Medium medium = make_medium(spikes, Rgb(1.0f));
-    const Column crossed = column(medium, ray, {});
+    const DensityIntegral crossed = density_integral(medium, ray, {});
     read = crossed.lookups;
     EXPECT_NEAR(crossed.value, 2 * 5.0 * 0.01, 1e-9);
     EXPECT_LE(read, 32u);
-    EXPECT_NEAR(column(medium, ray, {0.0f, 5000.0f}).value, 5.0 * 0.01, 1e-9);
+    EXPECT_NEAR(density_integral(medium, ray, {0.0f, 5000.0f}).value, 5.0 * 0.01, 1e-9);
   }
   // A billion is refused before anything is allocated.
   bool asked = false;
@@ -95,8 +95,8 @@ TEST(GridsExtremes, MillionsOfVoxelsWideKeepEverySpike) {
 }
 
 TEST(GridsExtremes, VoxelsOfOneToAThousandAreIntegratedExactly) {
-  // A product of three functions, each linear between the lattice's points: columns of any ray against fine quadrature,
-  // and the photons that get through.
+  // A product of three functions, each linear between the lattice's points: density integrals of any ray against fine
+  // quadrature, and the photons that get through.
   Worst worst("relative difference from quadrature in 4000 steps");
   for (const Vec3d& voxel : {Vec3d(1.0, 1e-3, 1e-3), Vec3d(1e-3, 1.0, 1.0), Vec3d(1e-3, 1e-3, 1.0)}) {
     const auto grid =
@@ -110,13 +110,14 @@ TEST(GridsExtremes, VoxelsOfOneToAThousandAreIntegratedExactly) {
       double sum = 0.0;
       constexpr int kSteps = 4000;
       for (int k = 0; k < kSteps; ++k) sum += grid->density(ray.at(static_cast<float>((k + 0.5) / kSteps) * length));
-      worst.see(column_of(grid, ray, {0.0f, length}) / (sum * length / kSteps) - 1.0);
-      EXPECT_NEAR(column_of(grid, ray, {0.0f, length}) / (sum * length / kSteps), 1.0, 1e-3);
+      worst.see(integral_of(grid, ray, {0.0f, length}) / (sum * length / kSteps) - 1.0);
+      EXPECT_NEAR(integral_of(grid, ray, {0.0f, length}) / (sum * length / kSteps), 1.0, 1e-3);
     }
   }
 }
 
-/// Quadrature-free truth: the column of a field linear in all directions is the density at the middle times the length.
+/// Quadrature-free truth: the density integral of a field linear in all directions is the density at the middle times
+/// the length.
 TEST(GridsExtremes, RaysAlongFacesEdgesAndCornersSeeTheField) {
   const auto grid = make_grid(frame_of(Vec3i(0), Vec3i(24)), [](int x, int y, int z) { return 1 + x + 2 * y + 3 * z; });
   const auto linear = [](const Vec3d& p) { return 1.0 + p.x + 2.0 * p.y + 3.0 * p.z; };
@@ -125,7 +126,7 @@ TEST(GridsExtremes, RaysAlongFacesEdgesAndCornersSeeTheField) {
     for (const float y : {0.0f, 4.5f, 16.0f})
       for (const float z : {0.0f, 8.0f, 15.5f}) starts.emplace_back(x, y, z);
   const float zero = 0.0f, tiny = 1e-38f;
-  Worst worst("relative error of columns");
+  Worst worst("relative error of density integrals");
   for (const Vec3& start : starts)
     for (const Vec3& d :
          {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, -zero, -zero), Vec3(-zero, 1, -zero), Vec3(1, 1, 0),
@@ -133,10 +134,10 @@ TEST(GridsExtremes, RaysAlongFacesEdgesAndCornersSeeTheField) {
       const Vec3 direction = glm::normalize(d);
       const float length = 7.0f;
       const double exact = linear(Vec3d(start) + 3.5 * Vec3d(direction)) * length;
-      worst.see(column_of(grid, {start, direction}, {0.0f, length}) / exact - 1.0);
-      EXPECT_NEAR(column_of(grid, {start, direction}, {0.0f, length}), exact, 1e-5 * exact)
+      worst.see(integral_of(grid, {start, direction}, {0.0f, length}) / exact - 1.0);
+      EXPECT_NEAR(integral_of(grid, {start, direction}, {0.0f, length}), exact, 1e-5 * exact)
           << start.x << " " << start.y << " " << start.z << " along " << d.x << " " << d.y << " " << d.z;
-      EXPECT_NEAR(column_of(grid, {start + length * direction, -direction}, {0.0f, length}), exact, 1e-5 * exact);
+      EXPECT_NEAR(integral_of(grid, {start + length * direction, -direction}, {0.0f, length}), exact, 1e-5 * exact);
     }
 }
 
@@ -149,10 +150,10 @@ TEST(GridsExtremes, RaysAlongTheBorderOfTheSupportEndThere) {
       Vec3 direction(0.0f), origin(side);
       direction[axis] = 1.0f;
       origin[axis] = -3.0f;
-      const double along = column_of(grid, {origin, direction});
+      const double along = integral_of(grid, {origin, direction});
       EXPECT_TRUE(std::abs(along) < 1e-12 || std::abs(along - 16.0) < 1e-12) << along;  // a face is inside or outside
       origin[axis] = 20.0f;
-      EXPECT_NEAR(column_of(grid, {origin, -direction}), along, 1e-12);
+      EXPECT_NEAR(integral_of(grid, {origin, -direction}), along, 1e-12);
     }
 }
 

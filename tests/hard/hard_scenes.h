@@ -24,7 +24,7 @@ inline RenderSettings settings_of(uint64_t photons, float radius) {
   return settings;
 }
 
-/// The referee's pass over the same scene: every pixel is finite, and no path was dropped.
+/// The path tracer's pass over the same scene: every pixel is finite, and no path was dropped.
 inline void expect_finite_paths(const Scene& scene, const RenderSettings& settings, int pass) {
   const Pass done = render_path_pass(scene, settings, pass, kGoOn);
   EXPECT_EQ(done.statistics.eye.non_finite, 0u);

@@ -134,7 +134,7 @@ TEST(MapsExtremes, PhotonsInARowOfAMillionCellsEqualTheBruteForceTwin) {
 
 TEST(MapsExtremes, AnEndlessThinMediumIsSeenInAPicturesTime) {
   // All space filled with next to nothing: photons collide a billion metres away, if at all, and the eye's march must
-  // not walk there in steps of the radius. Radiance: single scattering of a lamp in all space is too faint to see, the
+  // not walk there in steps of the radius. Radiance: single scattering of a light in all space is too faint to see, the
   // panel ahead is not.
   for (const float sigma : {1e-9f, 1e-6f, 1e-3f})
     for (const uint64_t photons : {1u, 2000u})

@@ -106,7 +106,7 @@ TEST(MediaExtremes, TheMarchKeepsItsDigitsFromNothingToOpaque) {
                                                 sum += w.r * sigma;
                                                 EXPECT_TRUE(p.z >= 0.0f && p.z <= length);
                                               });
-        EXPECT_FLOAT_EQ(static_cast<float>(marched.column), length);
+        EXPECT_FLOAT_EQ(static_cast<float>(marched.integral), length);
         EXPECT_LT(marched.steps, 200u);
         sums.add(sum);
       }
@@ -269,8 +269,8 @@ TEST(MediaExtremes, TheWhiteFurnaceIsOneInBallsOfAllSizes) {
   }
 }
 
-TEST(MediaExtremes, TheRefereesWhiteFurnaceIsOneInTheNarrowestPeak) {
-  Worst worst("error of the referee's 1");
+TEST(MediaExtremes, ThePathTracersWhiteFurnaceIsOneInTheNarrowestPeak) {
+  Worst worst("error of the path tracer's 1");
   // No photon map resolves a peak of 1e-4 rad; paths that combine both ways of sampling do, up to thousands of
   // scatterings.
   for (const float g : {-0.9999f, 0.9999f})

@@ -95,7 +95,8 @@ std::shared_ptr<const DensityGrid> cells_of(const Vec3i& cells, const Vec3d& vox
   return make_grid(frame, density);
 }
 
-/// Columns that follow from the field's formula: spikes, needles, plates, faces, edges, directions next to an axis.
+/// Density integrals that follow from the field's formula: spikes, needles, plates, faces, edges, directions next to an
+/// axis.
 std::vector<HardRay> hard_rays() {
   const auto spike = [](int x, int, int) { return x == 100 ? 1e6 : 1e-6; };
   const auto linear = [](int x, int y, int z) { return 1.0 + x + 2.0 * y + 3.0 * z; };

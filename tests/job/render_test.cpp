@@ -15,7 +15,7 @@
 namespace vpm {
 namespace {
 
-/// A lamp over a floor, seen from above, by photons within 0.5 m in every pass.
+/// A light over a floor, seen from above, by photons within 0.5 m in every pass.
 RenderJob lit_floor() {
   SceneParts parts;
   parts.materials = {{Lambertian{Rgb(0.6f, 0.5f, 0.4f)}}};

@@ -1,5 +1,5 @@
-// Grids of any shape and transform: columns add up, are the same from both ends, follow the transform; and any piece
-// of density is inverted.
+// Grids of any shape and transform: density integrals add up, are the same from both ends, follow the transform; and
+// any piece of density is inverted.
 #include "support/grids.h"
 #include "support/properties.h"
 #include "vpm/base/rng.h"
@@ -47,28 +47,29 @@ Ray any_ray(const GridFrame& frame, float& length) {
   return {from, glm::normalize(to - from)};
 }
 
-RC_GTEST_PROP(DensityGridProperty, ColumnsAddUpOverAnySplit, ()) {
+RC_GTEST_PROP(DensityGridProperty, DensityIntegralsAddUpOverAnySplit, ()) {
   GridFrame frame;
   const Medium medium = make_medium(any_grid(frame), Rgb(1.0f));
   float length = 0.0f;
   const Ray ray = any_ray(frame, length);
   const auto split = static_cast<float>(*number(0.0, 1.0)) * length;
-  const double whole = column(medium, ray, {0.0f, length}).value;
-  const double parts = column(medium, ray, {0.0f, split}).value + column(medium, ray, {split, length}).value;
+  const double whole = density_integral(medium, ray, {0.0f, length}).value;
+  const double parts =
+      density_integral(medium, ray, {0.0f, split}).value + density_integral(medium, ray, {split, length}).value;
   RC_ASSERT(whole >= -1e-12 && std::isfinite(whole));
   RC_ASSERT(whole <= medium.max_density() * length * 1.00001 + frame.background * length);
   RC_ASSERT(std::abs(whole - parts) <= 1e-6 * medium.max_density() * length);
 }
 
-RC_GTEST_PROP(DensityGridProperty, ColumnsAreTheSameFromBothEnds, ()) {
+RC_GTEST_PROP(DensityGridProperty, DensityIntegralsAreTheSameFromBothEnds, ()) {
   GridFrame frame;
   const Medium medium = make_medium(any_grid(frame), Rgb(1.0f));
   float length = 0.0f;
   const Ray ray = any_ray(frame, length);
   // Voxels end abruptly in nearest fields: a ray in a plane of the lattice may lie on either side of it.
   RC_PRE(frame.interpolation == Interpolation::trilinear);
-  const double there = column(medium, ray, {0.0f, length}).value;
-  const double back = column(medium, {ray.at(length), -ray.direction}, {0.0f, length}).value;
+  const double there = density_integral(medium, ray, {0.0f, length}).value;
+  const double back = density_integral(medium, {ray.at(length), -ray.direction}, {0.0f, length}).value;
   // The far end is rounded: a displacement by a rounding of the coordinates, times the steepest slope, 2 a voxel.
   const double rounding = 2e-7 * (glm::length(Vec3d(ray.origin)) + length);
   RC_ASSERT(std::abs(there - back) <= 1e-5 * there + rounding * (2.0 + 4.0 * length / medium.voxel_size()));
@@ -110,7 +111,7 @@ RC_GTEST_PROP(DensityGridProperty, FollowsItsTransform, ()) {
   RC_ASSERT(std::abs(field->density(world) - lattice->density(index)) < 1e-5 + 8.0 * voxels_off);
 }
 
-RC_GTEST_PROP(DensityPieceProperty, InvertsItsColumn, ()) {
+RC_GTEST_PROP(DensityPieceProperty, InvertsItsDensityIntegral, ()) {
   // Four values at equal distances make any cubic; those that dip below zero are lifted, as densities are not negative.
   const double scale = *magnitude(1e-30, 1e30), length = *magnitude(1e-6, 1e9);
   const double a = *number(0, 1), b = *number(0, 1), c = *number(0, 1), d = *number(0, 1);
@@ -124,13 +125,13 @@ RC_GTEST_PROP(DensityPieceProperty, InvertsItsColumn, ()) {
   double least = 0.0;
   for (int i = 0; i <= 1000; ++i) least = std::min(least, piece.density(h * i / 1000.0));
   piece.c0 -= 1.001 * least;
-  const double whole = piece.column();
+  const double whole = piece.integral();
   RC_PRE(whole > 0.0);
   const double s = *number(0.0, 1.0) * h;
-  const double target = std::clamp(piece.column(s), 0.0, whole);
+  const double target = std::clamp(piece.integral(s), 0.0, whole);
   const double found = piece.invert(target);
   RC_ASSERT(found >= 0.0 && found <= h);
-  RC_ASSERT(std::abs(piece.column(found) - target) <= 1e-10 * whole);
+  RC_ASSERT(std::abs(piece.integral(found) - target) <= 1e-10 * whole);
   RC_ASSERT(std::abs(found - s) * piece.density(s) <= 1e-6 * whole || piece.density(s) < 1e-2 * scale);
 }
 

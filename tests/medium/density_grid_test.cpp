@@ -1,4 +1,4 @@
-// Density grids: look-ups against the definition, walks against look-ups, exact columns against quadrature.
+// Density grids: look-ups against the definition, walks against look-ups, exact density integrals against quadrature.
 #include "vpm/medium/density_grid.h"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST_P(DensityGridTest, WalksMeetEveryPieceOfTheField) {
       EXPECT_GT(piece.t1, piece.t0);
       EXPECT_TRUE(frame.background == 0.0f || std::abs(piece.t0 - end) < 1e-9);
       end = piece.t1;
-      total += piece.column();
+      total += piece.integral();
       const double s = rng.uniform() * piece.length();
       const Vec3d p = Vec3d(aimed.origin) + (piece.t0 + s) * Vec3d(aimed.direction);
       EXPECT_NEAR(piece.density(s), defined_density(frame, Vec3d(to_index * glm::dvec4(p, 1.0))), 2e-5);
@@ -198,7 +198,7 @@ TEST(DensityGrid, RaysAlongFacesAndEdgesOfCellsSeeTheField) {
       const Ray ray{through - 100.0f * direction, direction};
       double total = 0.0;
       grid->visit_pieces(ray, {}, [&](const DensityPiece& piece) {
-        total += piece.column();
+        total += piece.integral();
         return true;
       });
       // Linear inside the lattice, fading to 0 over one voxel at both ends.
@@ -305,7 +305,7 @@ TEST(DensityGrid, EqualBricksAreKeptOnce) {
     EXPECT_EQ(grid->density(Vec3(i, (7 * i) % 128, (31 * i) % 128)), field(i, (7 * i) % 128, (31 * i) % 128));
 }
 
-TEST(DensityPiece, InvertsItsColumn) {
+TEST(DensityPiece, InvertsItsDensityIntegral) {
   Rng rng(1, rng_stream(RngUse::test, 2), 0);
   for (int i = 0; i < 20000; ++i) {
     // Random cubics made non-negative by squaring a linear factor: roots lie on and inside the piece.
@@ -315,11 +315,11 @@ TEST(DensityPiece, InvertsItsColumn) {
     piece.c1 = c * a * a - 2.0 * a * b;
     piece.c2 = b - 2.0 * a * c;
     piece.c3 = c;
-    const double target = rng.uniform_double() * piece.column();
+    const double target = rng.uniform_double() * piece.integral();
     const double s = piece.invert(target);
     ASSERT_GE(s, 0.0);
     ASSERT_LE(s, piece.length());
-    ASSERT_NEAR(piece.column(s), target, 1e-11 * (1.0 + piece.column()));
+    ASSERT_NEAR(piece.integral(s), target, 1e-11 * (1.0 + piece.integral()));
   }
 }
 

@@ -36,7 +36,8 @@ std::array<Deposits, 3> fly(const Medium& medium, const DistanceStrategy& strate
 
 double exact_probability(const Medium& medium, int channel, int bin) {
   const auto through = [&](int edge) {
-    return std::exp(-double(medium.sigma_t[channel]) * column(medium, kRay, {0.0f, kReach.t1 * edge / kBins}).value);
+    return std::exp(-double(medium.sigma_t[channel]) *
+                    density_integral(medium, kRay, {0.0f, kReach.t1 * edge / kBins}).value);
   };
   return bin == kBins ? through(kBins) : through(bin) - through(bin + 1);
 }
@@ -93,8 +94,8 @@ TEST(DistanceStrategy, AChannelWithoutExtinctionLeadsThroughAndWeighsTheOthers) 
 }
 
 TEST(DistanceStrategy, RayMarchErrsWithTheSquareOfTheStep) {
-  // Equal random numbers make the same target column for both strategies, so the error of each flight is seen without
-  // noise.
+  // Equal random numbers make the same target density integral for both strategies, so the error of each flight is seen
+  // without noise.
   const Medium medium = make_medium(flight_fields()[4].grid, Rgb(3.0f));
   const auto exact = make_distance_strategy({});
   const auto error = [&](const DistanceSettings& settings) {
@@ -106,7 +107,8 @@ TEST(DistanceStrategy, RayMarchErrsWithTheSquareOfTheStep) {
       const Flight x = exact->sample(medium, kRay, kReach, Rgb(1.0f), a);
       const Flight y = strategy->sample(medium, kRay, kReach, Rgb(1.0f), b);
       if (!x.collided || !y.collided) continue;
-      const double d = column(medium, kRay, {0.0f, y.t}).value - column(medium, kRay, {0.0f, x.t}).value;
+      const double d =
+          density_integral(medium, kRay, {0.0f, y.t}).value - density_integral(medium, kRay, {0.0f, x.t}).value;
       squares += d * d;
       ++flights;
     }

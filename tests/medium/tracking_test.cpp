@@ -32,7 +32,7 @@ double mean_null_collisions(const Medium& medium, bool local) {
   constexpr int kSteps = 20000;
   const double step = double{kReach.t1} / kSteps, sigma_t = medium.sigma_t.r;
   const Interval inside = medium.clip(kRay, kReach);
-  double sum = 0.0, column = 0.0;
+  double sum = 0.0, integral = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     const double t = (i + 0.5) * step, density = medium.density(kRay.at(static_cast<float>(t)));
     double majorant = t > inside.t0 && t < inside.t1 ? medium.max_density() : 0.0;
@@ -43,8 +43,8 @@ double mean_null_collisions(const Medium& medium, bool local) {
         return true;
       });
     }
-    sum += sigma_t * (majorant - density) * std::exp(-sigma_t * (column + 0.5 * density * step)) * step;
-    column += density * step;
+    sum += sigma_t * (majorant - density) * std::exp(-sigma_t * (integral + 0.5 * density * step)) * step;
+    integral += density * step;
   }
   return sum;
 }

@@ -1,4 +1,4 @@
-// Transmittance estimators against the exact column.
+// Transmittance estimators against the exact density integral.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -31,7 +31,7 @@ TEST(Transmittance, RegularIsTheGaussianIntegral) {
 
 TEST(Transmittance, RayMarchedBiasFallsWithTheSquareOfTheStep) {
   const Medium medium = make_medium(blob(), Rgb(2.0f));
-  const double exact = std::exp(-2.0 * column(medium, kRay, {0.0f, 6.0f}).value);
+  const double exact = std::exp(-2.0 * density_integral(medium, kRay, {0.0f, 6.0f}).value);
   const auto bias = [&](float step) {
     const auto estimator = make_transmittance_estimator({.estimator = "ray-march", .step = step});
     Moments m;
@@ -117,7 +117,7 @@ TEST(SlowTransmittance, UnbiasedOnesHaveTheExactMeanInEveryChannel) {
     if (info.unbiased && info.name != "regular") all.push_back({.estimator = std::string(info.name)});
   for (const Field& field : fields()) {
     const Medium medium = make_medium(field.grid, Rgb(0.3f, 1.0f, 2.5f));
-    const double exact = column(medium, kRay, field.stretch).value;
+    const double exact = density_integral(medium, kRay, field.stretch).value;
     for (const TransmittanceSettings& settings : all) {
       const auto found = estimates(settings, medium, field.stretch, 100000);
       for (int c = 0; c < 3; ++c)
@@ -129,7 +129,7 @@ TEST(SlowTransmittance, UnbiasedOnesHaveTheExactMeanInEveryChannel) {
 TEST(SlowTransmittance, RouletteKeepsTheMeanOfOpaqueMedia) {
   const Medium medium = make_medium(blob(), Rgb(12.0f, 11.0f, 10.0f));
   const Interval stretch{0.0f, 6.0f};
-  const double exact = column(medium, kRay, stretch).value;
+  const double exact = density_integral(medium, kRay, stretch).value;
   for (const char* estimator : {"ratio", "ratio-local", "residual-ratio"}) {
     const auto found = estimates({.estimator = estimator}, medium, stretch, 400000);
     for (int c = 0; c < 3; ++c) {
@@ -146,7 +146,7 @@ TEST(Transmittance, TrackingHasTheVarianceOfItsPoissonProcess) {
   // residual^2 / rate), but for the roulette below 1 %, which this medium hardly plays.
   const Medium medium = make_medium(blob(), Rgb(1.5f));
   const Interval stretch{0.0f, 6.0f};
-  const double exact = std::exp(-2.0 * 1.5 * column(medium, kRay, stretch).value);
+  const double exact = std::exp(-2.0 * 1.5 * density_integral(medium, kRay, stretch).value);
   double of_local = 0.0, of_global = 0.0, of_residual = 0.0;  // exponents by the midpoint rule
   medium.visit_majorants(kRay, medium.clip(kRay, stretch), [&](const DensityStretch& in) {
     constexpr int kSteps = 20000;
@@ -179,7 +179,7 @@ const Ray kAlongRamp{Vec3(-0.9f, 0.2f, 0.1f), Vec3(1, 0, 0)};
 TEST(Transmittance, TheUnbiasedMarchHasNoNoiseOnAStraightLine) {
   const Medium medium = ramp(Rgb(1.0f, 4.0f, 10.0f));
   const Interval stretch{0.1f, 1.7f};
-  const double exact = column(medium, kAlongRamp, stretch).value;
+  const double exact = density_integral(medium, kAlongRamp, stretch).value;
   const auto estimator = make_transmittance_estimator({.estimator = "unbiased-ray-march"});
   for (uint64_t i = 0; i < 1000; ++i) {
     Rng rng(2, rng_stream(RngUse::test, 0), i);
@@ -207,13 +207,13 @@ TEST(Transmittance, TheUnbiasedMarchStopsItsSeriesAsThePaperHasIt) {
 }
 
 TEST(Transmittance, MarchesOfARampHaveTheBiasOfItsClosedForm) {
-  // In a step of length l of a ramp the column is uniform over a range of width s / sigma_t, s = sigma_t slope l^2. One
-  // offset for all of m steps: the mean of exp(-column) is T sinh(m s / 2) / (m s / 2). The jackknife's is |E exp(-(1 +
-  // i) / 2 column)|^2, a product over the steps, whose offsets are independent.
+  // In a step of length l of a ramp the density integral is uniform over a range of width s / sigma_t, s = sigma_t
+  // slope l^2. One offset for all of m steps: the mean of exp(-density integral) is T sinh(m s / 2) / (m s / 2). The
+  // jackknife's is |E exp(-(1 + i) / 2 density integral)|^2, a product over the steps, whose offsets are independent.
   const double sigma = 4.0, length = 1.6, slope = 0.6;
   const Medium medium = ramp(Rgb(static_cast<float>(sigma)));
   const Interval stretch{0.1f, static_cast<float>(0.1 + length)};
-  const double exact = std::exp(-sigma * column(medium, kAlongRamp, stretch).value);
+  const double exact = std::exp(-sigma * density_integral(medium, kAlongRamp, stretch).value);
   for (const int steps : {1, 2, 4}) {
     const auto mean = [&](const char* name) {
       const auto estimator = make_transmittance_estimator(
@@ -242,7 +242,7 @@ TEST(SlowTransmittance, TheJackknifeHasTheMeanOfItsTwoMarches) {
   for (const Field& field : fields()) {
     const Medium medium = make_medium(field.grid, Rgb(static_cast<float>(sigma)));
     const Interval inside = medium.clip(kRay, field.stretch);
-    const double exact = std::exp(-sigma * column(medium, kRay, field.stretch).value);
+    const double exact = std::exp(-sigma * density_integral(medium, kRay, field.stretch).value);
     for (const float step : {40.0f, 5.0f}) {
       const int steps = static_cast<int>(std::ceil(inside.length() / (step * medium.voxel_size())));
       const double length = inside.length() / static_cast<double>(steps);

@@ -23,7 +23,7 @@ class Stub final : public TransmittanceEstimator {
 };
 
 TEST(DirectLight, TransmittancesBelowZeroAndAboveOneAreKept) {
-  // From outside the box to a lamp in it, one medium; through the box to a lamp behind it, the same.
+  // From outside the box to a lamp in it, one medium; through the box to a light behind it, the same.
   const Stub estimator(Rgb(-0.5f, 3.0f, 0.0f));
   Rng rng(1, 0, 0);
   WalkCounters counters;
@@ -38,8 +38,8 @@ TEST(DirectLight, TransmittancesBelowZeroAndAboveOneAreKept) {
   EXPECT_FLOAT_EQ(sample.irradiance.g, 3.0f / 9.0f);
 }
 
-TEST(SlowDirectLight, TheRefereeKeepsNegativeSamples) {
-  // A lamp behind a slab that is denser than a march can see: many samples are negative, none is dropped, and their
+TEST(SlowDirectLight, ThePathTracerKeepsNegativeSamples) {
+  // A light behind a slab that is denser than a march can see: many samples are negative, none is dropped, and their
   // mean is that of the exact estimator.
   const GridFrame frame = centred_frame(10, 0.1, Interpolation::nearest);
   const auto sheets = make_grid(frame, [](int x, int, int) { return x == -3 || x == 4 ? 5.0 : 0.0; });

@@ -46,7 +46,7 @@ struct Recorder {
     kinds.push_back(event.kind);
     froms.push_back(from);
     ats.push_back(at);
-    at.power *= kept;
+    at.throughput *= kept;
     return static_cast<int>(kinds.size()) < most;
   }
   bool scatter(const Scene& scene, const Event& event, PathState& at, Rng& rng) {
@@ -133,7 +133,7 @@ Track track_by_hand(const Scene& scene, const DistanceStrategy& strategy, bool f
   WalkCounters counters;
   for (;;) {
     const Event event = next_event(scene, strategy, state, rng, counters);
-    track.emplace_back(state.ray.origin, state.power);
+    track.emplace_back(state.ray.origin, state.throughput);
     if (event.kind == EventKind::escape) return track;
     if (event.kind == EventKind::collision) {
       if (!scatter_in_medium(scene.media[state.medium], state, rng)) return track;
@@ -141,7 +141,7 @@ Track track_by_hand(const Scene& scene, const DistanceStrategy& strategy, bool f
     }
     Scatter scatter;
     if (!scatter_at_surface(scene, event.hit, state, rng, scatter)) return track;
-    state.power *= from_eye ? scatter.radiance_scale : scatter.flux_scale;
+    state.throughput *= from_eye ? scatter.radiance_scale : scatter.flux_scale;
   }
 }
 
@@ -158,7 +158,7 @@ TEST(Follow, IsTheLoopOverEventsWrittenByHand) {
       const Track expected = track_by_hand(scene, *strategy, from_eye, by_hand);
       Track track;
       const auto see = [&](const Event&, const PathState&, const PathState& at) {
-        track.emplace_back(at.ray.origin, at.power);
+        track.emplace_back(at.ray.origin, at.throughput);
         return true;
       };
       WalkCounters counters;
@@ -194,10 +194,10 @@ class Splitter {
   bool see(const Event& event, const PathState&, PathState& at) {
     ++events_;
     if (event.kind == EventKind::escape) {
-      escaped += at.power.r;
+      escaped += at.throughput.r;
       ++paths;
     } else if (events_ <= 4) {
-      at.power *= 0.5f;
+      at.throughput *= 0.5f;
       waiting_.push_back({at, event, events_});
     }
     return true;
@@ -206,7 +206,7 @@ class Splitter {
     return scatter_photon(scene, event, at, rng);
   }
   static float limit(const PathState& from) { return from.medium == kVacuum ? kInfinity : 0.3f; }
-  void cut(const PathState& at) { cut_power += at.power.r; }
+  void cut(const PathState& at) { cut_power += at.throughput.r; }
 
   double escaped = 0.0, cut_power = 0.0;  // W
   int paths = 0;                          // that escaped

@@ -29,8 +29,8 @@ void add_lamp_and_camera(Scene& scene, const Light& lamp) {
   scene.camera_medium = medium_at(scene, scene.camera.position);
 }
 
-/// Two chambers full of fog, a lamp in the one, a camera in the other, and a hole in the wall between them. Walls are
-/// diffuse and glossy; a ball of rough metal hangs beside the lamp, one of glass behind the hole.
+/// Two chambers full of fog, a light in the one, a camera in the other, and a hole in the wall between them. Walls are
+/// diffuse and glossy; a ball of rough metal hangs beside the light, one of glass behind the hole.
 Scene chambers() {
   Scene scene;
   Medium fog = make_medium(nullptr, Rgb(0.3f, 0.4f, 0.6f));
@@ -47,7 +47,7 @@ Scene chambers() {
   return scene;
 }
 
-/// The chambers with walls that are almost black, and a lamp that shines away from the hole: what gets through was
+/// The chambers with walls that are almost black, and a light that shines away from the hole: what gets through was
 /// scattered towards it, by fog above all.
 Scene dark_chambers() {
   Scene scene;

@@ -36,7 +36,7 @@ std::vector<Moments> by_direction(const Ray& ray, uint64_t stream, const Scatter
     PathState state{ray, kVacuum, before};
     double absorbed = 0.0;
     const bool alive = scatter(state, rng, absorbed);
-    const double after = alive ? sum_channels(state.power) : 0.0;
+    const double after = alive ? sum_channels(state.throughput) : 0.0;
     const Vec2 u = uniform_sphere_numbers(state.ray.direction) * Vec2(kRows, kColumns);
     const int row = std::min(static_cast<int>(u.x), kRows - 1), column = std::min(static_cast<int>(u.y), kColumns - 1);
     for (int bin = 0; bin < kRows * kColumns; ++bin)
@@ -52,7 +52,7 @@ TEST(GuidedScatter, OfMediaHasTheMeansOfTheirOwn) {
   Medium fog = make_medium(nullptr, Rgb(1.0f));
   fog.sigma_s = Rgb(0.9f, 0.7f, 0.4f);
   const auto absorbed_in = [&](const PathState& state) {
-    return sum_channels(state.power * (Rgb(1.0f) - fog.albedo()));
+    return sum_channels(state.throughput * (Rgb(1.0f) - fog.albedo()));
   };
   uint64_t stream = 1;
   for (const Phase& phase : {Phase(Isotropic{}), Phase(HenyeyGreenstein{0.6f}), Phase(Rayleigh{})}) {
@@ -97,11 +97,11 @@ TEST(SlowGuidedScatter, OfSurfacesHasTheMeansOfTheirOwn) {
       const Hit& hit = met.hits[0];
       const auto trial = [&](const DirectionGuide* by) {
         return by_direction(ray, stream++, [&, by](PathState& state, Rng& rng, double& absorbed) {
-          const Rgb before = state.power;
+          const Rgb before = state.throughput;
           Scatter scatter;
           const bool alive = by ? scatter_at_surface(*by, scene, hit, state, rng, scatter)
                                 : scatter_at_surface(scene, hit, state, rng, scatter);
-          state.power *= scatter.flux_scale;
+          state.throughput *= scatter.flux_scale;
           absorbed = sum_channels(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale));
           return alive;
         });
@@ -125,8 +125,8 @@ TEST(GuidedScatter, MakesNoPhotonMuchHeavier) {
     Rng rng(1, rng_stream(RngUse::test, 50), i);
     PathState state{{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, 0, Rgb(1.0f)};
     ASSERT_TRUE(scatter_in_medium(guide, fog, state, rng));
-    EXPECT_LE(state.power.g, 1.12f);
-    powers.add(state.power.g);
+    EXPECT_LE(state.throughput.g, 1.12f);
+    powers.add(state.throughput.g);
   }
   expect_mean(powers, 1.0, kFalseAlarms);
 }

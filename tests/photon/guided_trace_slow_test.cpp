@@ -15,7 +15,7 @@ namespace {
 constexpr double kFalseAlarms = 1e-6;
 constexpr int kBoxes = 3;  // along an edge of [-1, 1]^3
 
-/// Fog in a box, a lamp in one of its corners and a camera that looks into the opposite one, between diffuse plates.
+/// Fog in a box, a light in one of its corners and a camera that looks into the opposite one, between diffuse plates.
 Scene foggy_box() {
   Scene scene;
   scene.media.push_back(make_medium(nullptr, Rgb(1.5f), 0.9f));
@@ -76,7 +76,7 @@ TEST(GuidedPhotons, HaveTheMeansOfUnguidedOnes) {
     }
 }
 
-/// A plate takes a tenth of a lamp's light, whether photons are aimed at it or not.
+/// A plate takes a tenth of a light's light, whether photons are aimed at it or not.
 TEST(GuidedPhotons, CarryLessWhereMoreAreEmitted) {
   constexpr double kCosine = 0.8;  // of the cone to the plate's rim
   Scene scene;
@@ -129,7 +129,7 @@ TEST(GuidedPhotons, KeepTheLedgerBalanced) {
   EXPECT_EQ(ledger.non_finite, 0u);
 }
 
-/// A lamp over a diffuse floor, with a small ball of glass between them, out of the way of most photons.
+/// A light over a diffuse floor, with a small ball of glass between them, out of the way of most photons.
 Scene small_ball() {
   Scene scene;
   add_shape(scene, DiscShape{Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 4.0f}, Lambertian{Rgb(0.5f)});

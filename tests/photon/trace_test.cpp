@@ -271,12 +271,12 @@ class Notes : public PhotonRecorder {
     const double length = glm::distance(from.ray.origin, photon.state.ray.origin);
     double t0 = 0.0, t1 = length;
     clip_to_box(Vec3d(from.ray.origin), Vec3d(from.ray.direction), Vec3d(box_.lo), Vec3d(box_.hi), t0, t1);
-    if (t1 > t0) track += from.power.g * (t1 - t0);
+    if (t1 > t0) track += from.throughput.g * (t1 - t0);
   }
   void collided(const ArrivingPhoton& photon) override {
     if (glm::all(glm::lessThan(box_.lo, photon.state.ray.origin)) &&
         glm::all(glm::lessThan(photon.state.ray.origin, box_.hi)))
-      collided_ += photon.state.power.g;
+      collided_ += photon.state.throughput.g;
   }
 
   std::vector<uint64_t> numbers;  // of photons, in the order in which they were told of

@@ -17,7 +17,7 @@ namespace {
 constexpr double kFalseAlarms = 1e-6;  // of each comparison
 constexpr float kReflectance = 0.5f;
 
-/// A diffuse hollow cube of 2 m with a lamp of 1 W in the middle, seen from inside.
+/// A diffuse hollow cube of 2 m with a light of 1 W in the middle, seen from inside.
 Scene hollow_cube(const Medium* fog = nullptr, float reflectance = kReflectance) {
   Scene scene;
   if (fog) {

@@ -85,7 +85,7 @@ TEST(GatherGuide, WithoutPhotonsDrawsAsTheMaterialScatters) {
   EXPECT_EQ(guided.weight, plain.weight);
 }
 
-/// A diffuse room of 2 m with a lamp, a wall of rough metal, and a ball of frosted glass with something dark inside.
+/// A diffuse room of 2 m with a light, a wall of rough metal, and a ball of frosted glass with something dark inside.
 Scene furnished_room() {
   Scene scene;
   scene.media.push_back(make_medium(nullptr, Rgb(0.5f), 0.0f));

@@ -14,7 +14,7 @@ namespace {
 constexpr double kFalseAlarms = 1e-4;  // of each check: half of them by the mean, half by any pixel
 constexpr int kFilm = 8;               // pixels along an edge
 
-/// A floor under a square lamp, and, of an index of refraction > 0, a ball between them.
+/// A floor under a square light, and, of an index of refraction > 0, a ball between them.
 Scene floor_under_lamp(float ior) {
   Scene scene;
   const QuadLight lamp{Vec3(-0.5f, 2.0f, -0.5f), Vec3(1, 0, 0), Vec3(0, 0, 1), Rgb(4.0f, 3.0f, 2.0f)};
@@ -63,8 +63,8 @@ void expect_same(const std::vector<Moments>& a, const std::vector<Moments>& b) {
   }
 }
 
-/// The lamp's light is so smooth on the floor that the blur of 6 cm changes it by less than 0.1 %: a tenth of the noise
-/// of pixels.
+/// The light's light is so smooth on the floor that the blur of 6 cm changes it by less than 0.1 %: a tenth of the
+/// noise of pixels.
 TEST(LectureChecks, PhotonsOfDirectLightLookLikeDirectLight) {
   const Scene scene = floor_under_lamp(0.0f);
   expect_same(pixels(scene, settings_of(DirectLight::photons, IndirectLight::photons), 1),

@@ -91,7 +91,7 @@ TEST(LightMap, ShadowRaysGiveThePointLightsIrradiance) {
   const UvLayout layout = lay_out_light_map(scene, 0, kTexels);
   const Baked baked = bake(scene, fixed_radius(0.1f, 10), layout, 400);
   expect_texels(baked, kTexels, 0, [&](double x, double z) { return point_irradiance(light, x, z); });
-  // The lamp is near the end of u and of v: on the right, in the top rows.
+  // The light is near the end of u and of v: on the right, in the top rows.
   size_t brightest = 0;
   for (size_t t = 0; t < layout.texels(); ++t)
     if (baked.texels[t].mean() > baked.texels[brightest].mean()) brightest = t;
@@ -149,7 +149,7 @@ TEST(LightMap, LightIsAttenuatedOnItsWay) {
   });
 }
 
-/// Six quads around the cube [-1, 1]^3, normals inward, with a lamp of 1 W in the middle.
+/// Six quads around the cube [-1, 1]^3, normals inward, with a light of 1 W in the middle.
 Scene cube_of_quads() {
   Scene scene;
   for (int axis = 0; axis < 3; ++axis)

@@ -29,10 +29,10 @@ TEST(March, IntegratesAConstantWithoutNoise) {
       double sum = 0.0;
       const Marched marched =
           marcher.march(medium, kRay, {0.0f, 4.0f}, limits, rng, [&](const Vec3&, const Rgb& w) { sum += w.r; });
-      const double crossed = column(medium, kRay, {0.0f, 4.0f}).value;
-      EXPECT_NEAR(marched.column, crossed, 1e-12);
+      const double crossed = density_integral(medium, kRay, {0.0f, 4.0f}).value;
+      EXPECT_NEAR(marched.integral, crossed, 1e-12);
       if (std::exp(-sigma * crossed) < 0.01) continue;  // roulette
-      EXPECT_NEAR(sum, attenuated_column(sigma, crossed), 1e-5 * crossed);
+      EXPECT_NEAR(sum, attenuated_integral(sigma, crossed), 1e-5 * crossed);
     }
 }
 
@@ -66,7 +66,7 @@ TEST(SlowMarch, IsUnbiasedForAnyStep) {
       const Marched m = marcher.march(medium, kRay, {0.0f, 4.0f}, limits, rng,
                                       [&](const Vec3& p, const Rgb& w) { sum += w * static_cast<float>(probe(p)); });
       for (int c = 0; c < 3; ++c) sums[c].add(sum[c]);
-      EXPECT_NEAR(m.column, column(medium, kRay, {0.0f, 4.0f}).value, 1e-12);
+      EXPECT_NEAR(m.integral, density_integral(medium, kRay, {0.0f, 4.0f}).value, 1e-12);
     }
     for (int c = 0; c < 3; ++c) expect_mean(sums[c], reference(medium, sigma[c], 4.0f, true), kFalseAlarms, "march");
   }
@@ -92,16 +92,16 @@ TEST(March, EndsInEndlessMediaThatAreClearInOneChannel) {
   const Marched marched =
       marcher.march(medium, kRay, {}, {0.5f, 0.3f, glm::bvec3(true, false, true)}, rng, [](auto&&...) {});
   EXPECT_LT(marched.steps, 1000u);
-  EXPECT_EQ(transmittance(medium, marched.column), Rgb(0.0f, 1.0f, 0.0f));
+  EXPECT_EQ(transmittance(medium, marched.integral), Rgb(0.0f, 1.0f, 0.0f));
 }
 
 TEST(March, EvenStepsAreUnbiasedToo) {
   const Medium medium = noise_medium(Rgb(1.0f));
   const double exact = reference(medium, 1.0f, 4.0f, false);
   for (const float cut : {0.0f, 2.1f}) {  // in one march, and in two
-    ColumnsAlong columns;
-    columns.walk(&medium, kRay, {0.0f, 4.0f});
-    const SeenThrough seen{kRay, columns, medium.sigma_t};
+    DensityIntegralsAlong integrals;
+    integrals.walk(&medium, kRay, {0.0f, 4.0f});
+    const SeenThrough seen{kRay, integrals, medium.sigma_t};
     Moments sums;
     for (uint64_t i = 0; i < 20000; ++i) {
       Rng rng(1, rng_stream(RngUse::test, 2), i);

@@ -1,4 +1,5 @@
-// The referee against closed forms. What it says of whole scenes is compared with the photon maps by `vpm validate`.
+// The path tracer against closed forms. What it says of whole scenes is compared with the photon maps by `vpm
+// validate`.
 #include "vpm/render/path_tracer.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ TEST(SlowPathTracer, WhiteFurnace) {
   }
 }
 
-/// A floor, and above it a lamp that faces it. `lamp`: a QuadLight or a SphereLight.
+/// A floor, and above it a lamp that faces it. `light`: a QuadLight or a SphereLight.
 template <class Lamp, class Surface>
 Scene lit_floor(const Lamp& lamp, const Surface& surface) {
   Scene scene;
@@ -65,7 +66,7 @@ double square_irradiance(double h) {
 }
 
 // The irradiance under a sphere of radiance 1 is pi sin^2 of its half angle, in whatever shares shadow rays and
-// scattered rays find it: a small lamp is nearly all the former's, one that fills the sky nearly all the latter's.
+// scattered rays find it: a small light is nearly all the former's, one that fills the sky nearly all the latter's.
 TEST(PathTracer, LampsOfAllSizes) {
   for (const float radius : {0.01f, 0.3f, 0.9f}) {
     const SphereLight lamp{Vec3(0, 1, 0), radius, Rgb(1.0f)};
@@ -112,7 +113,7 @@ TEST(PathTracer, MeshesStandInTheirOwnLight) {
     }
 }
 
-// Without multiple importance sampling, a strongly forward medium before a small bright lamp is noise. With it the
+// Without multiple importance sampling, a strongly forward medium before a small bright light is noise. With it the
 // variance of one sample stays near the squared mean.
 TEST(PathTracer, TheTwoWaysShare) {
   Medium medium = make_medium(nullptr, Rgb(0.5f), 0.9f);
@@ -131,7 +132,7 @@ TEST(PathTracer, TheTwoWaysShare) {
 }
 
 TEST(PathTracer, SpecularPathsFindLampsByThemselves) {
-  // A lamp seen in a mirror, behind a pane of IOR 1: its radiance times the mirror's reflectance, without noise.
+  // A light seen in a mirror, behind a pane of IOR 1: its radiance times the mirror's reflectance, without noise.
   Scene scene;
   const QuadLight lamp{Vec3(-1, 1, -1), Vec3(2, 0, 0), Vec3(0, 0, 2), Rgb(3.0f)};
   scene.lights.push_back(lamp);
@@ -153,7 +154,7 @@ class BrokenStrategy : public DistanceStrategy {
   }
 };
 
-/// A puff of smoke about a ball, under a lamp.
+/// A puff of smoke about a ball, under a light.
 Scene lit_puff(const Rgb& sigma_t) {
   const auto puff = make_grid(centred_frame(7, 0.125), [](int x, int y, int z) {
     return std::max(0.0, 1.0 - 0.02 * (x * x + y * y + z * z)) * (x & 1 ? 1.0 : 0.4);

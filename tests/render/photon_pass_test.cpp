@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, RenderSettings>> volume_estimates(RenderSetti
   return all;
 }
 
-/// A lamp over a floor, seen from above, in vacuum or fog. In fog the floor is black by default, so that only the fog
+/// A light over a floor, seen from above, in vacuum or fog. In fog the floor is black by default, so that only the fog
 /// is seen.
 Scene lamp_and_floor(const Medium* fog, const Rgb& floor_in_fog = Rgb(0.0f)) {
   Scene scene;
@@ -302,7 +302,7 @@ TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
 }
 
 TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {
-  // A ball of IOR 1 between lamp and floor: what shadow rays lose to it, photons bring back.
+  // A ball of IOR 1 between light and floor: what shadow rays lose to it, photons bring back.
   Scene with = lamp_and_floor(nullptr);
   const Moments without = pass_means(with, settings_of(40000, 0.06f), 12);
   Scene scene;

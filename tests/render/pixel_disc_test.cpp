@@ -135,7 +135,7 @@ RenderResult render_all(const Scene& scene, const RenderSettings& settings) {
   return render(scene, settings, nothing_rendered(scene.camera), {kGoOn});
 }
 
-/// The light of a lamp near the floor, on some pixels bright, on others next to none.
+/// The light of a light near the floor, on some pixels bright, on others next to none.
 TEST(RadiiOfPixels, ARenderIsTheTextbooksPixelByPixel) {
   const Scene scene = lit_floor(PointLight{Vec3(-0.5f, 0.3f, 0.2f), Rgb(1.0f)});
   for (const int samples : {1, 3}) {

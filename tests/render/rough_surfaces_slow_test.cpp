@@ -108,7 +108,7 @@ TEST(RoughSurfaces, SendOutTheirBsdfInParallelLight) {
     }
 }
 
-// A lamp in an absorbing ball of rough glass, which lets through some of its light: by photons alone, and by shadow
+// A light in an absorbing ball of rough glass, which lets through some of its light: by photons alone, and by shadow
 // rays that start within the glass.
 TEST(RoughSurfaces, ShadowRaysStartInTheMediumBehindThem) {
   Scene scene;

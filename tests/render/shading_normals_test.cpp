@@ -46,7 +46,7 @@ struct Detector {
   }
 };
 
-/// A lamp 1.2 m above the plate that shines down on it, and a detector beside the lamp or below the plate: no straight
+/// A lamp 1.2 m above the plate that shines down on it, and a detector beside the light or below the plate: no straight
 /// line joins them.
 Scene lamp_plate_detector(const TriangleMesh& plate, const Material& material, const Detector& detector) {
   Scene scene;
@@ -112,7 +112,7 @@ TEST(SlowShadingNormals, PhotonsCarryTheFluxThatEyePathsSee) {
   }
 }
 
-// A lamp in a box whose walls have tilted normals.
+// A light in a box whose walls have tilted normals.
 TEST(ShadingNormals, TheLedgerCloses) {
   for (const Material& material :
        {Material(Lambertian{Rgb(0.7f, 0.5f, 0.3f)}), Material(Mirror{Rgb(0.8f)}), Material(Dielectric{1.4f})}) {

@@ -123,12 +123,12 @@ TEST(SingleScattering, AttenuatedDistancesHaveTheirDensity) {
       for (const Rgb& throughput : {Rgb(1.0f), Rgb(0.0f, 0.2f, 3.0f), Rgb(0.0f, 1.0f, 0.0f)}) {
         const Medium medium = make_medium(grid, sigma_t);
         const Interval interval = medium.clip(ray, {0.0f, 4.0f});
-        ColumnsAlong columns;
-        columns.walk(&medium, ray, interval);
-        const AttenuatedDistances distances(columns, sigma_t, throughput * medium.sigma_s);
+        DensityIntegralsAlong integrals;
+        integrals.walk(&medium, ray, interval);
+        const AttenuatedDistances distances(integrals, sigma_t, throughput * medium.sigma_s);
         expect_density(
             interval, [&](double u) { return distances.draw(u); },
-            [&](double t) { return distances.pdf(columns.at(t)); },
+            [&](double t) { return distances.pdf(integrals.at(t)); },
             fmt::format("{}, extinction of red {}, throughput of red {}", grid ? "grid" : "fog", sigma_t.r,
                         throughput.r));
       }
@@ -147,7 +147,7 @@ TEST(SingleScattering, NothingScattersWithoutDensityOrThroughput) {
   EXPECT_EQ(counters.shadow_rays, 0u);
 }
 
-/// A lamp of 1 W/sr in endless fog.
+/// A light of 1 W/sr in endless fog.
 Scene lamp_in_fog(const Medium& fog, const Vec3& position) {
   Scene scene;
   scene.media.push_back(fog);
@@ -178,7 +178,7 @@ TEST(SingleScattering, IsExactForALampInFog) {
           }
 }
 
-// In fog that does not attenuate, a lamp's light comes with exactly the equiangular density. The other technique's
+// In fog that does not attenuate, a light's light comes with exactly the equiangular density. The other technique's
 // distances are then uniform, and the balance heuristic bounds what either brings: light over half its own density.
 TEST(SingleScattering, StaysBoundedBesideALamp) {
   const double off = 1e-3;

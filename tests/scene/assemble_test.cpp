@@ -10,7 +10,7 @@
 namespace vpm {
 namespace {
 
-/// A grey ball on a floor under a lamp; the camera stands before them.
+/// A grey ball on a floor under a light; the camera stands before them.
 SceneParts ball_on_floor() {
   SceneParts parts;
   parts.materials = {{Lambertian{Rgb(0.5f)}, nullptr}, {Dielectric{1.5f}, nullptr}, {Boundary{}, nullptr}};

@@ -1,4 +1,5 @@
-// The exact picture of a ball of fog: where it is known without any theory, against the referee, and what is refused.
+// The exact picture of a ball of fog: where it is known without any theory, against the path tracer, and what is
+// refused.
 #include "vpm/study/compare/exact_picture.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +81,7 @@ TEST(SlowExactPicture, BlackFogOnlyAttenuates) {
   EXPECT_GE(cut, 3);
 }
 
-TEST(SlowExactPicture, IsWhatTheRefereeSees) {
+TEST(SlowExactPicture, IsWhatThePathTracerSees) {
   constexpr double kFalseAlarms = 1e-6;  // of each pixel and channel
   const Scene scene = finished(ball_of(fog(Rgb(0.5f, 1.0f, 2.0f), Rgb(0.5f, 0.9f, 0.99f))));
   const Image image = exact_picture(scene);

@@ -1,4 +1,5 @@
-// A grid with a rotated transform against its own copy on an unrotated lattice: the same columns, the same picture.
+// A grid with a rotated transform against its own copy on an unrotated lattice: the same density integrals, the same
+// picture.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
@@ -46,16 +47,16 @@ void write_unrotated_copy(const std::string& source, const Box& box, double voxe
 }
 
 /// What the copy differs by, along random lines through the grid.
-struct ColumnDifference {
-  double mean = 0.0;     // m, of the grid's columns
-  double bias = 0.0;     // relative difference of the mean columns
-  double typical = 0.0;  // mean absolute difference over the mean column
+struct DensityIntegralDifference {
+  double mean = 0.0;     // m, of the grid's density integrals
+  double bias = 0.0;     // relative difference of the mean density integrals
+  double typical = 0.0;  // mean absolute difference over the mean density integral
   double worst = 0.0;    // m
 };
-ColumnDifference compare_columns(const Medium& grid, const Medium& copy, int rays) {
+DensityIntegralDifference compare_integrals(const Medium& grid, const Medium& copy, int rays) {
   const Box box = grid.grid->bounds();
   const float radius = 0.5f * box.diagonal();
-  ColumnDifference result;
+  DensityIntegralDifference result;
   double other = 0.0;
   for (int i = 0; i < rays; ++i) {
     Rng rng(1, 2, static_cast<uint64_t>(i));
@@ -64,7 +65,7 @@ ColumnDifference compare_columns(const Medium& grid, const Medium& copy, int ray
         box.lo + (Vec3(0.3f) + 0.4f * Vec3(rng.uniform(), rng.uniform(), rng.uniform())) * box.extent();
     const Ray ray{through - radius * direction, direction};
     const Interval whole{0.0f, 2.0f * radius};
-    const double a = column(grid, ray, whole).value, b = column(copy, ray, whole).value;
+    const double a = integral(grid, ray, whole).value, b = integral(copy, ray, whole).value;
     result.mean += a / rays;
     other += b / rays;
     result.typical += std::abs(a - b) / rays;
@@ -78,15 +79,15 @@ ColumnDifference compare_columns(const Medium& grid, const Medium& copy, int ray
 /// Moments over passes of the mean radiance of the whole picture (first) and of each block of pixels.
 std::vector<Moments> block_moments(const RenderJob& loaded) {
   const std::atomic<bool> stop{false};
-  const int columns = kWidth / kBlock;
-  std::vector<Moments> moments(1 + columns * (kHeight / kBlock));
+  const int integrals = kWidth / kBlock;
+  std::vector<Moments> moments(1 + integrals * (kHeight / kBlock));
   for (int pass = 0; pass < kPasses; ++pass) {
     const Image image = render_photon_pass(loaded.scene, loaded.settings, pass, stop).image;
     std::vector<double> means(moments.size());
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         means[0] += image.at(x, y).g / (kWidth * kHeight);
-        means[1 + (y / kBlock) * columns + x / kBlock] += image.at(x, y).g / (kBlock * kBlock);
+        means[1 + (y / kBlock) * integrals + x / kBlock] += image.at(x, y).g / (kBlock * kBlock);
       }
     for (size_t i = 0; i < means.size(); ++i) moments[i].add(means[i]);
   }
@@ -151,19 +152,19 @@ TEST_F(RotatedGrid, LooksAsItsUnrotatedCopy) {
   write_unrotated_copy(dragon, grid->bounds(), 0.5 * grid->voxel_size(), copy);
 
   const RenderJob rotated = scene(dragon, 1), unrotated = scene(copy, 2);
-  const ColumnDifference columns = compare_columns(rotated.scene.media[0], unrotated.scene.media[0], 1000);
-  EXPECT_GT(columns.mean, 0.1);
-  EXPECT_LT(std::abs(columns.bias), 0.002);
-  EXPECT_LT(columns.typical, 0.005);
-  EXPECT_LT(columns.worst, 0.5 * grid->voxel_size());
+  const DensityIntegralDifference integrals = compare_integrals(rotated.scene.media[0], unrotated.scene.media[0], 1000);
+  EXPECT_GT(integrals.mean, 0.1);
+  EXPECT_LT(std::abs(integrals.bias), 0.002);
+  EXPECT_LT(integrals.typical, 0.005);
+  EXPECT_LT(integrals.worst, 0.5 * grid->voxel_size());
 
   // z-tests over passes, of the whole picture and of its blocks, with a false-alarm rate of 1e-6 each. Resampling adds
-  // at most what it adds to the columns: light that scatters grows less than the column does.
+  // at most what it adds to the density integrals: light that scatters grows less than the density integral does.
   const std::vector<Moments> a = block_moments(rotated), b = block_moments(unrotated);
   int lit = 0;
   for (size_t i = 0; i < a.size(); ++i) {
     const double error = std::sqrt(a[i].variance_of_mean() + b[i].variance_of_mean());
-    const double resampling = (i == 0 ? std::abs(columns.bias) : 2.0 * columns.typical) * a[i].mean();
+    const double resampling = (i == 0 ? std::abs(integrals.bias) : 2.0 * integrals.typical) * a[i].mean();
     EXPECT_LE(std::abs(a[i].mean() - b[i].mean()), normal_quantile(1e-6) * error + resampling)
         << "block " << i << ": " << a[i].mean() << " and " << b[i].mean() << " +- " << error;
     EXPECT_LT(error, (i == 0 ? 0.005 : 1.0) * std::max(a[i].mean(), a[0].mean()));

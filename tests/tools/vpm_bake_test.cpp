@@ -7,7 +7,7 @@
 namespace vpm {
 namespace {
 
-/// A floor with a lamp over the end of both its edges, and shapes that no light map can be of.
+/// A floor with a light over the end of both its edges, and shapes that no light map can be of.
 constexpr const char* kScene = R"(
 [camera]
 position = [0, 1, 3]
@@ -90,7 +90,7 @@ TEST_F(VpmBake, WritesIrradianceCoverageVarianceAndWhereItIsFrom) {
   EXPECT_EQ(exr.metadata.at("vpm.passes"), "2");
   EXPECT_NE(exr.metadata.at("vpm.quantity").find("irradiance"), std::string::npos);
   EXPECT_NE(exr.metadata.at("vpm.uncovered").find("0 of 256: black, but within 2 texels"), std::string::npos);
-  // Under the lamp: at the end of u and of v, in the top right corner.
+  // Under the light: at the end of u and of v, in the top right corner.
   const std::vector<float>& red = exr.planes.at("R");
   const auto brightest = std::max_element(red.begin(), red.end()) - red.begin();
   EXPECT_GE(brightest % 16, 14);

@@ -22,7 +22,7 @@ constexpr uint64_t kAddressSpace =
 constexpr uint64_t kAddressSpace = uint64_t{1} << 30;  // bytes, the program's own included
 #endif
 
-/// A scene that shows something of width `size` at `centre` in black space, lit by a lamp from the upper right.
+/// A scene that shows something of width `size` at `centre` in black space, lit by a light from the upper right.
 /// `medium` has the keys of its fog.
 std::string view_of(const Vec3d& centre, double size, const std::string& medium) {
   const Vec3d camera = centre + Vec3d(0.0, 0.0, 1.6 * size), lamp = centre + size * Vec3d(0.8, 1.0, 0.8);

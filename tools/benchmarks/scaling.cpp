@@ -12,7 +12,7 @@
 namespace vpm::bench {
 namespace {
 
-/// The cloud in vacuum with a lamp inside, where every photon collides soon.
+/// The cloud in vacuum with a light inside, where every photon collides soon.
 Scene cloud_scene() {
   Scene scene;
   scene.media.push_back(cloud_medium());

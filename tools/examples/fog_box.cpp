@@ -1,4 +1,4 @@
-// A scene built in code: a box of fog on a floor, with a lamp above it, rendered to an EXR file: fog_box FILE.exr
+// A scene built in code: a box of fog on a floor, with a light above it, rendered to an EXR file: fog_box FILE.exr
 #include <cstdio>
 
 #include "vpm/base/error.h"
@@ -20,7 +20,7 @@ vpm::SceneParts fog_in_a_box() {
   parts.materials = {{vpm::Boundary{}}, {vpm::Lambertian{vpm::Rgb(0.6f, 0.5f, 0.4f)}}};
   parts.shapes = {{.surface = vpm::box_mesh({-1.0, 0.01, -1.0}, {1.0, 2.01, 1.0}), .material = 0, .media = fog_inside},
                   {.surface = vpm::quad_mesh({-4.0, 0.0, 4.0}, {8.0, 0.0, 0.0}, {0.0, 0.0, -8.0}), .material = 1}};
-  parts.lights = {{"lamp", vpm::PointLight{vpm::Vec3(0.5f, 4.0f, 1.0f), vpm::Rgb(30.0f)}}};  // m, W/sr
+  parts.lights = {{"light", vpm::PointLight{vpm::Vec3(0.5f, 4.0f, 1.0f), vpm::Rgb(30.0f)}}};  // m, W/sr
   parts.camera = vpm::make_camera({1.0f, 2.5f, 6.0f}, {0.0f, 0.8f, 0.0f}, {0.0f, 1.0f, 0.0f}, 40.0f, {256, 192});
   return parts;
 }

@@ -25,10 +25,10 @@ struct RenderOptions : PassOptions {
   std::optional<double> error;  // relative MSE to stop at
   std::string reference;        // .exr: the truth, against which errors are logged; empty: none
   bool automatic = false;       // choose settings that the scene leaves out
-  bool checkpoint = false;      // keep one beside the image after each pass
+  bool checkpoint = false;      // keep one next to the image after each pass
   bool resume = false;          // go on from that
 };
-/// Renders a scene to an EXR file, with a PNG preview and a JSON report beside it. 130 when interrupted: the finished
+/// Renders a scene to an EXR file, with a PNG preview and a JSON report next to it. 130 when interrupted: the finished
 /// passes are written.
 /// With a checkpoint a killed render loses the pass under way, and goes on to the same bits.
 int render_command(const RenderOptions& options);
@@ -38,7 +38,7 @@ struct BakeOptions : PassOptions {
   int resolution = 256;  // texels along an edge
 };
 /// Bakes the irradiance on a shape into an EXR file over its texture coordinates, with a PNG preview and a JSON report
-/// beside it. 130 when interrupted: the finished passes are written.
+/// next to it. 130 when interrupted: the finished passes are written.
 int bake_command(const BakeOptions& options);
 
 struct CompareOptions {

@@ -107,7 +107,7 @@ std::string ExactArguments::word(const std::string& key, const std::vector<std::
 void ExactArguments::expect_all_read() const {
   for (const std::string& name : given_)
     if (std::none_of(read_.begin(), read_.end(), [&](const auto& v) { return v.first == name; }))
-      refuse(name, "means nothing here: beside the other keys, it is not used");
+      refuse(name, "means nothing here: with the other keys given, it is not used");
 }
 
 }  // namespace vpm::tools

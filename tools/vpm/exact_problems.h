@@ -33,7 +33,7 @@ class ExactArguments {
   std::string word(const std::string& key, const std::vector<std::string>& words);
   [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 
-  /// Refuses keys that were given and not read: they mean nothing beside the others.
+  /// Refuses keys that were given and not read: they mean nothing with the others given.
   void expect_all_read() const;
   /// All that were read, with their values.
   const std::vector<std::pair<std::string, std::string>>& read() const { return read_; }

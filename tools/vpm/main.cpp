@@ -79,10 +79,10 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->check(check_error)
       ->excludes(passes);
   command->add_option("--reference", options.reference,
-                      "EXR image of the truth: log error against time to a CSV file beside the image");
+                      "EXR image of the truth: log error against time to a CSV file next to the image");
   command->add_flag("--auto", options.automatic,
                     "Choose what the scene leaves out of radii, photons and distance strategy, and tell why");
-  command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint beside the image after each pass");
+  command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint next to the image after each pass");
   command->add_flag("--resume", options.resume, "Go on from that checkpoint, and keep it up to date");
 }
 
@@ -153,8 +153,7 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
                                         "Only this level: 0 distributions, 1 identities, 2 transport theory, "
                                         "3 agreement, 4 convergence")
                            ->check(CLI::Range(0, kLevels - 1));
-  CLI::Option* only =
-      command->add_option("--only", options.only, "Only experiments whose name holds this text");
+  CLI::Option* only = command->add_option("--only", options.only, "Only experiments whose name holds this text");
   command
       ->add_option("--oracles", options.oracles,
                    "Instead: check every case of the reference numbers in the files of this folder")

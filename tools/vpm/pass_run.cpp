@@ -41,8 +41,9 @@ Outputs output_paths(const PassOptions& options, const std::string& name) {
   const fs::path exr = options.output.empty() ? name + ".exr" : options.output;
   if (exr.extension() != ".exr")
     throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
-  const auto beside = [&](const char* extension) { return fs::path(exr).replace_extension(extension); };
-  return {exr, beside(".png"), beside(".json"), beside(".checkpoint"), beside(".errors.csv")};
+  const auto with_extension = [&](const char* extension) { return fs::path(exr).replace_extension(extension); };
+  return {exr, with_extension(".png"), with_extension(".json"), with_extension(".checkpoint"),
+          with_extension(".errors.csv")};
 }
 
 void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const RenderJob& job) {

@@ -16,12 +16,12 @@ inline constexpr int kInterrupted = 130;  // as shells report a process ended by
 /// kills.
 const std::atomic<bool>& stop_on_signals();
 
-/// An image, and what is written beside it.
+/// An image, and the files that are written next to it.
 struct Outputs {
   std::filesystem::path exr, png, json, checkpoint, errors;
 };
 
-/// The paths beside options.output, which must end in .exr; where it is empty: `name`.exr in the current folder.
+/// The paths next to options.output, which must end in .exr; where it is empty: `name`.exr in the current folder.
 Outputs output_paths(const PassOptions& options, const std::string& name);
 
 /// Throws InputError where an output, of an image of that many pixels, could not be written, or would replace a file

@@ -39,8 +39,8 @@ std::vector<Experiment> asked_for(const ValidateOptions& options) {
   std::vector<Experiment> all = experiments(options.level.value_or(-1));
   std::erase_if(all, [&](const Experiment& e) { return e.name.find(options.only) == std::string::npos; });
   if (all.empty())
-    throw InputError(fmt::format("--only: no experiment has '{}' in its name; vpm validate prints their names",
-                                 options.only));
+    throw InputError(
+        fmt::format("--only: no experiment has '{}' in its name; vpm validate prints their names", options.only));
   return all;
 }
 

@@ -1,5 +1,5 @@
-// The beam radiance estimate [Jarosz2008beam]: the photons beside a whole stretch of a ray, in one query, each spread
-// over a disc across the ray.
+// The beam radiance estimate [Jarosz2008beam]: one query finds the photons near a whole segment of a ray. Each photon
+// is spread over a disc perpendicular to the ray.
 #pragma once
 
 #include <span>
@@ -23,28 +23,28 @@ struct PhotonList {
   uint64_t emitted;
 };
 
-/// The share of light that passes from feet on a ray to the eye, channel by channel.
+/// Transmittances from places on a ray to the eye, channel by channel.
 struct Passed {
   float r[PhotonBatch::kMost], g[PhotonBatch::kMost], b[PhotonBatch::kMost];
 };
 
-/// What of_foot(distance along the ray, m), an Rgb, says, as beam_sum() asks for it.
-template <class OfFoot>
-auto each_foot(OfFoot&& of_foot) {
-  return [of_foot](std::span<const float> feet, Passed& passed) {
-    for (size_t i = 0; i < feet.size(); ++i) {
-      const Rgb of_this = of_foot(feet[i]);
-      passed.r[i] = of_this.r;
-      passed.g[i] = of_this.g;
-      passed.b[i] = of_this.b;
+/// Transmittances by a function of one distance, as beam_sum() asks for them: at_distance(m along the ray) is an Rgb.
+template <class AtDistance>
+auto each_distance(AtDistance&& at_distance) {
+  return [at_distance](std::span<const float> distances, Passed& passed) {
+    for (size_t i = 0; i < distances.size(); ++i) {
+      const Rgb transmittance = at_distance(distances[i]);
+      passed.r[i] = transmittance.r;
+      passed.g[i] = transmittance.g;
+      passed.b[i] = transmittance.b;
     }
   };
 }
 
-/// sum_p p(travel_p . towards the eye) Phi_p K_r(distance of p from the ray) along(t_p) over the photons whose foot t_p
-/// on the ray lies in the interval, K_r over discs of the photon's radius r; times the albedo, radiance in W/(m^2 sr)
-/// where `along`(feet, Passed&) finds the transmittance from the eye to the feet t. With photons stored for the
-/// density at the query it has that density as a factor, too, over the medium's largest.
+/// sum_p p(travel_p . towards the eye) Phi_p K_r(distance of p from the ray) along(t_p) over the photons whose
+/// projection t_p onto the ray lies in the interval, K_r over discs of the photon's radius r; times the albedo,
+/// radiance in W/(m^2 sr) where `along`(distances, Passed&) finds the transmittance from the eye to the distances t.
+/// With photons stored for the density at the query it has that density as a factor, too, over the medium's largest.
 ///
 /// What is left of bias is that of the kernel across the ray, of order r^2, and that of discs that stick out of the
 /// medium.
@@ -56,12 +56,12 @@ Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along
   const auto sum = [&](const auto& p, auto profile) {
     Rgbd sum_of_photons(0.0);
     uint32_t used = 0;
-    const auto visit = [&](const PhotonsBeside& beside) {
-      const PhotonBatch& batch = beside.batch;
+    const auto visit = [&](const PhotonsNearRay& near) {
+      const PhotonBatch& batch = near.batch;
       Passed passed;
-      along(std::span(beside.foot, batch.size()), passed);
+      along(std::span(near.distance, batch.size()), passed);
       const auto weight = [&](size_t i) {
-        const float inverse = 1.0f / (beside.radius[i] * beside.radius[i]);
+        const float inverse = 1.0f / (near.radius[i] * near.radius[i]);
         return Rgb(passed.r[i], passed.g[i], passed.b[i]) * (profile(batch.distance2(i) * inverse) * inverse);
       };
       const auto scattered = [&](const Vec3& travel, const Rgb& power) {
@@ -70,7 +70,7 @@ Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along
       sum_of_photons += sum_photons(batch, weight, scattered);
       used += batch.number();
     };
-    count(counters.visited, map.photons.visit_beside(ray, interval, visit));
+    count(counters.visited, map.photons.visit_near_ray(ray, interval, visit));
     counters.used += used;
     return Rgb(sum_of_photons);
   };

@@ -1,4 +1,4 @@
-// Columns of segments.
+// Density integrals of segments.
 #include "vpm/estimate/eye_segment.h"
 
 namespace vpm {
@@ -9,19 +9,19 @@ Interval clip(const Ray& ray, const Interval& interval, const Box& box, float ma
   return {static_cast<float>(t0), static_cast<float>(t1)};
 }
 
-const ColumnsAlong& EyeSegment::columns(EyeWork& work) const {
-  ColumnsAlong& columns = work.scratch.columns;
-  if (walked_) return columns;
-  count(work.counters.walk.lookups, columns.walk(medium(), ray, interval));
+const DensityIntegralsAlong& EyeSegment::integrals(EyeWork& work) const {
+  DensityIntegralsAlong& integrals = work.scratch.integrals;
+  if (walked_) return integrals;
+  count(work.counters.walk.lookups, integrals.walk(medium(), ray, interval));
   walked_ = true;
-  column_ = columns.column();
-  return columns;
+  integral_ = integrals.integral();
+  return integrals;
 }
 
 Rgb EyeSegment::transmittance(EyeWork& work) const {
   if (!medium()) return Rgb(1.0f);
-  if (!column_) column_ = counted_column(*medium(), ray, interval, work.counters.walk);
-  return vpm::transmittance(*medium(), *column_);
+  if (!integral_) integral_ = counted_density_integral(*medium(), ray, interval, work.counters.walk);
+  return vpm::transmittance(*medium(), *integral_);
 }
 
 }  // namespace vpm

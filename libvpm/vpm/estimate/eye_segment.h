@@ -12,15 +12,16 @@ namespace vpm {
 /// The part of the ray in the box grown by `margin`, m.
 Interval clip(const Ray& ray, const Interval& interval, const Box& box, float margin);
 
-/// The column of the medium over an interval of a ray, m.
-inline double counted_column(const Medium& medium, const Ray& ray, const Interval& interval, WalkCounters& counters) {
-  const Column crossed = column(medium, ray, interval);
+/// The density integral of the medium over an interval of a ray, m.
+inline double counted_density_integral(const Medium& medium, const Ray& ray, const Interval& interval,
+                                       WalkCounters& counters) {
+  const DensityIntegral crossed = density_integral(medium, ray, interval);
   count(counters.lookups, crossed.lookups);
   return crossed.value;
 }
 
-/// Lies in one medium. The column along it (the integral of density, from its start) is walked along once, however many
-/// estimators ask.
+/// Lies in one medium. The density integral along it (the integral of density, from its start) is walked along once,
+/// however many estimators ask.
 class EyeSegment {
  public:
   EyeSegment(const Scene& scene_of_ray, const Ray& along, const Interval& from_to, MediumId in, const Rgb& counts_for)
@@ -28,10 +29,10 @@ class EyeSegment {
 
   /// Null in vacuum.
   const Medium* medium() const { return number == kVacuum ? nullptr : &scene.media[number]; }
-  /// The columns at all places of the segment.
-  const ColumnsAlong& columns(EyeWork& work) const;
-  /// An estimator has walked along the whole segment by itself, and found this column, m.
-  void set_column(double column) const { column_ = column; }
+  /// The density integrals at all places of the segment.
+  const DensityIntegralsAlong& integrals(EyeWork& work) const;
+  /// An estimator has walked along the whole segment by itself, and found this density integral, m.
+  void set_integral(double integral) const { integral_ = integral; }
   /// Of the whole segment.
   Rgb transmittance(EyeWork& work) const;
 
@@ -42,8 +43,8 @@ class EyeSegment {
   const Rgb throughput;     // what radiance that enters its near end counts for
 
  private:
-  mutable bool walked_ = false;           // by columns()
-  mutable std::optional<double> column_;  // m
+  mutable bool walked_ = false;             // by integrals()
+  mutable std::optional<double> integral_;  // m
 };
 
 }  // namespace vpm

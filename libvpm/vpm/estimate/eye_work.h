@@ -5,13 +5,13 @@
 #include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/estimate/volume/march.h"
-#include "vpm/medium/columns_along.h"
+#include "vpm/medium/density_integrals_along.h"
 
 namespace vpm {
 
 /// Buffers that outlive rays, so that these allocate nothing: one for each thread.
 struct EyeScratch {
-  ColumnsAlong columns;  // of the segment under way
+  DensityIntegralsAlong integrals;  // of the segment under way
   Marcher marcher;
   Neighbours neighbours;  // of the last gather by count
 };

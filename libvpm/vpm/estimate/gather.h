@@ -9,7 +9,7 @@
 
 namespace vpm {
 
-/// Around points by radius or by count; or, in media, beside whole stretches of rays (beam_estimate.h), by radius.
+/// Around points, by radius or by count; or, in media, around whole segments of rays, by radius (beam_estimate.h).
 enum class GatherMode { radius, nearest, beam };
 
 /// What is done where a disc or a ball reaches beyond the places that photons can come to: nothing, so that estimates

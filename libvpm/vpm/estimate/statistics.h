@@ -42,7 +42,7 @@ struct EyeCounters {
 };
 static_assert(lists_every_member<EyeCounters>());
 
-/// Sums over passes, but for what says otherwise.
+/// Sums over passes; members that are no sums say so.
 struct RenderStatistics {
   int64_t passes = 0;
   double guide_seconds = 0.0, trace_seconds = 0.0, build_seconds = 0.0, eye_seconds = 0.0;  // wall clock

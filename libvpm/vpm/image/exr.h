@@ -11,7 +11,7 @@
 
 namespace vpm {
 
-/// A picture beside the main one in the same file, of the same size.
+/// A further picture in the same file, of the same size as the main one.
 struct ExrLayer {
   std::string name;  // of its channels: name.R, name.G, name.B
   const Image* image;

@@ -51,7 +51,7 @@ void check_magic(VdbCursor& cursor) {
   cursor.seek(kMagic.size());
 }
 
-/// Skips metadata fields, but for the grid's class and number of active voxels.
+/// Skips all metadata fields except the grid's class and number of active voxels.
 void read_metadata(VdbCursor& cursor, VdbGridEntry& entry) {
   const auto count = cursor.read<uint32_t>();
   for (uint32_t i = 0; i < count; ++i) {

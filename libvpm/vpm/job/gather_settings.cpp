@@ -174,7 +174,7 @@ Setting declare_aimed_photons() {
           .member = at<&S::caustics_emitted>(),
           .domain = Integers{0, kAnyInteger},
           .meaning =
-              "> 0: that many photons per pass, beside the others, aimed at mirrors and glass for the caustic "
+              "> 0: that many further photons per pass, aimed at mirrors and glass for the caustic "
               "map of final gathering"};
 }
 

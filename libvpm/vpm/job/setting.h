@@ -94,7 +94,7 @@ struct Field {
   std::string key;
   SettingValue value;
 };
-/// The settings that decide what passes estimate, but for those whose need is not met.
+/// The settings that decide what passes estimate, except those whose need is not met.
 std::vector<Field> estimate_fields(const RenderSettings& settings);
 /// These as one line, "key=value key=value", of which field_of() finds each.
 std::string settings_line(const RenderSettings& settings);

@@ -40,7 +40,7 @@ void check_photons(const RenderSettings& s) {
             "make 'importons' positive, or leave out 'scatter'");
 }
 
-/// "did you mean ..." has no place here: the name is right, but for something else.
+/// "did you mean ..." would mislead here: the name exists, but belongs to something else.
 std::string strategies_that(bool StrategyInfo::*is, const char* title) {
   std::vector<std::string_view> names;
   for (const StrategyInfo& info : distance_strategies())

@@ -19,7 +19,7 @@ int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 /// The most bricks a table may hold: 256 MiB of them, which span 2200^3 voxels.
 constexpr double kMaxBricks = double(1u << 28) / 12.0;
 
-/// Bit by bit, for speed: a zero of either sign beside the other counts as unequal, and its brick is found uniform by
+/// Bit by bit, for speed: zeros of opposite signs count as unequal, and its brick is found uniform by
 /// its extrema.
 bool all_equal(const float* values) {
   // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)

@@ -1,4 +1,4 @@
-// The density along a short stretch of a ray: a cubic, so that its column is an exact quartic.
+// The density along a short stretch of a ray: a cubic, so that its density integral is an exact quartic.
 #pragma once
 
 #include <algorithm>
@@ -16,20 +16,20 @@ struct DensityPiece {
   double length() const { return t1 - t0; }  // infinite only where uniform()
   bool uniform() const { return c1 == 0.0 && c2 == 0.0 && c3 == 0.0; }
   double density(double s) const { return c0 + s * (c1 + s * (c2 + s * c3)); }
-  /// The column from t0 to t0 + s: the integral of density, in m (times sigma_t: optical thickness). Densities are not
-  /// negative, so neither is this but for rounding.
-  double column(double s) const { return uniform() ? s * c0 : s * (c0 + s * (c1 / 2 + s * (c2 / 3 + s * (c3 / 4)))); }
-  double column() const { return column(length()); }
+  /// The density integral from t0 to t0 + s: the integral of density, in m (times sigma_t: optical thickness).
+  /// Densities are not negative, so neither is this, except by rounding.
+  double integral(double s) const { return uniform() ? s * c0 : s * (c0 + s * (c1 / 2 + s * (c2 / 3 + s * (c3 / 4)))); }
+  double integral() const { return integral(length()); }
 
-  /// The s in [0, length()] at which column(s) reaches `target`, 0 <= target <= column(). Newton's iteration, kept
+  /// The s in [0, length()] at which integral(s) reaches `target`, 0 <= target <= integral(). Newton's iteration, kept
   /// inside a shrinking bracket because the density may vanish at corners of a cell.
   double invert(double target) const {
     if (uniform()) return c0 > 0.0 ? std::min(target / c0, length()) : length();
     double lo = 0.0;
     double hi = length();
-    double s = hi * std::clamp(target / column(), 0.0, 1.0);
+    double s = hi * std::clamp(target / integral(), 0.0, 1.0);
     for (int i = 0; i < kMaxIterations; ++i) {
-      const double excess = column(s) - target;
+      const double excess = integral(s) - target;
       (excess > 0.0 ? hi : lo) = s;
       const double slope = density(s);
       double next = slope > 0.0 ? s - excess / slope : -1.0;

@@ -88,19 +88,20 @@ struct Medium {
   }
 };
 
-/// The column along a stretch of ray, m (the integral of density), with the look-ups it took.
-struct Column {
+/// The integral of density along a segment of a ray, m, with the look-ups it took. Times sigma_t it is the optical
+/// depth.
+struct DensityIntegral {
   double value = 0.0;
   uint32_t lookups = 0;
 };
 /// Exact for homogeneous, trilinear and nearest fields: regular tracking [Novak2018, sec. 4.1].
-Column column(const Medium& medium, const Ray& ray, const Interval& interval);
+DensityIntegral density_integral(const Medium& medium, const Ray& ray, const Interval& interval);
 
-/// exp(-sigma_t column) per channel; 1 where sigma_t is 0, also for an endless column.
-inline Rgb transmittance(const Medium& medium, double column) {
+/// exp(-sigma_t density integral) per channel; 1 where sigma_t is 0, also where the density integral is infinite.
+inline Rgb transmittance(const Medium& medium, double integral) {
   Rgb result(1.0f);
   for (int c = 0; c < 3; ++c)
-    if (medium.sigma_t[c] > 0.0f) result[c] = static_cast<float>(std::exp(-medium.sigma_t[c] * column));
+    if (medium.sigma_t[c] > 0.0f) result[c] = static_cast<float>(std::exp(-medium.sigma_t[c] * integral));
   return result;
 }
 

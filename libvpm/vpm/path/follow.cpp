@@ -15,14 +15,14 @@ bool draw_outcome(const Scene& scene, const Event& event, PathState& state, Rng&
 bool scatter_photon(const Scene& scene, const Event& event, PathState& state, Rng& rng) {
   Scatter scatter;
   if (!draw_outcome(scene, event, state, rng, scatter)) return false;
-  state.power *= scatter.flux_scale;
+  state.throughput *= scatter.flux_scale;
   return true;
 }
 
 bool scatter_eye_path(const Scene& scene, const Event& event, PathState& state, Rng& rng) {
   Scatter scatter;
   if (!draw_outcome(scene, event, state, rng, scatter)) return false;
-  state.power *= scatter.radiance_scale;
+  state.throughput *= scatter.radiance_scale;
   return true;
 }
 

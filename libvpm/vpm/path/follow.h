@@ -4,7 +4,7 @@
 //
 // - `bool see(const Event& event, const PathState& from, PathState& at)`, at every event, the last one included, before
 //   its outcome is drawn. `from` is the path as it set out on the flight, `at` stands at the event with the direction
-//   and power with which it arrived. False ends the path. It may change the power: roulette is played here.
+//   and throughput with which it arrived. False ends the path. It may change the throughput: roulette is played here.
 // - `bool scatter(const Scene& scene, const Event& event, PathState& at, Rng& rng)`, at collisions and surfaces: draws
 //   the outcome. False where the path is absorbed. PhotonVisitor and EyeVisitor scatter as all photons and all paths
 //   from the eye do, others may be guided.
@@ -37,7 +37,7 @@ struct Walk {
   int max_events = kNoLimit;  // of one path
 };
 
-/// Follows a path until the visitor ends it, or it is absorbed, escapes, has lost all power or met as many events as
+/// Follows a path until the visitor ends it, or it is absorbed, escapes, has a throughput of 0 or met as many events as
 /// the walk allows, of which it has met `events` before. It flies first.
 template <class Visitor>
 void follow(const Walk& walk, PathState state, Rng& rng, Visitor&& visitor, int events = 0) {
@@ -46,7 +46,7 @@ void follow(const Walk& walk, PathState state, Rng& rng, Visitor&& visitor, int 
     if constexpr (requires { visitor.limit(state); }) limit = visitor.limit(state);
     const PathState from = state;
     const Event event = next_event(walk.scene, walk.strategy, state, rng, walk.counters, limit);
-    if (!visitor.see(event, from, state) || event.kind == EventKind::escape || is_black(state.power)) return;
+    if (!visitor.see(event, from, state) || event.kind == EventKind::escape || is_black(state.throughput)) return;
     if (event.kind == EventKind::limit) continue;
     if (!visitor.scatter(walk.scene, event, state, rng)) return;
   }

@@ -29,12 +29,12 @@ struct Flying {
 
   bool collides_within(float length) {
     event.through_medium = true;
-    const Flight flight = strategy.sample(scene.media[state.medium], state.ray, {0.0f, length}, state.power, rng);
+    const Flight flight = strategy.sample(scene.media[state.medium], state.ray, {0.0f, length}, state.throughput, rng);
     count(counters.lookups, flight.lookups);
     count(counters.bricks, flight.bricks);
     count(counters.null_collisions, flight.null_collisions);
     counters.majorant_violations += flight.majorant_violations;
-    state.power *= flight.weight;
+    state.throughput *= flight.weight;
     if (!flight.collided) return false;
     state.ray.origin = state.ray.at(flight.t);
     event.kind = EventKind::collision;
@@ -77,24 +77,24 @@ bool survive_roulette(double weight, PathState& state, Rng& rng) {
   if (weight >= kBelow) return true;
   const double survival = weight / kBelow;
   if (!(rng.uniform_double() < survival)) return false;
-  state.power /= static_cast<float>(survival);
+  state.throughput /= static_cast<float>(survival);
   return true;
 }
 
 bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng) {
   const Rgb albedo = medium.albedo();
-  const float q = is_grey(albedo) ? albedo.r : glm::dot(albedo, channel_shares(state.power));
+  const float q = is_grey(albedo) ? albedo.r : glm::dot(albedo, channel_shares(state.throughput));
   if (rng.uniform() >= q) return false;
-  if (!is_grey(albedo)) state.power *= albedo / q;
+  if (!is_grey(albedo)) state.throughput *= albedo / q;
   state.ray.direction = phase_sample(medium.phase, state.ray.direction, rng.uniform2());
   return true;
 }
 
 bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng) {
-  const Rgb after = state.power * scatter.weight;
-  const float survival = std::min(1.0f, max_channel(glm::abs(after)) / max_channel(glm::abs(state.power)));
+  const Rgb after = state.throughput * scatter.weight;
+  const float survival = std::min(1.0f, max_channel(glm::abs(after)) / max_channel(glm::abs(state.throughput)));
   if (!(rng.uniform() < survival)) return false;
-  state.power = after / survival;
+  state.throughput = after / survival;
   if (scatter.transmitted)
     state.medium = medium_beyond(scene.shapes[hit.shape], hit.normal, scatter.direction, state.medium);
   state.ray = {leave_surface(hit, scatter.direction), scatter.direction};

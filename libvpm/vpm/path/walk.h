@@ -13,7 +13,7 @@ namespace vpm {
 struct PathState {
   Ray ray;
   MediumId medium = kVacuum;
-  Rgb power{1.0f};  // W for photons, dimensionless throughput for eye paths
+  Rgb throughput{1.0f};  // dimensionless; of photons the power that they carry, W
 };
 
 enum class EventKind { collision, surface, limit, escape };
@@ -55,25 +55,24 @@ Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium
 void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, MediumId& medium, WalkCounters& counters);
 
 /// Flies to the next collision in a medium, scattering surface, or out of the scene, through any number of boundaries
-/// on the way; at most `limit` metres, > 0. Multiplies the power by the flights' weights.
+/// on the way; at most `limit` metres, > 0. Multiplies the throughput by the flights' weights.
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
                  WalkCounters& counters, float limit = kInfinity);
 
-/// Ends paths whose weight (power over what they started with) weighted strategies have made small, before they cost
-/// as much as heavy ones: below 0.1 a path survives with probability weight / 0.1, and its power is divided by that.
-/// The weight is a magnitude, >= 0.
-/// False where it ends.
+/// Russian roulette for paths whose weight, the throughput over that at the start, weighted strategies have made small:
+/// they would cost as much as heavy ones. Below 0.1 a path survives with probability weight / 0.1, and its throughput
+/// is divided by that. The weight is a magnitude, >= 0. False where the path ends.
 bool survive_roulette(double weight, PathState& state, Rng& rng);
 
-/// The outcome of a collision: scatters with probability q = sum(albedo |power|) / sum(|power|), multiplying the power
-/// by albedo / q and choosing a new direction; returns false where the path is absorbed. Grey media: power unchanged
-/// [Jarosz2008, eq. 7.8].
+/// The outcome of a collision: scatters with probability q = sum(albedo |throughput|) / sum(|throughput|),
+/// multiplies the throughput by albedo / q and chooses a new direction; false where the path is absorbed. In grey media
+/// the throughput does not change [Jarosz2008, eq. 7.8].
 bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
 
 /// Follows a path as the sampled material says, from a surface: plays Russian roulette, surviving with the ratio of
 /// largest channels' magnitudes after and before, at most 1. The path goes on from just off the surface, in the medium
-/// there. False where absorbed. The power is not multiplied by Scatter::radiance_scale, which is for eye paths, nor by
-/// flux_scale, which is for photons.
+/// there. False where absorbed. The throughput is not multiplied by Scatter::radiance_scale, which is for eye paths,
+/// nor by flux_scale, which is for photons.
 bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng);
 
 /// The outcome at a surface: samples the material and goes on from there.

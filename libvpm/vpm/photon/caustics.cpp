@@ -22,9 +22,9 @@ std::optional<Photon> follow_caustic(const Scene& scene, const DistanceStrategy&
   std::optional<Photon> photon;
   bool direct = true;
   const auto see = [&](const Event& event, const PathState&, const PathState& at) {
-    if (event.kind != EventKind::surface || !is_finite(at.power) || is_black(at.power)) return false;
+    if (event.kind != EventKind::surface || !is_finite(at.throughput) || is_black(at.throughput)) return false;
     const bool rough = is_rough(scene.material_of(event.hit));
-    if (rough && !direct) photon = {event.hit.position, PackedDirection(at.ray.direction), at.power};
+    if (rough && !direct) photon = {event.hit.position, PackedDirection(at.ray.direction), at.throughput};
     direct = false;
     return !rough;
   };

@@ -49,7 +49,7 @@ bool scatter_in_medium(const DirectionGuide& guide, const Medium& medium, PathSt
   if (!known) return true;
   Vec3& direction = state.ray.direction;
   if (rng.uniform() < kGuided) direction = known.sample(rng);
-  state.power *= mixture_weight(phase_value(medium.phase, travel, direction), known.pdf(direction));
+  state.throughput *= mixture_weight(phase_value(medium.phase, travel, direction), known.pdf(direction));
   return true;
 }
 
@@ -68,7 +68,7 @@ bool scatter_at_surface(const DirectionGuide& guide, const Scene& scene, const H
   }
   const float weight = mixture_weight(scatter.pdf, leaving.pdf(scatter.direction));
   const bool alive = go_on_from(scene, hit, scatter, state, rng);
-  state.power *= weight;
+  state.throughput *= weight;
   scatter.weight *= weight;
   return alive;
 }

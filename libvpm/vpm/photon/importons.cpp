@@ -29,15 +29,15 @@ void trace_importon(const Scene& scene, const DistanceStrategy& strategy, Rng& r
   WalkCounters counters;
   bool scattered = false;
   const auto see = [&](const Event& event, const PathState& from, PathState& at) {
-    if (!is_finite(at.power)) return false;
+    if (!is_finite(at.throughput)) return false;
     const bool escaped = event.kind == EventKind::escape;
     const float length = escaped ? kInfinity : glm::distance(from.ray.origin, at.ray.origin);
     if (length > 0.0f) {
-      const float weight = mean_channel(from.power);
+      const float weight = mean_channel(from.throughput);
       importance.map.add_track(from.ray, length, weight);
       if (importance.directions && scattered) importance.directions->add_track(from.ray, length, weight);
     }
-    const double now = mean_channel(at.power);
+    const double now = mean_channel(at.throughput);
     if (escaped || !(now > 0.0) || !survive_roulette(now, at, rng)) return false;
     scattered |= event.kind == EventKind::collision || is_rough(scene.material_of(event.hit));
     return true;

@@ -15,8 +15,8 @@ PhotonGuide learn_guide(const Scene& scene, const DistanceStrategy& strategy, co
     PathState state = emit_photon(scene, point);
     WalkCounters counters;
     const Event event = next_event(scene, strategy, state, rng, counters);
-    if (event.kind == EventKind::escape || !is_finite(state.power)) return 0.0f;
-    return sum_channels(state.power) * guide.importance.at(state.ray.origin);
+    if (event.kind == EventKind::escape || !is_finite(state.throughput)) return 0.0f;
+    return sum_channels(state.throughput) * guide.importance.at(state.ray.origin);
   };
   guide.emission = EmissionGuide::learn(settings.importons, seed, rng_stream(RngUse::scout, pass), score);
   guide.value = guide.emission.mean_score();

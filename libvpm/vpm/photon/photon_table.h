@@ -14,7 +14,7 @@ namespace vpm {
 
 class PhotonTable {
  public:
-  /// What a gather reads of a photon beside its position.
+  /// What a gather reads of a photon besides its position.
   struct Payload {
     PackedDirection travel;
     PackedPower power;
@@ -30,7 +30,8 @@ class PhotonTable {
   template <class Visit>
   void for_each_block(size_t begin, size_t end, const Vec3& point, Visit&& visit) const;
 
-  /// The same of squared distances from the ray, infinite for photons whose foot on it lies outside the interval.
+  /// The same of squared distances from the ray, infinite for photons whose projection onto it lies outside the
+  /// interval.
   template <class Visit>
   void for_each_block(size_t begin, size_t end, const Ray& ray, const Interval& interval, Visit&& visit) const;
 

@@ -52,7 +52,7 @@ void CollisionRecorder::collided(const ArrivingPhoton& photon) {
   const float density = relative_density(medium, photon.event.density);
   if (form_ == VolumeForm::density_at_query && density < density_floor_) count(floored);
   photons[photon.state.medium].push_back(
-      as_photon(photon, stored_power(photon.state.power, form_, density, density_floor_)));
+      as_photon(photon, stored_power(photon.state.throughput, form_, density, density_floor_)));
 }
 
 HitRecorder::HitRecorder(const Scene& scene, PhotonFilter filter, HitUse use)
@@ -70,17 +70,18 @@ void HitRecorder::join(PhotonRecorder& part) {
 
 void HitRecorder::hit(const ArrivingPhoton& photon) {
   if (leaves_out(photon.number) || !is_rough(scene_.material_of(photon.event.hit)) || !filter_(photon)) return;
-  photons.push_back(as_photon(photon, photon.state.power));
+  photons.push_back(as_photon(photon, photon.state.throughput));
 }
 
-void SiteRecorder::join(PhotonRecorder& part) { append(sites, static_cast<SiteRecorder&>(part).sites); }
+void CachePointRecorder::join(PhotonRecorder& part) { append(points, static_cast<CachePointRecorder&>(part).points); }
 
-void SiteRecorder::hit(const ArrivingPhoton& photon) {
+void CachePointRecorder::hit(const ArrivingPhoton& photon) {
   const Hit& hit = photon.event.hit;
   const Material& material = scene_.material_of(hit);
-  if (!finds_sites(photon.number) || !is_diffuse(material) || !is_rough(material)) return;  // black ones are not rough
+  if (!finds_cache_points(photon.number) || !is_diffuse(material) || !is_rough(material))
+    return;  // black ones are not rough
   const float side = glm::dot(hit.normal, photon.state.ray.direction) < 0.0f ? 1.0f : -1.0f;
-  sites.push_back({hit.position, PackedDirection(side * hit.normal), PackedDirection(side * hit.shading_normal)});
+  points.push_back({hit.position, PackedDirection(side * hit.normal), PackedDirection(side * hit.shading_normal)});
 }
 
 }  // namespace vpm

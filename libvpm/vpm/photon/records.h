@@ -60,15 +60,15 @@ class CollisionRecorder : public PhotonRecorder {
   PhotonFilter filter_;
 };
 
-/// Where sites are kept, one of so many photons finds them [Christensen1999].
-inline constexpr uint64_t kSiteStep = 4;
-inline bool finds_sites(uint64_t number) { return number % kSiteStep == kSiteStep - 1; }
+/// Where irradiance is cached, one of so many photons finds the cache points [Christensen1999].
+inline constexpr uint64_t kCachePointStep = 4;
+inline bool finds_cache_points(uint64_t number) { return number % kCachePointStep == kCachePointStep - 1; }
 
-/// What a recorder of photons on surfaces is for. The surface map counts as stored, and leaves out those that find
-/// sites where there are any.
-enum class HitUse { surface_map, surface_map_beside_sites, other_map };
+/// What a recorder of photons on surfaces is for. The surface map's photons count as stored; where irradiance is
+/// cached, the map leaves out the photons that find the cache points.
+enum class HitUse { surface_map, surface_map_without_cache_points, other_map };
 
-/// Photons on rough surfaces.
+/// Records photons on non-specular surfaces.
 class HitRecorder : public PhotonRecorder {
  public:
   HitRecorder(const Scene& scene, PhotonFilter filter, HitUse use);
@@ -84,31 +84,33 @@ class HitRecorder : public PhotonRecorder {
   uint64_t emitted_count = 0;   // of photons that could be among these
 
  private:
-  bool leaves_out(uint64_t number) const { return use_ == HitUse::surface_map_beside_sites && finds_sites(number); }
+  bool leaves_out(uint64_t number) const {
+    return use_ == HitUse::surface_map_without_cache_points && finds_cache_points(number);
+  }
 
   const Scene& scene_;
   PhotonFilter filter_;
   HitUse use_;
 };
 
-/// A place on a diffuse surface that a photon found, seen from the side on which it arrived.
-struct SurfaceSite {
+/// A point on a Lambertian surface that a photon found, seen from the side on which the photon arrived.
+struct CachePoint {
   Vec3 position{0.0f};             // m
   PackedDirection normal;          // geometric, to that side
   PackedDirection shading_normal;  // the same, for shading
 };
 
-/// The places on diffuse surfaces that one of kSiteStep photons meets.
-class SiteRecorder : public PhotonRecorder {
+/// Records the points on Lambertian surfaces that one of kCachePointStep photons meets.
+class CachePointRecorder : public PhotonRecorder {
  public:
-  explicit SiteRecorder(const Scene& scene) : scene_(scene) {}
+  explicit CachePointRecorder(const Scene& scene) : scene_(scene) {}
 
-  std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<SiteRecorder>(scene_); }
+  std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<CachePointRecorder>(scene_); }
   void join(PhotonRecorder& part) override;
   RecordNeeds needs() const override { return {.flights = false, .collisions = false}; }
   void hit(const ArrivingPhoton& photon) override;
 
-  std::vector<SurfaceSite> sites;
+  std::vector<CachePoint> points;
 
  private:
   const Scene& scene_;

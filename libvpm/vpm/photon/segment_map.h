@@ -1,5 +1,5 @@
-// The photon map for the photons beside a stretch of a ray: a hierarchy of boxes over leaves of up to 16 photons that
-// lie side by side. The sixteen boxes below a box are met at once: four levels of the tree that leaves are sorted by.
+// The photon map that is searched along a segment of a ray: a hierarchy of boxes over leaves of up to 16 photons that
+// lie close together. The sixteen boxes below a box are met at once: four levels of the tree that leaves are sorted by.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,11 @@ struct BeamRadii {
   float scale = 1.0f;
 };
 
-/// Photons beside a ray.
-struct PhotonsBeside {
+/// Photons whose perpendicular distance from a ray is less than their radius.
+struct PhotonsNearRay {
   const PhotonBatch& batch;
-  const float* foot;    // distances along the ray, m
-  const float* radius;  // m
+  const float* distance;  // of each photon's projection onto the ray from the ray's origin, m
+  const float* radius;    // m
 };
 
 class SegmentMap {
@@ -38,10 +38,10 @@ class SegmentMap {
   /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
   SegmentMap(const std::vector<Photon>& photons, const BeamRadii& radii, float scale);
 
-  /// Calls visit(const PhotonsBeside&) for the photons nearer to the ray than their radii whose foot on it lies in the
-  /// interval, so many at a time, in a fixed order. Returns how many photons it computed the distance of.
+  /// Calls visit(const PhotonsNearRay&) for the photons nearer to the ray than their radii whose projection onto it
+  /// lies in the interval, a batch at a time, in a fixed order. Returns how many photons it computed the distance of.
   template <class Visit>
-  uint32_t visit_beside(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  uint32_t visit_near_ray(const Ray& ray, const Interval& interval, Visit&& visit) const;
 
   const PhotonTable& photons() const { return photons_; }
   float radius(size_t i) const;  // m, of photon `i` in the map's order
@@ -72,7 +72,7 @@ class SegmentMap {
   /// how many it does.
   uint32_t meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
 
-  /// Calls visit(const PhotonsBeside&) for photons numbered by leaf and place in it.
+  /// Calls visit(const PhotonsNearRay&) for photons numbered by leaf and place in it.
   template <class Visit>
   void unpack(const Ray& ray, const Interval& interval, const NearPhotons& near, Visit&& visit) const;
 
@@ -114,22 +114,22 @@ inline uint32_t SegmentMap::meet(const Beam& beam, size_t place, uint32_t count,
 template <class Visit>
 void SegmentMap::unpack(const Ray& ray, const Interval& interval, const NearPhotons& near, Visit&& visit) const {
   uint32_t photons[NearPhotons::kMost];
-  float radius[NearPhotons::kMost], foot[NearPhotons::kMost];
+  float radius[NearPhotons::kMost], distance[NearPhotons::kMost];
   for (size_t i = 0; i < near.size(); ++i) {
     const uint32_t leaf = near.photons()[i] / kBlock;
     photons[i] = static_cast<uint32_t>(leaf_begin(size(), leaves_, leaf)) + near.photons()[i] % kBlock;
     radius[i] = radius_[leaf];
     const float t = glm::dot(photons_.position(photons[i]) - ray.origin, ray.direction);
-    foot[i] = std::clamp(t, interval.t0, interval.t1);
+    distance[i] = std::clamp(t, interval.t0, interval.t1);
   }
   const PhotonBatch batch(photons_, photons, near.distances2(), near.size());
   std::fill(radius + near.size(), radius + batch.size(), radius[0]);
-  std::fill(foot + near.size(), foot + batch.size(), foot[0]);
-  visit(PhotonsBeside{batch, foot, radius});
+  std::fill(distance + near.size(), distance + batch.size(), distance[0]);
+  visit(PhotonsNearRay{batch, distance, radius});
 }
 
 template <class Visit>
-uint32_t SegmentMap::visit_beside(const Ray& ray, const Interval& interval, Visit&& visit) const {
+uint32_t SegmentMap::visit_near_ray(const Ray& ray, const Interval& interval, Visit&& visit) const {
   if (size() == 0) return 0;
   const Beam beam = make_beam(ray, interval);
   NearPhotons found;  // numbered by leaf and place in it

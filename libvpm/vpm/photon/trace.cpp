@@ -64,7 +64,7 @@ class PhotonPath {
     int events = 0;
     bool direct = true;
     bool specular = true;     // nothing but mirrors and glass has scattered it
-    bool from_rough = false;  // the last scattering, but for mirrors and glass, was at a rough surface
+    bool from_rough = false;  // the last non-specular scattering was at a surface
   };
 
   void emit(Rng& rng) {
@@ -74,13 +74,13 @@ class PhotonPath {
     else
       drawn.point = draw_emission_point(rng);
     at_ = {.state = emit_photon(scene_, drawn.point), .event = {}};
-    at_.state.power /= drawn.density;
-    emitted_power_ = sum_channels(at_.state.power);
+    at_.state.throughput /= drawn.density;
+    emitted_power_ = sum_channels(at_.state.throughput);
     balance_ = -static_cast<double>(emitted_power_);
     weight_ = {};
     alive_ = emitted_power_ > 0.0f;
     ++out_.ledger.emitted_count;
-    out_.ledger.emitted += Rgbd(at_.state.power);
+    out_.ledger.emitted += Rgbd(at_.state.throughput);
     for (const auto& recorder : out_.recorders) recorder->emitted(number_);
   }
 
@@ -91,11 +91,11 @@ class PhotonPath {
       ++at_.events;
       const PathState from = of_flights_.empty() ? PathState{} : at_.state;
       at_.event = next_event(scene_, strategy_, at_.state, rng, out_.ledger.walk, limit());
-      if (!is_finite(at_.state.power)) {
+      if (!is_finite(at_.state.throughput)) {
         ++out_.ledger.non_finite;
         return;
       }
-      weight_.meet(sum_channels(at_.state.power) / emitted_power_, at_.event);
+      weight_.meet(sum_channels(at_.state.throughput) / emitted_power_, at_.event);
       for (PhotonRecorder* const recorder : of_flights_) recorder->flew(from, arriving());
       arrive(rng);
       if (!alive_) return;
@@ -123,28 +123,28 @@ class PhotonPath {
     balance_ += power.r + power.g + power.b;
   }
   void escape() {
-    deposit(out_.ledger.escaped, Rgbd(at_.state.power));
+    deposit(out_.ledger.escaped, Rgbd(at_.state.throughput));
     alive_ = false;
   }
   void cut() {
-    deposit(out_.ledger.cut, Rgbd(at_.state.power));
+    deposit(out_.ledger.cut, Rgbd(at_.state.throughput));
     ++out_.ledger.cut_count;
   }
 
   void collide(Rng& rng) {
-    const double weight = sum_channels(at_.state.power) / emitted_power_;
+    const double weight = sum_channels(at_.state.throughput) / emitted_power_;
     count(out_.ledger.collisions);
     alive_ = weight > 0.0 && survive_roulette(worth(), at_.state, rng);
     if (!alive_) return;
     for (PhotonRecorder* const recorder : of_collisions_) recorder->collided(arriving());
     const Medium& medium = scene_.media[at_.state.medium];
-    deposit(out_.ledger.absorbed_in_media, Rgbd(at_.state.power * (Rgb(1.0f) - medium.albedo())));
+    deposit(out_.ledger.absorbed_in_media, Rgbd(at_.state.throughput * (Rgb(1.0f) - medium.albedo())));
     at_.direct = at_.specular = at_.from_rough = false;
   }
 
   void meet_surface() {
     count(out_.ledger.surface_hits);
-    alive_ = max_channel(at_.state.power) > 0.0f;
+    alive_ = max_channel(at_.state.throughput) > 0.0f;
     if (!alive_) return;
     const bool rough = is_rough(scene_.material_of(at_.event.hit));
     for (PhotonRecorder* const recorder : of_hits_) recorder->hit(arriving());
@@ -159,11 +159,11 @@ class PhotonPath {
   }
 
   void scatter_at(const Hit& hit, Rng& rng) {
-    const Rgb before = at_.state.power;
+    const Rgb before = at_.state.throughput;
     Scatter scatter;
     alive_ = directions_ ? scatter_at_surface(*directions_, scene_, hit, at_.state, rng, scatter)
                          : scatter_at_surface(scene_, hit, at_.state, rng, scatter);
-    at_.state.power *= scatter.flux_scale;
+    at_.state.throughput *= scatter.flux_scale;
     deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale)));
   }
 
@@ -171,14 +171,14 @@ class PhotonPath {
 
   /// What the path is worth next to others: its importance, or without any its power.
   double worth() const {
-    const double power = sum_channels(at_.state.power);
+    const double power = sum_channels(at_.state.throughput);
     return settings_.split ? settings_.guide->worth(power, at_.state.ray.origin) : power / emitted_power_;
   }
 
   /// How far the path may fly before it is worth a split.
   float limit() const {
     if (!settings_.split) return kInfinity;
-    return settings_.guide->rise(sum_channels(at_.state.power), at_.state.ray, kWorthSplitting);
+    return settings_.guide->rise(sum_channels(at_.state.throughput), at_.state.ray, kWorthSplitting);
   }
 
   /// Follows a path that is worth several by as many, each of them worth one [Booth1984].
@@ -188,7 +188,7 @@ class PhotonPath {
     if (!(paths > kWorthSplitting)) return;
     const bool many = paths > kMostBranches;
     const int count = many ? kMostBranches : static_cast<int>(paths + rng.uniform());
-    at_.state.power /= static_cast<float>(many ? kMostBranches : paths);
+    at_.state.throughput /= static_cast<float>(many ? kMostBranches : paths);
     waiting_.insert(waiting_.end(), static_cast<size_t>(count - 1), at_);
   }
 

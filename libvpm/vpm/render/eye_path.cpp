@@ -65,7 +65,7 @@ class EyePath {
     if (!scatter_at_surface(c_.scene, hit, state, work_.rng, scatter)) return false;
     ray_ = state.ray;
     medium_ = state.medium;
-    throughput_ = state.power * scatter.radiance_scale;
+    throughput_ = state.throughput * scatter.radiance_scale;
     return true;
   }
 

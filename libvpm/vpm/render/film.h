@@ -59,7 +59,7 @@ class Film {
 
   /// Adds pass number `pass`, which the film has not got yet, >= 0; its image has the film's size and finite pixels.
   /// Its kernels' squared radii are `relative_square` times those of the first pass (0: the pass has no kernel). Throws
-  /// std::domain_error where a pixel is not finite; the film is of no use then.
+  /// std::domain_error where a pixel is not finite; the film must not be used then.
   void add(int pass, const Image& image, float relative_square = 0.0f);
   /// Adds the passes of another film of the same size. Throws InputError where both have one of the same number.
   void merge(const Film& other);

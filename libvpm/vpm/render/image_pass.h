@@ -35,7 +35,7 @@ Rgb mean_of_samples(int samples, EyeCounters& counters, Sample&& sample) {
 }
 
 /// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel, by mean_of_samples(). Once
-/// `stop` is set it returns as soon as it can, with an image of no use.
+/// `stop` is set it returns as soon as it can, and its image must not be used.
 Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
                   const std::atomic<bool>& stop, const PassProgress& progress = {});
 

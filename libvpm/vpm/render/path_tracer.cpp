@@ -19,11 +19,11 @@ class TracedPath {
       : c_(context), rng_(rng), counters_(counters) {}
 
   bool see(const Event& event, const PathState& from, PathState& at) {
-    if (!is_finite(at.power)) {  // no roulette: that would end it as if it were black
-      radiance_ = at.power;
+    if (!is_finite(at.throughput)) {  // no roulette: that would end it as if it were black
+      radiance_ = at.throughput;
       return false;
     }
-    weight_.meet(weight(at.power), event);
+    weight_.meet(weight(at.throughput), event);
     if (event.kind == EventKind::collision) return collide(at);
     if (event.kind == EventKind::surface) return meet_surface(event.hit, from.ray.origin, at);
     see_environment(from.ray.origin, at);
@@ -40,7 +40,7 @@ class TracedPath {
     }
     Scatter scatter;
     if (!scatter_at_surface(scene, event.hit, at, rng, scatter)) return false;
-    at.power *= scatter.radiance_scale;
+    at.throughput *= scatter.radiance_scale;
     scatter_pdf_ = scatter.pdf;
     return true;
   }
@@ -60,12 +60,12 @@ class TracedPath {
   }
 
   bool collide(PathState& at) {
-    if (!survive_roulette(max_channel(glm::abs(at.power)), at, rng_)) return false;
+    if (!survive_roulette(max_channel(glm::abs(at.throughput)), at, rng_)) return false;
     const Medium& medium = c_.scene.media[at.medium];
     const DirectSample light = sample_light({at.ray.origin, at.medium});
     if (is_black(light.irradiance)) return true;
     const float phase = phase_value(medium.phase, at.ray.direction, light.direction);
-    radiance_ += at.power * medium.albedo() * phase * light.irradiance * share(light.pdf, phase);
+    radiance_ += at.throughput * medium.albedo() * phase * light.irradiance * mis_weight(light.pdf, phase);
     return true;
   }
 
@@ -74,13 +74,13 @@ class TracedPath {
     const int light = c_.scene.shapes[hit.shape].light;
     if (light >= 0) {
       const Rgb emitted = surface_radiance(c_.scene.lights[light], hit.normal, travel);
-      radiance_ +=
-          at.power * emitted * share_of_path(light, from, {travel, glm::distance(from, hit.position), hit.normal});
+      radiance_ += at.throughput * emitted *
+                   mis_weight_of_path(light, from, {travel, glm::distance(from, hit.position), hit.normal});
     }
-    if (!survive_roulette(max_channel(glm::abs(at.power)), at, rng_)) return false;
+    if (!survive_roulette(max_channel(glm::abs(at.throughput)), at, rng_)) return false;
     const Material material = material_at(c_.scene, hit);
     if (!is_rough(material)) return true;
-    const RoughHit met{hit, material, travel, at.power};
+    const RoughHit met{hit, material, travel, at.throughput};
     add_direct_light(met, near_side(hit, travel, at.medium));
     if (scatters_through(material)) add_direct_light(met, far_side(c_.scene, hit, travel, at.medium));
     return true;
@@ -100,7 +100,7 @@ class TracedPath {
     if (is_black(light.irradiance)) return;
     const ScatterValue scattered = scatter_value(met.material, met.hit, met.travel, light.direction);
     radiance_ += met.throughput * scattered.value * scattered.radiance_scale * light.irradiance *
-                 share(light.pdf, scattered.pdf);
+                 mis_weight(light.pdf, scattered.pdf);
   }
 
   /// Adds the environment seen by a ray that left `from`.
@@ -108,7 +108,8 @@ class TracedPath {
     for (size_t i = 0; i < c_.scene.lights.size(); ++i) {
       const Rgb seen = environment_radiance(c_.scene.lights[i], at.ray.direction);
       if (!is_black(seen))
-        radiance_ += at.power * seen * share_of_path(static_cast<int>(i), from, {.direction = at.ray.direction});
+        radiance_ +=
+            at.throughput * seen * mis_weight_of_path(static_cast<int>(i), from, {.direction = at.ray.direction});
     }
   }
 
@@ -123,12 +124,12 @@ class TracedPath {
   }
 
   /// The part that a shadow ray has in what it finds; all of it where scattering cannot find the light.
-  static float share(float light_pdf, float scattering_pdf) {
+  static float mis_weight(float light_pdf, float scattering_pdf) {
     return light_pdf > 0.0f ? light_pdf / (light_pdf + scattering_pdf) : 1.0f;
   }
 
   /// The part that the path has in the light it ran into: all where no shadow ray could have found it.
-  float share_of_path(int light, const Vec3& from, const SeenLight& seen) const {
+  float mis_weight_of_path(int light, const Vec3& from, const SeenLight& seen) const {
     if (std::isinf(scatter_pdf_)) return 1.0f;
     const auto probability = static_cast<float>(c_.scene.light_probability[light]);
     const float light_pdf = probability * incident_pdf(c_.scene.lights[light], from, seen);

@@ -1,4 +1,4 @@
-// The referee: an unbiased volumetric path tracer over the random walk and the direct light that photons use.
+// The reference path tracer: unbiased, volumetric, over the random walk and the direct light that photons use.
 //
 // Where it and the photon renderer disagree, the fault is in photon/ or estimate/.
 #pragma once
@@ -27,7 +27,7 @@ PathContext make_path_context(const Scene& scene, const RenderSettings& settings
 /// estimator are; nothing is clamped. Not finite where the path's throughput is not.
 Rgb path_radiance(const PathContext& context, const Ray& ray, MediumId medium, Rng& rng, EyeCounters& counters);
 
-/// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.
+/// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, and its image must not be used.
 Pass render_path_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                       const PassProgress& progress = {});
 

@@ -10,7 +10,7 @@ namespace vpm {
 /// What runs a pass besides scene and settings.
 struct PassRun {
   int pass = 0;                   // from 0
-  const std::atomic<bool>& stop;  // once set, the pass ends as soon as it can, with results of no use
+  const std::atomic<bool>& stop;  // once set, the pass ends as soon as it can, and its results must not be used
   PassProgress progress = {};
 };
 
@@ -21,7 +21,7 @@ void trace_pass(const Scene& scene, const RenderSettings& settings, const Estima
 void prepare_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                   RenderStatistics& statistics);
 
-/// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, with an image of no use.
+/// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, and its image must not be used.
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress = {});
 /// The same after passes that have left such discs, where pixels have radii of their own. Without discs none was

@@ -15,7 +15,7 @@ namespace vpm {
 /// that the mean of passes says the same.
 struct PixelDisc {
   double area = 1.0;     // R^2 of the next pass over that of the first
-  double photons = 0.0;  // N: those found, but for those that shrinking has left outside
+  double photons = 0.0;  // N: those found, less those that shrinking has left outside
 };
 /// By pixel, row by row; none before the first pass, and where radii are not the pixels' own.
 using PixelDiscs = std::vector<PixelDisc>;

@@ -32,7 +32,7 @@ enum class GatherBy { material, photons };
 /// computed beforehand at a place nearby.
 enum class EndIrradiance { estimate, precomputed };
 
-/// What estimates radiance: photon maps, or the path tracer that referees them.
+/// What estimates radiance: photon maps, or the unbiased reference path tracer.
 enum class Integrator { photon, path };
 
 /// When passes come to their end: once `passes` are done; or, where `seconds` or `error` are asked for, once the first

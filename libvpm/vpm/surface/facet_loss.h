@@ -19,7 +19,7 @@ class FacetLoss {
   explicit FacetLoss(const RoughConductor& material);
   explicit FacetLoss(const RoughDielectric& material);
 
-  /// The share of light that the main lobes lose, of what arrives at a cosine in [0, 1] on that side, but for what
+  /// The fraction of light that the main lobes lose, of what arrives at a cosine in [0, 1] on that side, except what
   /// metal absorbs.
   float lost(bool outside, float cosine) const;
   /// Of what is lost of light on that side, the share that returns there.

@@ -34,7 +34,7 @@ struct DiscShape {
 struct Hit {
   float t = 0.0f;       // m along the ray
   uint32_t shape = 0;   // as returned by add()
-  Vec3 position{0.0f};  // m, on the surface but for the rounding of its coordinates
+  Vec3 position{0.0f};  // m, on the surface up to the rounding of its coordinates
   Vec3 normal{0.0f};    // unit, outward, geometric: not turned towards the ray
   float slack = 0.0f;   // m, by how much rounding may displace the surface from `position` in later queries
   /// Unit: interpolated between those of the vertices, and turned to the side of `normal` where it points to the other

@@ -32,7 +32,7 @@ ScatterValue value(const Boundary& m, const Vec3& normal, const Vec3& travel, co
 inline Scatter scattered(const Vec3& direction, const ScatterValue& v, bool transmitted) {
   return {direction, v.pdf > 0.0f ? v.value / v.pdf : Rgb(0.0f), transmitted, v.radiance_scale, v.pdf};
 }
-/// A path that ends; its direction is of no use.
+/// A path that ends; its direction has no meaning.
 inline Scatter absorbed(const Incidence& in) { return {in.normal, Rgb(0.0f), false, 1.0f, 0.0f}; }
 
 }  // namespace vpm

@@ -11,12 +11,12 @@ namespace {
 /// Where a coordinate stands among `count` texels, in [0, count].
 float wrapped(float coordinate, int count) { return (coordinate - std::floor(coordinate)) * static_cast<float>(count); }
 
-/// The two texels beside a place among `count`, and the share of the second.
+/// The two texels next to a place among `count`, and the weight of the second.
 struct Neighbours {
   int first, second;
   float share;
 };
-Neighbours beside(float place, int count) {
+Neighbours neighbours_of(float place, int count) {
   const float from_first_centre = place - 0.5f;
   const float below = std::floor(from_first_centre);
   const int first = static_cast<int>(below);  // from -1 to count - 1
@@ -36,8 +36,8 @@ Texture::Texture(Image image, TextureFilter filter) : image_(std::move(image)), 
 }
 
 Rgb Texture::bilinear(const Vec2& uv) const {
-  const Neighbours x = beside(wrapped(uv.x, image_.width), image_.width);
-  const Neighbours y = beside(wrapped(-uv.y, image_.height), image_.height);
+  const Neighbours x = neighbours_of(wrapped(uv.x, image_.width), image_.width);
+  const Neighbours y = neighbours_of(wrapped(-uv.y, image_.height), image_.height);
   const auto row = [&](int at) { return glm::mix(image_.at(x.first, at), image_.at(x.second, at), x.share); };
   return glm::mix(row(y.first), row(y.second), y.share);
 }

@@ -29,14 +29,14 @@ namespace {
 /// A method on a scene, ready to run.
 struct Entrant {
   RenderJob loaded;
-  std::string identity;  // of its runs, but for the seed
+  std::string identity;  // of its runs, without the seed
 };
 
 /// A scene with all its methods.
 struct Contest {
   const ComparedScene* compared = nullptr;
   std::vector<std::unique_ptr<Entrant>> methods;
-  std::unique_ptr<Entrant> referee;  // null where no reference is rendered
+  std::unique_ptr<Entrant> reference_entrant;  // null where no reference is rendered
   Reference reference;
 };
 
@@ -96,9 +96,10 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
       contest.reference = exact_reference(scene);
     } else if (scene.source == ReferenceSource::rendered) {
       const std::string seed = fmt::format("render.seed={}", reference_seed(plan));
-      contest.referee = make_entrant(scene, joined(plan.reference_settings, {seed}),
-                                     fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
-      const Camera& camera = contest.referee->loaded.scene.camera;
+      contest.reference_entrant =
+          make_entrant(scene, joined(plan.reference_settings, {seed}),
+                       fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
+      const Camera& camera = contest.reference_entrant->loaded.scene.camera;
       contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);
     } else {
       contest.reference = read_reference(scene.reference);
@@ -112,16 +113,17 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
 /// Finds the reference of a scene, or makes it. False where `stop` was set first.
 bool make_reference(Contest& contest, const ComparisonPlan& plan, const Store& store, const CompareOptions& options,
                     const std::atomic<bool>& stop) {
-  if (!contest.referee) return true;
-  if (std::optional<Reference> known = store.find_reference(contest.referee->identity)) {
+  if (!contest.reference_entrant) return true;
+  if (std::optional<Reference> known = store.find_reference(contest.reference_entrant->identity)) {
     contest.reference = std::move(*known);
   } else {
-    const RenderResult result = run_reference(contest.referee->loaded, plan.reference_error, stop, options.progress);
+    const RenderResult result =
+        run_reference(contest.reference_entrant->loaded, plan.reference_error, stop, options.progress);
     if (stop) return false;
     contest.reference = {result.film.mean(), result.film.variance_of_mean()};
-    store.add_reference(contest.referee->identity, contest.reference);
+    store.add_reference(contest.reference_entrant->identity, contest.reference);
   }
-  if (contest.referee->loaded.settings.integrator != Integrator::path) contest.reference.doubt = kOfPhotons;
+  if (contest.reference_entrant->loaded.settings.integrator != Integrator::path) contest.reference.doubt = kOfPhotons;
   return true;
 }
 
@@ -184,7 +186,7 @@ BudgetSummary summarise(const Entrant& entrant, const Reference& reference, cons
 std::string reference_text(const Contest& contest, double error) {
   if (contest.compared->source == ReferenceSource::exact) return "the exact solution";
   if (contest.compared->source == ReferenceSource::file) return contest.compared->reference;
-  const bool paths = contest.referee->loaded.settings.integrator == Integrator::path;
+  const bool paths = contest.reference_entrant->loaded.settings.integrator == Integrator::path;
   return fmt::format("{}, relative MSE {:.2g}", paths ? "the path tracer" : "photon mapping", error);
 }
 

@@ -161,7 +161,7 @@ std::string equal_cost_table(const ComparisonPlan& plan, const SceneResults& sce
 std::string verdicts_text(const ComparisonPlan& plan, const SceneResults& scene, size_t judged) {
   std::string text =
       fmt::format("  bias at the last budget{} ({} verdicts, family-wise at most {:g} %):\n",
-                  plan.baseline ? " beside " + plan.methods[*plan.baseline].name : "", judged, 100.0 * kFalseVerdicts);
+                  plan.baseline ? " against " + plan.methods[*plan.baseline].name : "", judged, 100.0 * kFalseVerdicts);
   for (size_t m = 0; m < plan.methods.size(); ++m) {
     const BiasEvidence& evidence = scene.verdicts[m];
     if (evidence.verdict == BiasVerdict::baseline) continue;

@@ -45,7 +45,7 @@ class OracleCase {
   double number_or_infinity(std::string_view field) const;
   /// A number within [lo, hi].
   double number_in(std::string_view field, double lo, double hi) const;
-  /// A share: a number within [0, 1] but for rounding, which is taken off.
+  /// A fraction: a number within [0, 1] up to rounding, which is taken off.
   double share(std::string_view field) const;
   std::vector<double> shares(std::string_view field, size_t size) const;
   /// A whole number >= 1.

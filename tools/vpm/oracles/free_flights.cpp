@@ -104,7 +104,7 @@ double extinction_near(const FlightPath& path, double t, double expected) {
   return best;
 }
 
-/// Columns, transmittance and extinction along the ray: no random numbers.
+/// Density integrals, transmittance and extinction along the ray: no random numbers.
 void check_profile(std::vector<Check>& checks, const OracleCase& c, const Profile& profile) {
   const FlightPath& path = profile.path;
   const auto estimator = make_transmittance_estimator({});
@@ -112,7 +112,7 @@ void check_profile(std::vector<Check>& checks, const OracleCase& c, const Profil
   const double largest = path.medium.sigma_t.r * double{path.medium.max_density()}, total = c.number("tau_total");
   const auto check_at = [&](const std::string& name, double t, double tau, double transmittance) {
     const Interval crossed{0.0f, static_cast<float>(t)};
-    checks.push_back(check_bound("tau" + name, path.medium.sigma_t.r * column(path.medium, path.ray, crossed).value,
+    checks.push_back(check_bound("tau" + name, path.medium.sigma_t.r * density_integral(path.medium, path.ray, crossed).value,
                                  tau, profile.error * total));
     checks.push_back(check_bound("transmittance" + name,
                                  estimator->estimate(path.medium, path.ray, crossed, rng).value.r, transmittance,
@@ -193,7 +193,7 @@ CaseResult run_flight(const OracleCase& c, const Effort& effort) {
     if (!q.has("t") || !q.has("pdf")) continue;
     const double t = q.number("t"), pdf = q.number("pdf");
     const FlightPath& path = profile->path;
-    const double tau = path.medium.sigma_t.r * column(path.medium, path.ray, {0.0f, static_cast<float>(t)}).value;
+    const double tau = path.medium.sigma_t.r * density_integral(path.medium, path.ray, {0.0f, static_cast<float>(t)}).value;
     result.checks.push_back(check_bound(fmt::format("pdf({:.6g} m)", t),
                                         extinction_near(path, t, pdf * std::exp(tau)) * std::exp(-tau), pdf,
                                         1e-4 * pdf));

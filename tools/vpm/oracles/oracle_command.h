@@ -5,7 +5,7 @@
 
 namespace vpm::tools {
 
-/// Runs all cases and prints their checks. 1 where a check fails, or where a case was not checked but for the known
+/// Runs all cases and prints their checks. 1 where a check fails, or where a case was not checked, except the known
 /// limits of the framework.
 int oracle_command(const ValidateOptions& options);
 

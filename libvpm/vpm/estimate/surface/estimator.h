@@ -18,7 +18,7 @@ struct SurfaceView {
 
 class SurfaceEstimator : public Estimator {
  public:
-  /// Estimates the radiance that leaves the surface against `travel`, W/(m^2 sr), but for what it emits.
+  /// Estimates the radiance that leaves the surface against `travel`, W/(m^2 sr), without its own emission.
   virtual Rgb sent(const SurfaceView& view, EyeWork& work) const = 0;
   /// Photons found in the discs of pixels, over their samples; empty where pixels have no discs of their own.
   virtual std::vector<uint64_t> take_found() { return {}; }

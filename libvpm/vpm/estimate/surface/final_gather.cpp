@@ -14,10 +14,10 @@ FinalGather::FinalGather(const Scene& scene, const FinalGatherSettings& settings
       settings_(settings),
       direct_(std::move(direct)),
       ends_(scene, settings.ends, any_photon,
-            settings.precomputed ? HitUse::surface_map_beside_sites : HitUse::surface_map),
+            settings.precomputed ? HitUse::surface_map_without_cache_points : HitUse::surface_map),
       caustic_photons_(scene, caustic_photons(!direct_, settings.caustics_emitted == 0), HitUse::other_map) {
   if (settings.guided) guiding_photons_.emplace(scene, photon_from_rough, HitUse::other_map);
-  if (settings.precomputed) sites_.emplace(scene);
+  if (settings.precomputed) cache_points_.emplace(scene);
 }
 
 std::vector<MapInfo> FinalGather::maps() const {
@@ -30,7 +30,7 @@ std::vector<MapInfo> FinalGather::maps() const {
 Recorders FinalGather::recorders() {
   Recorders all{ends_.recorder(), &caustic_photons_};
   if (guiding_photons_) all.push_back(&*guiding_photons_);
-  if (sites_) all.push_back(&*sites_);
+  if (cache_points_) all.push_back(&*cache_points_);
   return all;
 }
 
@@ -59,8 +59,8 @@ void FinalGather::build(uint64_t emitted, RenderStatistics& statistics) {
     statistics.guiding_photons = guiding_photons_->photons.size();
     guiding_ = make_map(guiding_photons_->photons, nearest, emitted, pass, statistics);
   }
-  if (sites_) {
-    irradiance_ = IrradiancePoints(sites_->sites, ends_.map(), statistics.eye.gather);
+  if (cache_points_) {
+    irradiance_ = IrradianceCache(cache_points_->points, ends_.map(), statistics.eye.gather);
     statistics.irradiance_points = irradiance_.size();
     statistics.photon_map_bytes += irradiance_.memory_bytes();
   }
@@ -115,9 +115,10 @@ Rgb FinalGather::met_along(PathState path, EyeWork& work) const {
     const Hit& hit = met.hits[0];
     if (path.medium != kVacuum) {
       const Medium& medium = scene_.media[path.medium];
-      path.power *= transmittance(medium, counted_column(medium, path.ray, {0.0f, hit.t}, work.counters.walk));
+      path.throughput *=
+          transmittance(medium, counted_density_integral(medium, path.ray, {0.0f, hit.t}, work.counters.walk));
     }
-    if (is_black(path.power)) return result;
+    if (is_black(path.throughput)) return result;
     length += hit.t;
     const Material material = material_at(scene_, hit);
     if (is_boundary(material)) {  // no event
@@ -126,13 +127,13 @@ Rgb FinalGather::met_along(PathState path, EyeWork& work) const {
     }
     if (is_rough(material)) {
       const SurfaceView view{hit, material, path.ray.direction, path.medium};
-      if (!is_too_short(length, view, work)) return result + path.power * at_end(view, work);
-      result += path.power * not_gathered(view, work);
+      if (!is_too_short(length, view, work)) return result + path.throughput * at_end(view, work);
+      result += path.throughput * not_gathered(view, work);
       length = 0.0f;  // of the next ray
     }
     Scatter scatter;
     if (!scatter_at_surface(scene_, hit, path, work.rng, scatter)) return result;
-    path.power *= scatter.radiance_scale;
+    path.throughput *= scatter.radiance_scale;
     ++events;
   }
   ++work.counters.cut_paths;
@@ -143,7 +144,7 @@ Rgb FinalGather::met_along(PathState path, EyeWork& work) const {
 /// none is near, and of surfaces that are not diffuse, from the map.
 Rgb FinalGather::at_end(const SurfaceView& view, EyeWork& work) const {
   const Rgb* diffuse = diffuse_reflectance(view.material);
-  if (!sites_ || !diffuse) return ends_.gather(view, work);
+  if (!cache_points_ || !diffuse) return ends_.gather(view, work);
   const std::optional<Rgb> irradiance = irradiance_.irradiance(view.hit, -view.travel, work.gather());
   if (irradiance) {
     count(work.counters.irradiance_lookups);

@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "vpm/estimate/surface/gather_guide.h"
-#include "vpm/estimate/surface/irradiance_points.h"
+#include "vpm/estimate/surface/irradiance_cache.h"
 #include "vpm/estimate/surface/surface_map.h"
 #include "vpm/estimate/surface/surface_shadow_rays.h"
 #include "vpm/path/walk.h"
@@ -60,10 +60,10 @@ class FinalGather final : public SurfaceEstimator {
   SurfaceMap ends_;
   HitRecorder caustic_photons_;
   std::optional<HitRecorder> guiding_photons_;  // that rough surfaces scattered last
-  std::optional<SiteRecorder> sites_;
+  std::optional<CachePointRecorder> cache_points_;
   PhotonMap caustics_;
-  PhotonMap guiding_;            // by count
-  IrradiancePoints irradiance_;  // of the map that rays end in
+  PhotonMap guiding_;           // by count
+  IrradianceCache irradiance_;  // of the map that rays end in
 };
 
 }  // namespace vpm

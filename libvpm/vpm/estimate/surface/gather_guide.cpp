@@ -11,7 +11,7 @@
 namespace vpm {
 namespace {
 
-constexpr float kMostByPhotons = 0.5f;  // of the rays, where ever so many photons are near
+constexpr float kMostByPhotons = 0.5f;  // of the rays, however many photons are near
 constexpr float kFewPhotons = 16.0f;    // so many are worth half of that share
 
 }  // namespace

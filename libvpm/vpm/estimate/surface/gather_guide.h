@@ -6,7 +6,7 @@
 // right whatever the photons tell, and no ray weighs more than 1/(1 - share) times what it does by the material alone.
 //
 // The photons are those that a rough surface scattered last, from a map of their own, as rays gather their light and no
-// other: photons straight from lamps, mirrors and glass would send the rays to where nothing is left for them to find.
+// other: photons straight from lights, mirrors and glass would send the rays to where nothing is left for them to find.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace vpm {
 
-/// How that map is gathered from, but for the largest radius, which is the scene's matter and not that of other maps:
+/// How that map is gathered from. The largest radius is not among it: it depends on the scene, not on other maps:
 /// what the photons tell need not be sharp.
 inline constexpr GatherSettings kGuidingPhotons{.mode = GatherMode::nearest, .count = 100};
 

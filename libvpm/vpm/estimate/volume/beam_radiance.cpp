@@ -1,4 +1,4 @@
-// Photons beside rays, and what passes from their feet to the eye.
+// Photons near rays, and the transmittance from their projections onto the ray to the eye.
 #include "vpm/estimate/volume/beam_radiance.h"
 
 #include "vpm/base/exp_negative.h"
@@ -7,25 +7,26 @@
 namespace vpm {
 namespace {
 
-/// transmittance() of a finite column, as quick as photons along a ray need it: off by 1e-7 of the optical thickness.
-inline Rgb beam_transmittance(const Rgb& sigma_t, float column) {
-  const Rgb optical = sigma_t * column;
+/// transmittance() of a finite density integral, as quick as photons along a ray need it: off by 1e-7 of the optical
+/// thickness.
+inline Rgb beam_transmittance(const Rgb& sigma_t, float integral) {
+  const Rgb optical = sigma_t * integral;
   return {exp_negative(-optical.r), exp_negative(-optical.g), exp_negative(-optical.b)};
 }
 
-/// beam_transmittance() from feet on a ray through a grid; times the relative density there, for the density at the
+/// beam_transmittance() from places on a ray through a grid; times the relative density there, for the density at the
 /// query.
-void pass_grid(const ColumnsAlong& columns, const Medium& medium, VolumeForm form, std::span<const float> feet,
-               Passed& passed) {
-  float column[PhotonBatch::kMost], density[PhotonBatch::kMost];
-  for (size_t i = 0; i < feet.size(); ++i) {
-    const ColumnsAlong::Place place = columns.at(feet[i]);
-    column[i] = static_cast<float>(place.column);
+void pass_grid(const DensityIntegralsAlong& integrals, const Medium& medium, VolumeForm form,
+               std::span<const float> distances, Passed& passed) {
+  float integral[PhotonBatch::kMost], density[PhotonBatch::kMost];
+  for (size_t i = 0; i < distances.size(); ++i) {
+    const DensityIntegralsAlong::Place place = integrals.at(distances[i]);
+    integral[i] = static_cast<float>(place.integral);
     density[i] =
         form == VolumeForm::density_at_query ? relative_density(medium, static_cast<float>(place.density)) : 1.0f;
   }
-  for (size_t i = 0; i < feet.size(); ++i) {
-    const Rgb kept = beam_transmittance(medium.sigma_t, column[i]) * density[i];
+  for (size_t i = 0; i < distances.size(); ++i) {
+    const Rgb kept = beam_transmittance(medium.sigma_t, integral[i]) * density[i];
     passed.r[i] = kept.r;
     passed.g[i] = kept.g;
     passed.b[i] = kept.b;
@@ -58,7 +59,7 @@ Rgb BeamRadiance::along(const EyeSegment& segment, EyeWork& work) const {
   return radiance;
 }
 
-/// From the photons of one medium, those beside an interval of the segment.
+/// From the photons of one medium that are near an interval of the segment.
 Rgb BeamRadiance::gather(const EyeSegment& segment, const Interval& near, size_t number, EyeWork& work) const {
   const Medium& medium = scene_.media[number];
   const Medium* around = segment.medium();
@@ -68,11 +69,13 @@ Rgb BeamRadiance::gather(const EyeSegment& segment, const Interval& near, size_t
   count(work.counters.volume_queries);
   if (!around || around->homogeneous()) {  // of density 1
     const Rgb sigma_t = around ? around->sigma_t : Rgb(0.0f);
-    const auto passed = each_foot([&](float t) { return beam_transmittance(sigma_t, t - segment.interval.t0); });
+    const auto passed = each_distance([&](float t) { return beam_transmittance(sigma_t, t - segment.interval.t0); });
     return factor * beam_sum(medium.phase, segment.ray, near, passed, maps_[number], counters);
   }
-  const ColumnsAlong& columns = segment.columns(work);
-  const auto passed = [&](std::span<const float> feet, Passed& into) { pass_grid(columns, *around, form, feet, into); };
+  const DensityIntegralsAlong& integrals = segment.integrals(work);
+  const auto passed = [&](std::span<const float> distances, Passed& into) {
+    pass_grid(integrals, *around, form, distances, into);
+  };
   return factor * beam_sum(medium.phase, segment.ray, near, passed, maps_[number], counters);
 }
 

@@ -1,4 +1,4 @@
-// The beam radiance estimate [Jarosz2008beam]: all photons beside a segment of the eye ray, in one query of each map.
+// The beam radiance estimate [Jarosz2008beam]: all photons near a segment of the eye ray, by one query of each map.
 #pragma once
 
 #include <span>

@@ -31,10 +31,10 @@ double EquiangularDistances::draw(double u) const {
   return std::min(t0_ + past, t1_);
 }
 
-AttenuatedDistances::AttenuatedDistances(const ColumnsAlong& columns, const Rgb& sigma_t, const Rgb& weight)
-    : columns_(columns), sigma_t_(sigma_t), weight_(weight) {
+AttenuatedDistances::AttenuatedDistances(const DensityIntegralsAlong& integrals, const Rgb& sigma_t, const Rgb& weight)
+    : integrals_(integrals), sigma_t_(sigma_t), weight_(weight) {
   for (int c = 0; c < 3; ++c)
-    if (weight_[c] > 0.0) share_[c] = weight_[c] * attenuated_column(sigma_t_[c], columns.column());
+    if (weight_[c] > 0.0) share_[c] = weight_[c] * attenuated_integral(sigma_t_[c], integrals.integral());
   total_ = share_.r + share_.g + share_.b;
   share_ /= total_;
 }
@@ -44,7 +44,7 @@ double AttenuatedDistances::draw(double u) const {
   for (; channel < 2 && u >= share_[channel]; ++channel) u -= share_[channel];
   while (share_[channel] == 0.0) --channel;  // rounding led past the last one
   const double within = std::clamp(u / share_[channel], 0.0, 1.0 - 1e-15);
-  return columns_.where(draw_attenuated(sigma_t_[channel], columns_.column(), within));
+  return integrals_.where(draw_attenuated(sigma_t_[channel], integrals_.integral(), within));
 }
 
 }  // namespace vpm

@@ -1,9 +1,9 @@
 // Marching an eye ray through a medium, so that the step size may change cost and noise but never exposure.
 //
 // The integral of Tr(t) density(t) f(t) over the ray is cut into steps. Each step takes ONE sample of f, at a point
-// drawn inside the step in proportion to the transmitted density, and weighs it with the step's exact integral. Columns
-// come from the exact quartics of the cells, so the result is unbiased for any step, and f = 1 gives (1 - Tr)/sigma_t
-// with no noise at all.
+// drawn inside the step in proportion to the transmitted density, and weighs it with the step's exact integral. Density
+// integrals come from the exact quartics of the cells, so the result is unbiased for any step, and f = 1 gives (1 -
+// Tr)/sigma_t with no noise at all.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 #include "vpm/base/count.h"
 #include "vpm/base/rng.h"
-#include "vpm/medium/columns_along.h"
+#include "vpm/medium/density_integrals_along.h"
 
 namespace vpm {
 
@@ -25,8 +25,8 @@ struct StepLimits {
 
 /// The outcome of a march.
 struct Marched {
-  double column = 0.0;   // of the whole interval, m: exact
-  uint32_t lookups = 0;  // of density
+  double integral = 0.0;  // of the whole interval, m: exact
+  uint32_t lookups = 0;   // of density
   uint32_t steps = 0;
 };
 
@@ -44,36 +44,37 @@ class Marcher {
   /// The stretch of a piece that lies in the present step.
   struct Part {
     DensityPiece piece;
-    double s0;      // m from the piece's start
-    double column;  // m
+    double s0;        // m from the piece's start
+    double integral;  // m
   };
 
   /// Adds to the step the stretch of a piece from `s` on, of no more than `length`, m, and no more than fills the
-  /// step's column to `most_column`, m. Returns where it ends, m from the piece's start.
-  double extend(const DensityPiece& piece, double s, double length, double most_column);
-  /// Where along the ray the step's column reaches `column`, m.
-  double locate(double column) const;
+  /// step's density integral to `most_integral`, m. Returns where it ends, m from the piece's start.
+  double extend(const DensityPiece& piece, double s, double length, double most_integral);
+  /// Where along the ray the step's density integral reaches `density integral`, m.
+  double locate(double integral) const;
 
   std::vector<Part> parts_;
-  double column_ = 0.0;  // of the step so far, m
+  double integral_ = 0.0;  // of the step so far, m
 };
 
-/// The integral of exp(-sigma c) over c in [0, column]: (1 - exp(-sigma column))/sigma, whose limit for sigma -> 0 is
-/// the column.
-inline double attenuated_column(double sigma, double column) {
-  return sigma * column > 1e-8 ? -std::expm1(-sigma * column) / sigma : column;
+/// The integral of exp(-sigma c) over c in [0, density integral]: (1 - exp(-sigma density integral))/sigma, whose limit
+/// for sigma -> 0 is the density integral.
+inline double attenuated_integral(double sigma, double integral) {
+  return sigma * integral > 1e-8 ? -std::expm1(-sigma * integral) / sigma : integral;
 }
 
-/// A column in [0, column] with density proportional to exp(-sigma c), for a uniform number u in [0, 1).
-inline double draw_attenuated(double sigma, double column, double u) {
-  return sigma * column > 1e-8 ? -std::log1p(u * std::expm1(-sigma * column)) / sigma : u * column;
+/// A density integral in [0, density integral] with density proportional to exp(-sigma c), for a uniform number u in
+/// [0, 1).
+inline double draw_attenuated(double sigma, double integral, double u) {
+  return sigma * integral > 1e-8 ? -std::log1p(u * std::expm1(-sigma * integral)) / sigma : u * integral;
 }
 
 /// A ray, and the medium that its light passes on the way to the eye.
 struct SeenThrough {
   const Ray& ray;
-  const ColumnsAlong& columns;  // along it
-  Rgb sigma_t{0.0f};            // 1/m at density 1
+  const DensityIntegralsAlong& integrals;  // along it
+  Rgb sigma_t{0.0f};                       // 1/m at density 1
 };
 
 /// Calls add(point, weight) for one point in each stretch of `length` m of the interval, drawn uniformly; the sum of
@@ -84,30 +85,30 @@ void march_evenly(const SeenThrough& seen, const Interval& interval, float lengt
   const double width = static_cast<double>(interval.length()) / strata;
   double t = interval.t0 + rng.uniform_double() * width;
   for (uint32_t next = 0; next < strata;) {
-    const auto column = static_cast<float>(seen.columns.at(t).column);
-    add(seen.ray.at(static_cast<float>(t)), glm::exp(-seen.sigma_t * column) * static_cast<float>(width));
+    const auto integral = static_cast<float>(seen.integrals.at(t).integral);
+    add(seen.ray.at(static_cast<float>(t)), glm::exp(-seen.sigma_t * integral) * static_cast<float>(width));
     t = interval.t0 + (++next + rng.uniform_double()) * width;
   }
 }
 
-inline double Marcher::extend(const DensityPiece& piece, double s, double length, double most_column) {
+inline double Marcher::extend(const DensityPiece& piece, double s, double length, double most_integral) {
   double end = std::min(piece.length(), s + length);
-  const double before = piece.column(s);
-  double here = std::max(0.0, piece.column(end) - before);
-  if (column_ + here >= most_column) {
-    here = most_column - column_;
+  const double before = piece.integral(s);
+  double here = std::max(0.0, piece.integral(end) - before);
+  if (integral_ + here >= most_integral) {
+    here = most_integral - integral_;
     end = std::max(s, piece.invert(before + here));
   }
   parts_.push_back({piece, s, here});
-  column_ += here;
+  integral_ += here;
   return end;
 }
 
-inline double Marcher::locate(double column) const {
+inline double Marcher::locate(double integral) const {
   for (const Part& part : parts_) {
-    if (column <= part.column || &part == &parts_.back())
-      return part.piece.t0 + part.piece.invert(part.piece.column(part.s0) + std::min(column, part.column));
-    column -= part.column;
+    if (integral <= part.integral || &part == &parts_.back())
+      return part.piece.t0 + part.piece.invert(part.piece.integral(part.s0) + std::min(integral, part.integral));
+    integral -= part.integral;
   }
   return 0.0;
 }
@@ -121,28 +122,28 @@ Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& int
   double thinnest = thickest;
   for (int c = 0; c < 3; ++c)
     if (limits.matters[c]) thinnest = std::min(thinnest, sigma_t[c]);
-  const double most_column = thickest > 0.0 ? limits.optical / thickest : static_cast<double>(kInfinity);
+  const double most_integral = thickest > 0.0 ? limits.optical / thickest : static_cast<double>(kInfinity);
   Marched result;
-  double crossed = 0.0;  // column before the present step, m
+  double crossed = 0.0;  // density integral before the present step, m
   double scale = 1.0;    // of what survived roulette
   double start = 0.0;    // of the present step
   parts_.clear();
-  column_ = 0.0;
+  integral_ = 0.0;
   const auto finish_step = [&] {
-    if (column_ > 0.0) {
-      const double c = draw_attenuated(thickest, column_, rng.uniform_double());
-      const double per_density = attenuated_column(thickest, column_) * scale;
+    if (integral_ > 0.0) {
+      const double c = draw_attenuated(thickest, integral_, rng.uniform_double());
+      const double per_density = attenuated_integral(thickest, integral_) * scale;
       add(ray.at(static_cast<float>(locate(c))), Rgb(glm::exp(-sigma_t * (crossed + c) + thickest * c) * per_density));
       count(result.steps);
-      crossed += column_;
+      crossed += integral_;
     }
     parts_.clear();
-    column_ = 0.0;
+    integral_ = 0.0;
     if (std::exp(-thinnest * crossed) * scale >= kRouletteBelow) return;
     scale = rng.uniform() < 0.5f ? 2.0 * scale : 0.0;
   };
   result.lookups = medium.visit_pieces(ray, interval, [&](const DensityPiece& piece) {
-    result.column += piece.column();
+    result.integral += piece.integral();
     for (double s = 0.0; s < piece.length() && scale > 0.0;) {
       const double t = piece.t0 + s;
       if (parts_.empty()) start = t;
@@ -151,8 +152,8 @@ Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& int
         finish_step();
         continue;
       }
-      s = extend(piece, s, left, most_column);
-      if (column_ >= most_column || piece.t0 + s - start >= limits.length) finish_step();
+      s = extend(piece, s, left, most_integral);
+      if (integral_ >= most_integral || piece.t0 + s - start >= limits.length) finish_step();
     }
     return true;
   });

@@ -25,7 +25,7 @@ class MarchedLight::March {
     }
     std::sort(cuts.begin(), cuts.begin() + static_cast<std::ptrdiff_t>(number));
     for (size_t i = 1; i < number; ++i) part({cuts[i - 1], cuts[i]});
-    segment_.set_column(column_);
+    segment_.set_integral(integral_);
     return radiance_;
   }
 
@@ -43,7 +43,7 @@ class MarchedLight::March {
       limits.length = std::min(limits.length, step);
       asked[number++] = light_.sources_[i].get();
     }
-    if (number == 0) return attenuate(counted_column(medium, segment_.ray, interval, work_.counters.walk));
+    if (number == 0) return attenuate(counted_density_integral(medium, segment_.ray, interval, work_.counters.walk));
     const float densest = medium.max_density();  // weights are those of relative densities
     const auto add = [&](const Vec3& point, const Rgb& weight) {
       const Rgb seen = throughput_ * (weight / densest);
@@ -52,12 +52,12 @@ class MarchedLight::March {
     const Marched marched = work_.scratch.marcher.march(medium, segment_.ray, interval, limits, work_.rng, add);
     count(work_.counters.steps, marched.steps);
     count(work_.counters.walk.lookups, marched.lookups);
-    attenuate(marched.column);
+    attenuate(marched.integral);
   }
 
-  void attenuate(double column) {
-    column_ += column;
-    throughput_ *= transmittance(*segment_.medium(), column);
+  void attenuate(double integral) {
+    integral_ += integral;
+    throughput_ *= transmittance(*segment_.medium(), integral);
   }
 
   const MarchedLight& light_;
@@ -65,7 +65,7 @@ class MarchedLight::March {
   EyeWork& work_;
   std::array<MarchedSource::Reach, kMostSources> reaches_;
   Rgb throughput_;
-  double column_ = 0.0;  // m, so far
+  double integral_ = 0.0;  // m, so far
   Rgb radiance_{0.0f};
 };
 

@@ -26,7 +26,7 @@ Rgb PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) const {
       radiance +=
           factor * weight * volume_sum(medium.phase, point, -segment.ray.direction, CountedMap{map, work.gather()});
     };
-    const SeenThrough seen{segment.ray, segment.columns(work),
+    const SeenThrough seen{segment.ray, segment.integrals(work),
                            segment.medium() ? segment.medium()->sigma_t : Rgb(0.0f)};
     march_evenly(seen, near, step_among(map, near), work.rng, add);
   }

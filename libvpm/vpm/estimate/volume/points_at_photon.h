@@ -10,7 +10,7 @@ namespace vpm {
 /// Marches evenly among the photons of each medium.
 class PointsAtPhoton final : public VolumeEstimator {
  public:
-  /// The gather is none beside whole rays, and corrects no borders.
+  /// The gather is around points, and does not correct borders.
   PointsAtPhoton(const Scene& scene, const VolumeMapSettings& settings) : scene_(scene), maps_(scene, settings, 3) {}
 
   ScatteredLight finds() const override { return maps_.finds(); }

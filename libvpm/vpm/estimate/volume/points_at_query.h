@@ -10,7 +10,7 @@ namespace vpm {
 /// Photons around a point, by radius or by count, with or without the correction at borders.
 class PointsAtQuery final : public MarchedSource {
  public:
-  /// The gather is none beside whole rays.
+  /// The gather is around points.
   PointsAtQuery(const Scene& scene, const VolumeMapSettings& settings) : scene_(scene), maps_(scene, settings, 3) {}
 
   ScatteredLight finds() const override { return maps_.finds(); }

@@ -10,12 +10,13 @@ constexpr double kEndless = 1e30;
 
 }  // namespace
 
-Rgb analog_weight(const Medium& medium, const Rgb& shares, double column, bool collided) {
+Rgb analog_weight(const Medium& medium, const Rgb& shares, double integral, bool collided) {
   if (is_grey(medium.sigma_t)) return Rgb(1.0f);
   const Rgbd sigma_t(medium.sigma_t);
-  // The largest transmittance is taken out, so that deep columns do not underflow in numerator and denominator.
+  // The largest transmittance is taken out, so that deep density integrals do not underflow in numerator and
+  // denominator.
   const double least = std::min(sigma_t.r, std::min(sigma_t.g, sigma_t.b));
-  Rgbd value = glm::exp(-(sigma_t - least) * std::min(column, kEndless));
+  Rgbd value = glm::exp(-(sigma_t - least) * std::min(integral, kEndless));
   if (collided) value *= sigma_t;
   return Rgb(value / glm::dot(Rgbd(shares), value));
 }
@@ -30,9 +31,10 @@ Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& 
   Flight flight;
   flight.collided = distance < reach;
   flight.t = flight.collided ? interval.t0 + static_cast<float>(distance) : interval.t1;
-  // The distance as it was rounded: against the column up to there a finer one would weigh by exp(rate * rounding).
+  // The distance as it was rounded: against the density integral up to there a finer one would weigh by exp(rate *
+  // rounding).
   const double length = flight.collided ? static_cast<double>(flight.t) - interval.t0 : reach;
-  const Column crossed = column(medium, ray, {interval.t0, flight.t});
+  const DensityIntegral crossed = density_integral(medium, ray, {interval.t0, flight.t});
   flight.lookups = crossed.lookups;
   // Transmittance over density: the exponents are joined before exp(), as each alone can underflow.
   const Rgbd sigma_t(medium.sigma_t);

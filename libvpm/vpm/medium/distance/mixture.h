@@ -23,9 +23,9 @@ inline float pick_channel(const Rgb& values, const Rgb& shares, float u) {
   return u < shares.r + shares.g ? values.g : values.b;
 }
 
-/// The weight of a flight whose distance was drawn from the medium's own transmittance, for the column it crossed. 1 in
-/// a grey medium.
-Rgb analog_weight(const Medium& medium, const Rgb& shares, double column, bool collided);
+/// The weight of a flight whose distance was drawn from the medium's own transmittance, for the density integral it
+/// crossed. 1 in a grey medium.
+Rgb analog_weight(const Medium& medium, const Rgb& shares, double integral, bool collided);
 
 /// A flight whose distance is drawn from exp(-rate d), rates per channel in 1/m, with the weights that correct it for
 /// the medium's transmittance.

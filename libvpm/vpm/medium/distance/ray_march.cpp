@@ -34,7 +34,7 @@ Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& in
     if (density > 0.0) crossed += density * (end - t);
   }
   if (sigma_t == 0.0) {  // nothing ends the march of a channel without extinction: only the others' weights ask for it
-    const Column through = column(medium, ray, interval);
+    const DensityIntegral through = density_integral(medium, ray, interval);
     crossed = through.value;
     count(flight.lookups, through.lookups);
   }

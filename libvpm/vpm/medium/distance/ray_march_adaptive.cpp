@@ -23,14 +23,14 @@ Flight RayMarchAdaptive::sample(const Medium& medium, const Ray& ray, const Inte
                                 Rng& rng) const {
   const Rgb shares = channel_shares(power);
   const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
-  const double target = rng.exponential() / sigma_t;  // column to cross; infinite at sigma_t = 0
+  const double target = rng.exponential() / sigma_t;  // density integral to cross; infinite at sigma_t = 0
   const double longest = step_ * static_cast<double>(medium.voxel_size());
-  const double column_of_step = optical_step_ / static_cast<double>(max_channel(medium.sigma_t));
+  const double integral_of_step = optical_step_ / static_cast<double>(max_channel(medium.sigma_t));
   Flight flight;
   flight.t = interval.t1;
   double crossed = 0.0;
   flight.bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
-    const double wanted = std::clamp(column_of_step / stretch.max, kShortest * longest, longest);
+    const double wanted = std::clamp(integral_of_step / stretch.max, kShortest * longest, longest);
     const double steps = stretch.uniform() ? 1.0 : std::ceil((stretch.t1 - stretch.t0) / wanted);
     const double length = (stretch.t1 - stretch.t0) / steps;
     double t = stretch.t0;

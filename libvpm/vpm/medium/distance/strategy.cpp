@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<StrategyInfo, 11> kStrategies{{
     {.name = "regular",
-     .summary = "exact in any medium: cells walked, the quartic column inverted",
+     .summary = "exact in any medium: cells walked, the quartic density integral inverted",
      .failure = "a step for every cell crossed, however thin the medium is there",
      .source = "Novak2018"},
     {.name = "homogeneous",

@@ -3,7 +3,7 @@
 
 #include "vpm/base/count.h"
 #include "vpm/medium/transmittance/estimators.h"
-#include "vpm/medium/transmittance/marched_columns.h"
+#include "vpm/medium/transmittance/marched_integrals.h"
 #include "vpm/medium/transmittance/poisson_points.h"
 
 namespace vpm {

@@ -10,7 +10,7 @@ namespace vpm {
 std::span<const EstimatorInfo> transmittance_estimators() {
   static constexpr std::array<EstimatorInfo, 7> kEstimators{{
       {.name = "regular",
-       .summary = "exact: the column of every cell along the ray",
+       .summary = "exact: the density integral of every cell along the ray",
        .failure = "a step for every cell crossed, however thin the medium is there",
        .source = "Novak2018"},
       {.name = "ratio",
@@ -24,10 +24,10 @@ std::span<const EstimatorInfo> transmittance_estimators() {
        .source = "Novak2014"},
       {.name = "residual-ratio",
        .summary = "the same for what the density is off the middle of each brick's bounds",
-       .failure = "bricks that are empty but for a small part: values above 1, heavy tails",
+       .failure = "bricks that are empty except for a small part: values above 1, heavy tails",
        .source = "Novak2014"},
       {.name = "unbiased-ray-march",
-       .summary = "power series of the columns of a few marches, mostly of one",
+       .summary = "power series of the density integrals of a few marches, mostly of one",
        .failure = "spikes thinner than a march's steps: rare terms of great size, of either sign",
        .source = "Kettunen2021"},
       {.name = "ray-march",

@@ -1,13 +1,13 @@
-// `jackknife`: two independent marches of the column, each with a random offset in every step, joined as if their
-// errors were normal: for such columns exp(-mean) cos(half their difference) is the unbiased estimator of least
-// variance [Peters2025]. Biased only by what the columns' errors differ from normal ones: the variance, which makes the
-// bias of `ray-march`, cancels, and the third cumulant takes its place. Without the paper's sampling by precomputed
-// second moments of bricks.
+// `jackknife`: two independent marches of the density integral, each with a random offset in every step, joined as if
+// their errors were normal: for such density integrals exp(-mean) cos(half their difference) is the unbiased estimator
+// of least variance [Peters2025]. Biased only by what the density integrals' errors differ from normal ones: the
+// variance, which makes the bias of `ray-march`, cancels, and the third cumulant takes its place. Without the paper's
+// sampling by precomputed second moments of bricks.
 //
 // Known failure: few steps in a dense medium. The errors are far from normal then, and a difference of more than pi
 // makes the value negative, which is legal.
 #include "vpm/medium/transmittance/estimators.h"
-#include "vpm/medium/transmittance/marched_columns.h"
+#include "vpm/medium/transmittance/marched_integrals.h"
 
 namespace vpm {
 

@@ -1,7 +1,7 @@
 // `ray-march`: quadrature of the optical thickness in equal steps with one random offset. Biased: the exponential of an
-// unbiased column is not an unbiased transmittance; the bias falls as step^2.
+// unbiased density integral is not an unbiased transmittance; the bias falls as step^2.
 #include "vpm/medium/transmittance/estimators.h"
-#include "vpm/medium/transmittance/marched_columns.h"
+#include "vpm/medium/transmittance/marched_integrals.h"
 
 namespace vpm {
 
@@ -10,8 +10,8 @@ TransmittanceEstimate RayMarchedTransmittance::estimate(const Medium& medium, co
   const Interval inside = medium.clip(ray, interval);
   if (const auto known = known_transmittance(medium, inside)) return *known;
   const double steps = step_count(medium, inside, step_);
-  const double column = comb_column(medium, ray, inside, steps, rng.uniform());
-  return {transmittance(medium, column), static_cast<uint32_t>(steps)};
+  const double integral = comb_integral(medium, ray, inside, steps, rng.uniform());
+  return {transmittance(medium, integral), static_cast<uint32_t>(steps)};
 }
 
 }  // namespace vpm

@@ -6,7 +6,7 @@
 // density is 0. The relative variance is exp(int residual^2 / largest residual) - 1, no more than exp() of the mean
 // number of look-ups. Residuals of either sign: look-ups leave shares from 0 to 2, and values above 1 are legal.
 //
-// Known failure: a brick that is empty but for a small part. Its residual is as large as can be almost everywhere;
+// Known failure: a brick that is empty except for a small part. Its residual is nearly maximal almost everywhere;
 // ratio tracking, whose look-ups leave the light alone there, is better in such bricks.
 #include "vpm/medium/transmittance/brick_tracking.h"
 

@@ -1,13 +1,15 @@
-// `unbiased-ray-march`: the exponential of an unbiased column is biased, but its power series about one such column,
+// `unbiased-ray-march`: the exponential of an unbiased density integral is biased, but its power series about one such
+// density integral,
 //
 //   exp(-tau) = exp(-X_0) sum_k (X_0 - tau)^k / k!,
 //
 // is not once each power is a product of independent estimates X_0 - X_j. A roulette stops the series, nine times out
-// of ten at once: then it is a ray march. All columns take their turn as X_0, and products are averaged over every
-// choice of the others (U-statistics), so that no sample is wasted [Kettunen2021].
+// of ten at once: then it is a ray march. All density integrals take their turn as X_0, and products are averaged over
+// every choice of the others (U-statistics), so that no sample is wasted [Kettunen2021].
 //
-// A column is a comb of equidistant samples with one offset, from which the straight line between the densities at the
-// stretch's ends is taken out: the comb's error for it is known. So there is no noise where the density is linear.
+// A density integral is a comb of equidistant samples with one offset, from which the straight line between the
+// densities at the stretch's ends is taken out: the comb's error for it is known. So there is no noise where the
+// density is linear.
 //
 // Known failure: a comb too coarse for the field. Differences of many optical thicknesses make rare powers enormous, of
 // either sign: values below 0 and above 1 are legal, and their variance may be too large to be seen in few samples.
@@ -16,7 +18,7 @@
 #include <limits>
 
 #include "vpm/medium/transmittance/estimators.h"
-#include "vpm/medium/transmittance/marched_columns.h"
+#include "vpm/medium/transmittance/marched_integrals.h"
 
 namespace vpm {
 namespace {
@@ -58,8 +60,8 @@ double control_thickness(const Medium& medium, const Ray& ray, const Interval& i
 /// Samples in a comb [Kettunen2021, alg. 4].
 double comb_size(double control, double times) {
   const double of_tracking = std::ceil(std::cbrt((0.015 + control) * (0.65 + control) * (60.3 + control)));
-  constexpr double kMeanColumns = 1.31945;  // by draw_order()
-  return std::max(1.0, std::round(times * of_tracking / kMeanColumns));
+  constexpr double kMeanDensityIntegrals = 1.31945;  // by draw_order()
+  return std::max(1.0, std::round(times * of_tracking / kMeanDensityIntegrals));
 }
 
 /// The mean over all choices of k of the thicknesses, without the pivot, of the product of their differences to the
@@ -100,13 +102,13 @@ TransmittanceEstimate UnbiasedRayMarchedTransmittance::estimate(const Medium& me
   const double rise = double{along.at(inside.t1)} - along.at(inside.t0);
   const double of_rise = rise * inside.length() / count;  // m: the error over a straight line is (offset - 1/2) of it
   const int order = draw_order(rng);
-  double columns[kMostOrder + 1], thicknesses[kMostOrder + 1];
+  double integrals[kMostOrder + 1], thicknesses[kMostOrder + 1];
   for (int i = 0; i <= order; ++i) {
     const double offset = rng.uniform_double();
-    columns[i] = comb_column(medium, ray, inside, count, offset) - (offset - 0.5) * of_rise;
+    integrals[i] = comb_integral(medium, ray, inside, count, offset) - (offset - 0.5) * of_rise;
   }
   for (int c = 0; c < 3; ++c) {
-    for (int i = 0; i <= order; ++i) thicknesses[i] = medium.sigma_t[c] * columns[i];
+    for (int i = 0; i <= order; ++i) thicknesses[i] = medium.sigma_t[c] * integrals[i];
     result.value[c] = static_cast<float>(power_series(thicknesses, order));
   }
   result.lookups = static_cast<uint32_t>(2.0 + count * (order + 1));

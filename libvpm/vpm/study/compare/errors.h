@@ -12,7 +12,7 @@ namespace vpm {
 struct Reference {
   Image mean;
   Image variance;          // of each pixel of `mean`; black: it is exact
-  std::string doubt = "";  // why biases beside it cannot be told; empty: they can
+  std::string doubt = "";  // why biases cannot be judged against it; empty: they can
 };
 
 /// An estimate between the ends of a 95 % confidence interval.

@@ -41,8 +41,8 @@ std::optional<double> cost_of(double target, const std::vector<Repetitions>& bud
 }
 
 /// MethodSummary::own_bias of method `m` at budget `b`.
-std::optional<Tested> beside(std::optional<size_t> baseline, size_t m, size_t b,
-                             const std::vector<std::vector<BudgetSummary>>& budgets) {
+std::optional<Tested> bias_against(std::optional<size_t> baseline, size_t m, size_t b,
+                                   const std::vector<std::vector<BudgetSummary>>& budgets) {
   if (!baseline || *baseline == m) return std::nullopt;
   return relative_difference(values_of(budgets[m][b], &PictureErrors::mean_ratio),
                              values_of(budgets[*baseline][b], &PictureErrors::mean_ratio));
@@ -81,7 +81,7 @@ SceneSummary summarise_scene(const std::vector<std::vector<BudgetSummary>>& budg
       method.by_mse.push_back(compare_efficiency(absolute[m], absolute[summary.best_by_mse.back()]));
       method.by_relative_mse.push_back(compare_efficiency(relative[m], best));
       method.by_variance.push_back(compare_efficiency(variance[m], variance[summary.best_by_variance.back()]));
-      method.own_bias.push_back(beside(baseline, m, b, budgets));
+      method.own_bias.push_back(bias_against(baseline, m, b, budgets));
       curves[m].push_back(relative[m]);
     }
   }

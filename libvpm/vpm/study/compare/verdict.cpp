@@ -10,7 +10,8 @@ namespace {
 
 BiasEvidence undetermined(std::string why) { return {BiasVerdict::undetermined, 1.0, 1.0, std::move(why)}; }
 
-/// Why biases cannot be told beside the baseline, or beside the reference where there is none; empty where they can.
+/// Why biases cannot be judged against the baseline, or against the reference where there is no baseline; empty where
+/// they can.
 std::string doubt_of_truth(const std::vector<std::vector<BudgetSummary>>& budgets, std::optional<size_t> baseline,
                            const Reference& reference) {
   if (!baseline) return reference.doubt;

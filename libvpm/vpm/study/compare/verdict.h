@@ -32,8 +32,8 @@ inline bool is_judged(const BiasEvidence& evidence) {
   return evidence.verdict == BiasVerdict::none_seen || evidence.verdict == BiasVerdict::biased;
 }
 
-/// Of each method of a scene at the last budget, none judged yet: of the bias beside the baseline, where there is one,
-/// else beside the reference. Nothing is known beside what is in doubt itself. `budgets` by method, then budget.
+/// Of each method of a scene at the last budget, none judged yet: of the bias against the baseline, where there is one,
+/// else against the reference. Nothing can be judged against what is in doubt itself. `budgets` by method, then budget.
 std::vector<BiasEvidence> bias_evidence(const std::vector<std::vector<BudgetSummary>>& budgets,
                                         const SceneSummary& summary, std::optional<size_t> baseline,
                                         const Reference& reference);

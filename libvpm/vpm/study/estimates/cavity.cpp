@@ -36,7 +36,7 @@ Moments estimate_wall_hits(const Cavity& cavity, uint64_t photons, uint64_t seed
     const Emission emission = emit(scene.lights[0], scene.bounds, rng);
     WalkCounters counters;
     const auto see = [&](const Event& event, const PathState&, const PathState& at) {
-      if (event.kind == EventKind::surface) out[0] += at.power.r;
+      if (event.kind == EventKind::surface) out[0] += at.throughput.r;
       return true;
     };
     follow({scene, *strategy, counters, kMaxEvents}, {emission.ray, kVacuum, emission.power}, rng, PhotonVisitor{see});

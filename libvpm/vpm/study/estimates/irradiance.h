@@ -49,7 +49,8 @@ inline constexpr double kCapRadius = 0.1;
 Moments estimate_wall_irradiance(const Cavity& sphere, bool reflected_only, uint64_t photons, uint64_t seed);
 /// Irradiance at a point of a sphere's wall straight from the source, W/m^2.
 double direct_wall_irradiance(const Cavity& sphere, const Vec3& outward);
-/// Radiance that the referee sees from a point inside: in all directions alike, or towards a wall point of that normal.
+/// Radiance that the path tracer sees from a point inside: in all directions alike, or towards a wall point of that
+/// normal.
 Moments estimate_cavity_radiance(const Cavity& cavity, const Vec3* outward, uint64_t samples, uint64_t seed);
 
 }  // namespace vpm

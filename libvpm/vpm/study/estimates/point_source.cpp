@@ -110,7 +110,7 @@ std::vector<Moments> estimate_collisions_within(const PointSource& source, const
       if (event.kind != EventKind::collision) return true;
       const double r = kSigmaT * glm::length(Vec3d(at.ray.origin));
       for (size_t i = 0; i < radii.size(); ++i)
-        if (r < radii[i]) out[i] += at.power.r;
+        if (r < radii[i]) out[i] += at.throughput.r;
       return true;
     };
     follow({scene, *strategy, counters, kMaxEvents}, {emission.ray, 0, emission.power}, rng, PhotonVisitor{see});

@@ -54,12 +54,12 @@ class PhotonTally {
     ++end_.events;
     if (event.kind != EventKind::collision) return;
     ++end_.collisions;
-    out_[at_.collisions] += state.power.r;
+    out_[at_.collisions] += state.throughput.r;
     add_between(at_.collisions_between);
   }
 
   void finish() {
-    const double power = end_.state.power.r;
+    const double power = end_.state.throughput.r;
     double depth = -end_.state.ray.origin.y;
     const bool escaped = end_.event.kind == EventKind::escape;
     if (end_.events == kMaxEvents || (escaped && depth > 0.0 && depth < thickness_)) {
@@ -90,7 +90,7 @@ class PhotonTally {
   }
   void add_between(size_t first) {
     const size_t layer = bin_of(tallies_.planes, -end_.state.ray.origin.y);
-    if (layer < tallies_.planes.size()) out_[first + layer] += end_.state.power.r;
+    if (layer < tallies_.planes.size()) out_[first + layer] += end_.state.throughput.r;
   }
 
   const Layout& at_;

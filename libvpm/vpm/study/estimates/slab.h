@@ -37,7 +37,7 @@ enum class SlabLight { spot, everywhere };
 /// after crossing the whole slab.
 Scene slab_scene(const Slab& slab, SlabLight light);
 
-/// What to tally beside reflectance and transmittance.
+/// What to tally besides reflectance and transmittance.
 struct SlabTallies {
   std::vector<double> mu_edges;  // ascending from 0 to 1: bins of the cosine of exit
   std::vector<double> planes;    // m, ascending depths: fluxes at them, absorption and collisions between them

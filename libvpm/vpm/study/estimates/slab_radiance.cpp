@@ -1,4 +1,4 @@
-// Paths of the referee out of slabs, and from points inside them into all directions.
+// Paths of the path tracer out of slabs, and from points inside them into all directions.
 #include "vpm/study/estimates/slab_radiance.h"
 
 #include <algorithm>

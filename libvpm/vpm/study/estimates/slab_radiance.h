@@ -1,4 +1,4 @@
-// Radiance and fluence in slabs, by the referee.
+// Radiance and fluence in slabs, by the path tracer.
 #pragma once
 
 #include "vpm/study/estimates/slab.h"

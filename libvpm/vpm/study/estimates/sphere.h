@@ -22,7 +22,7 @@ struct SpherePhotons {
 };
 SpherePhotons estimate_sphere_photons(const FoggySphere& sphere, uint64_t photons, uint64_t seed);
 
-/// A sample is a path of the referee to each place.
+/// A sample is a path of the path tracer to each place.
 struct SpherePaths {
   std::vector<Moments> fluence;  // W/m^2
   std::vector<Moments> image;    // W/(m^2 sr)

@@ -1,4 +1,4 @@
-// Level 3: every way to the same picture. The mean radiance of a small film, by the referee and by photon maps with
+// Level 3: every way to the same picture. The mean radiance of a small film, by the path tracer and by photon maps with
 // every strategy, form and gathering, must agree.
 //
 // Photon maps have a kernel's bias, which is no error of theirs. Each pass is rendered with two radii and extrapolated
@@ -27,7 +27,7 @@ struct Measured {
 };
 
 /// Rays through random places of the film.
-Measured by_referee(const Scene& scene, const RenderSettings& settings, uint64_t rays) {
+Measured by_path_tracer(const Scene& scene, const RenderSettings& settings, uint64_t rays) {
   const PathContext context = make_path_context(scene, settings);
   // The last quantity is the sum over channels, for the effective sample size.
   Measured measured{sample_moments(4, rays, settings.seed, [&](Rng& rng, double* out) {
@@ -143,7 +143,7 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
       RenderSettings beams = base;
       beams.volume.mode = GatherMode::beam;
       beams.volume_form = form;
-      all.emplace_back(fmt::format("photons beside rays, density at the {}",
+      all.emplace_back(fmt::format("photons around rays, density at the {}",
                                    form == VolumeForm::density_at_query ? "query" : "photon"),
                        beams);
       beams.volume_direct = DirectLight::equiangular;
@@ -152,7 +152,7 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
     RenderSettings own_radii = base;
     own_radii.volume.mode = GatherMode::beam;
     own_radii.volume.beam_count = 30;
-    all.emplace_back("photons beside rays, with radii of their own", own_radii);
+    all.emplace_back("photons around rays, with radii of their own", own_radii);
   }
   RenderSettings guided = base;
   guided.guide.importons = 1'000;
@@ -179,9 +179,9 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
 std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
   const bool media = !scene.media.empty(), surfaces = scattering_of(scene).surfaces;
-  RenderSettings referee;
-  referee.seed = effort.seed_of(subject.name + " referee");
-  const Measured reference = by_referee(scene, referee, effort.count(40'000, 300'000));
+  RenderSettings paths;
+  paths.seed = effort.seed_of(subject.name + " by paths");
+  const Measured reference = by_path_tracer(scene, paths, effort.count(40'000, 300'000));
   std::vector<Check> checks;
   for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces)) {
     settings.seed = effort.seed_of(subject.name + name);
@@ -191,7 +191,8 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   return checks;
 }
 
-/// Every strategy, for the referee's paths and for photons if it is for them, and every estimator of transmittance.
+/// Every strategy, for paths of the path tracer and for photons if it is for them, and every estimator of
+/// transmittance.
 std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
   RenderSettings base = photon_settings(subject, effort.count(3'000, 8'000));
@@ -199,7 +200,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
   base.transmittance.step = base.distance.step;
   base.seed = effort.seed_of(subject.name + " reference");
   const uint64_t rays = effort.count(40'000, 300'000);
-  const Measured reference = by_referee(scene, base, rays);
+  const Measured reference = by_path_tracer(scene, base, rays);
   bool grids = false;
   for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
   std::vector<Check> checks;
@@ -210,7 +211,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     settings.distance = careful_settings(strategy.name);
     settings.distance.extinction_floor = 1.0f;
     settings.seed = effort.seed_of(fmt::format("{} {} paths", subject.name, strategy.name));
-    compare(checks, fmt::format("paths by {}", strategy.name), by_referee(scene, settings, rays), reference,
+    compare(checks, fmt::format("paths by {}", strategy.name), by_path_tracer(scene, settings, rays), reference,
             scene.grey);
     if (!strategy.positive) continue;
     settings.seed = effort.seed_of(fmt::format("{} {} photons", subject.name, strategy.name));
@@ -222,18 +223,18 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     RenderSettings settings = base;
     settings.transmittance.estimator = estimator.name;
     settings.seed = effort.seed_of(fmt::format("{} {}", subject.name, estimator.name));
-    compare(checks, fmt::format("shadow rays by {}", estimator.name), by_referee(scene, settings, rays), reference,
+    compare(checks, fmt::format("shadow rays by {}", estimator.name), by_path_tracer(scene, settings, rays), reference,
             scene.grey);
   }
   return checks;
 }
 
-/// Every strategy with every estimator of transmittance, by the referee, and in every form of the photon map.
+/// Every strategy with every estimator of transmittance, by the path tracer, and in every form of the photon map.
 std::vector<Check> combinations(const Effort& effort) {
-  const Scene scene = puff(Viewpoint::outside, Rgb(0.8f, 1.0f, 1.3f));
+  const Scene scene = small_cloud(Viewpoint::outside, Rgb(0.8f, 1.0f, 1.3f));
   RenderSettings base = photon_settings({"", {}, BiasOrder::smooth, 0.3f}, effort.count(3'000, 8'000));
   base.seed = effort.seed_of("combinations reference");
-  const Measured reference = by_referee(scene, base, effort.count(80'000, 600'000));
+  const Measured reference = by_path_tracer(scene, base, effort.count(80'000, 600'000));
   std::vector<Check> checks;
   for (const StrategyInfo& strategy : distance_strategies()) {
     if (!strategy.heterogeneous) continue;
@@ -246,7 +247,7 @@ std::vector<Check> combinations(const Effort& effort) {
       settings.transmittance.step = settings.distance.step;
       const std::string name = fmt::format("paths by {}, shadow rays by {}", strategy.name, estimator.name);
       settings.seed = effort.seed_of("combinations " + name);
-      compare(checks, name, by_referee(scene, settings, rays), reference, scene.grey);
+      compare(checks, name, by_path_tracer(scene, settings, rays), reference, scene.grey);
     }
     if (!strategy.positive) continue;
     for (auto& [form, settings] : forms(base, true)) {
@@ -267,7 +268,7 @@ std::vector<Check> constant_grid(const Effort& effort) {
   const auto measure = [&](const Scene& scene, const std::string& name, bool photons) {
     settings.seed = effort.seed_of(name);
     return photons ? by_photons(scene, settings, BiasOrder::edges, static_cast<int>(effort.count(20, 64)))
-                   : by_referee(scene, settings, effort.count(40'000, 300'000));
+                   : by_path_tracer(scene, settings, effort.count(40'000, 300'000));
   };
   const Measured reference = measure(plain, "plain", false);
   compare(checks, "constant grid, paths", measure(grid, "grid", false), reference, false);
@@ -280,22 +281,22 @@ std::vector<Check> constant_grid(const Effort& effort) {
 }  // namespace
 
 std::vector<Experiment> agreement_experiments() {
-  const auto seen_from = [](Viewpoint viewpoint) { return [=] { return puff(viewpoint, Rgb(2.0f)); }; };
+  const auto seen_from = [](Viewpoint viewpoint) { return [=] { return small_cloud(viewpoint, Rgb(2.0f)); }; };
   const std::vector<Subject> by_gathering{
-      {"a lamp in chromatic fog, seen from inside", foggy_lamp, BiasOrder::smooth, 0.25f, 4},
-      {"a puff from outside", seen_from(Viewpoint::outside), BiasOrder::smooth, 0.3f},
-      {"a puff from its border", seen_from(Viewpoint::border), BiasOrder::smooth, 0.3f},
-      {"a puff from inside", seen_from(Viewpoint::inside), BiasOrder::smooth, 0.3f},
-      {"a floor beside a wall", [] { return lit_corner(); }, BiasOrder::smooth, 0.08f},
+      {"a light in chromatic fog, seen from inside", foggy_light, BiasOrder::smooth, 0.25f, 4},
+      {"a cloud from outside", seen_from(Viewpoint::outside), BiasOrder::smooth, 0.3f},
+      {"a cloud from its border", seen_from(Viewpoint::border), BiasOrder::smooth, 0.3f},
+      {"a cloud from inside", seen_from(Viewpoint::inside), BiasOrder::smooth, 0.3f},
+      {"a floor next to a wall", [] { return lit_corner(); }, BiasOrder::smooth, 0.08f},
       {"a floor under a ball of glass", [] { return lit_corner(1.5f); }, BiasOrder::smooth, 0.03f},
       {"a floor under a ball of IOR 1", [] { return lit_corner(1.0f); }, BiasOrder::smooth, 0.08f},
       {"a floor shaded as if leaning towards a wall", leaning_wall, BiasOrder::smooth, 0.1f},
-      {"rough glass beside rough metal", rough_corner, BiasOrder::smooth, 0.2f},
+      {"rough glass next to rough metal", rough_corner, BiasOrder::smooth, 0.2f},
       {"a floor in fog", foggy_floor, BiasOrder::edges, 0.06f},
       {"a hollow cube", hollow_cube, BiasOrder::edges, 0.1f}};
   const std::vector<Subject> by_strategy{
-      {"strategies in a puff", [] { return puff(Viewpoint::outside, Rgb(1.0f)); }, BiasOrder::smooth, 0.3f},
-      {"strategies in chromatic fog", foggy_lamp, BiasOrder::smooth, 0.25f, 4}};
+      {"strategies in a cloud", [] { return small_cloud(Viewpoint::outside, Rgb(1.0f)); }, BiasOrder::smooth, 0.3f},
+      {"strategies in chromatic fog", foggy_light, BiasOrder::smooth, 0.25f, 4}};
   std::vector<Experiment> all;
   for (const Subject& s : by_gathering)
     all.push_back({3, s.name, [s](const Effort& effort) { return compare_gatherings(s, effort); }});

@@ -46,9 +46,9 @@ std::vector<Check> check_box(const TestField& field, const StrategyInfo& info, c
           const bool back = glm::dot(now.ray.direction, beam.direction) < 0.0f;
           for (int c = 0; c < 3; ++c) {
             if (event.kind == EventKind::collision)
-              absorbed[c] += now.power[c] * lost[c];
+              absorbed[c] += now.throughput[c] * lost[c];
             else
-              (back ? reflected : transmitted)[c] += now.power[c];
+              (back ? reflected : transmitted)[c] += now.throughput[c];
           }
           return true;
         };
@@ -76,9 +76,9 @@ Scene scene_with_everything() {
   const DiscShape disc{Vec3(0.2f, 1.9f, -0.3f), glm::normalize(Vec3(0.1f, -1.0f, 0.2f)), 0.3f};
   add_shape(scene, disc, Lambertian{Rgb(0.2f)}, nullptr, static_cast<int>(scene.lights.size()));
   scene.lights.push_back(DiscLight{disc.centre, disc.normal, disc.radius, Rgb(1.0f, 0.7f, 0.4f)});
-  const TriangleMesh lamp = box_mesh(Vec3d(1.6, 1.7, 1.6), Vec3d(1.9, 1.9, 1.8));
-  add_shape(scene, lamp, Lambertian{Rgb(0.4f)}, nullptr, static_cast<int>(scene.lights.size()));
-  scene.lights.push_back(MeshLight{std::make_shared<EmittingMesh>(lamp), Rgb(0.8f)});
+  const TriangleMesh light = box_mesh(Vec3d(1.6, 1.7, 1.6), Vec3d(1.9, 1.9, 1.8));
+  add_shape(scene, light, Lambertian{Rgb(0.4f)}, nullptr, static_cast<int>(scene.lights.size()));
+  scene.lights.push_back(MeshLight{std::make_shared<EmittingMesh>(light), Rgb(0.8f)});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -112,12 +112,12 @@ std::vector<Check> check_flows(const Effort& effort) {
   return checks;
 }
 
-/// A closed cavity of grey walls with a lamp in it.
+/// A closed cavity of grey walls with a light in it.
 template <class Surface>
-Scene cavity(const Surface& walls, float reflectance, const Vec3& lamp) {
+Scene cavity(const Surface& walls, float reflectance, const Vec3& light) {
   Scene scene;
   add_shape(scene, walls, Lambertian{Rgb(reflectance)});
-  scene.lights.push_back(PointLight{lamp, Rgb(1.0f / (4.0f * kPi))});
+  scene.lights.push_back(PointLight{light, Rgb(1.0f / (4.0f * kPi))});
   scene.geometry.commit();
   finish(scene);
   return scene;
@@ -131,7 +131,7 @@ Check check_arrivals(const std::string& name, const Scene& scene, double reflect
         const Emission emission = emit(scene.lights[0], scene.bounds, rng);
         WalkCounters counters;
         const auto see = [&](const Event& event, const PathState&, const PathState& now) {
-          if (event.kind == EventKind::surface) out[0] += now.power.g;
+          if (event.kind == EventKind::surface) out[0] += now.throughput.g;
           return true;
         };
         follow({scene, *strategy, counters}, {emission.ray, kVacuum, emission.power}, rng, PhotonVisitor{see});
@@ -139,7 +139,7 @@ Check check_arrivals(const std::string& name, const Scene& scene, double reflect
   return check_mean(name, samples[0], 1.0 / (1.0 - reflectance));
 }
 
-/// The irradiance of a sphere's wall with the lamp at its centre, by the surface map.
+/// The irradiance of a sphere's wall with the light at its centre, by the surface map.
 Check check_wall(float radius, float reflectance, const Effort& effort) {
   const Scene scene = cavity(SphereShape{Vec3(0.0f), radius}, reflectance, Vec3(0.0f));
   const auto strategy = make_distance_strategy({});

@@ -1,7 +1,7 @@
 // Density estimates at borders, corrected: even photons have the exact density for their mean up to the edges and
 // corners of what they lie on or in, and none behind a wall.
 //
-// In a cube and on a square of side 2 m, at their corners and beside their edges, and beside sheets in the middle.
+// In a cube and on a square of side 2 m, at their corners, near their edges, and near sheets in the middle.
 // Regions find the shares of their kernels by fixed rays, which is off by a bias of its own: that is compared with its
 // stated bound, and taken out of the estimates, which may then have none.
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Level 4: how errors fall with the number of passes: as 1/n for the referee, as n^(-4/(d + 4)) for photon maps whose
-// radii shrink, with kernels of dimension d [Knaus2011, sec. 4].
+// Level 4: how errors fall with the number of passes: as 1/n for the path tracer, as n^(-4/(d + 4)) for photon maps
+// whose radii shrink, with kernels of dimension d [Knaus2011, sec. 4].
 //
 // The photon maps look at photons that fly straight from a point source to their first collision, so that field, bias
 // and variance of every pass are known exactly, and with them the mean squared error after n passes, not its power law
@@ -63,7 +63,7 @@ Groups run_groups(const std::vector<int>& n, size_t groups, const Effort& effort
 }
 
 /// A ball that absorbs nothing in uniform light: every pixel is 1.
-std::vector<Check> referee(const Effort& effort) {
+std::vector<Check> path_tracer(const Effort& effort) {
   Scene scene;
   Medium medium = make_medium(nullptr, Rgb(2.0f), 1.0f);
   medium.phase = HenyeyGreenstein{0.6f};
@@ -75,7 +75,7 @@ std::vector<Check> referee(const Effort& effort) {
   scene.geometry.commit();
   finish(scene);
   const std::vector<int> n = pass_counts(8, static_cast<int>(effort.count(128, 1024)));
-  const Groups groups = run_groups(n, effort.count(12, 16), effort, "referee", [&](uint64_t seed) {
+  const Groups groups = run_groups(n, effort.count(12, 16), effort, "path tracer", [&](uint64_t seed) {
     RenderSettings settings;
     settings.seed = seed;
     Film film(scene.camera.width, scene.camera.height);
@@ -240,7 +240,7 @@ std::vector<Check> surface_photons(const Effort& effort) {
 }  // namespace
 
 std::vector<Experiment> convergence_experiments() {
-  std::vector<Experiment> all{{4, "the referee", referee},
+  std::vector<Experiment> all{{4, "the path tracer", path_tracer},
                               {4, "photons in a volume, kernel of dimension 3", volume_photons},
                               {4, "photons on a surface, kernel of dimension 2", surface_photons}};
   for (auto* group : {pass_experiments, march_experiments})

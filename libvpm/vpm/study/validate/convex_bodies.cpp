@@ -37,12 +37,12 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
     last = now.ray.origin;
     for (int c = 0; c < 3; ++c) {
       double* sums = out + static_cast<size_t>(c) * tallies;
-      sums[length] += flown * now.power[c] / hit_share;
-      if (event.kind == EventKind::collision) sums[collisions] += now.power[c] / hit_share;
+      sums[length] += flown * now.throughput[c] / hit_share;
+      if (event.kind == EventKind::collision) sums[collisions] += now.throughput[c] / hit_share;
       if (event.kind == EventKind::escape) {
         const size_t ring = cell_of(0.5 * away_from(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction), kRings);
         sums[escapes + ring * kSectors + sector_about(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction)] +=
-            now.power[c] / shown_share(body.scene.bounds, now.ray.direction);
+            now.throughput[c] / shown_share(body.scene.bounds, now.ray.direction);
       }
     }
     return true;

@@ -112,7 +112,7 @@ Ray test_ray() {
 
 Interval test_stretch() { return {0.45f, 2.15f}; }
 
-double looked_up_column(const Medium& medium, const Ray& ray, double t0, double t1) {
+double looked_up_integral(const Medium& medium, const Ray& ray, double t0, double t1) {
   if (medium.homogeneous()) return t1 - t0;
   // Gauss-Legendre with three nodes [Olver2010, sec. 3.5(v)]: exact up to the fifth power.
   const double node = std::sqrt(0.6);
@@ -128,7 +128,7 @@ double looked_up_column(const Medium& medium, const Ray& ray, double t0, double 
   return sum;
 }
 
-double marched_column(const Medium& medium, double t, double step) {
+double marched_integral(const Medium& medium, double t, double step) {
   const Ray ray = test_ray();
   const Interval stretch = test_stretch();
   double sum = 0.0;

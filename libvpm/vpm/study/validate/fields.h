@@ -1,5 +1,5 @@
-// Density fields whose free flights are tested, and their columns by quadrature of look-ups at points: nothing of the
-// walk along rays is used.
+// Density fields whose free flights are tested, and their density integrals by quadrature of look-ups at points:
+// nothing of the walk along rays is used.
 #pragma once
 
 #include <string>
@@ -37,11 +37,11 @@ double field_box_area();
 Ray test_ray();
 Interval test_stretch();
 
-/// The column along [t0, t1], m: Gauss's rule on the ray's part in each voxel, where the density is a cubic.
-double looked_up_column(const Medium& medium, const Ray& ray, double t0, double t1);
+/// The density integral along [t0, t1], m: Gauss's rule on the ray's part in each voxel, where the density is a cubic.
+double looked_up_integral(const Medium& medium, const Ray& ray, double t0, double t1);
 
-/// The column along the test's ray, from the start of its stretch to `t` (m), by the midpoint rule in steps of `step`
-/// m, as a march has it: for stating the bias of one.
-double marched_column(const Medium& medium, double t, double step);
+/// The density integral along the test's ray, from the start of its stretch to `t` (m), by the midpoint rule in steps
+/// of `step` m, as a march has it: for stating the bias of one.
+double marched_integral(const Medium& medium, double t, double step);
 
 }  // namespace vpm

@@ -17,16 +17,16 @@ namespace {
 
 constexpr size_t kCells = 16;  // of distance, about equally probable; one more stands for flights without a collision
 
-/// Where the cells end, and the columns up to there.
+/// Where the cells end, and the density integrals up to there.
 struct Law {
-  std::vector<double> ends;     // m along the ray
-  std::vector<double> columns;  // m
+  std::vector<double> ends;       // m along the ray
+  std::vector<double> integrals;  // m
 
   /// The probability that a flight under extinction coefficient sigma_t (1/m) ends in a cell.
   double probability(double sigma_t, size_t cell) const {
-    const double before = cell == 0 ? 0.0 : columns[cell - 1];
+    const double before = cell == 0 ? 0.0 : integrals[cell - 1];
     if (cell == kCells) return std::exp(-sigma_t * before);
-    return std::exp(-sigma_t * before) * -std::expm1(-sigma_t * (columns[cell] - before));
+    return std::exp(-sigma_t * before) * -std::expm1(-sigma_t * (integrals[cell] - before));
   }
 };
 
@@ -36,30 +36,30 @@ Law flight_law(const Medium& medium) {
   constexpr int kTable = 1024;
   const Ray ray = test_ray();
   const Interval stretch = test_stretch();
-  std::vector<double> ends, columns;
-  double column = 0.0, t = stretch.t0;
+  std::vector<double> ends, integrals;
+  double integral = 0.0, t = stretch.t0;
   for (int i = 1; i <= kTable; ++i) {
     const double next = stretch.t0 + (double{stretch.t1} - stretch.t0) * i / kTable;
-    column += looked_up_column(medium, ray, t, next);
+    integral += looked_up_integral(medium, ray, t, next);
     ends.push_back(t = next);
-    columns.push_back(column);
+    integrals.push_back(integral);
   }
-  const double all = -std::expm1(-medium.sigma_t.g * column);
+  const double all = -std::expm1(-medium.sigma_t.g * integral);
   Law law;
   for (size_t cell = 1; cell <= kCells; ++cell) {
     const double share = all * static_cast<double>(cell) / kCells;
-    const auto place = std::find_if(columns.begin(), columns.end() - 1,
+    const auto place = std::find_if(integrals.begin(), integrals.end() - 1,
                                     [&](double c) { return -std::expm1(-medium.sigma_t.g * c) >= share; });
-    const auto i = static_cast<size_t>(cell == kCells ? kTable - 1 : place - columns.begin());
+    const auto i = static_cast<size_t>(cell == kCells ? kTable - 1 : place - integrals.begin());
     law.ends.push_back(ends[i]);
-    law.columns.push_back(columns[i]);
+    law.integrals.push_back(integrals[i]);
   }
   return law;
 }
 
-/// The column along the test's ray up to `t` (m), by the midpoint rule in the steps that `ray-march-adaptive` takes in
-/// the bricks on its way: for stating its bias.
-double adaptively_marched_column(const Medium& medium, double t, const DistanceSettings& settings) {
+/// The density integral along the test's ray up to `t` (m), by the midpoint rule in the steps that `ray-march-adaptive`
+/// takes in the bricks on its way: for stating its bias.
+double adaptively_marched_integral(const Medium& medium, double t, const DistanceSettings& settings) {
   const Ray ray = test_ray();
   const double longest = double{settings.step} * double{medium.voxel_size()};
   double sum = 0.0;
@@ -81,9 +81,10 @@ double adaptively_marched_column(const Medium& medium, double t, const DistanceS
 std::vector<double> march_bias(const Medium& medium, const Law& law, const DistanceSettings& settings, double sigma_t) {
   Law marched = law;
   for (size_t i = 0; i < kCells; ++i)
-    marched.columns[i] = settings.strategy == "ray-march-adaptive"
-                             ? adaptively_marched_column(medium, law.ends[i], settings)
-                             : marched_column(medium, law.ends[i], double{settings.step} * double{medium.voxel_size()});
+    marched.integrals[i] =
+        settings.strategy == "ray-march-adaptive"
+            ? adaptively_marched_integral(medium, law.ends[i], settings)
+            : marched_integral(medium, law.ends[i], double{settings.step} * double{medium.voxel_size()});
   std::vector<double> bias;
   for (size_t cell = 0; cell <= kCells; ++cell)
     bias.push_back(std::fabs(marched.probability(sigma_t, cell) - law.probability(sigma_t, cell)));
@@ -186,7 +187,7 @@ std::vector<Check> check_majorants_that_cut(const Effort& effort) {
 }
 
 /// The references' own reference: look-ups and their quadrature against formulas.
-std::vector<Check> check_columns(const Effort&) {
+std::vector<Check> check_integrals(const Effort&) {
   const auto fields = test_fields();
   const Ray ray = test_ray();
   const Interval stretch = test_stretch();
@@ -206,16 +207,16 @@ std::vector<Check> check_columns(const Effort&) {
     return 0.05 * rise * rise + 1.5 * fade(x);
   });
   const auto looked_up = [&](size_t i) {
-    return looked_up_column(make_medium(fields[i].grid, Rgb(1.0f)), ray, stretch.t0, stretch.t1);
+    return looked_up_integral(make_medium(fields[i].grid, Rgb(1.0f)), ray, stretch.t0, stretch.t1);
   };
-  return {check_bound("constant grid, column by look-ups", looked_up(0), constant, 2e-6),
-          check_bound("ramp grid, column by look-ups", looked_up(1), ramp, 2e-6)};
+  return {check_bound("constant grid, density integral by look-ups", looked_up(0), constant, 2e-6),
+          check_bound("ramp grid, density integral by look-ups", looked_up(1), ramp, 2e-6)};
 }
 
 }  // namespace
 
 std::vector<Experiment> flight_experiments() {
-  std::vector<Experiment> all{{0, "columns", check_columns}};
+  std::vector<Experiment> all{{0, "density integrals", check_integrals}};
   for (const StrategyInfo& info : distance_strategies())
     all.push_back({0, fmt::format("free flights, {}", info.name),
                    [&info](const Effort& effort) { return flights_by(info, effort); }});

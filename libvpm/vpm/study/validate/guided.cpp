@@ -34,19 +34,19 @@ std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort
   haze.phase = HenyeyGreenstein{kG};
   const auto scattered = [&](const Medium& fog, Rng& rng) {
     PathState state{{Vec3(0.1f), travel}, 0, Rgb(1.0f)};
-    if (!scatter_in_medium(guide, fog, state, rng)) state.power = Rgb(0.0f);
+    if (!scatter_in_medium(guide, fog, state, rng)) state.throughput = Rgb(0.0f);
     return state;
   };
   const uint64_t count = effort.count(100'000, 4'000'000);
   const auto even = sample_moments(kCells, count, effort.seed_of("guided, isotropic"), [&](Rng& rng, double* out) {
     const PathState state = scattered(isotropic, rng);
     const Vec3& d = state.ray.direction;
-    out[cell_of(0.5 * away_from(kUp, d), kRings) * kSectors + sector_about(kUp, d)] = state.power.g;
+    out[cell_of(0.5 * away_from(kUp, d), kRings) * kSectors + sector_about(kUp, d)] = state.throughput.g;
   });
   const auto forward = sample_moments(2, count, effort.seed_of("guided, forward"), [&](Rng& rng, double* out) {
     const PathState state = scattered(haze, rng);
-    out[0] = state.power.g;
-    out[1] = state.power.g * (1.0 - away_from(travel, state.ray.direction));
+    out[0] = state.throughput.g;
+    out[1] = state.throughput.g * (1.0 - away_from(travel, state.ray.direction));
   });
   return {check_weights("isotropic medium, power by direction", even,
                         std::vector<double>(kCells, kAlbedo / static_cast<double>(kCells))),
@@ -74,7 +74,7 @@ class Landing {
     PathState state{ray_, kVacuum, Rgb(1.0f)};
     const bool alive = guide ? scatter_at_surface(*guide, scene_, met_.hits[0], state, rng, scatter)
                              : scatter_at_surface(scene_, met_.hits[0], state, rng, scatter);
-    if (!alive) state.power = Rgb(0.0f);
+    if (!alive) state.throughput = Rgb(0.0f);
     return state;
   }
 
@@ -96,18 +96,18 @@ std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& eff
     const PathState state = diffuse.scattered(&guide, rng, scatter);
     const Vec3& d = state.ray.direction;
     const double cosine = 1.0 - away_from(kUp, d);
-    if (cosine > 0.0) out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(kUp, d)] = state.power.g;
+    if (cosine > 0.0) out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(kUp, d)] = state.throughput.g;
   });
   const auto balance = sample_moments(1, count, effort.seed_of("guided, metal"), [&](Rng& rng, double* out) {
     Scatter scatter;
-    out[0] = metal.scattered(&guide, rng, scatter).power.g;
+    out[0] = metal.scattered(&guide, rng, scatter).throughput.g;
     out[0] += 1.0 - scatter.weight.g;
   });
   const auto by_side = [&](const DirectionGuide* by, const char* name) {
     return sample_moments(2, count, effort.seed_of(name), [&](Rng& rng, double* out) {
       Scatter scatter;
       const PathState state = glass.scattered(by, rng, scatter);
-      out[state.ray.direction.z > 0.0f ? 0 : 1] = state.power.g;
+      out[state.ray.direction.z > 0.0f ? 0 : 1] = state.throughput.g;
     });
   };
   const auto guided = by_side(&guide, "guided, glass"), plain = by_side(nullptr, "not guided, glass");

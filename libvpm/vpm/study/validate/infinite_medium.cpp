@@ -52,7 +52,7 @@ std::vector<Check> check_counts(const Effort& effort) {
       const auto samples =
           sample_moments(3, effort.count(20'000, 5'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
             walk(scene, *strategy, kNoLimit, rng, [&](const PathState& now) {
-              for (int c = 0; c < 3; ++c) out[c] += now.power[c];
+              for (int c = 0; c < 3; ++c) out[c] += now.throughput[c];
             });
           });
       const Rgb albedo = medium.albedo();

@@ -39,7 +39,7 @@ Rgbd mean_of_inner(const Image& map) {
   return sum / double{(kResolution - 2) * (kResolution - 2)};
 }
 
-/// Passes with one radius: over so much of the floor a kernel's blur cancels but for its slope at the border.
+/// Passes with one radius: over so much of the floor a kernel's blur cancels, except for its slope at the border.
 Irradiance by_light_map(const Scene& scene, const RenderSettings& settings, uint64_t passes) {
   const UvLayout layout = lay_out_light_map(scene, kFloor, kResolution);
   std::vector<Rgbd> means(passes);

@@ -1,5 +1,6 @@
 // Level 4: the bias of ray marching falls as the square of its step. Along the diagonal of a density x y the field is a
-// parabola, whose column the midpoint rule misses by step^2 / 24 times the second derivative times the length, exactly.
+// parabola, whose density integral the midpoint rule misses by step^2 / 24 times the second derivative times the
+// length, exactly.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -24,10 +25,10 @@ Medium parabola() {
 /// What gets through by marching in steps of `step` m, less what gets through.
 double exact_bias(const Medium& medium, double step) {
   const double root = std::sqrt(2.0), length = root * (kTo - kFrom);
-  const double column = root * (std::pow(kTo, 3.0) - std::pow(kFrom, 3.0)) / 3.0;
+  const double integral = root * (std::pow(kTo, 3.0) - std::pow(kFrom, 3.0)) / 3.0;
   const double missed = step * step / 24.0 * length;  // the second derivative is 1/m^2
   const double sigma_t = medium.sigma_t.r;
-  return std::exp(-sigma_t * (column - missed)) - std::exp(-sigma_t * column);
+  return std::exp(-sigma_t * (integral - missed)) - std::exp(-sigma_t * integral);
 }
 
 std::vector<Check> march_bias(const Effort& effort) {

@@ -116,7 +116,7 @@ Check check_furnace_of_phong(const Effort& effort) {
   return check_mean("furnace outside of Phong", samples[0], exact, 2.0 * LobeCells::kError);
 }
 
-/// A furnace about a surface: of even light from one side all leaves, whatever the material does to it, but for what it
+/// A furnace about a surface: of even light from one side all leaves, whatever the material does to it, except what it
 /// absorbs, which here is nothing. Perfect metal reflects all; materials of microfacets give back what their main lobes
 /// lose.
 std::vector<Check> check_furnaces(const Effort& effort) {

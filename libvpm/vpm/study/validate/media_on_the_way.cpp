@@ -1,5 +1,5 @@
 // The medium a path is in: known at every step from the boundaries it has crossed. What the next shape says can correct
-// it, so that errors do no harm to pictures; here none may be due, but for rays that graze.
+// it, so that errors do no harm to pictures; here only rays that graze may need one.
 #include "vpm/base/progress.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/render/path_tracer.h"
@@ -21,7 +21,7 @@ double most_corrections(uint64_t crossings) {
   return mean + 5.0 * std::sqrt(mean) + 5.0;
 }
 
-/// Fog in a sphere, with a lamp and the camera in it, and a ball of glass full of milk. Edges are where rounding may
+/// Fog in a sphere, with a light and the camera in it, and a ball of glass full of milk. Edges are where rounding may
 /// call for more corrections: there are none.
 Scene nested_media() {
   Scene scene;

@@ -23,7 +23,7 @@ std::vector<Check> check_roulette(const Effort& effort) {
     const auto samples =
         sample_moments(1, effort.count(200'000, 10'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
           PathState state{{}, kVacuum, Rgb(weight)};
-          if (survive_roulette(weight, state, rng)) out[0] = state.power.g;
+          if (survive_roulette(weight, state, rng)) out[0] = state.throughput.g;
         });
     checks.push_back(check_mean(name, samples[0], weight));
   }
@@ -37,7 +37,7 @@ std::vector<Check> check_kept(const std::string& name, const Rgb& kept, const Ef
       sample_moments(3, effort.count(40'000, 10'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
         PathState state{{Vec3(0.0f), kTravel}, 0, kPower};
         if (!draw(state, rng)) return;
-        for (int c = 0; c < 3; ++c) out[c] = state.power[c];
+        for (int c = 0; c < 3; ++c) out[c] = state.throughput[c];
       });
   std::vector<Check> checks;
   for (size_t c = 0; c < 3; ++c) {
@@ -100,8 +100,8 @@ std::vector<Check> check_glass(const Effort& effort) {
           PathState state{{Vec3(0.0f), kTravel}, kVacuum, Rgb(1.0f)};
           Scatter scatter;
           const bool alive = scatter_at_surface(plane.scene, plane.hit, state, rng, scatter);
-          out[0] = alive && !scatter.transmitted ? state.power.g : 0.0;
-          out[1] = alive ? state.power.g : 0.0;
+          out[0] = alive && !scatter.transmitted ? state.throughput.g : 0.0;
+          out[1] = alive ? state.throughput.g : 0.0;
         });
     checks.push_back(check_mean(name + "reflected", samples[0], reflectance_by_angles(sine, ior)));
     checks.push_back(check_bound(name + "in all", samples[1].mean(), 1.0, 0.0));

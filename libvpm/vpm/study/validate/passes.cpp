@@ -40,7 +40,7 @@ std::vector<Check> check_radii(const Effort& effort) {
     check("surface radius", found.last_surface_radius, settings.surface.radius.metres(), 2.0);
     RenderSettings beams = settings;
     beams.volume.mode = GatherMode::beam;
-    check("radius beside rays", render_photon_pass(scene, beams, pass, kGoOn).statistics.last_volume_radius,
+    check("radius around rays", render_photon_pass(scene, beams, pass, kGoOn).statistics.last_volume_radius,
           settings.volume.radius.metres(), 2.0);
   }
   settings.radii = RadiusSchedule::constant;

@@ -1,4 +1,4 @@
-// Pictures that must be the same, with all their bias: of a lamp and of two at its place that share its intensity; by
+// Pictures that must be the same, with all their bias: of a light and of two at its place that share its intensity; by
 // densities at the query and at the photon where the density is the same everywhere; by caustic photons that are aimed
 // and by those among all; by irradiance where gathering rays end, whose picture is known, and by that computed
 // beforehand.
@@ -16,17 +16,17 @@ namespace vpm {
 
 namespace {
 
-/// Where the lamp is. The square of what shadow rays from about a point light bring has no mean: they need it outside.
-enum class Lamp { in_fog, above_fog };
+/// Where the light is. The square of what shadow rays from about a point light bring has no mean: they need it outside.
+enum class LightPlace { in_fog, above_fog };
 
 /// Fog of little albedo, so that light scattered once is most of what is seen, and a floor.
-Scene lit_by(const std::vector<float>& shares, Lamp lamp) {
+Scene lit_by(const std::vector<float>& shares, LightPlace place) {
   Scene scene;
   Medium fog = make_medium(nullptr, Rgb(0.6f), 0.3f);
   fog.phase = HenyeyGreenstein{0.5f};
   scene.media.push_back(fog);
   const Interface fog_inside{0, kVacuum};
-  if (lamp == Lamp::in_fog)
+  if (place == LightPlace::in_fog)
     scene.world_medium = 0;
   else
     add_shape(scene, box_mesh(Vec3d(-5, -2, -5), Vec3d(5, 0.8, 5)), Boundary{}, &fog_inside);
@@ -70,8 +70,8 @@ Check check_caustics(const Effort& effort) {
                     by_all);
 }
 
-/// Final gathering in a hollow sphere with a lamp of 1 W at its centre: irradiance is even, so that points where it was
-/// computed beforehand blur nothing. The map where rays end misses kCapLoss of the light that was reflected before.
+/// Final gathering in a hollow sphere with a light of 1 W at its centre: irradiance is even, so that points where it
+/// was computed beforehand blur nothing. The map where rays end misses kCapLoss of the light that was reflected before.
 std::vector<Check> check_final_gathering(const Effort& effort) {
   constexpr float kRadius = 1.5f, kReflectance = 0.5f, kRatio = 0.15f;
   Scene scene;
@@ -97,8 +97,8 @@ std::vector<Check> check_final_gathering(const Effort& effort) {
 
 std::vector<Check> check_pictures(const Effort& effort) {
   const std::vector<float> one{1.0f}, two{0.2f, 0.8f};
-  const Scene whole = lit_by(one, Lamp::in_fog), parts = lit_by(two, Lamp::in_fog);
-  const Scene below_one = lit_by(one, Lamp::above_fog), below_two = lit_by(two, Lamp::above_fog);
+  const Scene whole = lit_by(one, LightPlace::in_fog), parts = lit_by(two, LightPlace::in_fog);
+  const Scene below_one = lit_by(one, LightPlace::above_fog), below_two = lit_by(two, LightPlace::above_fog);
   RenderSettings photons;
   photons.photons_emitted = 1000;
   photons.volume.radius = photons.surface.radius = 0.4f;
@@ -117,10 +117,10 @@ std::vector<Check> check_pictures(const Effort& effort) {
   };
   const Moments by_photons = find("photons", whole, photons);
   std::vector<Check> checks{
-      check_same("a lamp in two, photons", find("photons, two", parts, photons), by_photons),
-      check_same("a lamp in two, shadow rays", find("shadow rays, two", below_two, shadow_rays),
+      check_same("a light in two, photons", find("photons, two", parts, photons), by_photons),
+      check_same("a light in two, shadow rays", find("shadow rays, two", below_two, shadow_rays),
                  find("shadow rays", below_one, shadow_rays)),
-      check_same("a lamp in two, paths", find("paths, two", below_two, paths), find("paths", below_one, paths)),
+      check_same("a light in two, paths", find("paths, two", below_two, paths), find("paths", below_one, paths)),
       check_same("density at the photon or at the query", find("at photons", whole, at_photons), by_photons),
       check_caustics(effort)};
   append(checks, check_final_gathering(effort));

@@ -1,4 +1,4 @@
-// The referee in slabs: radiance that leaves them, and fluence inside.
+// The path tracer in slabs: radiance that leaves them, and fluence inside.
 #include <fmt/format.h>
 
 #include "vpm/study/estimates/slab_radiance.h"
@@ -44,6 +44,8 @@ std::vector<Check> radiances(const Effort& effort) {
 
 }  // namespace
 
-std::vector<Experiment> slab_radiance_experiments() { return {{2, "radiance of slabs, by the referee", radiances}}; }
+std::vector<Experiment> slab_radiance_experiments() {
+  return {{2, "radiance of slabs, by the path tracer", radiances}};
+}
 
 }  // namespace vpm

@@ -21,11 +21,11 @@ Scene finished(Scene scene) {
   return scene;
 }
 
-/// A lamp that faces down, with the shape that carries it.
+/// A light that faces down, with the shape that carries it.
 void add_lamp(Scene& scene, const Vec3& corner, float size, const Rgb& radiance) {
-  const QuadLight lamp{corner, Vec3(size, 0, 0), Vec3(0, 0, size), radiance};
-  scene.lights.push_back(lamp);
-  add_shape(scene, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v), Lambertian{Rgb(0.0f)}, nullptr,
+  const QuadLight light{corner, Vec3(size, 0, 0), Vec3(0, 0, size), radiance};
+  scene.lights.push_back(light);
+  add_shape(scene, quad_mesh(light.corner, light.edge_u, light.edge_v), Lambertian{Rgb(0.0f)}, nullptr,
             static_cast<int>(scene.lights.size()) - 1);
 }
 
@@ -58,7 +58,7 @@ GridFrame unit_frame(int n) {
 
 }  // namespace
 
-Scene foggy_lamp() {
+Scene foggy_light() {
   Scene scene;
   Medium fog = make_medium(nullptr, Rgb(0.7f, 1.0f, 1.6f), 0.8f);
   fog.sigma_s = fog.sigma_t * Rgb(0.9f, 0.8f, 0.6f);
@@ -66,17 +66,17 @@ Scene foggy_lamp() {
   scene.media.push_back(fog);
   scene.world_medium = 0;
   // No point light: the square of what shadow rays from about one bring has no mean.
-  for (const SphereLight& lamp : {SphereLight{Vec3(0.0f, 1.0f, 0.0f), 0.4f, Rgb(1.0f, 0.9f, 0.8f)},
-                                  SphereLight{Vec3(2.0f, 0.5f, 0.5f), 0.3f, Rgb(1.0f, 0.7f, 1.7f)}}) {
-    add_shape(scene, SphereShape{lamp.centre, lamp.radius}, Lambertian{Rgb(0.0f)}, nullptr,
+  for (const SphereLight& light : {SphereLight{Vec3(0.0f, 1.0f, 0.0f), 0.4f, Rgb(1.0f, 0.9f, 0.8f)},
+                                   SphereLight{Vec3(2.0f, 0.5f, 0.5f), 0.3f, Rgb(1.0f, 0.7f, 1.7f)}}) {
+    add_shape(scene, SphereShape{light.centre, light.radius}, Lambertian{Rgb(0.0f)}, nullptr,
               static_cast<int>(scene.lights.size()));
-    scene.lights.push_back(lamp);
+    scene.lights.push_back(light);
   }
   look(scene, Vec3(0, -0.2f, 1.5f), Vec3(0.0f, -0.2f, 0.0f), 40.0f);
   return finished(std::move(scene));
 }
 
-Scene puff(Viewpoint viewpoint, const Rgb& thickness) {
+Scene small_cloud(Viewpoint viewpoint, const Rgb& thickness) {
   constexpr int kVoxels = 17;
   Scene scene;
   const auto density = [](int x, int y, int z) {
@@ -88,8 +88,8 @@ Scene puff(Viewpoint viewpoint, const Rgb& thickness) {
   Medium medium = make_medium(make_grid(unit_frame(kVoxels), density), 0.75f * thickness, 0.9f);
   medium.phase = HenyeyGreenstein{-0.3f};
   add_medium_box(scene, medium);
-  const Vec3 lamp(1.5f, 2.5f, 1.0f);
-  scene.lights.push_back(SpotLight{lamp, glm::normalize(-lamp), 0.92f, 0.88f, Rgb(20.0f)});
+  const Vec3 light(1.5f, 2.5f, 1.0f);
+  scene.lights.push_back(SpotLight{light, glm::normalize(-light), 0.92f, 0.88f, Rgb(20.0f)});
   const float distance = viewpoint == Viewpoint::outside ? 4.0f : viewpoint == Viewpoint::border ? 1.0f : 0.5f;
   look(scene, Vec3(0.1f, 0.05f, distance), Vec3(0.05f, 0.0f, 0.0f), viewpoint == Viewpoint::outside ? 30.0f : 60.0f);
   return finished(std::move(scene));
@@ -119,8 +119,8 @@ Scene lit_corner(float ior) {
 
 Scene leaning_wall() {
   Scene scene;
-  const Vec3 lamp(1.0f, 1.6f, 0.3f), target(-1.0f, 1.2f, 0.0f);
-  scene.lights.push_back(SpotLight{lamp, glm::normalize(target - lamp), 0.97f, 0.94f, Rgb(9.0f)});
+  const Vec3 light(1.0f, 1.6f, 0.3f), target(-1.0f, 1.2f, 0.0f);
+  scene.lights.push_back(SpotLight{light, glm::normalize(target - light), 0.97f, 0.94f, Rgb(9.0f)});
   add_shape(scene, leaning_quad(Vec3d(-2, 0, 2), Vec3d(4, 0, 0), Vec3d(0, 0, -4), Vec3(-0.7f, 0.0f, 0.0f)),
             Lambertian{Rgb(0.6f)});
   add_shape(scene, leaning_quad(Vec3d(-1, 0, 1.2), Vec3d(0, 0, -2.4), Vec3d(0, 2.4, 0), Vec3(0.0f, -1.0f, 0.0f)),

@@ -7,38 +7,38 @@
 
 namespace vpm {
 
-/// A chromatic, forward scattering fog everywhere, in it a glowing ball and, out of sight, a weaker lamp of another
+/// A chromatic, forward scattering fog everywhere, in it a glowing ball and, out of sight, a weaker light of another
 /// colour; seen from inside.
-Scene foggy_lamp();
+Scene foggy_light();
 
-/// Where the puff is seen from.
+/// Where the cloud is seen from.
 enum class Viewpoint { outside, border, inside };
 /// A grid whose density falls smoothly to 0 at the faces of [-1, 1]^3, lit by a spot light from outside.
 /// `thickness`: the largest optical thickness across it.
-Scene puff(Viewpoint viewpoint, const Rgb& thickness);
+Scene small_cloud(Viewpoint viewpoint, const Rgb& thickness);
 
-/// The box [-1, 1]^3 of one density, as a homogeneous medium or as a constant grid, under a lamp.
+/// The box [-1, 1]^3 of one density, as a homogeneous medium or as a constant grid, under a light.
 Scene filled_box(bool grid);
 
-/// A floor and a coloured wall under a lamp, in vacuum; seen is the floor, which a second lamp lights from below. With
-/// a ball of glass of that index of refraction above it where `ior` > 0.
+/// A floor and a coloured wall under a light, in vacuum. The camera sees the floor, which a second light lights from
+/// below. With a ball of glass of that index of refraction above it where `ior` > 0.
 Scene lit_corner(float ior = 0.0f);
 
 /// A floor that gets its light from a wall alone, at which a spot light points, in vacuum; seen is the floor. Both are
 /// shaded as if they leaned towards each other.
 Scene leaning_wall();
 
-/// A sheet of rough glass beside a wall of rough metal and under a lamp, in vacuum; seen is the sheet, through which
-/// comes the light of a second lamp from below.
+/// A sheet of rough glass next to a wall of rough metal and under a light, in vacuum. The camera sees the sheet,
+/// through which a second light shines from below.
 Scene rough_corner();
 
-/// A floor in a fog, under a lamp; seen is the floor.
+/// A floor in a fog, under a light; seen is the floor.
 Scene foggy_floor();
 
 /// A grey floor alone with a point light near it: on some pixels bright, on others dark. Photons meet it once.
 Scene bare_floor();
 
-/// A wall of a closed cube about a lamp: most of what is seen was reflected before.
+/// A wall of a closed cube about a light: most of what is seen was reflected before.
 Scene hollow_cube();
 
 }  // namespace vpm

@@ -46,8 +46,8 @@ struct Steps {
       : medium(medium_),
         count(medium.homogeneous() ? 1 : static_cast<int>(std::ceil(stretch.length() / (step * medium.voxel_size())))),
         length(stretch.length() / static_cast<double>(count)) {}
-  /// The column that the density at a share of step number i stands for, m.
-  double column(int i, double share) const {
+  /// The density integral that the density at a share of step number i stands for, m.
+  double integral(int i, double share) const {
     return length * medium.density(ray.at(static_cast<float>(stretch.t0 + (i + share) * length)));
   }
 };
@@ -55,13 +55,13 @@ struct Steps {
 constexpr int kPlaces = 20000;  // of the midpoint rule in a step
 double place(int k) { return (k + 0.5) / kPlaces; }
 
-/// The mean of exp(-column) where all steps have the same offset.
+/// The mean of exp(-density integral) where all steps have the same offset.
 double mean_of_march(const Steps& steps, double sigma_t) {
   double mean = 0.0;
   for (int k = 0; k < kPlaces; ++k) {
-    double column = 0.0;
-    for (int i = 0; i < steps.count; ++i) column += steps.column(i, place(k));
-    mean += std::exp(-sigma_t * column) / kPlaces;
+    double integral = 0.0;
+    for (int i = 0; i < steps.count; ++i) integral += steps.integral(i, place(k));
+    mean += std::exp(-sigma_t * integral) / kPlaces;
   }
   return mean;
 }
@@ -73,7 +73,7 @@ double mean_of_jackknife(const Steps& steps, double sigma_t) {
   for (int i = 0; i < steps.count; ++i) {
     std::complex<double> of_step = 0.0;
     for (int k = 0; k < kPlaces; ++k)
-      of_step += std::exp(std::complex(-0.5, -0.5) * sigma_t * steps.column(i, place(k))) / double{kPlaces};
+      of_step += std::exp(std::complex(-0.5, -0.5) * sigma_t * steps.integral(i, place(k))) / double{kPlaces};
     mean *= std::norm(of_step);
   }
   return mean;
@@ -106,7 +106,7 @@ std::vector<Check> estimates_by(const EstimatorInfo& info, const Effort& effort)
   std::vector<Check> checks;
   for (const Subject& subject : subjects()) {
     const Medium& medium = subject.medium;
-    const double column = looked_up_column(medium, ray, stretch.t0, stretch.t1);
+    const double integral = looked_up_integral(medium, ray, stretch.t0, stretch.t1);
     const std::string name = fmt::format("{}, {}", subject.name, info.name);
     const auto samples =
         sample_moments(3, effort.count(subject.quick, 1'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
@@ -114,7 +114,7 @@ std::vector<Check> estimates_by(const EstimatorInfo& info, const Effort& effort)
           for (int c = 0; c < 3; ++c) out[c] = value[c];
         });
     for (int c = 0; c < (medium.grey() ? 1 : 3); ++c) {
-      const double exact = std::exp(-medium.sigma_t[c] * column);
+      const double exact = std::exp(-medium.sigma_t[c] * integral);
       const std::optional<double> mean = info.unbiased ? exact : biased_mean(info.name, medium, c);
       Check check = check_estimates(name + (medium.grey() ? "" : kOfChannel[c]), samples[c], mean, info.unbiased);
       if (mean && !info.unbiased) check.note = fmt::format("with its bias, {:+.2g}", *mean - exact);

@@ -1,5 +1,5 @@
 // Computing the points, and finding the nearest.
-#include "vpm/estimate/surface/irradiance_points.h"
+#include "vpm/estimate/surface/irradiance_cache.h"
 
 #include "vpm/base/parallel.h"
 #include "vpm/estimate/surface_estimate.h"
@@ -9,32 +9,32 @@ namespace {
 
 constexpr size_t kChunk = 256;  // points computed one after another
 
-Photon point_at(const SurfaceSite& site, const CountedMap& map) {
+Photon point_at(const CachePoint& point, const CountedMap& map) {
   Hit hit;
-  hit.position = site.position;
-  hit.normal = site.normal.unpack();
-  hit.shading_normal = site.shading_normal.unpack();
-  return {site.position, PackedDirection(-hit.shading_normal), shaded_irradiance(hit, hit.normal, map)};
+  hit.position = point.position;
+  hit.normal = point.normal.unpack();
+  hit.shading_normal = point.shading_normal.unpack();
+  return {point.position, PackedDirection(-hit.shading_normal), shaded_irradiance(hit, hit.normal, map)};
 }
 
 }  // namespace
 
-IrradiancePoints::IrradiancePoints(const std::vector<SurfaceSite>& sites, const PhotonMap& map,
-                                   GatherCounters& counters)
+IrradianceCache::IrradianceCache(const std::vector<CachePoint>& cache_points, const PhotonMap& map,
+                                 GatherCounters& counters)
     : gather_{.mode = GatherMode::nearest, .radius = map.settings.radius, .count = 1},
       thickness_(plane_thickness(map.settings)) {
-  std::vector<Photon> points(sites.size());
-  std::vector<GatherCounters> counted(chunk_count(sites.size(), kChunk));
-  parallel_for_chunks(sites.size(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
+  std::vector<Photon> points(cache_points.size());
+  std::vector<GatherCounters> counted(chunk_count(cache_points.size(), kChunk));
+  parallel_for_chunks(cache_points.size(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
     Neighbours neighbours;
     const CountedMap here{map, {counted[chunk], neighbours}};
-    for (size_t i = begin; i < end; ++i) points[i] = point_at(sites[i], here);
+    for (size_t i = begin; i < end; ++i) points[i] = point_at(cache_points[i], here);
   });
   for (const GatherCounters& of_chunk : counted) counters.merge(of_chunk);
   points_ = NearestMap(points, 1.0f);
 }
 
-std::optional<Rgb> IrradiancePoints::irradiance(const Hit& hit, const Vec3& towards_eye, GatherWork work) const {
+std::optional<Rgb> IrradianceCache::irradiance(const Hit& hit, const Vec3& towards_eye, GatherWork work) const {
   const float geometric = glm::dot(hit.normal, towards_eye), shading = glm::dot(hit.shading_normal, towards_eye);
   if (!(geometric * shading > 0.0f)) return std::nullopt;
   const float side = geometric > 0.0f ? 1.0f : -1.0f;

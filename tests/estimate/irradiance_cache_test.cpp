@@ -5,7 +5,7 @@
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/estimate/surface/irradiance_points.h"
+#include "vpm/estimate/surface/irradiance_cache.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/photon/records.h"
 #include "vpm/scene/build.h"
@@ -23,8 +23,8 @@ Hit hit_at(const Vec3& position, const Vec3& normal, const Vec3& shading_normal)
   return hit;
 }
 
-Hit hit_of(const SurfaceSite& site) {
-  return hit_at(site.position, site.normal.unpack(), site.shading_normal.unpack());
+Hit hit_of(const CachePoint& point) {
+  return hit_at(point.position, point.normal.unpack(), point.shading_normal.unpack());
 }
 
 /// Points on a floor, on the underside of another close below it, and on a wall beside; of the first floor some lean.
@@ -40,49 +40,49 @@ Surface surface_point(Rng& rng) {
   return {Vec3(0, a, b), side, side};
 }
 
-/// Looks at all sites, and computes the irradiance at the nearest.
-std::optional<Rgb> brute_force(const std::vector<SurfaceSite>& sites, const PhotonMap& map, const Hit& hit,
+/// Looks at all cache_points, and computes the irradiance at the nearest.
+std::optional<Rgb> brute_force(const std::vector<CachePoint>& cache_points, const PhotonMap& map, const Hit& hit,
                                const Vec3& towards_eye) {
   const float side = glm::dot(hit.normal, towards_eye) > 0.0f ? 1.0f : -1.0f;
-  const SurfaceSite* nearest = nullptr;
+  const CachePoint* nearest = nullptr;
   float best = map.settings.radius;
-  for (const SurfaceSite& site : sites) {
-    const Vec3 offset = site.position - hit.position;
+  for (const CachePoint& point : cache_points) {
+    const Vec3 offset = point.position - hit.position;
     const float distance = glm::length(offset);
     const float flat = plane_thickness(map.settings) + kSlope * distance;
     if (distance >= best || std::abs(glm::dot(offset, hit.normal)) > flat) continue;
-    if (!(glm::dot(site.shading_normal.unpack(), side * hit.shading_normal) > kSameNormal)) continue;
+    if (!(glm::dot(point.shading_normal.unpack(), side * hit.shading_normal) > kSameNormal)) continue;
     best = distance;
-    nearest = &site;
+    nearest = &point;
   }
   if (!nearest) return std::nullopt;
   const Hit at = hit_of(*nearest);
   return shaded_irradiance(at, at.normal, map);
 }
 
-std::optional<Rgb> seen(const IrradiancePoints& points, const Hit& hit, const Vec3& towards_eye) {
+std::optional<Rgb> seen(const IrradianceCache& points, const Hit& hit, const Vec3& towards_eye) {
   GatherCounters uncounted;
   Neighbours near;
   return points.irradiance(hit, towards_eye, {uncounted, near});
 }
 
-TEST(IrradiancePoints, EqualTheirBruteForceTwin) {
+TEST(IrradianceCache, EqualTheirBruteForceTwin) {
   std::vector<Photon> photons;
-  std::vector<SurfaceSite> sites;
+  std::vector<CachePoint> cache_points;
   for (uint64_t i = 0; i < 6'000; ++i) {
     Rng rng(5, rng_stream(RngUse::test, 1), i);
     const Surface s = surface_point(rng);
     const Vec3 travel = cosine_hemisphere(-s.normal, rng.uniform2());
     photons.push_back({s.position, PackedDirection(travel), Rgb(rng.uniform(), 1.0f, 1.0f)});
-    if (i % 4 == 0) sites.push_back({s.position, PackedDirection(s.normal), PackedDirection(s.shading_normal)});
+    if (i % 4 == 0) cache_points.push_back({s.position, PackedDirection(s.normal), PackedDirection(s.shading_normal)});
   }
   for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
     for (const float radius : {0.005f, 0.02f, 0.1f}) {
       const PhotonMap map = make_photon_map(photons, {mode, radius, 20, KernelKind::epanechnikov}, 1'000);
       GatherCounters counters;
-      const IrradiancePoints points(sites, map, counters);
-      EXPECT_EQ(counters.searches, sites.size());
-      EXPECT_EQ(points.size(), sites.size());
+      const IrradianceCache points(cache_points, map, counters);
+      EXPECT_EQ(counters.searches, cache_points.size());
+      EXPECT_EQ(points.size(), cache_points.size());
       int found = 0, differ = 0;
       for (uint64_t i = 0; i < 1'000; ++i) {
         Rng rng(5, rng_stream(RngUse::test, 2), i);
@@ -90,7 +90,7 @@ TEST(IrradiancePoints, EqualTheirBruteForceTwin) {
         const Vec3 eye = uniform_sphere(rng.uniform2());
         if (glm::dot(eye, s.normal) * glm::dot(eye, s.shading_normal) <= 0.0f) continue;
         const Hit hit = hit_at(s.position, s.normal, s.shading_normal);
-        const std::optional<Rgb> quick = seen(points, hit, eye), slow = brute_force(sites, map, hit, eye);
+        const std::optional<Rgb> quick = seen(points, hit, eye), slow = brute_force(cache_points, map, hit, eye);
         ASSERT_EQ(quick.has_value(), slow.has_value());
         found += quick.has_value();
         if (quick) differ += max_channel(glm::abs(*quick - *slow)) > 4e-6f * max_channel(*slow);  // it is packed
@@ -100,18 +100,18 @@ TEST(IrradiancePoints, EqualTheirBruteForceTwin) {
     }
 }
 
-TEST(IrradiancePoints, AreNoneWhereTheTwoNormalsAreSeenFromDifferentSides) {
+TEST(IrradianceCache, AreNoneWhereTheTwoNormalsAreSeenFromDifferentSides) {
   const Vec3 up(0, 1, 0), leaning = glm::normalize(Vec3(1, 1, 0));
   const PhotonMap map = make_photon_map({{Vec3(0.0f), PackedDirection(-up), Rgb(1.0f)}}, {GatherMode::radius, 1.0f}, 1);
   GatherCounters counters;
-  const IrradiancePoints points({{Vec3(0.0f), PackedDirection(up), PackedDirection(leaning)}}, map, counters);
+  const IrradianceCache points({{Vec3(0.0f), PackedDirection(up), PackedDirection(leaning)}}, map, counters);
   const Hit hit = hit_at(Vec3(0.1f, 0.0f, 0.0f), up, leaning);
   EXPECT_TRUE(seen(points, hit, up));
   EXPECT_FALSE(seen(points, hit, glm::normalize(Vec3(-1.0f, 0.5f, 0.0f))));
   EXPECT_FALSE(seen(points, hit, -up));  // the other side
 }
 
-// In a diffuse sphere with a lamp in its centre all photons are uniform, and a ball cuts a cap of pi r^2 out of it, in
+// In a diffuse sphere with a light in its centre all photons are uniform, and a ball cuts a cap of pi r^2 out of it, in
 // which areas of equal distance are a disc's: no kernel and no cell has a bias there, however few photons lie near.
 // Here 4.8 and 1.6 places do on average; a fifth of the queries finds no place and asks the map.
 TEST(SlowIrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
@@ -127,13 +127,13 @@ TEST(SlowIrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
   uint64_t found = 0, missed = 0;
   for (uint64_t pass = 0; pass < 300; ++pass) {
     settings.pass = pass;
-    HitRecorder hits(scene, any_photon, HitUse::surface_map_beside_sites);
-    SiteRecorder sites(scene);
-    trace_into(scene, settings, {&hits, &sites});
-    EXPECT_EQ(hits.emitted_count, settings.emitted - settings.emitted / kSiteStep);
+    HitRecorder hits(scene, any_photon, HitUse::surface_map_without_cache_points);
+    CachePointRecorder recorder(scene);
+    trace_into(scene, settings, {&hits, &recorder});
+    EXPECT_EQ(hits.emitted_count, settings.emitted - settings.emitted / kCachePointStep);
     const PhotonMap map = make_photon_map(std::move(hits.photons), {GatherMode::radius, 0.08f}, hits.emitted_count);
     GatherCounters counters;
-    const IrradiancePoints points(sites.sites, map, counters);
+    const IrradianceCache points(recorder.points, map, counters);
     Moments pass_mean;
     for (uint64_t i = 0; i < 500; ++i) {
       Rng rng(5, rng_stream(RngUse::test, 3 + pass), i);
@@ -151,7 +151,7 @@ TEST(SlowIrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
   EXPECT_LT(std::sqrt(means.variance_of_mean()), 0.005 * means.mean());
 }
 
-TEST(IrradiancePoints, AreNoneOnBlackSurfaces) {
+TEST(IrradianceCache, AreNoneOnBlackSurfaces) {
   Scene scene;
   add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Lambertian{Rgb(0.0f)});
   scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
@@ -159,9 +159,9 @@ TEST(IrradiancePoints, AreNoneOnBlackSurfaces) {
   finish(scene);
   TraceSettings settings;
   settings.emitted = 100;
-  SiteRecorder sites(scene);
-  trace_into(scene, settings, {&sites});
-  EXPECT_TRUE(sites.sites.empty());
+  CachePointRecorder recorder(scene);
+  trace_into(scene, settings, {&recorder});
+  EXPECT_TRUE(recorder.points.empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The column and the density at many places of one ray, in any order, after one walk along it.
+// The density integral and the density at many places of one ray, in any order, after one walk along it.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace vpm {
 
 /// What a medium puts before each place of a stretch of a ray. Keeps its buffer between rays: one for each thread.
-class ColumnsAlong {
+class DensityIntegralsAlong {
  public:
   /// Walks the medium along the interval, which may be endless; `medium` null: empty space. Returns the look-ups made.
   uint32_t walk(const Medium* medium, const Ray& ray, const Interval& interval) {
@@ -23,7 +23,7 @@ class ColumnsAlong {
     if (medium)
       lookups = medium->visit_pieces(ray, interval, [&](const DensityPiece& piece) {
         pieces_.push_back({piece, before});
-        before += piece.column();
+        before += piece.integral();
         return true;
       });
     make_slots();
@@ -31,8 +31,8 @@ class ColumnsAlong {
   }
 
   struct Place {
-    double column;   // m, from the interval's start to here
-    double density;  // here
+    double integral;  // m, from the interval's start to here
+    double density;   // here
   };
   /// At the distance `t`, m, of the interval: finite.
   Place at(double t) const {
@@ -43,25 +43,25 @@ class ColumnsAlong {
     // Seldom more than two steps on, which are taken without branches: nobody can foresee them.
     for (int step = 0; step < 2; ++step) i += starts_[i + 1] <= t ? 1 : 0;
     while (starts_[i + 1] <= t) ++i;
-    const auto& [piece, column] = pieces_[i];
-    if (t > piece.t1) return {column + piece.column(), 0.0};  // between pieces is empty space
+    const auto& [piece, integral] = pieces_[i];
+    if (t > piece.t1) return {integral + piece.integral(), 0.0};  // between pieces is empty space
     const double s = t - piece.t0;
-    return {column + std::max(0.0, piece.column(s)), std::max(0.0, piece.density(s))};
+    return {integral + std::max(0.0, piece.integral(s)), std::max(0.0, piece.density(s))};
   }
-  /// The column of the whole interval, m.
-  double column() const { return pieces_.empty() ? 0.0 : pieces_.back().column + pieces_.back().piece.column(); }
-  /// The distance, m, at which the column reaches `target`, which is below that of the whole interval.
+  /// The density integral of the whole interval, m.
+  double integral() const { return pieces_.empty() ? 0.0 : pieces_.back().integral + pieces_.back().piece.integral(); }
+  /// The distance, m, at which the density integral reaches `target`, which is below that of the whole interval.
   double where(double target) const {
     const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), target,
-                                        [](double x, const Before& b) { return x < b.column; });
-    const auto& [piece, column] = *(after - 1);
-    return piece.t0 + piece.invert(target - column);
+                                        [](double x, const Before& b) { return x < b.integral; });
+    const auto& [piece, integral] = *(after - 1);
+    return piece.t0 + piece.invert(target - integral);
   }
 
  private:
   struct Before {
     DensityPiece piece;
-    double column;  // m, from the interval's start to the piece's
+    double integral;  // m, from the interval's start to the piece's
   };
 
   /// Parts the way into as many even slots as there are pieces: a place is found by its slot, and a few steps on.

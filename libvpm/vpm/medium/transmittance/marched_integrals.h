@@ -1,4 +1,4 @@
-// Columns by samples along the ray: what the marching estimators share.
+// Density integrals by samples along the ray: what the marching estimators share.
 #pragma once
 
 #include <optional>
@@ -21,9 +21,9 @@ inline double step_count(const Medium& medium, const Interval& inside, float ste
   return std::ceil(inside.length() / (step * static_cast<double>(medium.voxel_size())));
 }
 
-/// The column of a stretch, m, by one density from each of `count` equal steps, all at the share `offset` of their
-/// step. Its mean over uniform offsets in [0, 1) is the column.
-inline double comb_column(const Medium& medium, const Ray& ray, const Interval& inside, double count, double offset) {
+/// The density integral of a stretch, m, by one density from each of `count` equal steps, all at the share `offset` of
+/// their step. Its mean over uniform offsets in [0, 1) is the density integral.
+inline double comb_integral(const Medium& medium, const Ray& ray, const Interval& inside, double count, double offset) {
   const double length = inside.length() / count;
   const DensityAlong along = medium.density_along(ray);
   float densities[DensityAlong::kAtOnce];
