@@ -114,7 +114,7 @@ TEST(IrradianceCache, AreNoneWhereTheTwoNormalsAreSeenFromDifferentSides) {
 // In a diffuse sphere with a light in its centre all photons are uniform, and a ball cuts a cap of pi r^2 out of it, in
 // which areas of equal distance are a disc's: no kernel and no cell has a bias there, however few photons lie near.
 // Here 4.8 and 1.6 places do on average; a fifth of the queries finds no place and asks the map.
-TEST(SlowIrradiancePoints, HaveNoBiasInASphereWhereLightIsUniform) {
+TEST(SlowIrradianceCache, HaveNoBiasInASphereWhereLightIsUniform) {
   constexpr float kReflectance = 0.5f;
   Scene scene;
   add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Lambertian{Rgb(kReflectance)});

@@ -65,7 +65,7 @@ DensityIntegralDifference compare_integrals(const Medium& grid, const Medium& co
         box.lo + (Vec3(0.3f) + 0.4f * Vec3(rng.uniform(), rng.uniform(), rng.uniform())) * box.extent();
     const Ray ray{through - radius * direction, direction};
     const Interval whole{0.0f, 2.0f * radius};
-    const double a = integral(grid, ray, whole).value, b = integral(copy, ray, whole).value;
+    const double a = density_integral(grid, ray, whole).value, b = density_integral(copy, ray, whole).value;
     result.mean += a / rays;
     other += b / rays;
     result.typical += std::abs(a - b) / rays;

@@ -74,7 +74,7 @@ std::vector<Setting> declare_volume() {
       {.key = "volume.density_floor",
        .member = at<&S::density_floor>(),
        .domain = Numbers{kFraction},
-       .meaning = "for `density-at-query`: photons weigh 1/max(density, floor), the floor given as a share of the "
+       .meaning = "for `density-at-query`: photons weigh 1/max(density, floor), the floor given as a fraction of the "
                   "medium's largest density. Ends the bright specks; what is thinner than the floor scatters less, by "
                   "density/floor"},
       {.key = "volume.direct",
