@@ -47,7 +47,11 @@ std::shared_ptr<const DensityGrid> noise_grid(const GridFrame& frame) {
 class DensityGridTest : public testing::TestWithParam<std::tuple<Interpolation, float>> {};
 INSTANTIATE_TEST_SUITE_P(All, DensityGridTest,
                          testing::Combine(testing::Values(Interpolation::trilinear, Interpolation::nearest),
-                                          testing::Values(0.0f, 0.7f)));
+                                          testing::Values(0.0f, 0.7f)),
+                         [](const auto& test) {
+                           return std::string(std::get<0>(test.param) == Interpolation::nearest ? "nearest" : "trilinear") +
+                                  (std::get<1>(test.param) > 0.0f ? "_with_background" : "");
+                         });
 
 TEST_P(DensityGridTest, LookUpsFollowTheDefinition) {
   const GridFrame frame = frame_of(std::get<0>(GetParam()), std::get<1>(GetParam()));

@@ -8,8 +8,8 @@ import tomllib
 
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 
-# A picture to be made: `arguments` follow the name of the program. `may_refuse` is true of combinations, of which some are not allowed. Of
-# any other case a refusal by both programs would mean that it compares nothing.
+# A picture to be made: `arguments` follow the name of the program. `may_refuse` is true of combinations, of which some
+# are not allowed. Of any other case a refusal by both programs would mean that it compares nothing.
 Case = collections.namedtuple("Case", "group name arguments may_refuse")
 
 # What vpm makes for the scenes: the key that names it, and the file.

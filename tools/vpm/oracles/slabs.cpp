@@ -95,7 +95,7 @@ void check_photons(std::vector<Check>& checks, const OracleCase& c, const Slab& 
   }
 }
 
-/// What the referee tells.
+/// What the path tracer finds.
 void check_paths(std::vector<Check>& checks, const OracleCase& c, const Slab& slab, const Effort& effort) {
   std::vector<SlabExit> exits;
   std::vector<double> exact, depths, uncollided;

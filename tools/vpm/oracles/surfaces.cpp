@@ -152,9 +152,9 @@ void check_sphere(std::vector<Check>& checks, const OracleCase& c, const Cavity&
   checks.push_back(
       check_mean("multiplier times E_direct by photon maps", mapped, by_map(c.number("multiplier") * direct)));
   const Moments seen = estimate_cavity_radiance(cavity, nullptr, effort.count(15'000, 2'000'000), seed + 3);
-  checks.push_back(check_mean("outgoing_radiance by the referee", seen, per_watt(c, "outgoing_radiance")));
+  checks.push_back(check_mean("outgoing_radiance by path tracing", seen, per_watt(c, "outgoing_radiance")));
   checks.push_back(
-      check_mean("indirect_fluence over 4 pi by the referee", seen, per_watt(c, "indirect_fluence") / (4.0 * kPiD)));
+      check_mean("indirect_fluence over 4 pi by path tracing", seen, per_watt(c, "indirect_fluence") / (4.0 * kPiD)));
 }
 
 void check_off_centre(std::vector<Check>& checks, const OracleCase& c, Cavity cavity, const Effort& effort) {
@@ -169,7 +169,7 @@ void check_off_centre(std::vector<Check>& checks, const OracleCase& c, Cavity ca
   const Moments reflected = estimate_wall_irradiance(cavity, true, effort.count(60'000, 8'000'000), seed);
   checks.push_back(check_mean("E_total less E_direct by photon maps", reflected, (1.0 - kMissed) * (total - direct)));
   const Moments seen = estimate_cavity_radiance(cavity, &outward, effort.count(15'000, 2'000'000), seed + 1);
-  checks.push_back(check_mean("reflectance/pi E_total by the referee", seen, cavity.reflectance / kPiD * total,
+  checks.push_back(check_mean("reflectance/pi E_total by path tracing", seen, cavity.reflectance / kPiD * total,
                               1e-5 / near * direct));
 }
 
