@@ -2,6 +2,7 @@
 // total internal reflection at grazing angles.
 #include "hard/hard_scenes.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/tails.h"
 #include "vpm/path/direct_light.h"
 
 namespace vpm {

@@ -1,6 +1,7 @@
 // Media from nothing to opaque, from black to white, from forward to backward: against closed forms.
 #include "hard/hard_scenes.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/tails.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/volume/march.h"
 #include "vpm/medium/transmittance/estimator.h"

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "hard/hard_scenes.h"
+#include "vpm/base/tails.h"
 
 namespace vpm {
 namespace {

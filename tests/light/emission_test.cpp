@@ -4,6 +4,7 @@
 #include "light/lights.h"
 #include "support/statistics.h"
 #include "vpm/base/error.h"
+#include "vpm/base/tails.h"
 #include "vpm/base/warp.h"
 #include "vpm/surface/mesh.h"
 

@@ -49,7 +49,8 @@ INSTANTIATE_TEST_SUITE_P(All, DensityGridTest,
                          testing::Combine(testing::Values(Interpolation::trilinear, Interpolation::nearest),
                                           testing::Values(0.0f, 0.7f)),
                          [](const auto& test) {
-                           return std::string(std::get<0>(test.param) == Interpolation::nearest ? "nearest" : "trilinear") +
+                           return std::string(std::get<0>(test.param) == Interpolation::nearest ? "nearest"
+                                                                                                : "trilinear") +
                                   (std::get<1>(test.param) > 0.0f ? "_with_background" : "");
                          });
 

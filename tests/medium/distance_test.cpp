@@ -3,6 +3,7 @@
 
 #include "support/flight_fields.h"
 #include "support/statistics.h"
+#include "vpm/base/tails.h"
 #include "vpm/medium/distance/strategy.h"
 
 namespace vpm {

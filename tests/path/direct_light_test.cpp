@@ -5,6 +5,7 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "vpm/base/tails.h"
 #include "vpm/render/path_tracer.h"
 
 namespace vpm {

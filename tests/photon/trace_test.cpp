@@ -9,6 +9,7 @@
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/tails.h"
 
 namespace vpm {
 namespace {

@@ -5,6 +5,7 @@
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/tails.h"
 #include "vpm/render/photon_pass.h"
 
 namespace vpm {

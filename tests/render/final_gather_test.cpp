@@ -5,6 +5,7 @@
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/tails.h"
 #include "vpm/image/metrics.h"
 #include "vpm/photon/records.h"
 #include "vpm/render/path_tracer.h"

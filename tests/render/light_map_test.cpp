@@ -11,6 +11,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/tails.h"
 #include "vpm/job/bake.h"
 #include "vpm/scene/build.h"
 

@@ -7,6 +7,7 @@
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/tails.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/render/path_tracer.h"
 

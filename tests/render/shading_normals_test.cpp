@@ -4,6 +4,7 @@
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/tails.h"
 #include "vpm/base/warp.h"
 #include "vpm/photon/photon_lists.h"
 #include "vpm/render/path_tracer.h"

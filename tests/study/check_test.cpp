@@ -9,6 +9,7 @@
 
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
+#include "vpm/base/tails.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/ladder.h"
 

@@ -6,6 +6,7 @@
 
 #include "support/statistics.h"
 #include "vpm/base/error.h"
+#include "vpm/base/tails.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"

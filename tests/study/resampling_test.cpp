@@ -3,6 +3,7 @@
 
 #include "support/normal.h"
 #include "support/statistics.h"
+#include "vpm/base/tails.h"
 #include "vpm/study/compare/summary.h"
 
 namespace vpm {

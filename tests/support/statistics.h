@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "vpm/base/tails.h"
 #include "vpm/study/validate/check.h"
 
 namespace vpm {

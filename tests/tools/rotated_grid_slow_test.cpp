@@ -11,6 +11,7 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/statistics.h"
+#include "vpm/base/tails.h"
 #include "vpm/base/warp.h"
 #include "vpm/input/grid_file.h"
 #include "vpm/input/scene_file.h"

@@ -6,6 +6,7 @@
 
 #include "support/statistics.h"
 #include "tools/vpm_binary.h"
+#include "vpm/base/tails.h"
 #include "vpm/image/exr.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/render/photon_pass.h"

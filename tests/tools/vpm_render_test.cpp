@@ -270,14 +270,17 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
   expect_words(vpm_succeeds({"info", "scene.toml"}).out,
                {"40 x 24 pixels", "medium smoke: grid", "sigma_t 30 1/m", "mean free path", "around everything: vacuum",
                 "light 0, lamp: spot, power 10 W", "runs volume photon map", "runs surface photon map",
-                "skips shadow rays in media", "coefficients differ between channels"});
+                "other stages: --all tells which and why", "coefficients differ between channels"});
+  EXPECT_EQ(vpm_succeeds({"info", "scene.toml"}).out.find("skips shadow rays"), std::string::npos);
+  expect_words(vpm_succeeds({"info", "scene.toml", "--all"}).out,
+               {"runs volume photon map", "skips shadow rays in media"});
   expect_words(vpm_succeeds({"info", "scene.toml", "--set", "media.smoke.albedo=0.5", "--set",
                              "volume.direct=shadow-rays", "--set", "transmittance.estimator=jackknife"})
                    .out,
                {"all coefficients are grey", "runs shadow rays in media, transmittance by jackknife (biased; "});
   expect_words(vpm_succeeds({"info", "smoke.vdb"}).out,
-               {"grid density", "type float, class fog volume", "voxel size", "active voxels", "world box", "mean",
-                "background 0", "memory"});
+               {"grid density: float, fog volume", "voxel size", "active voxels", "world box", "mean", "memory"});
+  expect_words(vpm_succeeds({"info", "smoke.vdb", "--all"}).out, {"background 0", "index box", "translation"});
   vpm_refuses({"info", "missing.vdb"}, {"missing.vdb"});
   vpm_refuses({"info", "missing.toml"}, {"missing.toml"});
   vpm_refuses({"info", "smoke.bin"}, {"smoke.bin"});

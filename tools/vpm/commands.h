@@ -55,8 +55,9 @@ int compare_command(const CompareOptions& options);
 struct InfoOptions {
   std::string file;                    // a scene or a .vdb
   std::vector<std::string> overrides;  // key.path=value, for scenes
+  bool all = false;                    // also stages that a render skips, and the details of grids
 };
-/// Prints what a file holds; of a scene also what a render of it would run.
+/// Prints what a file holds; of a scene first what a render of it would run.
 int info_command(const InfoOptions& options);
 
 struct ErrorOptions {

@@ -21,25 +21,31 @@ std::string mebibytes(uint64_t bytes) {
 }
 
 void print_grid(const GridSummary& g) {
-  fmt::print("grid {}\n  type {}, class {}\n", g.name, g.value_type, g.grid_class);
+  fmt::print("grid {}: {}, {}\n", g.name, g.value_type, g.grid_class);
   if (!g.problem.empty()) fmt::print("  cannot be read: {}\n", g.problem);
-  if (!g.index_to_world) {
-    fmt::print("  transform not affine\n");
-  } else {
-    fmt::print("  voxel size {} m, translation {} m, axes {}\n", text(g.voxel_size), text(g.translation),
-               g.axis_aligned ? "along the world's" : "rotated or sheared");
-    const Mat3d steps(*g.index_to_world);
-    fmt::print("  transform: a step along the axes of the grid is {}, {}, {} m\n", text(steps[0]), text(steps[1]),
-               text(steps[2]));
-  }
-  fmt::print("  active voxels {}, of these in {} tiles\n", g.active_voxels, g.active_tiles);
-  if (g.lo.x <= g.hi.x)
-    fmt::print("  index box ({}, {}, {}) to ({}, {}, {}), world box {} to {} m\n", g.lo.x, g.lo.y, g.lo.z, g.hi.x,
-               g.hi.y, g.hi.z, text(g.world_box.lo), text(g.world_box.hi));
+  if (g.lo.x <= g.hi.x) fmt::print("  world box {} to {} m\n", text(g.world_box.lo), text(g.world_box.hi));
   if (g.values)
     fmt::print("  active values {:.6g} to {:.6g}, mean {:.6g}\n", g.values->min, g.values->max, g.values->mean);
+  if (!g.index_to_world)
+    fmt::print("  transform not affine\n");
+  else
+    fmt::print("  voxel size {} m, axes {}\n", text(g.voxel_size),
+               g.axis_aligned ? "along the world's" : "rotated or sheared");
+  fmt::print("  active voxels {}{}\n", g.active_voxels,
+             g.memory_bytes > 0 ? ", memory " + mebibytes(g.memory_bytes) : "");
+}
+
+/// What only those ask for who look for a fault.
+void print_details(const GridSummary& g) {
+  if (g.index_to_world) {
+    const Mat3d steps(*g.index_to_world);
+    fmt::print("  transform: translation {} m; a step along the axes of the grid is {}, {}, {} m\n",
+               text(g.translation), text(steps[0]), text(steps[1]), text(steps[2]));
+  }
+  if (g.lo.x <= g.hi.x)
+    fmt::print("  index box ({}, {}, {}) to ({}, {}, {})\n", g.lo.x, g.lo.y, g.lo.z, g.hi.x, g.hi.y, g.hi.z);
+  fmt::print("  active voxels in tiles {}\n", g.active_tiles);
   if (g.background) fmt::print("  background {:.6g}\n", *g.background);
-  if (g.memory_bytes > 0) fmt::print("  memory {}\n", mebibytes(g.memory_bytes));
 }
 
 void print_medium(const Medium& m, const Scene& scene, const RenderSettings& settings) {
@@ -64,12 +70,26 @@ std::string medium_text(const Scene& scene, MediumId medium) {
   return medium == kVacuum ? "vacuum" : "medium " + scene.media[medium].name;
 }
 
+/// What a render would run; what it would skip, and why, where that is asked for.
+void print_stages(const RenderJob& job, bool all) {
+  if (job.automatic.any()) fmt::print("settings that are \"auto\" are chosen by vpm render; defaults are told here\n");
+  size_t skipped = 0;
+  for (const std::string& line : stage_lines(job.scene, job.settings, scattering_of(job.scene))) {
+    const bool skips = line.starts_with("skips ");
+    skipped += skips;
+    if (all || !skips) fmt::print("{}\n", line);
+  }
+  if (!all && skipped > 0) fmt::print("skips {} other stages: --all tells which and why\n", skipped);
+}
+
 void print_scene(const InfoOptions& options) {
   const RenderJob job = load_scene(options.file, options.overrides);
   const Scene& scene = job.scene;
   const Box box = scene.geometry.bounds();
   fmt::print("scene {}, hash {}\n", options.file, job.hash);
   for (const std::string& note : job.notes) fmt::print("note: {}\n", note);
+  print_stages(job, options.all);
+  for (const Medium& m : scene.media) print_medium(m, scene, job.settings);
   fmt::print("camera at {} m, {} x {} pixels, in {}\n", text(scene.camera.position), scene.camera.width,
              scene.camera.height, medium_text(scene, scene.camera_medium));
   if (box.empty())
@@ -81,9 +101,6 @@ void print_scene(const InfoOptions& options) {
     fmt::print("light {}{}: {}, power {} W, chosen with probability {:.4g}\n", i,
                job.light_names[i].empty() ? "" : ", " + job.light_names[i], light_kind(scene.lights[i]),
                rgb(light_power(scene.lights[i], scene.bounds)), scene.light_probability[i]);
-  for (const Medium& m : scene.media) print_medium(m, scene, job.settings);
-  if (job.automatic.any()) fmt::print("settings that are \"auto\" are chosen by vpm render; defaults are told here\n");
-  for (const std::string& line : stage_lines(scene, job.settings, scattering_of(scene))) fmt::print("{}\n", line);
 }
 
 }  // namespace
@@ -91,7 +108,10 @@ void print_scene(const InfoOptions& options) {
 int info_command(const InfoOptions& options) {
   const std::string extension = std::filesystem::path(options.file).extension().string();
   if (extension == ".vdb") {
-    for (const GridSummary& grid : list_grids(options.file)) print_grid(grid);
+    for (const GridSummary& grid : list_grids(options.file)) {
+      print_grid(grid);
+      if (options.all) print_details(grid);
+    }
   } else if (extension == ".toml") {
     print_scene(options);
   } else {

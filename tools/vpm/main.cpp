@@ -114,6 +114,7 @@ void add_info(CLI::App& app, InfoOptions& options) {
   command->add_option("file", options.file, "Scene (.toml) or grid file (.vdb)")->required();
   command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
       ->allow_extra_args(false);
+  command->add_flag("--all", options.all, "Also tell which stages are skipped and why, and details of grids");
 }
 
 void add_error(CLI::App& app, ErrorOptions& options) {

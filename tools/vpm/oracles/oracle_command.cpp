@@ -12,6 +12,7 @@
 #include "oracles/tables.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/tails.h"
 #include "vpm/base/version.h"
 
 namespace vpm::tools {

@@ -8,21 +8,13 @@
 
 #include "vpm/base/line_fit.h"
 #include "vpm/base/statistics.h"
+#include "vpm/base/tails.h"
 
 namespace vpm {
 namespace {
 
 constexpr double kRate = 0.05;  // of intervals that miss
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-/// The t >= 0 beyond which Student's variable lies, either side, with probability p.
-double student_quantile(double p, double dof) {
-  double lo = 0.0, hi = 1.0;
-  while (student_tail(hi, dof) > p) hi *= 2.0;
-  for (double middle = 0.5 * hi; middle != lo && middle != hi; middle = 0.5 * (lo + hi))
-    (student_tail(middle, dof) >= p ? lo : hi) = middle;
-  return lo;
-}
 
 struct Estimate {
   double value, error;  // a standard error

@@ -1,29 +1,14 @@
 #include "vpm/study/exact/special_functions.h"
 
+#include <boost/math/special_functions/expint.hpp>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace vpm::exact {
 
 double exponential_integral(int n, double x) {
   assert(n >= 1 && x >= 0.0 && (x > 0.0 || n > 1));
-  if (x == 0.0) return 1.0 / (n - 1);
-  if (x <= 1.0) {  // upwards from E_1 [Olver2010, eq. 8.19.12]
-    double value = -std::expint(-x);
-    for (int m = 1; m < n; ++m) value = (std::exp(-x) - x * value) / m;
-    return value;
-  }
-  // The even part of the continued fraction [Olver2010, eq. 8.19.17], evaluated forwards by Lentz's method.
-  double b = x + n, c = std::numeric_limits<double>::infinity(), d = 1.0 / b, value = d, change = 0.0;
-  for (double i = 1.0; std::fabs(change - 1.0) > 1e-15; i += 1.0) {
-    const double a = -i * (n - 1 + i);
-    b += 2.0;
-    c = b + a / c;
-    d = 1.0 / (b + a * d);
-    value *= change = c * d;
-  }
-  return std::exp(-x) * value;
+  return boost::math::expint(static_cast<unsigned>(n), x);
 }
 
 double coth_excess(double x) {

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <limits>
 
+#include "vpm/base/tails.h"
+
 namespace vpm {
 
 namespace {
@@ -61,8 +63,8 @@ Check check_probability(std::string name, const Moments& zeros_and_ones, double 
   const double expected = trials * (rare ? probability : 1.0 - probability), count = rare ? hits : trials - hits;
   if (expected >= kFew)
     return statistical(std::move(name), share, probability, error, normal_tail((share - probability) / error));
-  const double as_many = count > 0.0 ? 1.0 - upper_gamma_fraction(count, expected) : 1.0;
-  const double as_few = upper_gamma_fraction(count + 1.0, expected);
+  const double as_many = count > 0.0 ? 1.0 - chi2_tail(2.0 * expected, 2.0 * count) : 1.0;
+  const double as_few = chi2_tail(2.0 * expected, 2.0 * count + 2.0);
   return statistical(std::move(name), share, probability, error, std::min(1.0, 2.0 * std::min(as_many, as_few)));
 }
 
