@@ -33,7 +33,8 @@ Json checks_of(const Json& run, const std::string& experiment) {
 TEST_F(VpmValidate, PassesAndIsTheSameOnAnyNumberOfThreads) {
   const Json all = climb({"--threads", "2"});
   EXPECT_EQ(all["failed"], 0);
-  for (const std::string experiment : {"free flights, delta-local", "even photons, estimates of their density", "slabs"}) {
+  for (const std::string experiment :
+       {"free flights, delta-local", "even photons, estimates of their density", "slabs"}) {
     const Json on_one_thread = checks_of(climb({"--threads", "1", "--only", experiment}), experiment);
     EXPECT_FALSE(on_one_thread.empty());
     EXPECT_EQ(on_one_thread, checks_of(all, experiment));

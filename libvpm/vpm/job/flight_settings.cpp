@@ -38,9 +38,10 @@ std::vector<Setting> flight_settings() {
       {.key = "distance.majorant",
        .member = at<&S::distance, &D::majorant>(),
        .domain = Numbers{{1e-6, 1.0, false, false}},
-       .meaning = "progressive-null: in the first pass densities above this fraction of the medium's largest are cut to "
-                  "it; it doubles with every pass, so that the mean over passes converges; weighted: above this "
-                  "fraction, the same in all passes, weights make up for it"},
+       .meaning =
+           "progressive-null: in the first pass densities above this fraction of the medium's largest are cut to "
+           "it; it doubles with every pass, so that the mean over passes converges; weighted: above this "
+           "fraction, the same in all passes, weights make up for it"},
       {.key = "transmittance.estimator",
        .member = at<&S::transmittance, &T::estimator>(),
        .domain = names_of(transmittance_estimators()),

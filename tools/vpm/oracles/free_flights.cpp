@@ -112,8 +112,9 @@ void check_profile(std::vector<Check>& checks, const OracleCase& c, const Profil
   const double largest = path.medium.sigma_t.r * double{path.medium.max_density()}, total = c.number("tau_total");
   const auto check_at = [&](const std::string& name, double t, double tau, double transmittance) {
     const Interval crossed{0.0f, static_cast<float>(t)};
-    checks.push_back(check_bound("tau" + name, path.medium.sigma_t.r * density_integral(path.medium, path.ray, crossed).value,
-                                 tau, profile.error * total));
+    checks.push_back(check_bound("tau" + name,
+                                 path.medium.sigma_t.r * density_integral(path.medium, path.ray, crossed).value, tau,
+                                 profile.error * total));
     checks.push_back(check_bound("transmittance" + name,
                                  estimator->estimate(path.medium, path.ray, crossed, rng).value.r, transmittance,
                                  profile.error * std::max(1.0, total) * transmittance));
@@ -193,7 +194,8 @@ CaseResult run_flight(const OracleCase& c, const Effort& effort) {
     if (!q.has("t") || !q.has("pdf")) continue;
     const double t = q.number("t"), pdf = q.number("pdf");
     const FlightPath& path = profile->path;
-    const double tau = path.medium.sigma_t.r * density_integral(path.medium, path.ray, {0.0f, static_cast<float>(t)}).value;
+    const double tau =
+        path.medium.sigma_t.r * density_integral(path.medium, path.ray, {0.0f, static_cast<float>(t)}).value;
     result.checks.push_back(check_bound(fmt::format("pdf({:.6g} m)", t),
                                         extinction_near(path, t, pdf * std::exp(tau)) * std::exp(-tau), pdf,
                                         1e-4 * pdf));

@@ -1,7 +1,7 @@
-// Gauss rules from their Jacobi matrices, and an adaptive integral built from them. Both are our own, each for a reason:
-// of eigenvectors a rule needs the first components alone, which takes n^2 steps where Eigen's solver takes n^3 for all
-// of them (point sources ask for 1601 nodes); and Boost.Math's rules have their number of nodes at compile time, and its
-// adaptive integrals stop at a depth without a bound on what is left.
+// Gauss rules from their Jacobi matrices, and an adaptive integral built from them. Both are our own, each for a
+// reason: of eigenvectors a rule needs the first components alone, which takes n^2 steps where Eigen's solver takes n^3
+// for all of them (point sources ask for 1601 nodes); and Boost.Math's rules have their number of nodes at compile
+// time, and its adaptive integrals stop at a depth without a bound on what is left.
 #pragma once
 
 #include <functional>
