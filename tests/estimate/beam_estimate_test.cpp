@@ -1,5 +1,4 @@
-// The beam radiance estimate: against its brute-force twin, against the integral that even photons stand for, and the
-// density integrals along a ray that it asks for.
+// The beam radiance estimate against its brute-force twin, and the density integrals along a ray that it asks for.
 #include "vpm/estimate/beam_estimate.h"
 
 #include <gtest/gtest.h>
@@ -56,39 +55,6 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
       }
   }
   EXPECT_GT(found, 1000);
-}
-
-TEST(BeamEstimate, IsTheIntegralThatEvenPhotonsStandFor) {
-  // 1 W over n photons even in a cube of 2 m about a ray near its middle, seen from 1 m before it through a medium
-  // of that extinction: the integral of exp(-sigma t)/(8 m^3) from 1 to 3 m, at 1/(4 pi) sr. Right code fails by chance
-  // in 1 of 10 000.
-  const Rgb sigma(0.2f, 1.0f, 3.0f);
-  const uint64_t n = 2000;
-  for (const KernelInfo& kernel : kKernels)
-    for (const uint32_t count : {0u, 10u}) {
-      std::vector<Moments> sums(3);
-      for (uint64_t set = 0; set < 400; ++set) {
-        std::vector<Photon> even(n);
-        for (uint64_t i = 0; i < n; ++i) {
-          Rng rng(5, rng_stream(RngUse::test, set), i);
-          even[i] = {2.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.0f, PackedDirection(Vec3(1, 0, 0)),
-                     Rgb(1.0f)};
-        }
-        Rng at(5, rng_stream(RngUse::test, set), n);
-        const Ray ray{Vec3(at.uniform() - 0.5f, at.uniform() - 0.5f, -2.0f), Vec3(0.0f, 0.0f, 1.0f)};
-        GatherCounters counters;
-        const GatherSettings settings{
-            .mode = GatherMode::beam, .radius = 0.3f, .kernel = kernel.kind, .beam_count = count};
-        const BeamMap map = beam_map(even, settings, n);
-        const Rgb sum = beam_sum(Isotropic{}, ray, {0.0f, 10.0f},
-                                 each_distance([&](float t) { return glm::exp(-sigma * t); }), map, counters);
-        for (int c = 0; c < 3; ++c) sums[static_cast<size_t>(c)].add(sum[c]);
-      }
-      for (int c = 0; c < 3; ++c) {
-        const double s = sigma[c], integral = (std::exp(-s) - std::exp(-3.0 * s)) / s;
-        expect_mean(sums[static_cast<size_t>(c)], integral / 8.0 / (4.0 * kPiD), 1e-4 / 30.0, kernel.name);
-      }
-    }
 }
 
 // Each photon within its own radius, by the map's own words of where photons and what radii are.

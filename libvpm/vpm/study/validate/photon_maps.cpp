@@ -2,10 +2,12 @@
 //
 // Of n photons uniform over a volume V the k-th nearest to a point lies in a ball whose share of V has the distribution
 // Beta(k, n - k + 1), so the mean of 1 over the ball's volume is n / ((k - 1) V): k - 1 photons over it are unbiased,
-// and so is any kernel, as the k - 1 are uniform in the ball. The same holds in discs.
+// and so is any kernel, as the k - 1 are uniform in the ball. The same holds in discs. Around a ray, each photon stands
+// for the density along the ray, whatever its disc.
 #include <fmt/format.h>
 #include <array>
 
+#include "vpm/estimate/beam_estimate.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/study/sample_moments.h"
@@ -15,11 +17,13 @@ namespace vpm {
 
 namespace {
 
-constexpr uint64_t kPhotons = 200;  // of a total of 1 W in a cube or square of side 2 m
+// Of a total of 1 W in a cube or square of side 2 m; around rays so many that the faces of the cube, where balls of ten
+// photons are larger, lie outside of the discs.
+constexpr uint64_t kPhotons = 200, kPhotonsAroundRays = 2000;
 
 /// Photons that travel down, uniform over [-1, 1]^3 or over its section z = 0.
-std::vector<Photon> even_photons(bool flat, Rng& rng) {
-  std::vector<Photon> photons(kPhotons);
+std::vector<Photon> even_photons(uint64_t count, bool flat, Rng& rng) {
+  std::vector<Photon> photons(count);
   const PackedDirection down(Vec3(0.0f, 0.0f, -1.0f));
   for (Photon& p : photons) {
     p = {2.0f * Vec3(rng.uniform(), rng.uniform(), flat ? 0.5f : rng.uniform()) - 1.0f, down, Rgb(1.0f)};
@@ -30,7 +34,7 @@ std::vector<Photon> even_photons(bool flat, Rng& rng) {
 /// Fluence over sigma_t = 1/m in the volume, irradiance on the plane, both at a point off the centre.
 double estimate(bool flat, const GatherSettings& settings, Rng& rng) {
   const Vec3 point(0.1f, -0.05f, 0.0f);
-  const PhotonMap map = make_photon_map(even_photons(flat, rng), settings, kPhotons);
+  const PhotonMap map = make_photon_map(even_photons(kPhotons, flat, rng), settings, kPhotons);
   return flat ? surface_irradiance(point, Vec3(0.0f, 0.0f, 1.0f), map).g : fluence(Rgb(1.0f), point, map).g;
 }
 
@@ -50,12 +54,40 @@ std::vector<Check> check_maps(bool flat, const Effort& effort) {
   return checks;
 }
 
+/// Radiance along a ray through the middle of the cube, by isotropic scattering of albedo 1, attenuated by 0.5 / m;
+/// discs of half a metre, or of the balls of about so many photons.
+double estimate_around_ray(KernelKind kernel, uint32_t count, Rng& rng) {
+  const GatherSettings settings{.mode = GatherMode::beam, .radius = 0.5f, .kernel = kernel, .beam_count = count};
+  const BeamMap map{settings, SegmentMap(even_photons(kPhotonsAroundRays, false, rng), {settings.radius, count},
+                                         1.0f / kPhotonsAroundRays)};
+  const Ray ray{Vec3(0.1f, -0.05f, 1.0f), Vec3(0.0f, 0.0f, -1.0f)};
+  const auto transmittance = [](float t) { return Rgb(std::exp(-0.5f * t)); };
+  GatherCounters counters;
+  return beam_sum(Isotropic{}, ray, {0.0f, 2.0f}, each_distance(transmittance), map, counters).g;
+}
+
+std::vector<Check> check_beams(const Effort& effort) {
+  const double exact = -std::expm1(-1.0) / 0.5 / 8.0 / (4.0 * kPiD);
+  std::vector<Check> checks;
+  for (const KernelInfo& kernel : kKernels)
+    for (const uint32_t count : {0u, 10u}) {
+      const std::string name =
+          fmt::format("{} kernel, around a ray{}", kernel.name, count > 0 ? ", radii of their own" : "");
+      const auto samples =
+          sample_moments(1, effort.count(1'500, 12'000), effort.seed_of(name),
+                         [&](Rng& rng, double* out) { out[0] = estimate_around_ray(kernel.kind, count, rng); });
+      checks.push_back(check_mean(name, samples[0], exact));
+    }
+  return checks;
+}
+
 }  // namespace
 
 std::vector<Experiment> photon_map_experiments() {
   return {{0, "even photons, estimates of their density", [](const Effort& effort) {
              std::vector<Check> checks = check_maps(false, effort);
              append(checks, check_maps(true, effort));
+             append(checks, check_beams(effort));
              return checks;
            }}};
 }
