@@ -54,8 +54,10 @@ Check check_within(std::string name, const Moments& samples, double exact, doubl
   return check;
 }
 
-Check check_probability(std::string name, const Moments& zeros_and_ones, double probability) {
+Check check_probability(std::string name, const Moments& zeros_and_ones, double exact) {
   constexpr double kFew = 1000.0;
+  assert(exact > -1e-9 && exact < 1.0 + 1e-9);
+  const double probability = std::clamp(exact, 0.0, 1.0);  // rounding may have left the range
   const auto trials = static_cast<double>(zeros_and_ones.count());
   const double hits = std::round(zeros_and_ones.mean() * trials), share = hits / trials;
   const double error = std::sqrt(probability * (1.0 - probability) / trials);
