@@ -10,6 +10,7 @@
 #include "vpm/estimate/beam_estimate.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/estimate/volume_estimate.h"
+#include "vpm/photon/density_control.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"
 
@@ -54,6 +55,18 @@ std::vector<Check> check_maps(bool flat, const Effort& effort) {
   return checks;
 }
 
+/// Photons whose power others have taken over leave all means as they are.
+Check check_controlled(const Effort& effort) {
+  const std::string name = "at most 4 photons in a cube, fixed radius in a volume";
+  const auto samples = sample_moments(1, effort.count(4'500, 60'000), effort.seed_of(name), [](Rng& rng, double* out) {
+    std::vector<Photon> photons = even_photons(kPhotons, false, rng);
+    control_density(photons, 0.6f, 4);
+    const PhotonMap map = make_photon_map(photons, {.radius = 0.5f}, kPhotons);
+    out[0] = fluence(Rgb(1.0f), Vec3(0.1f, -0.05f, 0.0f), map).g;
+  });
+  return check_mean(name, samples[0], 1.0 / 8.0);
+}
+
 /// Radiance along a ray through the middle of the cube, by isotropic scattering of albedo 1, attenuated by 0.5 / m;
 /// discs of half a metre, or of the balls of about so many photons.
 double estimate_around_ray(KernelKind kernel, uint32_t count, Rng& rng) {
@@ -87,6 +100,7 @@ std::vector<Experiment> photon_map_experiments() {
   return {{0, "even photons, estimates of their density", [](const Effort& effort) {
              std::vector<Check> checks = check_maps(false, effort);
              append(checks, check_maps(true, effort));
+             checks.push_back(check_controlled(effort));
              append(checks, check_beams(effort));
              return checks;
            }}};
