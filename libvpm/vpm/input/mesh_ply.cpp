@@ -1,4 +1,7 @@
 // PLY: a header that describes elements of properties, then their values as text or as bytes of either order.
+//
+// It is read here because Debian 12 packages no reader of PLY alone, and because damaged files must be refused with the
+// line and the reason.
 #include <algorithm>
 #include <array>
 #include <bit>
