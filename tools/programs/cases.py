@@ -211,22 +211,22 @@ TIMED = ("render.seconds", '"auto" of `emitted`')
 
 
 def unused_words(cases):
-    """Keys of the tables of settings in scenes/README.md that no case sets, and words that no key of their section is given.
+    """Keys of the table of settings in scenes/README.md that no case sets, and words that no key of their section is given.
 
     A list of cases says nothing of what it leaves out, such as a setting that came later; so this is read from the page.
     """
     given = {change for case in cases for flag, change in zip(case.arguments, case.arguments[1:]) if flag == "--set"}
     given = {word for change in given for word in [change, change.partition("=")[0]]}
-    page = (SCENES / "README.md").read_text().partition("\n## How to render")[2].partition("\n## ")[0]
+    page = (SCENES / "README.md").read_text().partition("a test compares. -->")[2].partition("<!-- The end of the table. -->")[0]
     sections, unused = [], []
     for cells in (re.split(r"(?<!\\)\|", line)[1:-1] for line in page.splitlines() if line.startswith("|")):
-        if len(cells) != 4:
+        if len(cells) != 5:
             continue
         sections = re.findall(r"`\[(\w+)\]`", cells[0]) or sections
         for section, key in itertools.product(sections, re.findall(r"`(\w+)`", cells[1])):
             if f"{section}.{key}" not in given:
                 unused.append(f"{section}.{key}")
-        for word in re.findall(r'`"([\w-]+)"`', cells[2]):
+        for word in re.findall(r'`"([\w-]+)"`', cells[3]):
             if not any(change.startswith(tuple(f"{section}." for section in sections)) and change.endswith(f"={word}") for change in given):
                 unused.append(f'"{word}" of {cells[1].strip()}')
     return [name for name in unused if name not in TIMED]
