@@ -2,18 +2,18 @@
 //
 // A visitor is any object with these members. They are looked up at compile time:
 //
-// - `bool see(const Event& event, const PathState& from, PathState& at)`, is called at every event, the last one
+// - `bool see(const Event& event, const PathState& from, PathState& at)` is called at every event, the last one
 //   included, before its outcome is drawn. `from` is the path at the start of the flight. `at` stands at the event,
 //   with the direction and throughput with which the path arrived. False ends the path. see() may change the
 //   throughput: this is the place for Russian roulette.
-// - `bool scatter(const Scene& scene, const Event& event, PathState& at, Rng& rng)`, is called at collisions and
+// - `bool scatter(const Scene& scene, const Event& event, PathState& at, Rng& rng)` is called at collisions and
 //   surfaces and draws the outcome. It returns false if the path is absorbed. PhotonVisitor and EyeVisitor scatter as
 //   unguided photons and paths from the eye do; other visitors may guide the scattering.
-// - `float limit(const PathState& from)`, is optional: the greatest length of the next flight, m, > 0. A flight
+// - `float limit(const PathState& from)` is optional: the greatest length of the next flight, m, > 0. A flight
 //   that reaches it ends in an event of kind `limit`, from which the path flies on unchanged.
-// - `void cut(const PathState& at)`, is optional: it is called for a path that has met as many events as it may and
-// would
-//   still go on. Without it the rest of the path is dropped, which suits visitors that keep no account of energy.
+// - `void cut(const PathState& at)` is optional. It is called for a path that has met as many events as it may and
+//   would still go on. Without it the rest of the path is dropped, which suits visitors that keep no account of
+//   energy.
 //
 // Photon tracing with splitting can be such a visitor, too. Its limit() is how far the photon may fly before it is
 // worth a split. Its see() records the photon, plays roulette and puts copies of the path on a list, with the event and

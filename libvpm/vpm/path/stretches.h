@@ -22,12 +22,11 @@ struct Stretch {
 ///
 /// The visitor has these members. They are looked up at compile time:
 ///
-/// - `bool pass(const Stretch& stretch)`, is called for every segment before its end is dealt with, so that `ray` and
+/// - `bool pass(const Stretch& stretch)` is called for every segment before its end is dealt with, so that `ray` and
 ///   `medium` are those of the segment. False ends the ray.
-/// - `float left(const Ray& ray)`, is optional: how far the ray, which has just passed a boundary, may still go, m. The
-/// ray
-///   ends if that is not > 0. Without left(), it is the limit less the lengths of the segments. That neglects the small
-///   distances by which the ray is moved off boundaries.
+/// - `float left(const Ray& ray)` is optional. It returns how far the ray, which has just passed a boundary, may still
+///   go, m. The ray ends if that is not > 0. Without left(), it is the limit less the lengths of the segments. That
+///   neglects the small distances by which the ray is moved off boundaries.
 template <class Visitor>
 std::optional<Hit> each_stretch(const Scene& scene, Ray& ray, MediumId& medium, float limit, WalkCounters& counters,
                                 Visitor&& visitor) {

@@ -69,7 +69,7 @@ class Geometry {
   Geometry& operator=(Geometry&&) noexcept;
 
   /// Adds a shape and returns its number: 0, 1, 2, ... Triangles without area are left out, as no ray can meet them.
-  /// Throws InputError if all triangles of a mesh are without area, if a triangle names a vertex that does not exist,
+  /// Throws InputError if no triangle of a mesh has an area, if a triangle names a vertex that does not exist,
   /// and if coordinates or radii are not finite or beyond 1e9 m, or radii are not positive. Also throws if there are
   /// not as many normals or uvs as vertices, if one is not finite, if a normal is zero, or if a uv is beyond 1e6.
   uint32_t add(const TriangleMesh& mesh, Layer layer = Layer::surface);

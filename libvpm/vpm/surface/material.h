@@ -70,8 +70,8 @@ inline bool is_dielectric(const Material& m) {
   return std::holds_alternative<Dielectric>(m) || std::holds_alternative<ThinDielectric>(m) ||
          std::holds_alternative<RoughDielectric>(m);
 }
-/// Is the material non-specular: does it scatter light into a range of directions? Lambertian counts too. Photons are
-/// stored only on such materials, and only their scatter_value() is not black.
+/// Is the material non-specular: does it scatter light into a range of directions? So is Lambertian, unless black.
+/// Photons are stored only on such materials, and only their scatter_value() is not black.
 bool is_rough(const Material& m);
 /// The reflectance of a diffuse material; null for all others. Such a material looks the same from all directions: the
 /// radiance that it reflects is its reflectance / pi times the irradiance on that side.
