@@ -12,7 +12,7 @@ namespace vpm {
 /// A segment of a ray on which the density lies within [min, max]. If `values` is null, the density is min = max.
 struct DensityStretch {
   static constexpr int kCells = 8;            // cells along a brick's edge
-  static constexpr int kValues = kCells + 1;  // voxels along it, so that all corners of its cells are stored
+  static constexpr int kValues = kCells + 1;  // voxels along it: one more at the upper end, to hold all cell corners
 
   double t0 = 0.0, t1 = 0.0;  // m along the ray; infinite only if `values` is null
   float min = 0.0f, max = 0.0f;

@@ -14,7 +14,7 @@ namespace vpm {
 /// few paths contribute to the light from media.
 class PathWeight {
  public:
-  /// Tells of the path's weight on arrival at an event.
+  /// Notes the path's weight on arrival at an event.
   void meet(double weight, const Event& event) {
     if (std::fabs(weight) > std::fabs(largest_)) largest_ = weight;
     through_medium_ |= event.through_medium;

@@ -46,9 +46,9 @@ struct WalkCounters {
 };
 static_assert(lists_every_member<WalkCounters>());
 
-/// What the ray meets first, with t < t_max. Corrects `medium` so that an error from rounding at edges does not last:
-/// to the medium that the shapes met say lies before them, or, if the ray meets nothing and t_max is infinite, to the
-/// world's medium.
+/// What the ray meets first, with t < t_max. Also corrects `medium`, so that an error from rounding at edges does not
+/// last: it becomes the medium in front of the shapes that the ray meets. If the ray meets nothing and t_max is
+/// infinite, it becomes the world's medium.
 Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters);
 
 /// Takes the ray straight through all boundaries of an encounter: moves its origin just beyond them and sets `medium`

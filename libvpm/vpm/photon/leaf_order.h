@@ -10,8 +10,8 @@
 
 namespace vpm {
 
-/// The plane that divides the photons below a node. Those of the first child have coordinates <= `at`, the others >=
-/// `at`.
+/// The plane that divides the photons below a node. Coordinates along `axis` are at most `at` below
+/// the first child, and at least `at` below the second.
 struct Split {
   float at = 0.0f;  // m
   uint32_t axis = 0;

@@ -1,5 +1,5 @@
-// The interface through which photon tracing reports every event. Code that needs photons passes a recorder, which
-// keeps what that code needs. Tracing does not know who uses the photons.
+// The interface through which photon tracing reports events, one by one. Code that needs photons passes a recorder,
+// which keeps what that code needs. Tracing does not know who uses the photons.
 #pragma once
 
 #include <cstdint>
