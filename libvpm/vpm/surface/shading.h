@@ -4,8 +4,8 @@
 // the geometric normal as of the shading normal. With respect to the geometric normal it is then reflected or
 // transmitted as the material says. Other light is absorbed, except that light which goes straight on is left
 // unchanged. With respect to the geometric cosines the BSDF is f |cos_s| / |cos_g|, with the cosines of the direction
-// from which light arrives [Veach1997, sec. 5.3]. It is not symmetric: paths from the eye multiply radiance by w = f
-// |cos_s| / pdf, photons multiply power by w times Scatter::flux_scale.
+// from which light arrives [Veach1997, sec. 5.3]. It is not symmetric: with w = f |cos_s| / pdf,
+// paths from the eye multiply radiance by w, and photons multiply power by w times Scatter::flux_scale.
 #pragma once
 
 #include "vpm/surface/geometry.h"
