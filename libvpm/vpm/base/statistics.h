@@ -1,4 +1,4 @@
-// Sums that keep their digits, and running moments.
+// Sums with little rounding error, and running moments.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,7 @@ class Moments {
   }
 
   uint64_t count() const { return count_; }
-  /// 0 of no samples.
+  /// The mean; 0 if there are no samples.
   double mean() const { return mean_; }
   /// Unbiased variance of one sample; NaN below two samples, where it is unknown.
   double variance() const {
@@ -63,11 +63,11 @@ class Moments {
   double m2_ = 0.0;  // sum of squared deviations from the mean
 };
 
-/// (sum w)^2 / sum w^2 of weights w: how many samples of equal weights would tell as much. Weights of either sign,
-/// which partly cancel, count for less.
+/// (sum w)^2 / sum w^2 of weights w: the number of samples of equal weights that would be as informative. Weights of
+/// both signs partly cancel, and so count for less.
 inline double effective_sample_size(double sum, double squares) { return squares == 0.0 ? 0.0 : sum * sum / squares; }
 
-/// Weights of samples that stand for unequal shares of a mean.
+/// Moments of the weights of samples that contribute unequal fractions to a mean.
 struct WeightMoments {
   double sum = 0.0, squares = 0.0, largest = 0.0;  // the largest magnitude
 
@@ -76,7 +76,7 @@ struct WeightMoments {
     squares += weight * weight;
     at_least(weight);
   }
-  /// Looks at a weight for the largest one only.
+  /// Uses a weight for `largest` only.
   void at_least(double weight) { largest = std::max(largest, std::fabs(weight)); }
   void merge(const WeightMoments& other) {
     sum += other.sum;

@@ -14,7 +14,7 @@ using Vec3i = glm::ivec3;
 using Mat3d = glm::dmat3;
 using Mat4d = glm::dmat4;
 
-/// A quantity per colour channel (linear sRGB primaries). Its unit stands where it is declared.
+/// A quantity per colour channel (linear sRGB primaries). Its unit is given where it is declared.
 using Rgb = glm::vec3;
 using Rgbd = glm::dvec3;
 static_assert(sizeof(Vec3) == 12 && sizeof(Vec3d) == 24,
@@ -24,7 +24,7 @@ inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr double kPiD = 3.14159265358979323846;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A half line. `direction` has unit length and points the way light or sight travels.
+/// A half line. `direction` has unit length and is the direction in which light or the path from the eye travels.
 struct Ray {
   Vec3 origin{0.0f};                 // m
   Vec3 direction{0.0f, 0.0f, 1.0f};  // unit
@@ -33,7 +33,7 @@ struct Ray {
   Vec3 at(float t) const { return origin + t * direction; }
 };
 
-/// The stretch [t0, t1] of a ray, in metres from its origin.
+/// The segment [t0, t1] of a ray, in metres from its origin.
 struct Interval {
   float t0 = 0.0f;
   float t1 = kInfinity;

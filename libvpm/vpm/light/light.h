@@ -1,4 +1,4 @@
-// Light sources: the closed set. Each tells its power, emits photons, and can be sampled from a point.
+// Lights, a closed set. Each has a power, emits photons, and can be sampled from a point.
 #pragma once
 
 #include <array>
@@ -51,21 +51,21 @@ struct SphereLight {
   float radius = 1.0f;  // m
   Rgb radiance{1.0f};   // W/(m^2 sr)
 };
-/// Triangles to draw points from, uniformly over all their area.
+/// Triangles from which points are drawn, uniformly over their total area.
 class EmittingMesh {
  public:
-  /// Throws InputError where no triangle has an area. The vertices that triangles name exist.
+  /// Throws InputError if no triangle has an area. The vertices that triangles name must exist.
   explicit EmittingMesh(TriangleMesh mesh);
-  /// m^2.
+  /// The total area, m^2.
   double area() const { return cumulative_.back(); }
   struct Sample {
     Vec3 position{0.0f};  // m
     Vec3 normal{0.0f};    // unit, outward
     float slack = 0.0f;   // m, as in Hit
   };
-  /// The point that two uniform numbers yield, on the triangle that a third one picks.
+  /// A point of the mesh: the uniform number `choice` picks the triangle, `u` the point on it.
   Sample sample(double choice, const Vec2& u) const;
-  /// The box around all vertices of triangles.
+  /// The box around all vertices of the triangles.
   Box bounds() const;
   size_t memory_bytes() const {
     return mesh_.positions.size() * sizeof(Vec3) + mesh_.triangles.size() * sizeof(glm::uvec3) +
@@ -74,9 +74,9 @@ class EmittingMesh {
 
  private:
   TriangleMesh mesh_;
-  std::vector<double> cumulative_;  // areas, m^2, one more than triangles
+  std::vector<double> cumulative_;  // cumulative areas, m^2: one entry more than triangles
 };
-/// Triangles that emit to the sides of their outward normals. They may stand in each other's light.
+/// Triangles that emit to the sides of their outward normals. They may occlude each other.
 struct MeshLight {
   std::shared_ptr<const EmittingMesh> mesh;
   Rgb radiance{1.0f};  // W/(m^2 sr)
@@ -99,20 +99,20 @@ class ImageEnvironment {
   ImageEnvironment(int width, int height, std::vector<Rgb> texels);
   /// Radiance that arrives from direction `d` (unit, pointing away from the scene).
   Rgb radiance(const Vec3& d) const;
-  /// A direction away from the scene, distributed as pdf(): in the texel that a uniform number picks, where two more
-  /// tell.
+  /// A direction away from the scene, distributed as pdf(): the uniform number `choice` picks the texel, `u` the place
+  /// in it.
   struct Sample {
     Vec3 direction{0.0f};  // unit
     float pdf = 0.0f;      // of the sampled texel, 1/sr
-    Rgb radiance{0.0f};    // of the sampled texel, where rounding may put the direction into its neighbour
+    Rgb radiance{0.0f};    // of the sampled texel, even if rounding puts the direction into its neighbour
   };
   Sample sample(double choice, const Vec2& u) const;
-  /// The density of sample() at `d`, 1/sr: luminance over its integral.
+  /// The density of sample() at `d`, 1/sr: the luminance over its integral.
   float pdf(const Vec3& d) const;
   /// Integral of radiance over the sphere, W/m^2.
   Rgbd integral() const { return integral_; }
-  /// Integrals over the sphere of radiance times |cosine| to the x, y and z axes, W/m^2: what passes a plane across
-  /// each, from both sides together.
+  /// Integrals over the sphere of radiance times |cosine| to the x, y and z axes, W/m^2: the power per area that passes
+  /// a plane perpendicular to each axis, from both sides together.
   const std::array<Rgbd, 3>& flux_across() const { return flux_across_; }
   /// Are all texels grey?
   bool grey() const { return grey_; }
@@ -135,55 +135,55 @@ struct EnvironmentMap {
 using Light = std::variant<PointLight, SpotLight, BeamLight, QuadLight, DiscLight, SphereLight, MeshLight,
                            DirectionalLight, ConstantEnvironment, EnvironmentMap>;
 
-// What kinds of lights have in common; each belongs to one of three.
+// Three classes of lights; each kind of light belongs to one.
 template <class L, class... Kinds>
 concept OneOf = (std::same_as<L, Kinds> || ...);
-/// Those that no ray runs into.
+/// Lights that no ray can hit.
 template <class L>
 concept UnseenLight = OneOf<L, PointLight, SpotLight, BeamLight>;
-/// Those that are shapes of the scene. They emit `radiance`.
+/// Lights that are shapes of the scene. They emit `radiance`.
 template <class L>
 concept AreaLight = OneOf<L, QuadLight, DiscLight, SphereLight, MeshLight>;
-/// Those at infinity.
+/// Lights at infinity.
 template <class L>
 concept DistantLight = OneOf<L, DirectionalLight, ConstantEnvironment, EnvironmentMap>;
 
-/// Power emitted into the scene, W. Lights at infinity: what enters the box `scene`, which holds all that they have to
-/// reach and has a volume.
+/// The power emitted into the scene, W. For lights at infinity it is the power that enters the box `scene`, which must
+/// contain everything that the light has to reach and must have a volume.
 Rgb light_power(const Light& light, const Box& scene);
-/// What its mesh or picture takes.
+/// The memory of the light's mesh or picture.
 size_t light_memory_bytes(const Light& light);
-/// What kind of light it is, in a word or two.
+/// The name of the kind of light, in a word or two.
 std::string_view light_kind(const Light& light);
-/// Does the light's emission lack any colour?
+/// Is the light's emission grey?
 bool is_grey(const Light& light);
 /// Is the light at infinity, so that it needs vacuum around the scene?
 bool is_infinite(const Light& light);
 
-/// The radiance that arrives from all directions alike, W/(m^2 sr); nothing of lights that are no such environment.
+/// The radiance that arrives equally from all directions, W/(m^2 sr); nothing for lights that are no such environment.
 std::optional<Rgb> even_radiance(const Light& light);
 
-/// Where a light stands.
+/// The place of a light.
 struct LightPlace {
   Box bounds;        // m, around all points that its photons start from
-  Vec3 point{0.0f};  // m, of them: of area lights one just before the surface
+  Vec3 point{0.0f};  // m, one of these points: for area lights one just in front of the surface
 };
-/// Nothing of lights at infinity.
+/// Nothing for lights at infinity.
 std::optional<LightPlace> light_place(const Light& light);
 
-/// The uniform numbers in [0, 1) that one emission is made of. No light uses all of them.
+/// The uniform numbers in [0, 1) that determine one emission. No light uses all of them.
 struct EmissionNumbers {
-  double choice = 0.0;  // of a triangle, a texel, or a part of a cone
-  double face = 0.0;    // of the scene's box, where light from infinity enters
-  Vec2 place{0.0f};     // on the light, or on that face
+  double choice = 0.0;  // picks a triangle, a texel, or a part of a cone
+  double face = 0.0;    // picks the face of the scene's box where light from infinity enters
+  Vec2 place{0.0f};     // picks the place on the light, or on that face
   Vec2 direction{0.0f};
 };
 EmissionNumbers draw_emission_numbers(Rng& rng);
 
-/// One emitted photon: where it starts, and the power it stands for if this light emitted this photon alone. Its
-/// expectation over photons is light_power(); for all lights but EnvironmentMap every photon carries exactly that. Area
-/// lights are shapes of the scene: their photons start just off the surface, so as not to meet it. Those of lights at
-/// infinity start where they enter the box.
+/// One emitted photon: its ray, and the power that it would carry if it were the light's only photon. The expectation
+/// of that power is light_power(); for all lights except EnvironmentMap every photon carries exactly light_power().
+/// Photons of area lights start just off the surface, because area lights are shapes of the scene that the photons
+/// could meet. Photons of lights at infinity start where they enter the box.
 struct Emission {
   Ray ray;
   Rgb power{0.0f};  // W
@@ -193,7 +193,7 @@ inline Emission emit(const Light& light, const Box& scene, Rng& rng) {
   return emit(light, scene, draw_emission_numbers(rng));
 }
 
-/// Light that arrives at a point without obstacles.
+/// Light that arrives at a point if nothing stands between.
 struct Incident {
   Vec3 direction{0.0f};        // from the point towards the light, unit
   float distance = kInfinity;  // m, to the light's surface: the next hit along `direction` may be that surface itself
@@ -201,36 +201,37 @@ struct Incident {
                                // integral of radiance
   float pdf = 0.0f;            // of the direction, 1/sr; 0 where the light has one direction only
 };
-/// Samples the light that reaches `point`; nothing where none can. A point inside a sphere light gets nothing. Whether
-/// other parts of a mesh light stand between is not asked.
+/// Samples the light that reaches `point`; nothing if none can. A point inside a sphere light receives nothing.
+/// Occlusion by other parts of a mesh light is not tested.
 std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rng& rng);
 
 /// A point of a light.
 struct LightPoint {
   Vec3 position{0.0f};  // m
-  Vec3 normal{0.0f};    // unit, outward; zero where the point does not tell what arrives from it
-  float area = 0.0f;    // m^2, over which it was drawn evenly; 0 likewise
+  Vec3 normal{0.0f};    // unit, outward; zero for point, spot and sphere lights
+  float area = 0.0f;    // m^2, over which the point was drawn uniformly; 0 for those lights
 };
-/// Draws a point from which places nearby get more light than those far away; nothing of parallel light and of lights
-/// at infinity, whose light does not fall off.
+/// Draws a point of a light; of a sphere it is the centre. Places near that point receive more light than those far
+/// away. Nothing for parallel light and for lights at infinity, which do not fall off.
 std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng);
-/// sample_towards(), from a point that draw_light_point() drew of that light: the same mean over both draws.
+/// sample_towards() from the point `from`, which draw_light_point() drew on that light. Over both draws the mean is the
+/// same.
 std::optional<Incident> sample_towards(const Light& light, const LightPoint& from, const Vec3& point, Rng& rng);
 
-/// A light that a ray ran into.
+/// A light that a ray hit.
 struct SeenLight {
   Vec3 direction{0.0f};        // of the ray, unit
   float distance = kInfinity;  // m, to the light's surface
-  Vec3 normal{0.0f};           // unit, outward, of the surface there; of no meaning for environments
+  Vec3 normal{0.0f};           // unit, outward, of the surface there; without meaning for environments
 };
-/// The density with which sample_towards() from `point` finds what was seen, 1/sr; 0 where it never does, and for
-/// lights of one direction only. For multiple importance sampling [Veach1997, ch. 9].
+/// The density with which sample_towards() from `point` samples the direction of `seen`, 1/sr. It is 0 if that never
+/// happens, and for lights of one direction only. For multiple importance sampling [Veach1997, ch. 9].
 float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen);
 
 /// Radiance of an environment seen along `direction`, W/(m^2 sr); black for other lights.
 Rgb environment_radiance(const Light& light, const Vec3& direction);
-/// Radiance that an area light's surface of outward normal `normal` emits against `travel`, the direction of the ray
-/// that sees it, W/(m^2 sr); black from behind, and for other lights.
+/// Radiance that the surface of an area light, with the outward normal `normal`, emits against `travel`, the direction
+/// of the ray that sees it, W/(m^2 sr). Black from behind, and for other lights.
 Rgb surface_radiance(const Light& light, const Vec3& normal, const Vec3& travel);
 
 }  // namespace vpm

@@ -1,4 +1,4 @@
-// Bounds of the density in the parts of a brick: the finest level of a grid's extrema.
+// Bounds of the density in parts of a brick: the finest level of a grid's bounds.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@ struct DensityBounds {
   float min, max;
 };
 
-/// Bounds in blocks of 2^3 cells, in steps of a fifteenth from the brick's least density to its largest: one cache
-/// line, where the brick's values take 46.
+/// Bounds of the density in blocks of 2^3 cells. They are stored in steps of a fifteenth of the range from the brick's
+/// least density to its largest. They take one cache line, whereas the brick's values take 46.
 class alignas(64) BrickBlocks {
  public:
   static constexpr int kCells = 2;   // along a block's edge
   static constexpr int kBlocks = 4;  // along a brick's edge: of kCells * kBlocks cells
 
   BrickBlocks() = default;
-  /// Of the brick's 9^3 values and their extremes, min < max.
+  /// From the brick's 9^3 values and their bounds, min < max.
   BrickBlocks(const float* values, const DensityBounds& brick);
 
-  /// In the block that holds a cell of the brick; never outside the brick's own.
+  /// The bounds in the block that holds a cell of the brick; never wider than the brick's own.
   DensityBounds bounds(const Vec3i& cell, const DensityBounds& brick) const {
     const Vec3i block = cell / kCells;
     return decode(levels_[(block.z * kBlocks + block.y) * kBlocks + block.x], brick);

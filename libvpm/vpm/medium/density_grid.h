@@ -1,4 +1,5 @@
-// A density field on a regular lattice: sparse bricks of 8^3 cells with their extrema, looked up and walked along rays.
+// A density field on a regular lattice. It is stored in sparse bricks of 8^3 cells with bounds of the density, and can
+// be looked up at points and walked along rays.
 //
 // A voxel's value sits AT its integer index coordinates (as in OpenVDB). Trilinear interpolation: the cell with lower
 // corner (i, j, k) spans [i, i+1]^3. Nearest: the value of voxel (i, j, k) fills [i-1/2, i+1/2]^3. Stored values are
@@ -20,7 +21,7 @@ namespace vpm {
 
 enum class Interpolation { trilinear, nearest };
 
-/// Where a grid lies and what surrounds it.
+/// The place of a grid in the world, its interpolation and the density around it.
 struct GridFrame {
   Mat4d index_to_world{1.0};  // affine, invertible
   Vec3i lo{0}, hi{0};         // index box of the voxels with a value of their own, both ends included
@@ -39,15 +40,15 @@ class DensityGrid {
   static constexpr int kBrickValues = kValues * kValues * kValues;
 
   /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]. All must be
-  /// finite and >= 0. Called from all threads, on copies of its own for each.
+  /// finite and >= 0. It is called from all threads, each of which has its own copy.
   using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
 
-  /// Builds, on all threads, the bricks that cover the frame's index box and its interpolation's reach. Bricks of one
-  /// value store that value only, equal bricks their values once. Throws InputError where the table of bricks alone
-  /// would take over 256 MiB.
+  /// Builds, on all threads, the bricks that cover the frame's index box and the reach of its interpolation. A brick
+  /// with equal values stores one value only, and equal bricks store their values once. Throws InputError if the table
+  /// of bricks alone would take over 256 MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill);
 
-  /// A line, in cells from the lower corner of all bricks; its parameter is still metres of the world.
+  /// A ray in units of cells, from the lower corner of all bricks; its parameter is still in metres of the world.
   struct LatticeRay {
     Vec3d origin, direction;
   };
@@ -57,42 +58,43 @@ class DensityGrid {
   }
   /// Density at a point of a ray.
   float density(const LatticeRay& ray, double t) const { return density_at(ray.origin + t * ray.direction); }
-  /// Densities at kAtOnce points of a ray at the most, `step` metres apart from t on. All the memory they need is
-  /// prefetched before any of it is read.
+  /// Densities at up to kAtOnce points of a ray: at t, t + step, ... (m). All the memory that they need is prefetched
+  /// before any of it is read.
   void densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const;
   static constexpr size_t kAtOnce = 16;
   /// Density at a point of the world.
   float density(const Vec3& world) const {
     return density_at(Vec3d(world_to_index_ * glm::dvec4(Vec3d(world), 1.0)) - lattice_lo_);
   }
-  /// Is the density positive all over a box of the world? May say no of a box in whose neighbourhood it is not, as far
-  /// as the bricks reach that the box touches.
+  /// Is the density positive everywhere in a box of the world? Whole bricks decide: the answer may be no only because
+  /// the density is zero outside the box, in a brick that the box reaches into.
   bool is_positive(const Box& world) const;
-  /// Calls visit(const DensityPiece&) for the pieces of the ray, in order, until it returns false.
-  /// Bricks of zero density are left out. Returns the number of cells and uniform bricks read ("look-ups").
+  /// Calls visit(const DensityPiece&) for the pieces of the ray, in order, until it returns false. Bricks of zero
+  /// density are skipped. Returns the number of cells and uniform bricks that were read ("look-ups").
   template <class Visit>
   uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const;
-  /// Calls visit(const DensityStretch&) for the ray's part in each brick, in order, until it returns false. Bricks of
-  /// zero density are left out. Returns the number of bricks whose bounds were read, those left out among them.
+  /// Calls visit(const DensityStretch&) for the segment of the ray in each brick, in order, until it returns false.
+  /// Bricks of zero density are skipped. Returns the number of bricks whose bounds were read, including skipped ones.
   template <class Visit>
   uint32_t visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
     return visit_majorants(
         ray, interval, [](double, float max) { return max == 0.0f; }, visit);
   }
-  /// The same, but leaves out the stretches of which passes(length, max) is true: quicker than visiting them.
+  /// The same, but skips the segments for which passes(length, max) is true. That is quicker than visiting them.
   template <class Passes, class Visit>
   uint32_t visit_majorants(const Ray& ray, const Interval& interval, Passes&& passes, Visit&& visit) const;
 
-  /// The part of the interval in which the density may differ from zero: all of it where the background does.
+  /// The part of the interval in which the density may differ from zero: all of it if the background is not zero.
   Interval clip(const Ray& ray, const Interval& interval) const;
 
   const GridFrame& frame() const { return frame_; }
-  /// The box of index coordinates outside which the density is the background.
+  /// The box of index coordinates outside of which the density is the background density.
   Vec3d support_lo() const;
   Vec3d support_hi() const;
   /// The world-space box around the support.
   Box bounds() const;
-  /// Largest density, bounding the interpolated field; and the mean over the support (empty voxels included).
+  /// max_density() is the largest density, which bounds the interpolated field. mean_density() is the mean over the
+  /// support, empty voxels included.
   float max_density() const { return max_density_; }
   double mean_density() const { return mean_density_; }
   /// Shortest distance between neighbouring voxels, m.
@@ -101,12 +103,12 @@ class DensityGrid {
 
  private:
   struct Brick {
-    float min = 0.0f, max = 0.0f;  // over the brick's 9^3 values; equal: nothing else is stored
-    uint32_t first = 0;            // of its values, in units of kBrickValues; equal bricks share them
+    float min = 0.0f, max = 0.0f;  // over the brick's 9^3 values; if equal, nothing else is stored
+    uint32_t first = 0;            // where its values begin, in units of kBrickValues; equal bricks have the same
     bool uniform() const { return min == max; }
   };
 
-  /// A ray in index coordinates; its parameter is still metres of the world.
+  /// A ray in index coordinates; its parameter is still in metres of the world.
   struct IndexRay {
     Vec3d origin, direction;
   };
@@ -118,15 +120,15 @@ class DensityGrid {
   const Brick& brick(const Vec3i& b) const {
     return bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
   }
-  /// Where a look-up reads.
+  /// The place at which a look-up reads.
   struct Place {
-    float density;        // where nothing is to be read
-    const float* values;  // of the voxels from the cell's lower corner on; null: `density` is known
-    Vec3 fraction;        // of the cell
+    float density;        // the result if `values` is null
+    const float* values;  // of the voxels, from the cell's lower corner on; null: `density` is known
+    Vec3 fraction;        // position within the cell, along each axis
   };
-  /// Fills all bricks; returns the sum of the voxels' densities. The same on any number of threads.
+  /// Fills all bricks and returns the sum of the voxels' densities. The result is the same on any number of threads.
   double fill_bricks(const FillBrick& fill);
-  /// Of such values; where they are is not known yet.
+  /// The brick that has these values; `first` is not set yet.
   static Brick brick_of(const float* values);
   /// The index coordinates of a brick's lower corner.
   Vec3i origin_of(size_t number) const {
@@ -134,17 +136,18 @@ class DensityGrid {
     const Vec3i brick(n % brick_count_.x, rows % brick_count_.y, rows / brick_count_.y);
     return (brick_lo_ + brick) * kCells;
   }
-  /// Both of a point in cells from the lower corner of all bricks.
+  /// For both, p is in units of cells, from the lower corner of all bricks.
   Place find(const Vec3d& p) const;
   float density_at(const Vec3d& p) const;
-  /// The density where it is to be read.
+  /// The density at a place whose `values` are not null.
   float read(const Place& place) const;
   void cell_piece(const float* v, const Vec3& local, const Vec3& step, DensityPiece& piece) const;
   const float* values_of(const Brick& brick) const {
     return values_.data() + static_cast<size_t>(brick.first) * kBrickValues;
   }
-  /// Calls inside(walk, t0, t1) for the ray's part in each brick, where the walk is, and outside(t0, t1) for those
-  /// outside of all where the background is not empty; in order, until one returns false.
+  /// Calls inside(walk, t0, t1) for the segment of the ray in each brick, at which `walk` stands. If the background is
+  /// not zero, calls outside(t0, t1) for the segments outside all bricks. Calls in order along the ray, until one
+  /// returns false.
   template <class Inside, class Outside>
   void visit_bricks(const LatticeRay& ray, const Interval& interval, Inside&& inside, Outside&& outside) const;
   template <class Visit>

@@ -1,5 +1,5 @@
-// Walking a ray through a density grid: bricks first, then the cells of those that are not uniform. The end of
-// density_grid.h, which is what others include.
+// The walk of a ray through a density grid: over bricks, and within a brick that is not uniform over its cells.
+// density_grid.h includes this file at its end; include that one.
 #pragma once
 
 #include <utility>
@@ -10,34 +10,34 @@
 namespace vpm {
 
 /// Steps through a lattice of planes `spacing` apart along origin + t direction, from the cell that holds the point at
-/// t0. Every plane is met at its own quotient, so that no error builds up along the way, and at the same one as by
-/// clip_to_box(): a walk that ends where the ray leaves the cells lo to hi stays in them.
+/// t0. The t of every plane is computed from the plane's own position, so that no error builds up along the way. It is
+/// the t that clip_to_box() computes: a walk that ends where the ray leaves the cells lo to hi stays in them.
 ///
-/// Branch prediction cannot tell which axis is next, and a wrong guess costs more than a step: all axes are dealt with
-/// at once, by masks instead of branches. Where an axis meets the plane after its next one is computed a step ahead.
-/// Each axis has registers of its own, so that no step waits for a shuffle of lanes.
+/// Branch prediction cannot foresee which axis is next, and a wrong guess costs more than a step. All axes are
+/// therefore handled at once, by masks instead of branches. The t at which an axis meets the plane after its next one
+/// is computed a step ahead. Each axis has its own registers, so that no step waits for a shuffle of lanes.
 template <int spacing>
 class LatticeWalk {
  public:
-  /// Cells are numbered from 0 at lo; along each axis a cell's number is `strides` above that of the one before.
+  /// The cell `lo` has number 0. From one cell to the next along an axis the number grows by that axis's `strides`.
   LatticeWalk(const Vec3d& origin, const Vec3d& direction, double t0, const Vec3i& lo, const Vec3i& hi,
               const Vec3i& strides) {
     for (int a = 0; a < 3; ++a) axes_[a] = Axis(origin[a], direction[a], t0, lo[a], hi[a], strides[a]);
   }
   /// The number of the present cell.
   int64_t number() const { return (axes_[0].number + axes_[1].number + axes_[2].number)[0]; }
-  /// Its lower corner.
+  /// The lower corner of the present cell.
   Vec3d corner() const { return {axes_[0].corner(), axes_[1].corner(), axes_[2].corner()}; }
-  /// Where the ray leaves it.
+  /// The t at which the ray leaves the present cell.
   double exit() const { return nearest_exit()[0]; }
-  /// Goes on to the next cell: across an edge or a corner where the ray meets several planes at once.
+  /// Goes on to the next cell. If the ray meets several planes at once, that is across an edge or a corner.
   void advance() {
     const Double at = nearest_exit();
     for (Axis& axis : axes_) axis.cross_at(at);
   }
 
  private:
-  // Masks are those of vectors; the lanes are alike.
+  // Vector types, because their comparisons give masks; both lanes hold the same.
   using Double = double __attribute__((vector_size(16)));
   using Integer = int64_t __attribute__((vector_size(16)));
   static Double both(double x) { return Double{x, x}; }
@@ -74,8 +74,8 @@ class LatticeWalk {
       number += crosses & step;
     }
 
-    Double exit{}, next{};  // where the ray meets the plane that it leaves the cell by, and the one behind that
-    Double plane{};         // the latter
+    Double exit{}, next{};  // t of the plane by which the ray leaves the cell, and of the one after it
+    Double plane{};         // position of the one after it
     Double origin{}, inverse{}, stride{};
     Integer number{}, step{};
     double to_corner = 0.0;  // from `plane` to the cell's lower end
@@ -86,7 +86,8 @@ class LatticeWalk {
   Axis axes_[3];
 };
 
-/// The part of [t0, t1] in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 where there is none.
+/// Cuts [t0, t1] down to the part in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 if there is
+/// none.
 inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d& lo, const Vec3d& hi, double& t0,
                         double& t1) {
   for (int a = 0; a < 3; ++a) {
@@ -189,7 +190,7 @@ uint32_t DensityGrid::visit_majorants(const Ray& ray, const Interval& interval, 
   return bricks;
 }
 
-// Not part of the walk's loop: the walk keeps its registers, as long as stretches are passed.
+// Kept out of the walk's loop (noinline), so that the walk keeps its registers while segments are skipped.
 template <class Visit>
 [[gnu::noinline]] bool DensityGrid::visit_stretch(const Brick& brick, const Vec3d& corner, const LatticeRay& ray,
                                                   double t0, double t1, Visit& visit) const {

@@ -1,4 +1,4 @@
-// The density integral and the density at many places of one ray, in any order, after one walk along it.
+// The density integral and the density at many places of one ray, queried in any order after one walk along the ray.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,11 @@
 
 namespace vpm {
 
-/// What a medium puts before each place of a stretch of a ray. Keeps its buffer between rays: one for each thread.
+/// The density integral of a medium along a segment of a ray, from its start to any place. Keeps its buffers from ray
+/// to ray; each thread needs its own object.
 class DensityIntegralsAlong {
  public:
-  /// Walks the medium along the interval, which may be endless; `medium` null: empty space. Returns the look-ups made.
+  /// Walks the medium along the interval, which may be infinite; `medium` null: vacuum. Returns the number of look-ups.
   uint32_t walk(const Medium* medium, const Ray& ray, const Interval& interval) {
     pieces_.clear();
     double before = 0.0;
@@ -31,20 +32,20 @@ class DensityIntegralsAlong {
   }
 
   struct Place {
-    double integral;  // m, from the interval's start to here
-    double density;   // here
+    double integral;  // m, from the interval's start to this place
+    double density;   // at this place
   };
-  /// At the distance `t`, m, of the interval: finite.
+  /// The values at the distance `t` (m, finite) within the interval.
   Place at(double t) const {
     assert(std::isfinite(t));
     if (pieces_.empty() || t < starts_.front()) return {0.0, 0.0};
     const double slot = std::min((t - starts_.front()) * slots_per_metre_, static_cast<double>(first_.size() - 1));
     size_t i = first_[static_cast<size_t>(slot)];
-    // Seldom more than two steps on, which are taken without branches: nobody can foresee them.
+    // The piece is seldom more than two steps on. These are taken without branches, because they cannot be predicted.
     for (int step = 0; step < 2; ++step) i += starts_[i + 1] <= t ? 1 : 0;
     while (starts_[i + 1] <= t) ++i;
     const auto& [piece, integral] = pieces_[i];
-    if (t > piece.t1) return {integral + piece.integral(), 0.0};  // between pieces is empty space
+    if (t > piece.t1) return {integral + piece.integral(), 0.0};  // between pieces the density is zero
     const double s = t - piece.t0;
     return {integral + std::max(0.0, piece.integral(s)), std::max(0.0, piece.density(s))};
   }
@@ -64,12 +65,13 @@ class DensityIntegralsAlong {
     double integral;  // m, from the interval's start to the piece's
   };
 
-  /// Parts the way into as many even slots as there are pieces: a place is found by its slot, and a few steps on.
+  /// Divides the walk into as many slots of equal length as there are pieces. A place is found by its slot and a few
+  /// steps from there.
   void make_slots() {
     const size_t count = pieces_.size();
     starts_.clear();
     for (const Before& before : pieces_) starts_.push_back(before.piece.t0);
-    starts_.push_back(std::numeric_limits<double>::quiet_NaN());  // no place is beyond it
+    starts_.push_back(std::numeric_limits<double>::quiet_NaN());  // no place compares beyond it
     first_.resize(count);
     if (count == 0) return;
     const double length = starts_[count - 1] - starts_[0];
@@ -82,8 +84,8 @@ class DensityIntegralsAlong {
   }
 
   std::vector<Before> pieces_;
-  std::vector<double> starts_;   // of the pieces, m, and one that ends every search
-  std::vector<uint32_t> first_;  // of each slot: the last piece that begins no later
+  std::vector<double> starts_;   // where the pieces begin, m, and a last entry that ends every search
+  std::vector<uint32_t> first_;  // for each slot: the last piece that begins no later than the slot
   double slots_per_metre_ = 0.0;
 };
 

@@ -1,4 +1,4 @@
-// The density along a short stretch of a ray: a cubic, so that its density integral is an exact quartic.
+// The density along a short segment of a ray. It is a cubic polynomial, so its density integral is exactly a quartic.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@ struct DensityPiece {
   double length() const { return t1 - t0; }  // infinite only where uniform()
   bool uniform() const { return c1 == 0.0 && c2 == 0.0 && c3 == 0.0; }
   double density(double s) const { return c0 + s * (c1 + s * (c2 + s * c3)); }
-  /// The density integral from t0 to t0 + s: the integral of density, in m (times sigma_t: optical thickness).
-  /// Densities are not negative, so neither is this, except by rounding.
+  /// The density integral from t0 to t0 + s, m (times sigma_t: optical depth). Densities are not negative, so neither
+  /// is the integral, except by rounding.
   double integral(double s) const { return uniform() ? s * c0 : s * (c0 + s * (c1 / 2 + s * (c2 / 3 + s * (c3 / 4)))); }
   double integral() const { return integral(length()); }
 
-  /// The s in [0, length()] at which integral(s) reaches `target`, 0 <= target <= integral(). Newton's iteration, kept
-  /// inside a shrinking bracket because the density may vanish at corners of a cell.
+  /// The s in [0, length()] at which integral(s) reaches `target`, 0 <= target <= integral(). Uses Newton's iteration
+  /// inside a shrinking bracket, because the density may vanish at corners of a cell.
   double invert(double target) const {
     if (uniform()) return c0 > 0.0 ? std::min(target / c0, length()) : length();
     double lo = 0.0;
@@ -41,7 +41,7 @@ struct DensityPiece {
   }
 
  private:
-  /// Bisection alone would need 40 to reach the tolerance; every Newton step that fails costs one of them.
+  /// Bisection alone would need 40 iterations to reach the tolerance. Each failed Newton step costs one iteration.
   static constexpr int kMaxIterations = 80;
 };
 

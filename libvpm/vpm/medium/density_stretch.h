@@ -1,4 +1,4 @@
-// The part of a ray that lies in one brick of a density grid: bounds of the density there, and the density itself.
+// The segment of a ray in one brick of a density grid: bounds of the density on it, and the density itself.
 #pragma once
 
 #include <algorithm>
@@ -9,28 +9,29 @@
 
 namespace vpm {
 
-/// A stretch of a ray on which the density keeps within [min, max]; where it has no values it is both.
+/// A segment of a ray on which the density lies within [min, max]. If `values` is null, the density is min = max.
 struct DensityStretch {
   static constexpr int kCells = 8;            // cells along a brick's edge
-  static constexpr int kValues = kCells + 1;  // voxels along it: one more on the upper side, so a cell never leaves it
+  static constexpr int kValues = kCells + 1;  // voxels along it: one more at the upper end, to hold all cell corners
 
-  double t0 = 0.0, t1 = 0.0;  // m along the ray; infinite only without values
+  double t0 = 0.0, t1 = 0.0;  // m along the ray; infinite only if `values` is null
   float min = 0.0f, max = 0.0f;
   const float* values = nullptr;        // of the brick: [(z * kValues + y) * kValues + x]
-  const BrickBlocks* blocks = nullptr;  // of the brick, where it has values
+  const BrickBlocks* blocks = nullptr;  // of the brick, unless `values` is null
   Vec3d origin{0.0};                    // of the ray, in cells from the brick's lower corner
   Vec3d direction{0.0};                 // of the ray, cells per metre
-  bool nearest = false;                 // the interpolation; else trilinear
+  bool nearest = false;                 // interpolation by the nearest voxel; else trilinear
 
   static_assert(kCells == BrickBlocks::kCells * BrickBlocks::kBlocks);
 
   bool uniform() const { return values == nullptr; }
-  /// Starts to fetch the eight values of a cell, of which the first is given.
+  /// Prefetches the eight values at the corners of a cell; `values` points at the first.
   static void prefetch_cell(const float* values) {
     for (const int edge : {0, kValues, kValues * kValues, (kValues + 1) * kValues}) __builtin_prefetch(values + edge);
   }
 
-  /// The density at t in [t0, t1]; never outside its bounds, which rounding may leave by a hair, as it may the brick.
+  /// The density at t in [t0, t1]. It is clamped to [min, max], and the point to the brick, as rounding may take either
+  /// slightly outside.
   float density(double t) const {
     if (uniform()) return min;
     const Vec3d p = place(t);
@@ -39,8 +40,8 @@ struct DensityStretch {
     if (nearest) return *v;
     return std::clamp(trilinear(v, kValues, kValues * kValues, Vec3(p - Vec3d(cell))), min, max);
   }
-  /// Bounds of the density at t that are closer than those of the whole stretch, and quicker to read than the density.
-  /// Starts to fetch the values around t, which are read next where the bounds leave it open what the density is.
+  /// Bounds of the density at t. They are tighter than those of the whole segment, and quicker to read than the
+  /// density. Also prefetches the values around t, because density() reads them next if the bounds do not suffice.
   DensityBounds bounds(double t) const {
     if (uniform()) return {min, max};
     const Vec3i cell = cell_at(place(t));
@@ -49,7 +50,7 @@ struct DensityStretch {
   }
 
  private:
-  /// In cells from the brick's lower corner.
+  /// The point at t, in units of cells from the brick's lower corner.
   Vec3d place(double t) const { return glm::clamp(origin + t * direction, 0.0, double{kCells}); }
   static Vec3i cell_at(const Vec3d& place) { return glm::min(Vec3i(place), Vec3i(kCells - 1)); }
   /// The value at the cell's lower corner.

@@ -1,5 +1,5 @@
-// A participating medium: coefficients per unit density, a density field, a phase function. It answers coefficients and
-// bounds; tracking is an algorithm outside it.
+// A participating medium: coefficients per unit density, a density field and a phase function. It provides coefficients
+// and bounds; tracking algorithms are elsewhere.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,17 @@
 
 namespace vpm {
 
-/// The density at places of one ray, in any order: what depends on the ray alone is done once. Refers to the grid.
+/// The density at places of one ray, in any order. Computations that depend on the ray alone are done once. It refers
+/// to the grid, which must live as long.
 class DensityAlong {
  public:
   /// `grid` null: density 1.
   DensityAlong(const DensityGrid* grid, const Ray& ray) : grid_(grid) {
     if (grid) ray_ = grid->lattice_ray(ray);
   }
-  /// At the distance t, m.
+  /// The density at the distance t, m.
   float at(double t) const { return grid_ ? grid_->density(ray_, t) : 1.0f; }
-  /// At kAtOnce distances at the most, `step` metres apart from t on: quicker than one by one.
+  /// The densities at up to kAtOnce distances: t, t + step, ... (m). This is quicker than one by one.
   void at(double t, double step, std::span<float> densities) const {
     if (grid_)
       grid_->densities(ray_, t, step, densities);
@@ -43,7 +44,7 @@ struct Medium {
   Phase phase;
   std::shared_ptr<const DensityGrid> grid;  // null: density 1 everywhere
 
-  /// Does it send any light on?
+  /// Does the medium scatter light?
   bool scatters() const { return sigma_s != Rgb(0.0f); }
   bool homogeneous() const { return grid == nullptr; }
   float density(const Vec3& p) const { return grid ? grid->density(p) : 1.0f; }
@@ -64,22 +65,22 @@ struct Medium {
   }
   bool grey() const { return is_grey(sigma_s) && is_grey(sigma_t); }
 
-  /// Calls visit(const DensityPiece&) along the ray until it returns false; returns the look-ups made.
+  /// Calls visit(const DensityPiece&) along the ray until it returns false. Returns the number of look-ups.
   template <class Visit>
   uint32_t visit_pieces(const Ray& ray, const Interval& interval, Visit&& visit) const {
     if (grid) return grid->visit_pieces(ray, interval, visit);
     visit(DensityPiece{interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
     return 0;
   }
-  /// Calls visit(const DensityStretch&) along the ray until it returns false; returns the bricks whose bounds were
-  /// read.
+  /// Calls visit(const DensityStretch&) along the ray until it returns false. Returns the number of bricks whose bounds
+  /// were read.
   template <class Visit>
   uint32_t visit_majorants(const Ray& ray, const Interval& interval, Visit&& visit) const {
     if (grid) return grid->visit_majorants(ray, interval, visit);
     visit(DensityStretch{interval.t0, interval.t1, 1.0f, 1.0f});
     return 0;
   }
-  /// The same, but leaves out stretches of which passes(length, max) is true.
+  /// The same, but skips segments for which passes(length, max) is true.
   template <class Pass, class Visit>
   uint32_t visit_majorants(const Ray& ray, const Interval& interval, Pass&& passes, Visit&& visit) const {
     if (grid) return grid->visit_majorants(ray, interval, passes, visit);
@@ -88,8 +89,7 @@ struct Medium {
   }
 };
 
-/// The integral of density along a segment of a ray, m, with the look-ups it took. Times sigma_t it is the optical
-/// depth.
+/// The density integral along a segment of a ray, m, and the number of look-ups. Times sigma_t it is the optical depth.
 struct DensityIntegral {
   double value = 0.0;
   uint32_t lookups = 0;
@@ -97,7 +97,8 @@ struct DensityIntegral {
 /// Exact for homogeneous, trilinear and nearest fields: regular tracking [Novak2018, sec. 4.1].
 DensityIntegral density_integral(const Medium& medium, const Ray& ray, const Interval& interval);
 
-/// exp(-sigma_t density integral) per channel; 1 where sigma_t is 0, also where the density integral is infinite.
+/// exp(-sigma_t integral) per channel, with the density integral in m. It is 1 if sigma_t is 0, even if the integral is
+/// infinite.
 inline Rgb transmittance(const Medium& medium, double integral) {
   Rgb result(1.0f);
   for (int c = 0; c < 3; ++c)

@@ -1,4 +1,4 @@
-// Light that reaches a point straight from a source, through media and boundaries.
+// Direct light: what reaches a point from a light without being scattered, through media and boundaries.
 #pragma once
 
 #include "vpm/medium/transmittance/estimator.h"
@@ -6,15 +6,15 @@
 
 namespace vpm {
 
-/// The light of a source at a point: attenuated by media, black where something stands between.
+/// The light that one light sends to a point: attenuated by media, black where a surface stands between.
 struct DirectSample {
   Vec3 direction{0.0f};  // towards the light, unit
-  Rgb irradiance{0.0f};  // on a surface that faces it, W/m^2; its mean over samples is that of the source. Below 0
-                         // where the estimator of transmittance was
+  Rgb irradiance{0.0f};  // on a surface that faces the light, W/m^2. Its mean over samples is the light's
+                         // irradiance; a sample is negative where the estimate of transmittance is
   float pdf = 0.0f;      // of the direction, 1/sr; 0 where the light has one direction only
 };
 
-/// What shadow rays go by, and what they count.
+/// What shadow rays need, and the counters that they add to.
 struct ShadowRays {
   const Scene& scene;
   const TransmittanceEstimator& transmittance;
@@ -22,30 +22,31 @@ struct ShadowRays {
   WalkCounters& counters;
 };
 
-/// Where light is asked for: at a point within a medium, or on one side of a surface.
+/// Where light is received: at a point within a medium, or on one side of a surface.
 struct Receiver {
-  Vec3 point{0.0f};           // at a surface: just off it (leave_surface())
-  MediumId medium = kVacuum;  // there
-  Vec3 normal{0.0f};          // unit, to the side whose light counts; zero: light from everywhere
+  Vec3 point{0.0f};           // for a surface: a point just off it (leave_surface())
+  MediumId medium = kVacuum;  // at `point`
+  Vec3 normal{0.0f};          // unit, to the side whose light counts; zero: light from all directions counts
 };
 
-/// Estimates what light number `light` sends to the receiver: from that point of it, where one was drawn before.
+/// Estimates the light that light number `light` sends to the receiver: from the point `from` of that light if it is
+/// given (draw_light_point()), else from a point or direction drawn here.
 DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver,
                            const std::optional<LightPoint>& from = std::nullopt);
 
-/// The side on which a path in `medium` meets the surface along `travel`; and the other one, from which light reaches
-/// the path's side where the material scatters it through.
+/// near_side() is the side of the surface on which a path in `medium` that travels along `travel` arrives; far_side()
+/// is the other one. Light on the far side reaches the path where the material transmits it.
 Receiver near_side(const Hit& hit, const Vec3& travel, MediumId medium);
 Receiver far_side(const Scene& scene, const Hit& hit, const Vec3& travel, MediumId medium);
 
-/// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance`: black where a surface
-/// stands between that is no boundary, be it another part of the light's own.
+/// The transmittance from the ray's origin, in `medium`, to light number `light` at `distance` (m). It is black where a
+/// surface stands between, even if that surface is another part of the same light. Boundaries do not block.
 Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, MediumId medium);
 
-/// The light that a uniform number picks, by power (Scene::light_probability). The scene has a light.
+/// The light that the uniform number `u` picks, with probability Scene::light_probability. The scene must have a light.
 struct PickedLight {
   int number = 0;            // in Scene::lights
-  float probability = 1.0f;  // that it is picked
+  float probability = 1.0f;  // of picking it
 };
 PickedLight pick_light(const Scene& scene, double u);
 

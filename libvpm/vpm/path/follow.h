@@ -1,23 +1,24 @@
-// The loop of the ONE random walk: a path from event to event, each of them shown to a visitor.
+// The loop of the only random walk: it follows a path from event to event and shows each event to a visitor.
 //
-// A visitor is any object with these members, all of them found when the program is compiled:
+// A visitor is any object with these members. They are looked up at compile time:
 //
-// - `bool see(const Event& event, const PathState& from, PathState& at)`, at every event, the last one included, before
-//   its outcome is drawn. `from` is the path as it set out on the flight, `at` stands at the event with the direction
-//   and throughput with which it arrived. False ends the path. It may change the throughput: roulette is played here.
-// - `bool scatter(const Scene& scene, const Event& event, PathState& at, Rng& rng)`, at collisions and surfaces: draws
-//   the outcome. False where the path is absorbed. PhotonVisitor and EyeVisitor scatter as all photons and all paths
-//   from the eye do, others may be guided.
-// - `float limit(const PathState& from)`, if the visitor has it: how far the next flight may lead, m, > 0. A flight
-// that
-//   ends there is an event of kind `limit`, from which the path flies on as it is.
-// - `void cut(const PathState& at)`, if the visitor has it: `at` has met all the events that a path may meet, and would
-//   go on. Without it the rest of the path is dropped: for visitors that tell whoever asks nothing about energy.
+// - `bool see(const Event& event, const PathState& from, PathState& at)` is called at every event, the last one
+//   included, before its outcome is drawn. `from` is the path at the start of the flight. `at` stands at the event,
+//   with the direction and throughput with which the path arrived. False ends the path. see() may change the
+//   throughput: this is the place for Russian roulette.
+// - `bool scatter(const Scene& scene, const Event& event, PathState& at, Rng& rng)` is called at collisions and
+//   surfaces and draws the outcome. It returns false if the path is absorbed. PhotonVisitor and EyeVisitor scatter as
+//   unguided photons and paths from the eye do; other visitors may guide the scattering.
+// - `float limit(const PathState& from)` is optional: the greatest length of the next flight, m, > 0. A flight
+//   that reaches it ends in an event of kind `limit`, from which the path flies on unchanged.
+// - `void cut(const PathState& at)` is optional. It is called for a path that has met as many events as it may and
+//   would still go on. Without it the rest of the path is dropped, which suits visitors that keep no account of
+//   energy.
 //
-// Photon tracing with splitting can be such a visitor, too: limit() is how far the photon may fly before it is worth a
-// split; see() leaves traces, plays roulette and puts copies of the path, with its event and the number of events so
-// far, on a list; each of them goes on by a call of the visitor's scatter() and, where that is true, of follow() with
-// that number of events. One stream of random numbers then serves all branches, one after another.
+// Photon tracing with splitting can be such a visitor, too. Its limit() is how far the photon may fly before it is
+// worth a split. Its see() records the photon, plays roulette and puts copies of the path on a list, with the event and
+// the number of events so far. Each copy goes on by a call of the visitor's scatter() and, if that returns true, of
+// follow() with that number of events. One stream of random numbers then serves all branches, one after another.
 #pragma once
 
 #include <limits>
@@ -26,10 +27,10 @@
 
 namespace vpm {
 
-/// Of events, for paths that come to an end by themselves.
+/// The limit of events for paths that end by themselves.
 inline constexpr int kNoLimit = std::numeric_limits<int>::max();
 
-/// What a walk goes by, and what it counts.
+/// What a walk needs, and the counters that it adds to.
 struct Walk {
   const Scene& scene;
   const DistanceStrategy& strategy;
@@ -37,8 +38,8 @@ struct Walk {
   int max_events = kNoLimit;  // of one path
 };
 
-/// Follows a path until the visitor ends it, or it is absorbed, escapes, has a throughput of 0 or met as many events as
-/// the walk allows, of which it has met `events` before. It flies first.
+/// Follows a path until the visitor ends it, it is absorbed, it escapes, its throughput is 0, or it has met as many
+/// events as the walk allows. `events` is the number that it has met before. The path begins with a flight.
 template <class Visitor>
 void follow(const Walk& walk, PathState state, Rng& rng, Visitor&& visitor, int events = 0) {
   for (; events < walk.max_events; ++events) {
@@ -53,13 +54,13 @@ void follow(const Walk& walk, PathState state, Rng& rng, Visitor&& visitor, int 
   if constexpr (requires { visitor.cut(state); }) visitor.cut(state);
 }
 
-/// The outcome of a collision or at a surface, for photons: by scatter_in_medium(), or by scatter_at_surface() and the
-/// material's flux_scale. False where absorbed.
+/// Draws the outcome of an event for a photon: of a collision by scatter_in_medium(), at a surface by
+/// scatter_at_surface() and the material's flux_scale. False if the photon is absorbed.
 bool scatter_photon(const Scene& scene, const Event& event, PathState& state, Rng& rng);
-/// The same for paths from the eye: with the material's radiance_scale.
+/// The same for a path from the eye, with the material's radiance_scale.
 bool scatter_eye_path(const Scene& scene, const Event& event, PathState& state, Rng& rng);
 
-/// Shows a photon's walk to a function, which is the visitor's see().
+/// A visitor of a photon's walk that passes events to the function `see`.
 template <class See>
 struct PhotonVisitor {
   See see;
@@ -70,7 +71,7 @@ struct PhotonVisitor {
 template <class See>
 PhotonVisitor(See) -> PhotonVisitor<See>;
 
-/// Shows the walk of a path from the eye to a function.
+/// The same for the walk of a path from the eye.
 template <class See>
 struct EyeVisitor {
   See see;

@@ -1,8 +1,8 @@
-// How a ray goes on through boundaries: stretch by stretch, each of them in one medium and shown to a visitor.
+// How a ray passes through boundaries: segment by segment, each of which lies in one medium and is shown to a visitor.
 //
-// The one loop over meet() and cross_boundaries(), for flights to events, shadow rays, and paths from the eye: these
-// gather along a stretch, then see what shines at its end, and go on behind it or scatter at the surface that is
-// returned.
+// This is the only loop over meet() and cross_boundaries(). Flights to events, shadow rays and paths from the eye all
+// use it. A path from the eye gathers light along a segment and adds what the end of the segment emits. It then goes on
+// behind a boundary, or scatters at the surface that is returned.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace vpm {
 
-/// What lies between the ray's origin and what it meets first.
+/// The segment of a ray from its origin to what it meets first.
 struct Stretch {
-  float length = kInfinity;  // m, to what ends it
-  const Encounter& met;      // what ends it, at a boundary or a surface; nothing: the limit, or the end of the scene
+  float length = kInfinity;  // m
+  const Encounter& met;      // what ends it: boundaries or a surface; empty: it ends at the limit or leaves the scene
 };
 
-/// Takes a ray from its origin in `medium` through any number of boundaries, at most `limit` metres, > 0. Returns the
-/// surface that ends it; nothing where the visitor did, or nothing was met.
+/// Takes a ray from its origin in `medium` through any number of boundaries, for at most `limit` metres, > 0. Returns
+/// the surface that ends the ray; nothing if the visitor ended it or no surface was met.
 ///
-/// The visitor has, found when the program is compiled,
+/// The visitor has these members. They are looked up at compile time:
 ///
-/// - `bool pass(const Stretch& stretch)`, at every stretch, before anything is done about its end: `ray` and `medium`
-///   are those of the stretch. False ends the ray.
-/// - `float left(const Ray& ray)`, if it has it: how far the ray, which has just passed a boundary, may still go, m; it
-///   ends where that is not > 0. Without it, the limit less the stretches' lengths, which leaves out by how little the
-///   ray is moved off boundaries.
+/// - `bool pass(const Stretch& stretch)` is called for every segment before its end is dealt with, so that `ray` and
+///   `medium` are those of the segment. False ends the ray.
+/// - `float left(const Ray& ray)` is optional. It returns how far the ray, which has just passed a boundary, may still
+///   go, m. The ray ends if that is not > 0. Without left(), it is the limit less the lengths of the segments. That
+///   neglects the small distances by which the ray is moved off boundaries.
 template <class Visitor>
 std::optional<Hit> each_stretch(const Scene& scene, Ray& ray, MediumId& medium, float limit, WalkCounters& counters,
                                 Visitor&& visitor) {

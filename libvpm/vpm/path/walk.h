@@ -1,4 +1,4 @@
-// The ONE random walk: how every path meets shapes, changes media, flies to events and goes on from them.
+// The only random walk: how every path meets shapes, changes media, flies to events and goes on from them.
 #pragma once
 
 #include <cstdint>
@@ -9,30 +9,30 @@
 
 namespace vpm {
 
-/// A path under way.
+/// The present state of a path.
 struct PathState {
   Ray ray;
   MediumId medium = kVacuum;
-  Rgb throughput{1.0f};  // dimensionless; of photons the power that they carry, W
+  Rgb throughput{1.0f};  // of a path from the eye: dimensionless; of a photon: its power, W
 };
 
 enum class EventKind { collision, surface, limit, escape };
 
-/// What ends a flight. The path's state stands at the event: its ray starts there (at a surface: exactly on it).
+/// What ends a flight. The ray of the path's state then starts at the event, for a surface exactly on it.
 struct Event {
   EventKind kind = EventKind::escape;
   Hit hit;                      // at a surface
   float density = 0.0f;         // at a collision
-  bool through_medium = false;  // did any part of the flight lead through one?
+  bool through_medium = false;  // did any part of the flight lead through a medium?
 };
 
 /// What a walk counts.
 struct WalkCounters {
-  uint64_t lookups = 0;              // of density
-  uint64_t bricks = 0;               // of grids, whose bounds were looked up
-  uint64_t null_collisions = 0;      // of flights
+  uint64_t lookups = 0;              // look-ups of density
+  uint64_t bricks = 0;               // bricks of density grids whose bounds were looked up
+  uint64_t null_collisions = 0;      // null collisions of all flights
   uint64_t majorant_violations = 0;  // Flight::majorant_violations
-  uint64_t crossings = 0;            // of boundaries between media
+  uint64_t crossings = 0;            // crossings of boundaries between media
   uint64_t medium_mismatches = 0;    // corrections of a path's medium by meet()
 
   static constexpr auto counters() {
@@ -46,36 +46,38 @@ struct WalkCounters {
 };
 static_assert(lists_every_member<WalkCounters>());
 
-/// What the ray meets first, with t < t_max. `medium` becomes what the shapes there say it is, and the world's where
-/// nothing is met at all: rounding at edges can then not carry a medium astray.
+/// What the ray meets first, with t < t_max. Also corrects `medium`, so that an error from rounding at edges does not
+/// last: it becomes the medium in front of the shapes that the ray meets. If the ray meets nothing and t_max is
+/// infinite, it becomes the world's medium.
 Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters);
 
-/// Passes straight through all boundaries of an encounter: moves the ray's origin just beyond them and enters the
-/// medium there.
+/// Takes the ray straight through all boundaries of an encounter: moves its origin just beyond them and sets `medium`
+/// to the one there.
 void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, MediumId& medium, WalkCounters& counters);
 
-/// Flies to the next collision in a medium, scattering surface, or out of the scene, through any number of boundaries
-/// on the way; at most `limit` metres, > 0. Multiplies the throughput by the flights' weights.
+/// Flies to the next collision in a medium, to the next surface that is no boundary, or out of the scene. The flight
+/// passes any number of boundaries and is at most `limit` metres long, > 0. Multiplies the throughput by the weights
+/// that the distance strategy gives the flight.
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
                  WalkCounters& counters, float limit = kInfinity);
 
-/// Russian roulette for paths whose weight, the throughput over that at the start, weighted strategies have made small:
-/// they would cost as much as heavy ones. Below 0.1 a path survives with probability weight / 0.1, and its throughput
-/// is divided by that. The weight is a magnitude, >= 0. False where the path ends.
+/// Russian roulette for paths whose weight (a magnitude >= 0: the throughput relative to that at the start) has become
+/// small by weighted strategies: such a path costs as much as one of large weight. If the weight is below 0.1, the path
+/// survives with probability weight / 0.1, and its throughput is divided by that probability. False if the path ends.
 bool survive_roulette(double weight, PathState& state, Rng& rng);
 
-/// The outcome of a collision: scatters with probability q = sum(albedo |throughput|) / sum(|throughput|),
-/// multiplies the throughput by albedo / q and chooses a new direction; false where the path is absorbed. In grey media
-/// the throughput does not change [Jarosz2008, eq. 7.8].
+/// Draws the outcome of a collision. The path scatters with probability q = sum(albedo |throughput|) /
+/// sum(|throughput|): its throughput is multiplied by albedo / q and a new direction is drawn. False if the path is
+/// absorbed. Where the albedo is grey the throughput does not change [Jarosz2008, eq. 7.8].
 bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
 
-/// Follows a path as the sampled material says, from a surface: plays Russian roulette, surviving with the ratio of
-/// largest channels' magnitudes after and before, at most 1. The path goes on from just off the surface, in the medium
-/// there. False where absorbed. The throughput is not multiplied by Scatter::radiance_scale, which is for eye paths,
-/// nor by flux_scale, which is for photons.
+/// Continues a path from a surface as `scatter` says. Plays Russian roulette: the path survives with probability min(1,
+/// m after scattering / m before), with m the magnitude of the throughput's largest channel. The path goes on from just
+/// off the surface, in the medium there. False if it is absorbed. The throughput is multiplied neither by
+/// Scatter::radiance_scale, which is for paths from the eye, nor by flux_scale, which is for photons.
 bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng);
 
-/// The outcome at a surface: samples the material and goes on from there.
+/// Draws the outcome at a surface: samples the material into `scatter` and calls go_on_from().
 bool scatter_at_surface(const Scene& scene, const Hit& hit, PathState& state, Rng& rng, Scatter& scatter);
 
 }  // namespace vpm

@@ -1,4 +1,4 @@
-// Photons aimed at mirrors and glass: a caustic map's own.
+// Photons that are aimed at mirrors and glass, for a separate caustic map.
 #pragma once
 
 #include <atomic>
@@ -10,20 +10,20 @@
 
 namespace vpm {
 
-/// What one pass of caustic photons is told.
+/// The settings of one pass of caustic photons.
 struct CausticSettings {
   uint64_t seed = 1;
   uint64_t pass = 0;
-  uint64_t emitted = 0;  // photons, >= 1
+  uint64_t emitted = 0;  // photons to emit, >= 1
   int max_events = 100'000;
-  const ImportanceMap* importance = nullptr;  // what caustics matter to the picture; null: all alike
+  const ImportanceMap* importance = nullptr;  // how much a caustic matters to the picture; null: all equally
   const std::atomic<bool>* stop = nullptr;    // once true, tracing ends as soon as it can
 };
 
-/// The photons that go from a light by mirrors and glass alone, one at least, to a rough surface (L S+ D in the
-/// notation of [Heckbert1990]), as many of which are emitted as scouts have learned to aim there. They end where they
-/// are stored. Powers are those of the photons, not yet divided by `settings.emitted`. In the order of photons,
-/// whatever the number of threads.
+/// Traces the photons that go from a light via one or more mirrors or smooth glass surfaces, and via nothing else, to
+/// a non-specular surface (L S+ D in the notation of [Heckbert1990]). Scouts are traced first, and emission is guided
+/// by what they found. Photons end where they are stored. Powers are not yet divided by `settings.emitted`. The result
+/// is in the order of photons, whatever the number of threads.
 std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& strategy,
                                    const CausticSettings& settings);
 

@@ -1,4 +1,4 @@
-// Fewer photons where there are more than a map needs [Suykens2000]: what rejected ones carried goes to those kept.
+// Removes photons where there are more than a map needs [Suykens2000]; the kept photons take over their power.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,10 @@
 
 namespace vpm {
 
-/// Leaves at most `most` >= 1 photons of each octant of directions of travel in each cube of the given edge (m, > 0):
-/// the first ones. The power of the others there is shared out among these evenly, so that every cube keeps its power,
-/// and, photons being exchangeable, every place its mean. Returns how many photons went. The order of the rest stays.
+/// Keeps at most `most` >= 1 photons for each octant of directions of travel in each cube of the given edge (m, > 0):
+/// the first ones. The power of the removed ones is divided equally among the kept ones, so that every cube keeps its
+/// power. As photons are exchangeable, the mean at every place is also kept. Returns the number of removed photons. The
+/// kept ones stay in their order.
 uint64_t control_density(std::vector<Photon>& photons, float edge, uint32_t most);
 
 }  // namespace vpm

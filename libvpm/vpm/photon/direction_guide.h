@@ -1,5 +1,5 @@
-// Where light should fly from a place to be worth something: the directions that importance comes from, on a coarse
-// grid over the scene.
+// The directions in which light from a place matters to the picture: those that importance comes from, on a coarse grid
+// over the scene.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace vpm {
 
-/// Cells of equal solid angle over the sphere of directions: those of a grid over the square of uniform_sphere().
+/// Cells of equal solid angle over the sphere of directions: uniform_sphere() maps a grid over its unit square to them.
 struct DirectionCells {
   static constexpr int kRows = 8, kColumns = 16;
   static constexpr size_t kCount = size_t{kRows} * kColumns;
@@ -19,33 +19,33 @@ struct DirectionCells {
   static Vec3 sample(size_t cell, const Vec2& u);
 };
 
-/// The density over directions of travel at one place: constant in each cell.
+/// The density over directions of travel at one place. It is constant in each cell.
 class DirectionDensity {
  public:
   explicit DirectionDensity(const float* cumulative) : cumulative_(cumulative) {}
 
-  /// Has anything told of this place? If not, there is nothing to ask.
+  /// Is anything known of this place? If not, pdf() and sample() must not be called.
   explicit operator bool() const { return cumulative_[DirectionCells::kCount - 1] > 0.0f; }
   float pdf(const Vec3& direction) const;  // 1/sr
   Vec3 sample(Rng& rng) const;
 
  private:
-  const float* cumulative_;  // the probability of a cell and of all before it
+  const float* cumulative_;  // the probability of each cell and of all cells before it
 };
 
-/// In each cube of a box, how importance fluence is distributed over directions. Light that is worth something flies
-/// against it.
+/// The distribution of importance fluence over directions, in each cube of a box. Light that matters to the picture
+/// travels against the direction in which importance flows.
 class DirectionGuide {
  public:
   /// An empty guide of `resolution` >= 1 cubes along the box's longest edge. The box has a volume.
   DirectionGuide(const Box& box, int resolution);
 
-  /// Adds importance `weight` (dimensionless, >= 0) that flows along `length` metres of the ray, > 0.
+  /// Adds the importance `weight` (dimensionless, >= 0), which flows along the first `length` metres of the ray, > 0.
   void add_track(const Ray& ray, float length, float weight);
   /// Adds the tracks of a guide of the same box and resolution.
   void merge(const DirectionGuide& other);
-  /// Ends the collecting: averages neighbours and makes densities. No direction needs a least density: who draws from
-  /// these mixes them with a density of his own.
+  /// Ends the collection: averages over neighbouring cubes and computes densities. A density may be zero for some
+  /// directions, because callers mix it with another one.
   void finish();
 
   /// The density at a place, after finish(). It lives as long as the guide.

@@ -1,4 +1,4 @@
-// Where to emit: a density over the uniform numbers of which photons are made, learned from what they came to.
+// Guided emission: a density over the uniform numbers that determine an emission, learned from the scores of scouts.
 #pragma once
 
 #include <array>
@@ -10,8 +10,9 @@
 
 namespace vpm {
 
-/// A density over emission points, constant in the boxes of a tree of halvings. It knows nothing of lights: each shape
-/// and kind is guided alike, as whatever its numbers mean, it is what they lead to that counts.
+/// A density over emission points. It is constant in each leaf of a tree that halves the cube of emission points again
+/// and again. It does not depend on the kind or shape of lights: whatever the numbers mean to a light, only the scores
+/// of the emissions count.
 class EmissionGuide {
  public:
   /// The uniform density.
@@ -23,22 +24,22 @@ class EmissionGuide {
   };
   Sample sample(Rng& rng) const;
 
-  /// What an emission came to, >= 0.
+  /// How much an emission contributes, >= 0.
   using Score = std::function<float(const EmissionPoint& point, Rng& rng)>;
-  /// Learns a density near to the root mean square score: that of least variance where what photons carry is summed. A
-  /// tenth of it is uniform, so that no photon becomes much heavier than without. `scouts` >= 1 points are scored, in
-  /// rounds each of which draws from the one before. `score` is called from several threads at once, with the random
-  /// numbers of its scout alone, of that seed and stream.
+  /// Learns a density that is roughly proportional to the root mean square score. That density gives sums over photons
+  /// the least variance. A tenth of it is uniform, so that no photon's power grows much by the guiding. `scouts` >= 1
+  /// points are scored in rounds; each round draws from the density of the round before. `score` is called from several
+  /// threads at once. Each scout has its own random numbers, from `seed` and `stream`.
   static EmissionGuide learn(uint64_t scouts, uint64_t seed, uint64_t stream, const Score& score);
 
-  /// The mean over uniform emission points of what learn() scored.
+  /// The mean score over uniform emission points, as learn() estimated it.
   double mean_score() const { return mean_score_; }
   size_t memory_bytes() const { return nodes_.size() * sizeof(Node); }
 
  private:
   struct Node {
-    int dimension = -1;  // that is halved; -1: a leaf
-    uint32_t child = 0;  // the lower half's; the upper half's is the next one
+    int dimension = -1;  // the dimension that is halved; -1: a leaf
+    uint32_t child = 0;  // number of the lower half's node; the upper half's is the next one
     double lower = 0.5;  // the probability of the lower half
   };
   struct Scored {

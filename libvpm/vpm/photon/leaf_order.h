@@ -1,5 +1,5 @@
-// Photons sorted into the leaves of a balanced binary tree [Friedman1977], without pointers: nodes are numbered as in a
-// heap, the root 1, the children of i 2 i and 2 i + 1; what lies in a leaf follows from its number.
+// Photons sorted into the leaves of a balanced binary tree [Friedman1977] without pointers. Nodes are numbered as in a
+// heap: the root is 1, the children of node i are 2 i and 2 i + 1. The photons of a leaf follow from its number.
 #pragma once
 
 #include <bit>
@@ -10,25 +10,27 @@
 
 namespace vpm {
 
-/// Where the photons below a node are parted: those of its first child lie at most here, the others at least.
+/// The plane that divides the photons below a node. Coordinates along `axis` are at most `at` below
+/// the first child, and at least `at` below the second.
 struct Split {
   float at = 0.0f;  // m
   uint32_t axis = 0;
 };
 
 struct LeafOrder {
-  size_t leaves = 1;            // a power of 2; they are nodes `leaves` to 2 `leaves` - 1
-  std::vector<Split> splits;    // of the nodes above
-  std::vector<uint32_t> order;  // of the photons, leaf by leaf
+  size_t leaves = 1;            // their number, a power of 2; they are the nodes `leaves` to 2 `leaves` - 1
+  std::vector<Split> splits;    // of the nodes above the leaves, indexed by node
+  std::vector<uint32_t> order;  // the photons' numbers, leaf by leaf
 };
 
-/// Of that many photons in that many leaves, how many lie before a leaf.
+/// How many of `photons` photons in `leaves` leaves come before the leaf `leaf`.
 inline size_t leaf_begin(size_t photons, size_t leaves, size_t leaf) {
   return (photons * leaf) >> std::countr_zero(leaves);
 }
 
-/// Parts the photons at medians, each time across the longest side of what is parted, until leaves hold at most
-/// `largest`: half of that at least, where there are so many. On all threads, and the same on however many.
+/// Divides the photons at medians, each time perpendicular to the longest side of the box around them, until each leaf
+/// holds at most `largest`. A leaf holds at least half of that, if there are so many photons. Runs on all threads; the
+/// result does not depend on their number.
 LeafOrder sort_into_leaves(const std::vector<Photon>& photons, size_t largest);
 
 }  // namespace vpm

@@ -10,7 +10,7 @@
 
 namespace vpm {
 
-/// A unit vector in four bytes: octahedral coordinates of 16 bits each [Cigolle2014]; off by at most 7e-5 rad.
+/// A unit vector in four bytes: octahedral coordinates of 16 bits each [Cigolle2014]. The error is at most 7e-5 rad.
 class PackedDirection {
  public:
   PackedDirection() = default;
@@ -21,12 +21,12 @@ class PackedDirection {
   }
   /// The direction, unit.
   Vec3 unpack() const { return glm::normalize(on_octahedron()); }
-  /// The same of another length: that of |x| + |y| + |z| is 1. Costs no root.
+  /// The same direction, scaled to |x| + |y| + |z| = 1 instead. Needs no square root.
   Vec3 on_octahedron() const {
     const Vec2 p(static_cast<float>(static_cast<int32_t>(bits_) >> 16) / kSteps,
                  static_cast<float>(static_cast<int32_t>(bits_ << 16) >> 16) / kSteps);
     const float z = 1.0f - std::abs(p.x) - std::abs(p.y);
-    const float below = std::max(0.0f, -z);  // folds back, without a branch
+    const float below = std::max(0.0f, -z);  // for folding back without a branch
     return {p.x - std::copysign(below, p.x), p.y - std::copysign(below, p.y), z};
   }
 
@@ -41,12 +41,12 @@ class PackedDirection {
   uint32_t bits_ = 0;  // x in the upper half, y in the lower
 };
 
-/// A power in eight bytes: 18 bits for each channel, over a power of two that all share. Off by at most 4e-6 of the
-/// largest channel, or 2e-38 W: far below what any sum of photons can tell.
+/// A power in eight bytes: 18 bits for each channel, and one binary exponent for all three. The error is at most 4e-6
+/// of the largest channel, or 2e-38 W: far less than the noise of any sum over photons.
 class PackedPower {
  public:
   PackedPower() = default;
-  /// Each channel finite and >= 0.
+  /// Each channel must be finite and >= 0.
   explicit PackedPower(const Rgb& power) {
     const float most = max_channel(power);
     int exponent = std::max(static_cast<int>(std::bit_cast<uint32_t>(most) >> 23) - 126, kLeastExponent);
@@ -68,21 +68,21 @@ class PackedPower {
  private:
   static constexpr int kBits = 18;
   static constexpr long kMost = (1l << kBits) - 1;
-  static constexpr int kLeastExponent = kBits - 126;  // whose steps are the least normal float
+  static constexpr int kLeastExponent = kBits - 126;  // one step is then the least normal float
   static float power_of_two(int exponent) { return std::bit_cast<float>(static_cast<uint32_t>(exponent + 127) << 23); }
 
-  uint32_t low_ = 0, high_ = 0;  // two, for a photon to be aligned to four bytes
+  uint32_t low_ = 0, high_ = 0;  // two words, so that a photon is aligned to four bytes
 };
 
-/// The two ways to use the volumetric radiance estimate in a heterogeneous medium: with the density where the ray is,
-/// or where the photon is. They agree as the radius goes to 0.
+/// The two forms of the volumetric radiance estimate in a heterogeneous medium: with the density at the query point on
+/// the ray, or at the photon. They agree as the radius goes to 0.
 enum class VolumeForm { density_at_query, density_at_photon };
 
 /// A photon as a map stores it.
 struct Photon {
   Vec3 position{0.0f};     // m
-  PackedDirection travel;  // direction of travel when it arrived
-  Rgb power{0.0f};         // W; or W over the density as a share of the medium's largest, see VolumeForm
+  PackedDirection travel;  // direction in which it travelled when it arrived
+  Rgb power{0.0f};         // W, or W over the density relative to the medium's largest: see stored_power()
 };
 
 static_assert(sizeof(Photon) == 28);

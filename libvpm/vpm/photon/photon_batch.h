@@ -1,5 +1,5 @@
-// What a query finds, so many photons at a time and side by side: what is done with each of them is a loop that
-// compilers turn into vector instructions.
+// The photons that a query finds, in batches, with their members in arrays: a loop over the photons of a batch compiles
+// to vector instructions.
 #pragma once
 
 #include <algorithm>
@@ -14,25 +14,26 @@
 
 namespace vpm {
 
-/// Collects photons nearer than a limit, and hands them on when there is little room left.
+/// Collects photons nearer than a limit, and hands them on before the room runs out.
 class NearPhotons {
  public:
   static constexpr size_t kMost = 256;
 
-  /// Adds those of a block of `number` <= kBlock photons, numbered from `first` on, that are nearer than the root of
-  /// `limit2`, m^2. Calls use(NearPhotons&) before there is no room left, and forgets them.
+  /// Adds the photons of a block that are nearer than the square root of `limit2` (m^2). The block has `number` <=
+  /// kBlock photons, numbered from `first` on. If there is no room for another block, calls use(NearPhotons&) and drops
+  /// all.
   template <class Use>
   void add(const float* distances2, uint32_t number, uint32_t first, float limit2, Use&& use) {
     size_ += append_below(distances2, number, limit2, first, distances2_ + size_, photons_ + size_);
     if (size_ > kMost - kBlock) take(use);
   }
-  /// Calls use(NearPhotons&) for those that are left.
+  /// Calls use(NearPhotons&) for the photons collected so far, if any, and drops them.
   template <class Use>
   void take(Use&& use) {
     if (size_ > 0) use(*this);
     size_ = 0;
   }
-  /// Drops those that accept(PackedDirection travel, offset from `point`) does not take.
+  /// Drops the photons for which accept(PackedDirection travel, offset from `point`) is false.
   template <class Accept>
   void keep(const PhotonTable& table, const Vec3& point, Accept&& accept);
 
@@ -46,15 +47,15 @@ class NearPhotons {
   uint32_t photons_[kMost];
 };
 
-/// Photons out of a table, in whole blocks: the last is filled up with photons of no power.
+/// Photons copied from a table, in whole blocks. The last block is filled up with photons of power 0.
 class PhotonBatch {
  public:
   static constexpr size_t kMost = NearPhotons::kMost;
 
-  /// The photons of those numbers, 1 to kMost of them, at those distances.
+  /// `count` photons (1 to kMost), given by their numbers in the table and their squared distances (m^2).
   PhotonBatch(const PhotonTable& table, const uint32_t* photons, const float* distances2, size_t count);
 
-  uint32_t number() const { return number_; }  // of photons
+  uint32_t number() const { return number_; }  // of photons, without those that fill up the last block
   size_t size() const { return (number_ + kBlock - 1) / kBlock * kBlock; }
   Vec3 travel(size_t i) const { return {x_[i], y_[i], z_[i]}; }
   Rgb power(size_t i) const { return {r_[i], g_[i], b_[i]}; }
@@ -86,8 +87,8 @@ void NearPhotons::keep(const PhotonTable& table, const Vec3& point, Accept&& acc
   size_ = keep_up_to(distances2_, photons_, size_, std::numeric_limits<float>::max());
 }
 
-/// The sum of value(travel, power) weight(number in the batch), where weights are floats or Rgb. Lanes are summed in
-/// floats, of which each adds up kMost / kBlock values at the most.
+/// The sum of value(travel, power) * weight(number in the batch). A weight is a float or an Rgb. Each lane is summed in
+/// floats, over at most kMost / kBlock values.
 template <class Weight, class Value>
 Rgbd sum_photons(const PhotonBatch& batch, Weight&& weight, Value&& value) {
   float r[kBlock] = {0.0f}, g[kBlock] = {0.0f}, b[kBlock] = {0.0f};

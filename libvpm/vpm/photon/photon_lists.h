@@ -1,4 +1,4 @@
-// The photons of a pass as plain lists: for studies of what photons tell, and for what compares maps with brute force.
+// The photons of a pass as plain lists: for studies of photons, and for comparing photon maps with brute force.
 #pragma once
 
 #include "vpm/photon/records.h"
@@ -6,17 +6,17 @@
 
 namespace vpm {
 
-/// How photons are traced, and what is listed of them.
+/// How photons are traced, and which of them are listed.
 struct ListSettings : TraceSettings {
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;                         // density at the query: see stored_power()
-  bool direct_collisions = true, direct_hits = true;  // list photons that have not scattered yet, too
+  bool direct_collisions = true, direct_hits = true;  // also list photons that have not scattered yet
 };
 
-/// Powers are those of the photons, not yet divided by `ledger.emitted_count`.
+/// The listed photons. Their powers are not yet divided by `ledger.emitted_count`.
 struct PhotonLists {
   std::vector<std::vector<Photon>> volume;  // photons that collided, by medium
-  std::vector<Photon> surface;              // photons on rough surfaces
+  std::vector<Photon> surface;              // photons on non-specular surfaces
   Ledger ledger;
 };
 

@@ -1,5 +1,5 @@
-// Photons in the order of a map, laid out for gathering: positions side by side for the loop that computes distances,
-// the rest apart for the few that are near.
+// Photons in the order of a map, laid out for gathering. Positions are in arrays of their own for the loop that
+// computes distances. The rest is stored apart, because only the few near photons need it.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace vpm {
 
 class PhotonTable {
  public:
-  /// What a gather reads of a photon besides its position.
+  /// The data of a photon that a gather reads besides the position.
   struct Payload {
     PackedDirection travel;
     PackedPower power;
@@ -22,16 +22,16 @@ class PhotonTable {
   static_assert(sizeof(Payload) == 12);
 
   PhotonTable() = default;
-  /// The photons in that order, with powers multiplied by `scale`.
+  /// Stores the photons in the order `order`, with powers multiplied by `scale`.
   PhotonTable(const std::vector<Photon>& photons, const std::vector<uint32_t>& order, float scale);
 
-  /// Calls visit(squared distances from `point`, how many, number of the first) for the photons of [begin, end), in
-  /// blocks of at most kBlock; behind the last distance there are as many as make a block.
+  /// Calls visit(squared distances from `point` (m^2), how many, number of the first) for the photons of [begin, end),
+  /// in blocks of at most kBlock. The array always has kBlock entries; those behind the last distance have no meaning.
   template <class Visit>
   void for_each_block(size_t begin, size_t end, const Vec3& point, Visit&& visit) const;
 
-  /// The same of squared distances from the ray, infinite for photons whose projection onto it lies outside the
-  /// interval.
+  /// The same with squared perpendicular distances from the ray. They are infinite for photons whose projection onto
+  /// the ray lies outside the interval.
   template <class Visit>
   void for_each_block(size_t begin, size_t end, const Ray& ray, const Interval& interval, Visit&& visit) const;
 
@@ -41,7 +41,7 @@ class PhotonTable {
   size_t memory_bytes() const { return 3 * x_.capacity() * sizeof(float) + payload_.capacity() * sizeof(Payload); }
 
  private:
-  // Of kBlock photons beyond the last, too, so that whole blocks can be read.
+  // With kBlock further entries behind the last photon, so that whole blocks can be read.
   std::vector<float> x_, y_, z_;
   std::vector<Payload> payload_;
 };

@@ -1,5 +1,5 @@
-// What photon tracing tells of, event by event. Whoever needs photons says what to keep of them by a recorder of its
-// own; tracing knows none of its readers.
+// The interface through which photon tracing reports events, one by one. Code that needs photons passes a recorder,
+// which keeps what that code needs. Tracing does not know who uses the photons.
 #pragma once
 
 #include <cstdint>
@@ -12,44 +12,44 @@ namespace vpm {
 
 /// A photon as it arrives at an event.
 struct ArrivingPhoton {
-  uint64_t number;         // among those emitted in the pass
-  const PathState& state;  // stands at the event, with the direction and the power that it arrives with
+  uint64_t number;         // of the photon among those emitted in the pass
+  const PathState& state;  // at the event, with the direction and power with which the photon arrives
   const Event& event;
-  bool direct;    // nothing has scattered, reflected or refracted it; crossing a boundary between media is none of that
-  bool specular;  // nothing but mirrors and glass has
-  bool from_rough;  // mirrors and glass apart, a rough surface scattered it last
+  bool direct;      // not yet scattered, reflected or refracted; crossing a boundary between media does not count
+  bool specular;    // nothing except mirrors and smooth glass has scattered it
+  bool from_rough;  // its last non-specular scattering was at a surface, not in a medium
 };
 
-/// Which events a recorder is told of.
+/// Which kinds of events are reported to a recorder.
 struct RecordNeeds {
   bool flights = true, collisions = true, hits = true;
 };
 
-/// Keeps what it wants of the photons of one pass. Photons are traced in chunks, each of which has a recorder of its
-/// own; these are joined in the photons' order, so that what is kept does not depend on the number of threads. One
-/// virtual call costs some nanoseconds, the event that it tells of a microsecond.
+/// Keeps what its owner needs of the photons of one pass. Photons are traced in chunks, and each chunk has its own
+/// recorder. These are joined in the order of the photons, so that the result does not depend on the number of threads.
+/// A virtual call costs some nanoseconds, the event that it reports about a microsecond.
 class PhotonRecorder {
  public:
   virtual ~PhotonRecorder() = default;
   /// An empty recorder of the same kind, for one chunk of photons.
   virtual std::unique_ptr<PhotonRecorder> part() const = 0;
-  /// Takes over what a part has kept: of the photons that come next.
+  /// Takes over what a part has kept. Parts are joined in the order of their photons.
   virtual void join(PhotonRecorder& part) = 0;
-  /// How many photons it has, of those that TraceSettings::stored counts.
+  /// The number of kept photons that count towards TraceSettings::stored.
   virtual size_t stored() const { return 0; }
-  /// Which of flew(), collided() and hit() are called; the same as long as photons are traced.
+  /// Which of flew(), collided() and hit() are called. It must not change while photons are traced.
   virtual RecordNeeds needs() const { return {}; }
-  /// Does it read Event::density? Strategies that know it for free only need not be asked (FlightUse::density).
+  /// Does the recorder read Event::density? If not, distance strategies may leave it inexact (FlightUse::density).
   virtual bool reads_density() const { return false; }
 
   /// A photon was emitted.
   virtual void emitted(uint64_t /*number*/) {}
-  /// A photon has flown to an event, whatever that is, in a straight line; `from` is how it started: with the power
-  /// that its flight has not weighed yet.
+  /// A photon has flown in a straight line to an event of any kind. `from` is its state at the start of the flight,
+  /// with the power before it is multiplied by the weight of the flight.
   virtual void flew(const PathState& /*from*/, const ArrivingPhoton&) {}
-  /// A photon collides in a medium; whether it is absorbed or scattered is not drawn yet.
+  /// A photon collides in a medium. Called before absorption or scattering is drawn.
   virtual void collided(const ArrivingPhoton&) {}
-  /// A photon meets a surface that is no mere boundary between media, before it scatters there.
+  /// A photon meets a surface that is not just a boundary between media. Called before it scatters there.
   virtual void hit(const ArrivingPhoton&) {}
 };
 

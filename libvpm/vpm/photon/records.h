@@ -1,4 +1,4 @@
-// Recorders of photons where they collide and where they meet rough surfaces.
+// Recorders of photons at collisions and on non-specular surfaces.
 #pragma once
 
 #include <concepts>
@@ -9,10 +9,11 @@
 
 namespace vpm {
 
-/// Which photons a recorder keeps of those that arrive, by where they come from: one bit for each of the eight answers.
+/// Which of the arriving photons a recorder keeps, decided by where they come from: one bit for each of the eight
+/// cases.
 class PhotonFilter {
  public:
-  /// Those for which keeps(direct, specular, from_rough) holds, see ArrivingPhoton.
+  /// Keeps the photons for which keeps(direct, specular, from_rough) is true; see ArrivingPhoton.
   template <std::predicate<bool, bool, bool> Keeps>
   constexpr explicit PhotonFilter(Keeps&& keeps) {
     for (uint32_t answer = 0; answer < 8; ++answer)
@@ -27,17 +28,18 @@ class PhotonFilter {
   uint32_t kept_ = 0;
 };
 
-/// Keeps every photon, and those that something has scattered, reflected or refracted.
+/// `any_photon` keeps every photon; `indirect_photon` keeps those that have been scattered, reflected or refracted.
 inline constexpr PhotonFilter any_photon([](bool, bool, bool) { return true; });
 inline constexpr PhotonFilter indirect_photon([](bool direct, bool, bool) { return !direct; });
-/// Keeps photons that a rough surface scattered last.
+/// Keeps photons whose last non-specular scattering was at a surface (ArrivingPhoton::from_rough).
 inline constexpr PhotonFilter photon_from_rough([](bool, bool, bool from_rough) { return from_rough; });
-/// Keeps photons that no rough surface scattered last; those straight from lights only if `direct`, those that nothing
-/// but mirrors and glass has scattered only if `specular`.
+/// Keeps photons that are not `from_rough`. Photons straight from lights are kept only if `direct`. Photons that
+/// mirrors and smooth glass, but nothing else, have scattered are kept only if `specular`.
 PhotonFilter caustic_photons(bool direct, bool specular);
 
-/// Photons at their collisions in media that scatter, before the choice between absorption and scattering. Their power
-/// is the flux that collides, over the density there under VolumeForm::density_at_query (stored_power()).
+/// Records photons at their collisions in scattering media, before the choice between absorption and scattering. Their
+/// power is the power that collides; under VolumeForm::density_at_query it is divided by the density there
+/// (stored_power()).
 class CollisionRecorder : public PhotonRecorder {
  public:
   /// `density_floor`, in [0, 1]: see stored_power().
@@ -60,12 +62,12 @@ class CollisionRecorder : public PhotonRecorder {
   PhotonFilter filter_;
 };
 
-/// Where irradiance is cached, one of so many photons finds the cache points [Christensen1999].
+/// If irradiance is cached, one in kCachePointStep photons finds the cache points [Christensen1999].
 inline constexpr uint64_t kCachePointStep = 4;
 inline bool finds_cache_points(uint64_t number) { return number % kCachePointStep == kCachePointStep - 1; }
 
-/// What a recorder of photons on surfaces is for. The surface map's photons count as stored; where irradiance is
-/// cached, the map leaves out the photons that find the cache points.
+/// What a recorder of photons on surfaces is for. Photons of the surface map count as stored, those of other maps do
+/// not. If irradiance is cached, the surface map leaves out the photons that find the cache points.
 enum class HitUse { surface_map, surface_map_without_cache_points, other_map };
 
 /// Records photons on non-specular surfaces.
@@ -81,7 +83,7 @@ class HitRecorder : public PhotonRecorder {
   void hit(const ArrivingPhoton& photon) override;
 
   std::vector<Photon> photons;  // powers in W, not yet divided by `emitted_count`
-  uint64_t emitted_count = 0;   // of photons that could be among these
+  uint64_t emitted_count = 0;   // emitted photons, without those that the map leaves out
 
  private:
   bool leaves_out(uint64_t number) const {
@@ -93,14 +95,14 @@ class HitRecorder : public PhotonRecorder {
   HitUse use_;
 };
 
-/// A point on a Lambertian surface that a photon found, seen from the side on which the photon arrived.
+/// A point on a Lambertian surface, found by a photon. Its normals are on the side on which the photon arrived.
 struct CachePoint {
   Vec3 position{0.0f};             // m
-  PackedDirection normal;          // geometric, to that side
-  PackedDirection shading_normal;  // the same, for shading
+  PackedDirection normal;          // geometric
+  PackedDirection shading_normal;  // for shading
 };
 
-/// Records the points on Lambertian surfaces that one of kCachePointStep photons meets.
+/// Records the points on Lambertian surfaces that one in kCachePointStep photons meets.
 class CachePointRecorder : public PhotonRecorder {
  public:
   explicit CachePointRecorder(const Scene& scene) : scene_(scene) {}

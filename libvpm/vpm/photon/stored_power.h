@@ -1,10 +1,10 @@
-// The coefficient factor of volume estimates, its one home: what a photon is stored with, and what sums over stored
-// photons are multiplied by, so that albedo and densities are each applied once.
+// The coefficients of volume estimates, defined only here: the power with which a photon is stored, and the factor for
+// sums over stored photons. This way albedo and densities are each applied once.
 //
-// Photons are stored at collisions, whose density is sigma_t times fluence. The source of radiance is sigma_s times the
-// fluence's angular density, which leaves the albedo sigma_s / sigma_t; and for the density at the query the density
-// there over that at the photon. Densities are taken relative to the medium's largest: powers then fit into floats
-// whatever the scale of densities.
+// Photons are stored at collisions, and the density of collisions is sigma_t times fluence. The source of radiance is
+// sigma_s times the angular density of fluence. The quotient is the albedo sigma_s / sigma_t. With the density at the
+// query there is one more factor: the density at the query over that at the photon. Densities are taken relative to the
+// medium's largest, so that powers fit into floats whatever the scale of densities.
 #pragma once
 
 #include <algorithm>
@@ -14,18 +14,19 @@
 
 namespace vpm {
 
-/// What a photon of flux `flux` (W) that collides where the density is `density`, over the medium's largest, is stored
-/// with: the flux (density at the photon) or the flux over that density (density at the query). A floor in [0, 1], the
-/// least to divide by, bounds the latter; what is thinner than the floor then scatters less, by density / floor.
+/// The stored power of a photon that carries the power `flux` (W) and collides where the density, relative to the
+/// medium's largest, is `density`. It is `flux` for the density at the photon, and flux / density for the density at
+/// the query. The latter is bounded by `floor` in [0, 1], the least density to divide by. Where the density is below
+/// the floor, the medium then scatters less, by the factor density / floor.
 inline Rgb stored_power(const Rgb& flux, VolumeForm form, float density, float floor) {
   return form == VolumeForm::density_at_query ? flux / std::max(density, floor) : flux;
 }
 
-/// A density over the medium's largest: what the estimate with the density at the query has as a factor.
+/// A density relative to the medium's largest: the factor in the estimate with the density at the query.
 inline float relative_density(const Medium& medium, float density) { return density / medium.max_density(); }
 
-/// What a sum of stored powers times phase function and kernel is multiplied by to be the source of radiance, W/(m^3
-/// sr): the albedo; for the density at the query the relative density there is one more factor.
+/// The factor that turns a sum of stored powers times phase function and kernel into the source of radiance, W/(m^3
+/// sr): the albedo. With the density at the query, the relative density there is one more factor.
 inline Rgb source_factor(const Medium& medium) { return medium.albedo(); }
 
 }  // namespace vpm

@@ -1,9 +1,11 @@
-// The light that microfacets lose because each sends it on once, and the even lobes that give it back [Kulla2017].
+// The light that a microfacet model loses because it scatters light at one facet only, and additional smooth lobes that
+// give it back [Kulla2017].
 //
-// What would meet a second facet is left out of RoughConductor's and RoughDielectric's main lobes: the more, the
-// rougher. Light that has met several has forgotten where it came from, so the loss returns in proportion to how much
-// of a direction's light is lost: with E the share that the main lobe keeps at a cosine, (1 - E(v)) (1 - E(w)) over pi
-// times the mean of 1 - E. By that all light that is not absorbed leaves the surface, and the BSDF stays reciprocal.
+// The main lobes of RoughConductor and RoughDielectric leave out light that would meet a second facet. The rougher the
+// surface, the more is lost. Light that has met several facets hardly depends on where it came from. It is therefore
+// returned into each direction in proportion to the fraction of that direction's light that is lost. Let E be the
+// fraction that the main lobe keeps at a cosine: the added lobe is (1 - E(v)) (1 - E(w)) / (pi mean(1 - E)). With it
+// all light that is not absorbed leaves the surface, and the BSDF stays reciprocal.
 #pragma once
 
 #include <array>
@@ -19,20 +21,20 @@ class FacetLoss {
   explicit FacetLoss(const RoughConductor& material);
   explicit FacetLoss(const RoughDielectric& material);
 
-  /// The fraction of light that the main lobes lose, of what arrives at a cosine in [0, 1] on that side, except what
-  /// metal absorbs.
+  /// The fraction that the main lobes lose of the light that arrives on that side at a cosine in [0, 1]. Light that the
+  /// metal absorbs is not counted as lost.
   float lost(bool outside, float cosine) const;
-  /// Of what is lost of light on that side, the share that returns there.
+  /// The fraction of the light lost on that side that returns to the same side.
   float returned(bool outside) const { return side(outside).returned; }
-  /// The BSDF, 1/sr, of the lobe that light takes from `cosine` on the side `outside` to `cosine_after`, there or on
-  /// the other side.
+  /// The BSDF, 1/sr, of the added lobe, for light that arrives at `cosine` on the side `outside` and leaves at
+  /// `cosine_after`: on the other side if `transmitted`, else on the same one.
   Rgb lobe(bool outside, float cosine, bool transmitted, float cosine_after) const;
 
  private:
   static constexpr int kCosines = 64;
   struct Side {
     std::array<float, kCosines> lost{};  // at cosines i / (kCosines - 1)
-    double mean = 0.0;                   // of light from everywhere
+    double mean = 0.0;                   // fraction lost of light that arrives evenly from all directions
     float returned = 1.0f;
   };
   const Side& side(bool outside) const { return sides_[outside ? 0 : 1]; }
@@ -40,12 +42,13 @@ class FacetLoss {
   static Side integrate(Kept&& kept);
 
   std::array<Side, 2> sides_;  // outside, inside
-  Rgb tint_{1.0f};             // what further reflections on metal leave of light that would be lost
+  Rgb tint_{1.0f};             // fraction of the lost light that further reflections on metal leave
 };
 
 /// The loss of a material of microfacets; null for others.
 std::shared_ptr<const FacetLoss> facet_loss_of(const Material& material);
-/// Lets a material of microfacets give back its loss, which must live as long as it; others stay as they are.
+/// Lets a material of microfacets give back its loss. `loss` must live as long as the material. Other materials stay as
+/// they are.
 void set_facet_loss(Material& material, const FacetLoss* loss);
 
 }  // namespace vpm

@@ -1,5 +1,5 @@
-// Where rays meet shapes: triangles and quads through Embree, spheres and discs by our own intersection. Every offset
-// of a ray's origin is made in this folder.
+// Where rays meet shapes. Embree intersects triangles and quads; vpm's own code intersects spheres and discs. Every
+// offset of a ray's origin is made in this folder.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace vpm {
 struct TriangleMesh {
   std::vector<Vec3> positions;  // m
   std::vector<glm::uvec3> triangles;
-  std::vector<Vec3> normals{};  // of the vertices, of any length but 0, for shading; empty: the triangles' own
-  std::vector<Vec2> uvs{};      // of the vertices, coordinates in a texture; empty: none
+  std::vector<Vec3> normals{};  // of the vertices, of any length except 0, for shading; empty: the triangles' own
+  std::vector<Vec2> uvs{};      // texture coordinates of the vertices; empty: none
 };
 struct SphereShape {
   Vec3 centre{0.0f};    // m
@@ -36,20 +36,20 @@ struct Hit {
   uint32_t shape = 0;   // as returned by add()
   Vec3 position{0.0f};  // m, on the surface up to the rounding of its coordinates
   Vec3 normal{0.0f};    // unit, outward, geometric: not turned towards the ray
-  float slack = 0.0f;   // m, by how much rounding may displace the surface from `position` in later queries
-  /// Unit: interpolated between those of the vertices, and turned to the side of `normal` where it points to the other
-  /// one. Equal to `normal` where the shape has no others, or where they cancel.
+  float slack = 0.0f;   // m: how far rounding may displace the surface from `position` in later queries
+  /// Unit. Interpolated between the normals of the vertices, and turned to the side of `normal` if it points to the
+  /// other side. Equal to `normal` if the shape has no normals of vertices or if they cancel.
   Vec3 shading_normal{0.0f};
-  uint32_t triangle = 0;   // of a mesh, counted without those that add() left out
-  Vec2 barycentric{0.0f};  // of a mesh: weights of the triangle's second and third vertex
+  uint32_t triangle = 0;   // of a mesh, numbered without the triangles that add() left out
+  Vec2 barycentric{0.0f};  // of a mesh: the weights of the triangle's second and third vertex
 };
 
-/// What a shape is to a ray: a surface that light scatters at, with one medium around it or with different ones on its
-/// two sides, or a boundary between media that light passes.
+/// How a shape acts on a ray. `surface` scatters light and has the same medium on both sides. `dividing_surface`
+/// scatters light and has different media on its two sides. `boundary` lies between media, and light passes it.
 enum class Layer : uint32_t { surface = 1, dividing_surface = 2, boundary = 4 };
 
-/// The hits of a ray at one place; none: the ray meets nothing. Boundaries stand in the order of distance, a surface
-/// that coincides with them stands first.
+/// The hits of a ray at one place; none if the ray meets nothing. Boundaries are in the order of distance. A surface
+/// that coincides with them comes first.
 struct Encounter {
   static constexpr int kMost = 4;
   std::array<Hit, kMost> hits;
@@ -69,9 +69,9 @@ class Geometry {
   Geometry& operator=(Geometry&&) noexcept;
 
   /// Adds a shape and returns its number: 0, 1, 2, ... Triangles without area are left out, as no ray can meet them.
-  /// Throws InputError where a mesh has no other, where a triangle names a vertex that does not exist, and for
-  /// coordinates or radii that are not finite or beyond 1e9 m, radii not positive; and for normals or uvs that are not
-  /// as many as the vertices, not finite, zero (normals) or beyond 1e6 (uvs).
+  /// Throws InputError if no triangle of a mesh has an area, if a triangle names a vertex that does not exist,
+  /// and if coordinates or radii are not finite or beyond 1e9 m, or radii are not positive. Also throws if there are
+  /// not as many normals or uvs as vertices, if one is not finite, if a normal is zero, or if a uv is beyond 1e6.
   uint32_t add(const TriangleMesh& mesh, Layer layer = Layer::surface);
   uint32_t add(const SphereShape& sphere, Layer layer = Layer::surface);
   uint32_t add(const DiscShape& disc, Layer layer = Layer::surface);
@@ -80,28 +80,28 @@ class Geometry {
   /// The nearest hit with 0 < t < t_max, seen from either side. Allocates nothing.
   std::optional<Hit> intersect(const Ray& ray, float t_max = kInfinity) const;
 
-  /// The nearest hit of a surface that is no boundary.
+  /// The nearest hit of a shape that is no boundary.
   std::optional<Hit> intersect_surface(const Ray& ray, float t_max) const;
-  /// Does any shape come as near to a point as `radius` (m)?
+  /// Does any shape come within `radius` (m) of a point?
   bool is_near(const Vec3& point, float radius) const;
 
-  /// The nearest hit, and where it is of a boundary all others within the distance by which the ray is moved off it:
-  /// what the ray meets at one place. A surface among them stops the ray, so that smoke can stand on a floor.
+  /// What the ray meets at one place: the nearest hit and, if that is a boundary, all others within the distance by
+  /// which the ray is moved off it. A surface among them stops the ray, so that smoke can stand on a floor.
   Encounter encounter(const Ray& ray, float t_max = kInfinity) const;
-  /// The same of the shapes between media alone, none of which stops the ray: for finding out which medium is where.
+  /// The same, but only of shapes between media, and none of them stops the ray: for finding out which medium is where.
   Encounter division(const Ray& ray) const;
-  /// The same of all shapes, none of which stops the ray: for finding out which of them coincide.
+  /// The same of all shapes, and none of them stops the ray: for finding out which of them coincide.
   Encounter faces(const Ray& ray) const;
 
   /// The box around all shapes; empty without any.
   Box bounds() const;
   /// The box around one shape.
   const Box& bounds(uint32_t shape) const;
-  /// The coordinates of a hit in a texture, of a shape that has them.
+  /// The texture coordinates of a hit on a shape that has them.
   Vec2 uv(const Hit& hit) const;
-  /// Has a shape coordinates in a texture? Spheres do, and meshes with uvs.
+  /// Does a shape have texture coordinates? Spheres and meshes with uvs do.
   bool has_uvs(uint32_t shape) const;
-  /// The sphere that a shape is; nothing where it is another.
+  /// The shape as a sphere; nothing if it is another kind of shape.
   std::optional<SphereShape> sphere(uint32_t shape) const;
   /// How many triangles a shape has, counted as in Hit::triangle; 0 where it is no mesh.
   size_t triangle_count(uint32_t shape) const;
@@ -109,7 +109,7 @@ class Geometry {
   Hit point_of_triangle(uint32_t shape, uint32_t triangle, const Vec2& barycentric) const;
   /// The area of a shape, m^2.
   double area(uint32_t shape) const;
-  /// What Embree holds, its copy of the shapes included, and their normals and uvs.
+  /// The memory that Embree holds, its copy of the shapes included, and that of normals and uvs.
   size_t memory_bytes() const;
 
  private:
@@ -120,28 +120,29 @@ class Geometry {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The origin of a ray that leaves the surface at `hit` along `direction`: moved along the normal, to the side the ray
-/// travels to, by as little as keeps it from meeting the same surface again. As in [Wachter2019], the offset follows
-/// the spacing of floats; a bound for each shape stands in place of its constants. A triangle may still be met again
-/// where |cos| of the direction to the normal is below 1e-6.
+/// The origin of a ray that leaves the surface at `hit` along `direction`. It is moved along the normal, to the side
+/// that the ray travels to, just far enough for the ray not to meet the same surface again. As in [Wachter2019], the
+/// offset follows the spacing of floats, but a bound for each shape replaces the constants of that paper. A triangle
+/// may still be met again if |cos| of the direction to the normal is below 1e-6.
 Vec3 leave_surface(const Hit& hit, const Vec3& direction);
-/// The origin of a ray that goes on straight through everything it meets at one place.
+/// The origin of a ray that goes straight on through everything that it meets at one place.
 Vec3 leave_surfaces(const Encounter& met, const Vec3& direction);
 /// The same for a point on a surface found without a ray: `normal` unit, `slack` as in Hit.
 Vec3 leave_surface_at(const Vec3& position, const Vec3& normal, const Vec3& direction, float slack = 0.0f);
 
-/// Slack of a triangle at a point of it, m: bounds the rounding of Embree's intersection. `reach` holds, for each axis,
-/// the largest distance from the point to the vertices (m); `twice_area` > 0 is in m^2. For needles (length over width
-/// above about 1000, not across an axis) it stops at a thousandth of their length, and they may be met again.
+/// Slack of a triangle at a point of it, m. It bounds the rounding of Embree's intersection. `reach` holds, for each
+/// axis, the largest distance from the point to the vertices (m); `twice_area` > 0 is in m^2. For needles (length over
+/// width above about 1000, not across an axis) the slack stops at a thousandth of their length, and they may be met
+/// again.
 float flat_slack(const Vec3& normal, const Vec3& reach, double twice_area);
 /// Slack of a disc, m.
 float disc_slack(const DiscShape& disc);
-/// Does a surface that the ray met lie at `distance` (m) along it, or beyond, as far as rounding can tell?
+/// Does the surface that the ray hit lie at `distance` (m) along the ray or beyond it, as far as rounding can tell?
 bool stands_at(const Hit& hit, const Ray& ray, float distance);
 /// Slack of a sphere, m, at its points as point_on() gives them.
 float sphere_slack(const SphereShape& sphere);
-/// The point of a sphere where its outward normal is `normal` (of any length but 0), off it by the rounding of its
-/// coordinates only.
+/// The point of a sphere at which the outward normal is `normal` (of any length except 0). Only the rounding of its
+/// coordinates moves it off the sphere.
 Vec3 point_on(const SphereShape& sphere, const Vec3d& normal);
 
 }  // namespace vpm

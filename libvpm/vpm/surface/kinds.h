@@ -1,4 +1,4 @@
-// What each kind of material answers; material.cpp picks the overload. Included by this folder's .cpp files only.
+// The functions of each kind of material; material.cpp picks the overload. Only this folder's .cpp files include this.
 #pragma once
 
 #include "vpm/surface/incidence.h"
@@ -28,11 +28,11 @@ ScatterValue value(const ThinDielectric& m, const Vec3& normal, const Vec3& trav
 ScatterValue value(const RoughDielectric& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 ScatterValue value(const Boundary& m, const Vec3& normal, const Vec3& travel, const Vec3& direction);
 
-/// What a rough material scatters into the direction drawn; absorbed where it scatters nothing there.
+/// The scattering of a non-specular material into the drawn direction; absorbed if it scatters nothing there.
 inline Scatter scattered(const Vec3& direction, const ScatterValue& v, bool transmitted) {
   return {direction, v.pdf > 0.0f ? v.value / v.pdf : Rgb(0.0f), transmitted, v.radiance_scale, v.pdf};
 }
-/// A path that ends; its direction has no meaning.
+/// The end of a path; the direction has no meaning.
 inline Scatter absorbed(const Incidence& in) { return {in.normal, Rgb(0.0f), false, 1.0f, 0.0f}; }
 
 }  // namespace vpm

@@ -1,14 +1,14 @@
-// The point where a ray met a shape, found again more exactly than the search for it did.
+// The point where a ray met a shape, computed again more exactly than by the intersection that found it.
 #pragma once
 
 #include "vpm/surface/geometry.h"
 
 namespace vpm {
 
-/// Hits lie beyond this t, m: the smallest normal float, so that t > 0 in every rounding mode.
+/// Every hit has t > kMinT, m. It is the smallest normal float, so that t > 0 in every rounding mode.
 inline constexpr float kMinT = std::numeric_limits<float>::min();
 
-/// A mesh in Embree's own buffers, and what Embree need not know of it.
+/// A mesh: positions and triangles in Embree's own buffers, and the data that Embree does not need.
 struct MeshShape {
   const Vec3* positions = nullptr;
   const glm::uvec3* triangles = nullptr;
@@ -17,15 +17,16 @@ struct MeshShape {
   std::vector<Vec2> uvs;
 };
 
-/// The value at the point of a triangle with Embree's barycentric coordinates.
+/// The value at the point of a triangle that has these barycentric coordinates, as Embree defines them.
 template <class T>
 T interpolated(const std::vector<T>& values, const glm::uvec3& v, const Vec2& barycentric) {
   return (1.0f - barycentric.x - barycentric.y) * values[v.x] + barycentric.x * values[v.y] +
          barycentric.y * values[v.z];
 }
 
-/// Fill in what a hit tells of its place, from position on. Of a triangle by Embree's barycentric coordinates: in its
-/// plane, wherever the ray came from. Of a sphere, projected onto it, and a disc by the ray.
+/// These fill in the members of a hit from `position` on. For a triangle they follow from Embree's barycentric
+/// coordinates: the point lies in its plane, wherever the ray came from. For a sphere and a disc they follow from the
+/// ray; for a sphere the point is projected onto it.
 void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit);
 void locate(const SphereShape& sphere, const Ray& ray, Hit& hit);
 void locate(const DiscShape& disc, const Ray& ray, Hit& hit);
