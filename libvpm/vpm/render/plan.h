@@ -17,7 +17,7 @@ namespace vpm {
 struct Estimators {
   std::vector<std::unique_ptr<VolumeEstimator>>
       volume;                                 // no two of them estimate the same light; none where no medium scatters
-  std::unique_ptr<SurfaceEstimator> surface;  // null where all surfaces are specular
+  std::unique_ptr<SurfaceEstimator> surface;  // null where there is no non-specular surface
 
   /// All of them.
   std::vector<Estimator*> all() const;
