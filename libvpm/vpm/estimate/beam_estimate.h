@@ -28,7 +28,8 @@ struct Passed {
   float r[PhotonBatch::kMost], g[PhotonBatch::kMost], b[PhotonBatch::kMost];
 };
 
-/// Transmittances by a function of one distance, as beam_sum() asks for them: at_distance(m along the ray) is an Rgb.
+/// Makes the `along` that beam_sum() asks for from a function of one distance: at_distance(t), with t in m along the
+/// ray, returns the transmittance as an Rgb.
 template <class AtDistance>
 auto each_distance(AtDistance&& at_distance) {
   return [at_distance](std::span<const float> distances, Passed& passed) {
@@ -41,12 +42,13 @@ auto each_distance(AtDistance&& at_distance) {
   };
 }
 
-/// sum_p p(travel_p . towards the eye) Phi_p K_r(distance of p from the ray) along(t_p) over the photons whose
-/// projection t_p onto the ray lies in the interval, K_r over discs of the photon's radius r; times the albedo,
-/// radiance in W/(m^2 sr) where `along`(distances, Passed&) finds the transmittance from the eye to the distances t.
-/// With photons stored for the density at the query it has that density as a factor, too, over the medium's largest.
+/// The sum over the photons p whose projection t_p onto the ray lies in the interval:
+///   sum_p p(travel_p . towards the eye) Phi_p K_r(perpendicular distance of p from the ray) along(t_p),
+/// with K_r over discs of the photon's radius r. Times the albedo, this is radiance in W/(m^2 sr) where
+/// `along`(distances, Passed&) finds the transmittances from the eye to the distances t_p. For photons stored for the
+/// density at the query, `along` has one more factor: the density there over the medium's largest.
 ///
-/// What is left of bias is that of the kernel across the ray, of order r^2, and that of discs that stick out of the
+/// The bias that is left is that of the kernel across the ray, of order r^2, and that of discs that stick out of the
 /// medium.
 template <class Along>
 Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along&& along, const BeamMap& map,

@@ -1,9 +1,10 @@
-// Gathering at borders: photons count within a region of which the point knows how much of the kernel lies in it.
+// Gathering at borders: only the photons of a region around the point count, and their sum is divided by the fraction
+// of the kernel that lies in the region.
 //
-// Near edges and walls photons come to a part of the disc or ball alone [Silverman1986, sec. 2.10]. A region says which
-// part, by a rule that holds for photons as for places; the sum over its photons is divided by the kernel's integral
-// over its places. Of even light that is the truth wherever the borders run: that the numerator and the denominator are
-// of the same region is all that matters.
+// Near edges and walls, photons come to only a part of the disc or ball [Silverman1986, sec. 2.10]. A region says which
+// part, by one rule for photons and for places. The sum over the region's photons is divided by the kernel's integral
+// over the region's places. Under uniform light the result is right wherever the borders run. All that matters is that
+// the numerator and the denominator are of the same region.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +15,9 @@
 
 namespace vpm {
 
-/// A photon map, for the estimates of this folder, that is gathered from within a region. Region: share(radius) gives
-/// its RegionShare of a kernel of that radius (m), holds(offset from the point) whether it has that place in it.
+/// A photon map that is gathered from within a region, for the estimates of this folder. A Region has two functions:
+/// share(radius) gives its RegionShare of a kernel of that radius (m); holds(offset) tells whether the place at that
+/// offset from the point lies in it.
 template <class Region>
 struct BoundedMap {
   const PhotonMap& map;
@@ -30,14 +32,14 @@ const GatherSettings& settings_of(const BoundedMap<Region>& bounded) {
   return bounded.map.settings;
 }
 
-/// A sum over what a region has of a kernel, over its share.
+/// Divides the sum over the part of a kernel that lies in a region by the share of the kernel there.
 inline Rgb over_share(const Rgb& sum, const RegionShare& share, GatherCounters& counters) {
   count(counters.corrected);
   if (share.inside < kLeastShare) ++counters.least_shares;
   return sum / static_cast<float>(std::max(share.inside, kLeastShare));
 }
 
-/// Of a fixed radius. `within` takes those of the photons that `accept` takes which the region holds.
+/// The sum within a fixed radius. `accept` selects photons; `within` selects those of them that the region holds.
 template <int Dimension, class Region, class Accept, class Within, class Value>
 Rgb bounded_sum(const Region& region, const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept,
                 Within&& within, Value&& value) {
@@ -48,8 +50,8 @@ Rgb bounded_sum(const Region& region, const Gathering<RadiusMap>& map, const Vec
   return over_share(sum, share, map.work.counters);
 }
 
-/// Of the k nearest: the region's own are meant. Without the k-th they are k - 1 photons uniform in what the region has
-/// of the ball that reaches it, so that the estimate is unbiased there, too.
+/// The sum over the k nearest photons of the region. Without the k-th, they are k - 1 photons spread uniformly over the
+/// part of the region in the ball that reaches to the k-th. The estimate is therefore unbiased at borders, too.
 template <int Dimension, class Region, class Accept, class Within, class Value>
 Rgb bounded_sum(const Region& region, const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept,
                 Within&& within, Value&& value) {
@@ -62,7 +64,7 @@ Rgb bounded_sum(const Region& region, const Gathering<NearestMap>& map, const Ve
   return over_share(neighbour_sum<Dimension>(map, own, value), of_own, map.work.counters);
 }
 
-/// The sum over the region's photons, over its share.
+/// The sum over the region's photons, divided by the region's share of the kernel.
 template <int Dimension, class Region, class Accept, class Value>
 Rgb kernel_sum(const BoundedMap<Region>& bounded, const Vec3& point, Accept&& accept, Value&& value) {
   if (bounded.map.size() == 0) return Rgb(0.0f);

@@ -1,4 +1,4 @@
-// A stretch of an eye ray between two events or boundaries.
+// A segment of an eye ray between two events or boundaries.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace vpm {
 
-/// The part of the ray in the box grown by `margin`, m.
+/// The part of the interval in which the ray is inside the box grown by `margin`, m.
 Interval clip(const Ray& ray, const Interval& interval, const Box& box, float margin);
 
 /// The density integral of the medium over an interval of a ray, m.
@@ -20,8 +20,8 @@ inline double counted_density_integral(const Medium& medium, const Ray& ray, con
   return crossed.value;
 }
 
-/// Lies in one medium. The density integral along it (the integral of density, from its start) is walked along once,
-/// however many estimators ask.
+/// Lies in one medium. Its density integrals, counted from its start, are computed once, however many estimators ask
+/// for them.
 class EyeSegment {
  public:
   EyeSegment(const Scene& scene_of_ray, const Ray& along, const Interval& from_to, MediumId in, const Rgb& counts_for)
@@ -31,16 +31,16 @@ class EyeSegment {
   const Medium* medium() const { return number == kVacuum ? nullptr : &scene.media[number]; }
   /// The density integrals at all places of the segment.
   const DensityIntegralsAlong& integrals(EyeWork& work) const;
-  /// An estimator has walked along the whole segment by itself, and found this density integral, m.
+  /// Takes the density integral of the whole segment, m, from an estimator that has walked along it by itself.
   void set_integral(double integral) const { integral_ = integral; }
-  /// Of the whole segment.
+  /// The transmittance of the whole segment.
   Rgb transmittance(EyeWork& work) const;
 
   const Scene& scene;
   const Ray ray;
   const Interval interval;  // m
-  const MediumId number;    // of the medium
-  const Rgb throughput;     // what radiance that enters its near end counts for
+  const MediumId number;    // the number of the medium
+  const Rgb throughput;     // of the eye path up to the near end of the segment
 
  private:
   mutable bool walked_ = false;             // by integrals()

@@ -1,4 +1,4 @@
-// What goes with an eye ray: its random numbers, what it counts, and room to work in.
+// What an eye ray takes along: its random numbers, its counters, and memory to work in.
 #pragma once
 
 #include "vpm/base/rng.h"
@@ -9,9 +9,9 @@
 
 namespace vpm {
 
-/// Buffers that outlive rays, so that these allocate nothing: one for each thread.
+/// Buffers, one set for each thread. They outlive rays, so that rays allocate nothing.
 struct EyeScratch {
-  DensityIntegralsAlong integrals;  // of the segment under way
+  DensityIntegralsAlong integrals;  // of the current segment
   Marcher marcher;
   Neighbours neighbours;  // of the last gather by count
 };
@@ -20,9 +20,9 @@ struct EyeWork {
   Rng& rng;
   EyeCounters& counters;
   EyeScratch& scratch;
-  size_t pixel = 0;  // that the ray belongs to, numbered row by row
+  size_t pixel = 0;  // the pixel that the ray belongs to, numbered row by row
 
-  /// What gathers on the ray's way count, and work in.
+  /// The counters and the memory for gathers along the ray.
   GatherWork gather() { return {counters.gather, scratch.neighbours}; }
 };
 

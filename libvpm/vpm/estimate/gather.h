@@ -1,4 +1,4 @@
-// How photons are gathered: by radius or by count, with which kernel, and what becomes of it at borders.
+// How photons are gathered: by radius or by count, with which kernel, and what is done at borders.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace vpm {
 /// Around points, by radius or by count; or, in media, around whole segments of rays, by radius (beam_estimate.h).
 enum class GatherMode { radius, nearest, beam };
 
-/// What is done where a disc or a ball reaches beyond the places that photons can come to: nothing, so that estimates
-/// are too dark there and light leaks through walls; or the correction of BoundedMap.
+/// What is done where a disc or a ball reaches beyond the places that photons can come to. `none`: nothing, so that
+/// estimates are too dark there and light leaks through walls. `corrected`: the correction of BoundedMap.
 enum class BoundaryRule { none, corrected };
 
-/// A gather radius as a render asks for it: a length, or the default, which goes by the size of the medium or the scene
-/// (first_radius()).
+/// A gather radius as a render asks for it: a length, or the default, which first_radius() derives from the size of the
+/// medium or the scene.
 class AskedRadius {
  public:
   /// The default.
@@ -33,7 +33,7 @@ class AskedRadius {
   float metres_ = 0.0f;
 };
 
-/// How photons are gathered, by a radius of either kind.
+/// How photons are gathered. The type of the radius tells whether it is asked for or known.
 template <class Radius>
 struct GatherRule {
   GatherMode mode = GatherMode::radius;
@@ -41,10 +41,10 @@ struct GatherRule {
   uint32_t count = 50;  // nearest mode: k >= 2
   KernelKind kernel = KernelKind::epanechnikov;
   BoundaryRule boundary = BoundaryRule::none;
-  uint32_t beam_count = 0;  // beam mode, > 0: each photon has a radius of its own, that of a ball of about so many
-                            // photons, from a hundredth of `radius` to `radius`; 0: all have `radius`
+  uint32_t beam_count = 0;  // beam mode; > 0: each photon has its own radius, that of a ball which holds about so
+                            // many photons, between a hundredth of `radius` and `radius`; 0: all have `radius`
 
-  /// Is `radius` only the largest that a gather may take, so that what it takes is told by a count of photons?
+  /// Does a count of photons decide the radius of a gather, so that `radius` is only the largest allowed?
   bool goes_by_count() const { return mode == GatherMode::nearest || (mode == GatherMode::beam && beam_count > 0); }
 };
 /// As a render asks for it: the radius is that of the first pass.
@@ -54,11 +54,11 @@ using GatherSettings = GatherRule<float>;
 
 /// What gathering counts.
 struct GatherCounters {
-  uint64_t searches = 0;      // of maps: one for an estimate, as a rule; more at borders and where radii are asked for
-  uint64_t visited = 0;       // by these: photons whose distance was computed
+  uint64_t searches = 0;      // of maps: usually one per estimate; more at borders and where radii are asked for
+  uint64_t visited = 0;       // photons whose distance the searches computed
   uint64_t used = 0;          // photons that count in estimates, with whatever weight
-  uint64_t corrected = 0;     // estimates at borders divided by a share of less than 1
-  uint64_t least_shares = 0;  // of these, divided by kLeastShare in the place of less
+  uint64_t corrected = 0;     // estimates at borders that were divided by a RegionShare below 1
+  uint64_t least_shares = 0;  // those divided by kLeastShare because the share was below it
 
   static constexpr auto counters() {
     using G = GatherCounters;

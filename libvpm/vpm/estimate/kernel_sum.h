@@ -1,8 +1,8 @@
-// The sum every density estimate shares: kernel-weighted photons around a point, over a map or a plain list of photons.
+// The sum that all density estimates share: photons around a point, weighted by a kernel, from a map or a plain list.
 //
-// Each photon's contribution is value(travel, power) K_r; what differs between volumes and surfaces is `value`, the
-// photons that count, and the dimension of the kernel. Sums are of doubles: thousands of photons that are alike would
-// round alike, and show.
+// Each photon contributes value(travel, power) K_r. Volumes and surfaces differ in `value`, in which photons count, and
+// in the dimension of the kernel. Sums are kept in doubles: in floats, thousands of similar photons would be rounded
+// the same way, and the error would be visible.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 
 namespace vpm {
 
-/// How photons are gathered: of a map as it says or as its view says, of a plain list with the number emitted.
+/// The settings of a gather: those of the map or of its view; for a plain list those given with it.
 inline const GatherSettings& settings_of(const PhotonMap& map) { return map.settings; }
 inline const GatherSettings& settings_of(const CountedMap& counted) { return counted.settings; }
 inline const GatherSettings& settings_of(const std::vector<Photon>&, const GatherSettings& settings, uint64_t) {
   return settings;
 }
 
-/// The kernel of a space of `Dimension` 2 or 3.
+/// The norm of the kernel in a space of `Dimension` 2 or 3.
 template <int Dimension>
 float kernel_norm(KernelKind kind, float r) {
   static_assert(Dimension == 2 || Dimension == 3);
@@ -47,7 +47,7 @@ auto with_kernel(KernelKind kind, F&& f) {
   return f([](float q) { return kernel_profile<KernelKind::triweight>(q); });
 }
 
-/// One of the kinds of map, with how it is gathered from and what with.
+/// A map of one kind, with the settings of the gather, its counters and its memory.
 template <class Index>
 struct Gathering {
   const Index& index;
@@ -62,7 +62,7 @@ struct AnyPhoton {
   bool operator()(const PackedDirection&, const Vec3&) const { return true; }
 };
 
-/// Sum over the photons within the radius that `accept`(travel, offset) takes.
+/// The sum over the photons within the radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
   const float r = map.settings.radius;
@@ -83,8 +83,8 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
   });
 }
 
-/// The k nearest photons that `accept`(travel, offset) takes, of those within the largest radius. Good until the
-/// next call with the same work.
+/// The k nearest photons that `accept`(travel, offset) takes, among those within the largest radius. The result is
+/// valid until the next call with the same work.
 template <class Accept>
 const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept) {
   Neighbours& neighbours = map.work.neighbours;
@@ -94,9 +94,9 @@ const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, A
   return neighbours;
 }
 
-/// Sum over neighbours that nearest() found. The k-th sets the radius and is not counted: k - 1 photons over the ball
-/// that reaches it, which is unbiased; kernels that vanish there leave it out by themselves. Where fewer than k lie
-/// within the largest radius, all count over that one.
+/// The sum over the neighbours that nearest() found. The k-th neighbour sets the radius and is not counted: k - 1
+/// photons over the ball that reaches to it give an unbiased estimate. (Kernels that vanish at the radius leave it out
+/// by themselves.) Where fewer than k photons lie within the largest radius, all of them count, over that radius.
 template <int Dimension, class Value>
 Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
@@ -115,7 +115,7 @@ Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours
   });
 }
 
-/// Sum over the k nearest photons that `accept` takes.
+/// The sum over the k nearest photons that `accept` takes.
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
   return neighbour_sum<Dimension>(map, nearest(map, point, accept), value);
@@ -146,7 +146,7 @@ float kernel_radius(const CountedMap& counted, const Vec3& point, Accept&& accep
   return std::sqrt(nearest(Gathering{*by_count, settings, counted.work}, point, accept).limit());
 }
 
-/// The brute-force twin of both: looks at every photon of a plain list. Powers are divided by `emitted` here.
+/// The brute-force twin of both sums: looks at every photon of a plain list. Powers are divided by `emitted` here.
 template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& settings, uint64_t emitted, const Vec3& point,
                Accept&& accept, Value&& value) {

@@ -1,11 +1,12 @@
-// How much of a kernel lies outside along a line from its middle.
+// How much of a kernel lies outside a region, along a line from the kernel's centre.
 #pragma once
 
 namespace vpm {
 
-/// Looks along a line from the point: how much of the kernel's weight there lies where not inside(t), t in m. `within`
-/// is the kernel's integral up to t over its radius. The point itself counts as inside. What changes and changes back
-/// between two looks is missed; what changes is found to a hundredth of `reach`.
+/// The fraction of the kernel's weight along a line from the point that lies where inside(t) is false, t in m.
+/// within(t) is the kernel's integral up to the distance t. The point itself counts as inside. inside() is tested at
+/// three distances. Where two neighbouring tests differ, the place of the change is found to a hundredth of `reach`. If
+/// inside() changes and changes back between two of them, that is missed.
 template <class Within, class Inside>
 double lost_along(float reach, Within&& within, Inside&& inside) {
   constexpr int kLooks = 3, kBisections = 5;

@@ -1,4 +1,4 @@
-// How photon maps change from pass to pass, and how they are made in one.
+// How the radii of photon maps change from pass to pass, and how the maps of one pass are made.
 #pragma once
 
 #include "vpm/estimate/photon_map.h"
@@ -7,29 +7,29 @@
 
 namespace vpm {
 
-/// What the maps of a pass go by.
+/// What the maps of a pass depend on.
 struct PassOfMaps {
   int number = 0;                // from 0
   bool shrinks = true;           // do radii shrink from pass to pass?
   uint32_t photons_in_cube = 0;  // > 0: control_density()
 };
 
-/// Radii that nothing is known of: their shares of the diagonal of the medium's bounds (grids) or of the scene. The
-/// second where gathers go by count, and the radius only bounds them.
+/// Default radii, as fractions of the diagonal of the medium's bounds (grids) or of the scene. kDefaultSearch is for
+/// gathers by count, where the radius is only the largest allowed.
 inline constexpr float kDefaultRadius = 0.01f, kDefaultSearch = 0.1f;
-/// The radius of a map in the first pass, m: the one that is given, or such a share of the diagonal.
+/// The radius of a map in the first pass, m: the one that is given, or the default fraction of the diagonal.
 float first_radius(const AskedGather& gather, const Scene& scene);
 float first_radius(const AskedGather& gather, const Scene& scene, const Medium& medium);
 
-/// Does the radius go by the pass? Not the largest radius of the nearest mode.
+/// Does the radius shrink from pass to pass? The largest radius of the nearest mode does not.
 bool shrinks(const AskedGather& gather, const PassOfMaps& pass);
 /// The settings of a map in the pass, for its first radius (m) and the dimension of its kernel.
 GatherSettings gather_in_pass(const AskedGather& gather, float first_radius, int dimension, const PassOfMaps& pass);
 
-/// Merges photons where the pass asks for that, for gathers by that radius.
+/// Merges photons where the pass asks for it, for gathers with the radius of `gather`.
 void merge_photons(std::vector<Photon>& photons, const GatherSettings& gather, const PassOfMaps& pass,
                    RenderStatistics& statistics);
-/// A map of photons of which that many were emitted; takes them.
+/// Makes a map of the photons, and takes them. `emitted` is the number of photons emitted.
 PhotonMap make_map(std::vector<Photon>& photons, const GatherSettings& gather, uint64_t emitted, const PassOfMaps& pass,
                    RenderStatistics& statistics);
 

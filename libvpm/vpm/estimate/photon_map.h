@@ -20,14 +20,14 @@ struct PhotonMap {
   size_t memory_bytes() const;
 };
 
-/// What gathers of one thread count, and the room that they work in.
+/// The counters of the gathers of one thread, and the memory that they work in.
 struct GatherWork {
   GatherCounters& counters;
   Neighbours& neighbours;  // of the last search by count
 };
 
-/// A photon map to be gathered from with counting, and with settings of its own where they differ from the map's in
-/// radius or kernel, but not in mode.
+/// A view of a photon map that counts its gathers. Its settings may differ from those of the map in radius and kernel,
+/// but not in mode.
 struct CountedMap {
   const PhotonMap& map;
   GatherWork work;

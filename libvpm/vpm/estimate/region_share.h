@@ -1,16 +1,16 @@
-// How much of a kernel a region has.
+// The fraction of a kernel that lies in a region.
 #pragma once
 
 namespace vpm {
 
-/// What a region covers of a kernel.
+/// The part of a kernel that a region covers.
 struct RegionShare {
-  double inside = 1.0;  // the kernel's integral over the region; 1 exactly where nothing of the kernel lies outside
-  bool others = false;  // may photons lie outside, within the kernel's reach?
+  double inside = 1.0;  // the kernel's integral over the region; exactly 1 where no part of the kernel lies outside
+  bool others = false;  // may photons within the kernel's reach lie outside the region?
 };
 
-/// The least share that a sum is divided by: an eighth of what the corner of a cube has. Where less is inside, the
-/// estimate stays too dark, and is counted.
+/// Where RegionShare::inside is below this, the sum is divided by this instead: an eighth of the share at the corner of
+/// a cube. The estimate stays too dark there, and is counted.
 inline constexpr double kLeastShare = 1.0 / 64.0;
 
 }  // namespace vpm

@@ -6,20 +6,20 @@
 
 namespace vpm {
 
-/// How far off the plane through the point photons may lie: a share of their distance, and where the radius is fixed a
-/// share of that. Leaves out most photons of other surfaces, and keeps those of surfaces curved with a radius of
-/// curvature above twice the gather radius.
+/// How far from the plane through the point photons may lie: kSlope times their distance from the point, plus kFlatness
+/// times the radius where the radius is fixed. This leaves out most photons of other surfaces. It keeps the photons of
+/// surfaces whose radius of curvature is above twice the gather radius.
 inline constexpr float kSlope = 0.3f;
 inline constexpr float kFlatness = 0.05f;
 
-/// The second share, m. Of the nearest photons none: the largest radius they are looked for in tells nothing of the
-/// one that they will be found in.
+/// The part that depends on the radius, m. It is 0 for the nearest photons: the largest radius they are looked for in
+/// says nothing about the radius they will be found in.
 inline float plane_thickness(const GatherSettings& gather) {
   return gather.mode == GatherMode::radius ? kFlatness * gather.radius : 0.0f;
 }
 
-/// The photons that count on a surface: those near its plane that arrive at the side that `normal` (unit) points to,
-/// or, `from_both_sides`, at any.
+/// The photons that count on a surface: those near its plane that arrive on the side that `normal` (unit) points to or,
+/// with `from_both_sides`, on either side.
 struct Arrives {
   Vec3 normal{0.0f};
   float thickness = 0.0f;  // m, plane_thickness()
@@ -34,8 +34,8 @@ struct Arrives {
   }
 };
 
-/// The sum of value(travel, power) K_r over the discs of photons that arrive at the side of a surface that `normal`
-/// (unit) points to. `Photons` are a map or a view of one, or a plain list for the brute-force twin.
+/// The sum of value(travel, power) K_r, K_r over discs, of the photons that arrive on the side of a surface that
+/// `normal` (unit) points to. `Photons` are a map or a view of one, or a plain list for the brute-force twin.
 template <class Value, class... Photons>
 Rgb surface_sum(const Vec3& point, const Vec3& normal, Value&& value, const Photons&... photons) {
   return kernel_sum<2>(photons..., point, Arrives{normal, plane_thickness(settings_of(photons...))}, value);
@@ -49,8 +49,8 @@ Rgb surface_irradiance(const Vec3& point, const Vec3& normal, const Photons&... 
       point, normal, [](const Vec3&, const Rgb& power) { return power; }, photons...);
 }
 
-/// The same by the cosines to the shading normal of a hit: what a Lambertian surface there reflects. `normal` is the
-/// hit's geometric one, turned to the side that is asked for.
+/// The same with the cosines to the shading normal of a hit: what a Lambertian surface there reflects. `normal` is the
+/// geometric normal of the hit, on the side that is asked for.
 template <class... Photons>
 Rgb shaded_irradiance(const Hit& hit, const Vec3& normal, const Photons&... photons) {
   if (single_normal(hit)) return surface_irradiance(hit.position, normal, photons...);
@@ -60,9 +60,10 @@ Rgb shaded_irradiance(const Hit& hit, const Vec3& normal, const Photons&... phot
   return surface_sum(hit.position, normal, shaded, photons...);
 }
 
-/// Radiance, W/(m^2 sr), that a rough surface sends towards the eye, `towards_eye`: sum_p f(w_p, towards_eye) Phi_p K_r
-/// [Jarosz2008, eq. 7.5]. Photons on the eye's side count, and those on the far side where the material scatters them
-/// through. f is for flux on its way to the eye, so refraction scales nothing here.
+/// The radiance, W/(m^2 sr), that a non-specular surface sends in the direction `towards_eye`: sum_p
+/// f(w_p, towards_eye) Phi_p K_r [Jarosz2008, eq. 7.5]. Photons that arrive on the eye's side count. So do those on the
+/// far side, where the material scatters light through. f is for flux on its way to the eye, so refraction scales
+/// nothing here.
 template <class... Photons>
 Rgb scattered_radiance(const Material& material, const Hit& hit, const Vec3& towards_eye, const Photons&... photons) {
   const float geometric = glm::dot(hit.normal, towards_eye), shading = glm::dot(hit.shading_normal, towards_eye);

@@ -1,4 +1,4 @@
-// The part of a disc on a surface that belongs to a point: what of the surface is really there, this side of walls.
+// The part of a disc on a surface that belongs to a point: where the surface really is, on this side of walls.
 #pragma once
 
 #include "vpm/estimate/bounded_map.h"
@@ -7,21 +7,22 @@
 
 namespace vpm {
 
-/// The places within reach of a point of a surface that lie near its plane (as in Arrives) on surfaces that photons are
-/// stored on, inclined to it by less than 45 degrees, and that nothing stands before as seen along the surface: from a
-/// tenth of the way above it, or from half as high as the first thing above the point where that is lower. Photons of
-/// walls and of sides of steps do not count, nor those behind a wall; holes and what lies beyond an edge is no part of
-/// the disc. As in Arrives itself, surfaces that bend with a radius above twice
-/// the disc's are all there.
+/// The places within reach of a point of a surface that meet three conditions. They lie near its plane (as in Arrives).
+/// They are on surfaces that store photons and are inclined to the plane by less than 45 degrees. Nothing stands before
+/// them on a line of sight above the surface, whose height is a tenth of the distance, or half the height of the first
+/// surface above the point where that is lower. So photons on walls, on the sides of steps and behind walls do not
+/// count; holes and what lies beyond an edge are no part of the disc. As in Arrives, curved surfaces whose radius of
+/// curvature is above twice the disc's radius belong to the region completely.
 ///
-/// What the disc covers is asked of the scene, as by [Hey2002], not guessed from where photons are, as by their convex
-/// hull [Jensen2001, ch. 7]. Its share of a kernel is found along 32 fixed lines from the point, at three places and
-/// where there is a change between two of them; along 8 where these find nothing but the region. Off by 0.3 % of the
-/// whole near edges and corners of right angles (root mean square over places and orientations), at most by 2 %. What
-/// is narrower than a third of the radius, or than the angle between lines, may be missed.
+/// The scene is asked what the disc covers, as in [Hey2002]; it is not guessed from the photons' positions, as by their
+/// convex hull [Jensen2001, ch. 7]. The region's share of a kernel is found along 32 fixed lines from the point. Each
+/// line is tested at three places, and the change is located where two of them differ. If the first 8 lines find
+/// nothing but the region, they are enough. The error is 0.3 % of the whole kernel near edges and right-angled corners
+/// (root mean square over places and orientations), at most 2 %. What is narrower than a third of the radius, or than
+/// the angle between lines, may be missed.
 class SurfaceRegion {
  public:
-  /// Of the side of the hit that is seen from the direction `towards` (unit).
+  /// The region on the side of the hit that is seen from the direction `towards` (unit).
   SurfaceRegion(const Scene& scene, const Hit& hit, const Vec3& towards, const GatherSettings& gather);
 
   RegionShare share(float radius) const;

@@ -6,14 +6,14 @@
 
 namespace vpm {
 
-/// sum_p p(travel_p . towards) Phi_p K_r(x - x_p), K_r over 3D balls, W/(m^3 sr). `towards` is the direction the
-/// scattered light leaves to (unit; towards the eye). `Photons` are a PhotonMap, or a plain list for the brute-force
+/// sum_p p(travel_p . towards) Phi_p K_r(x - x_p), K_r over 3D balls, W/(m^3 sr). `towards` is the unit direction in
+/// which the scattered light leaves (towards the eye). `Photons` are a PhotonMap, or a plain list for the brute-force
 /// twin.
 ///
-/// With the photons' powers as their VolumeForm says, the source of radiance at x is
-///   density at the photon:  j = albedo sum                   (Phi_p is the flux that collided)
-///   density at the query:   j = albedo density(x) sum        (Phi_p is the flux that collided over the density at x_p)
-/// with both densities over the medium's largest.
+/// The photons' VolumeForm decides what Phi_p is, and how the source of radiance j at x follows from the sum:
+///   density at the photon:  j = albedo sum                   (Phi_p is the power that collided)
+///   density at the query:   j = albedo density(x) sum        (Phi_p is that power over the density at x_p)
+/// Both densities are relative to the medium's largest.
 template <class... Photons>
 Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const Photons&... photons) {
   return std::visit(
@@ -24,8 +24,8 @@ Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const
       phase);
 }
 
-/// The fluence, W/m^2: sum_p Phi_p K_r / majorant for photons stored for the density at the query, with the medium's
-/// majorant, as their densities are relative to its largest.
+/// The fluence, W/m^2, from photons stored for the density at the query: sum_p Phi_p K_r / majorant. `majorant` is the
+/// medium's, because the densities of these photons are relative to its largest density.
 template <class... Photons>
 Rgb fluence(const Rgb& majorant, const Vec3& point, const Photons&... photons) {
   return kernel_sum<3>(photons..., point, AnyPhoton{}, [](const Vec3&, const Rgb& power) { return power; }) / majorant;

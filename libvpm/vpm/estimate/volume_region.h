@@ -1,4 +1,4 @@
-// The part of a ball in a medium that belongs to a point: what is seen from there.
+// The part of a ball in a medium that belongs to a point: what can be seen from the point.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,16 @@
 
 namespace vpm {
 
-/// The places of a medium within reach of a point that nothing stands between, no surface and no border of a medium,
-/// and where the density is not zero. Light does not leak through thin walls into it, and what sticks out of the medium
-/// is no part of it.
+/// The places of a medium within reach of a point where the density is not zero and which the point sees: no surface
+/// and no border of a medium lies between. So light does not leak into the region through thin walls, and the part of
+/// the ball outside the medium does not count.
 ///
-/// Its share of a kernel is found by rays into 128 fixed directions, into 512 where it is less than 0.6, exact along
-/// each in homogeneous media. In the root mean square over places and orientations it is off by 0.3 % of the whole near
-/// faces and by 0.4 % near corners of right angles, at most by 2.3 %; right at such a corner by 0.1 % where its faces
-/// stand across the axes, by 0.3 %, at most 1.2 %, where they do not; between two walls by 1 % of itself. No ray is
-/// sent where no shape is within the radius and the density is positive in the bricks around.
+/// The region's share of a kernel is found by rays into 128 fixed directions, or into 512 where it is less than 0.6. In
+/// homogeneous media it is exact along each ray. Its error, as a part of the whole kernel, is 0.3 % near faces and
+/// 0.4 % near right-angled corners (root mean square over places and orientations), at most 2.3 %. Exactly at such a
+/// corner it is 0.1 % where the faces are perpendicular to the axes; otherwise it is 0.3 %, at most 1.2 %. Between two
+/// walls it is 1 % of the share itself. No ray is sent where no shape is within the radius and the density is positive
+/// in the bricks around the point.
 class VolumeRegion {
  public:
   VolumeRegion(const Scene& scene, MediumId medium, const Vec3& point, KernelKind kernel)

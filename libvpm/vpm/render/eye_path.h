@@ -9,12 +9,12 @@ namespace vpm {
 struct EyeContext {
   const Scene& scene;
   const Estimators& estimators;
-  int max_events = 100'000;  // of one path; those cut are counted
+  int max_events = 100'000;  // of one path; paths that are cut are counted
 };
 
-/// Follows a camera ray: through boundaries and specular surfaces; each segment adds what its medium scatters towards
-/// the eye, as the estimators of volumes say; the first rough surface adds what that of surfaces says, and ends the
-/// path. W/(m^2 sr).
+/// Follows a camera ray through boundaries and specular surfaces. Each segment adds what its medium scatters towards
+/// the eye, as the estimators of volumes find it. The first non-specular surface adds what the estimator of surfaces
+/// finds, and ends the path. Returns radiance, W/(m^2 sr).
 Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, EyeWork& work);
 
 }  // namespace vpm

@@ -1,5 +1,5 @@
-// The film: the mean of passes, pixel by pixel, and what their differences tell of its error, whatever the order in
-// which passes come and the films that they were gathered in.
+// The film: the mean of passes, pixel by pixel, and what the differences between passes tell of its error. The result
+// does not depend on the order of the passes, nor on how films of some of them were merged.
 #pragma once
 
 #include <array>
@@ -11,11 +11,12 @@
 
 namespace vpm {
 
-/// Variance and bias of a film's mean, told apart. A pass of radius r has a bias of b r^2 where the photons' density is
-/// smooth [Silverman1986, sec. 3.3]: passes of different radii show it as the slope of a line through them.
+/// Estimates of the variance and of the bias of a film's mean. A pass of radius r has a bias of b r^2 where the
+/// photons' density is smooth [Silverman1986, sec. 3.3]. Passes of different radii show it as the slope of a line
+/// through them.
 struct FilmErrors {
   Image variance;              // of the mean, from the differences between passes
-  Image bias;                  // of the mean, unbiased but full of noise
+  Image bias;                  // of the mean; an unbiased estimate, but full of noise
   double variance_part = 0.0;  // relative MSE due to variance: the mean over pixels and channels of
                                // variance / (mean^2 + 0.01 (mean over pixels)^2), as relative_mse()
   double bias_part = 0.0;      // the same due to bias; an unbiased estimate, which may come out below 0
@@ -23,8 +24,8 @@ struct FilmErrors {
 
 /// What a film sums, by blocks of ExactSums::kCount values: three to a pixel, rows from the top.
 struct FilmSums {
-  /// Of the even passes and of the odd ones. Their noise is independent, so that the product of the two halves' slopes
-  /// estimates the squared bias without any noise on average.
+  /// The sums of the even passes, or of the odd ones. The noise of the two halves is independent, so the product of
+  /// their slopes estimates the squared bias without any noise on average.
   struct Half {
     ExactSums squares;                // of radii, relative: [0] their sum, [1] that of their squares
     std::vector<ExactSums> values;    // W/(m^2 sr)
@@ -39,17 +40,18 @@ struct FilmSums {
   bool operator==(const FilmSums&) const = default;
 };
 
-/// Sums passes without rounding error: the film of a set of passes is the same to the last bit in whatever order they
-/// are added, and of whatever films of some of them each it is merged. What is rounded is what passes give, floats, and
-/// what is read off the sums. A mean's relative error is that of a double; so is that of a variance, though it is a
-/// difference of nearly equal sums, or about n 2^-54 of n passes that differ in the last bits of their floats alone.
+/// Sums passes without rounding error. The film of a set of passes is the same to the last bit, in whatever order they
+/// are added, and however films of some of them are merged. Only two things are rounded: what passes give, floats, and
+/// what is read off the sums. The relative error of a mean is that of a double. So is that of a variance, though it is
+/// a difference of nearly equal sums; it is about n 2^-54 for n passes that differ only in the last bits of their
+/// floats.
 ///
 /// A pixel takes 190 bytes where a block of 42 pixels has nearly one brightness, 260 where the passes of each block
 /// span 4 decades, 280 where they span 10 and 340 where they span 20 (512 x 512 pixels after 64 passes: 49, 67, 74 and
 /// 89 MB).
 class Film {
  public:
-  static constexpr size_t kBytesOfPixel = 300;  // to reckon with
+  static constexpr size_t kBytesOfPixel = 300;  // for estimates of sizes
 
   Film(int width, int height);
   /// Of sums of a film of that size.
@@ -57,16 +59,17 @@ class Film {
   /// How many blocks a film of that size has.
   static size_t blocks(int width, int height);
 
-  /// Adds pass number `pass`, which the film has not got yet, >= 0; its image has the film's size and finite pixels.
-  /// Its kernels' squared radii are `relative_square` times those of the first pass (0: the pass has no kernel). Throws
-  /// std::domain_error where a pixel is not finite; the film must not be used then.
+  /// Adds pass number `pass` >= 0, which the film does not have yet. Its image has the film's size and finite pixels.
+  /// The squared radii of its kernels are `relative_square` times those of the first pass (0: the pass has no kernel).
+  /// Throws std::domain_error where a pixel is not finite; the film must not be used then.
   void add(int pass, const Image& image, float relative_square = 0.0f);
-  /// Adds the passes of another film of the same size. Throws InputError where both have one of the same number.
+  /// Adds the passes of another film of the same size. Throws InputError where both films have a pass of the same
+  /// number.
   void merge(const Film& other);
   int width() const { return width_; }
   int height() const { return height_; }
   int passes() const { return sums_.passes.count(); }
-  /// The number of the next pass: the least that the film has not got.
+  /// The number of the next pass: the least that the film does not have.
   int next_pass() const { return sums_.passes.first_missing(); }
   const FilmSums& sums() const { return sums_; }
   /// The mean of the passes, W/(m^2 sr); black where there is none.

@@ -1,5 +1,5 @@
-// One pass of photon mapping: a pure function of scene, settings and pass number, and where pixels have radii of their
-// own of these.
+// One pass of photon mapping: a pure function of the scene, the settings and the pass number. Where pixels have radii
+// of their own, it also depends on these.
 #pragma once
 
 #include "vpm/render/image_pass.h"
@@ -17,15 +17,15 @@ struct PassRun {
 /// Traces the photons of the pass into the recorders of the estimators, if these have any.
 void trace_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                 RenderStatistics& statistics);
-/// The same, and builds the estimators.
+/// Does the same, and then builds the estimators.
 void prepare_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                   RenderStatistics& statistics);
 
 /// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, and its image must not be used.
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress = {});
-/// The same after passes that have left such discs, where pixels have radii of their own. Without discs none was
-/// before.
+/// The same where pixels have radii of their own, after passes that have left `discs`. Without discs, there was no
+/// earlier pass.
 Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const RenderSettings& settings,
                               const PassRun& run);
 

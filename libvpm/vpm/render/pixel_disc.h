@@ -1,4 +1,4 @@
-// Radii of stochastic progressive photon mapping: each pixel's own, by the photons that it has found.
+// Radii of stochastic progressive photon mapping: each pixel has its own, which depends on the photons it has found.
 #pragma once
 
 #include <cmath>
@@ -9,22 +9,23 @@
 
 namespace vpm {
 
-/// What a pixel carries from pass to pass of the disc that it gathers photons of surfaces over [Hachisuka2009]: that of
-/// a point in [Hachisuka2008], shared by all points that the pixel sees. The third number of the method, the flux tau,
-/// is left to the film: tau / R^2 is the sum over passes of what each found, over the square of the radius it had, so
-/// that the mean of passes says the same.
+/// What a pixel keeps from pass to pass of the disc over which it gathers the photons of surfaces [Hachisuka2009]. It
+/// is what a point keeps in [Hachisuka2008], shared by all points that the pixel sees. The third number of the method,
+/// the flux tau, is left to the film: tau / R^2 is the sum over passes of what each pass found, divided by the square
+/// of the radius it had. So the mean of passes says the same.
 struct PixelDisc {
   double area = 1.0;     // R^2 of the next pass over that of the first
-  double photons = 0.0;  // N: those found, less those that shrinking has left outside
+  double photons = 0.0;  // N: photons found, less those that shrinking has left outside
 };
-/// By pixel, row by row; none before the first pass, and where radii are not the pixels' own.
+/// The discs of the pixels, row by row; none before the first pass, and where pixels have no radii of their own.
 using PixelDiscs = std::vector<PixelDisc>;
 
 /// Shrinks the disc after a pass that has found so many photons, M: N' = N + alpha M, R'^2 = R^2 N' / (N + M)
-/// [Hachisuka2009]. In even light R^2 shrinks by (i + alpha) / (i + 1) after pass number i, from 0: the factors of
-/// measure_of_pass() after a first one, alpha. So alpha is A.
+/// [Hachisuka2009]. Under uniform light, R^2 shrinks by (i + alpha) / (i + 1) after pass number i, counted from 0.
+/// These are the factors of measure_of_pass(), after a first factor of alpha. So alpha is its A.
 ///
-/// M is a sum over the pixel's samples. Their mean would do as well: the rule knows M and N by their ratio alone.
+/// M is a sum over the pixel's samples. Their mean would do as well, because the rule depends only on the ratio of M
+/// and N.
 inline void shrink(PixelDisc& disc, uint64_t found) {
   if (found == 0) return;
   const double all = disc.photons + static_cast<double>(found);

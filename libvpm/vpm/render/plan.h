@@ -16,8 +16,8 @@ namespace vpm {
 /// The estimators of one pass. Immutable while rays run.
 struct Estimators {
   std::vector<std::unique_ptr<VolumeEstimator>>
-      volume;                                 // of light that does not overlap; none where no medium scatters
-  std::unique_ptr<SurfaceEstimator> surface;  // null where no surface is rough
+      volume;                                 // no two of them estimate the same light; none where no medium scatters
+  std::unique_ptr<SurfaceEstimator> surface;  // null where there is no non-specular surface
 
   /// All of them.
   std::vector<Estimator*> all() const;
@@ -26,16 +26,16 @@ struct Estimators {
   Recorders recorders() const;
 };
 
-/// What of a scene scatters, and so asks for estimators.
+/// What scatters in a scene, and so needs estimators.
 struct Scattering {
   bool media = false;
-  bool surfaces = false;  // rough ones: mirrors and glass need no map
+  bool surfaces = false;  // non-specular ones: mirrors and glass need no map
 };
 Scattering scattering_of(const Scene& scene);
 
-/// Plans pass number `pass` of a render of photon maps, after passes that have left such discs (none: there was none
-/// before, or pixels have no radii of their own). Nothing is traced or built yet, so that a plan also serves to ask
-/// what a render would do. By the path tracer: none.
+/// Plans pass number `pass` of a render of photon maps. `discs` are those that earlier passes have left: none before
+/// the first pass, and where pixels have no radii of their own. Nothing is traced or built yet, so a plan also serves
+/// to ask what a render would do. The path tracer has no estimators.
 Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs = {});
 /// The same for surfaces alone.
 Estimators plan_surface_estimators(const Scene& scene, const RenderSettings& settings, int pass);
@@ -46,11 +46,11 @@ void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators
 /// Does such a render cast shadow rays? The path tracer always does.
 bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings);
 
-/// The squared radius of the pass's kernels over that of the first pass, of the first map whose radii go by the number
-/// of the pass: all of these shrink at nearly the same rate. 1 where none does, 0 without maps.
+/// The squared radius of the pass's kernels, relative to the first pass. It is that of the first map whose radii depend
+/// on the pass number: all of these shrink at nearly the same rate. 1 where there is no such map, 0 without maps.
 float relative_square(const std::vector<MapInfo>& maps, int pass);
-/// The sections of the scene file whose maps are used but do not shrink from pass to pass as its number tells: their
-/// kernels' bias cannot be seen.
+/// The sections of the scene file whose maps are used, but do not shrink with the pass number: the bias of their
+/// kernels cannot be seen.
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace vpm

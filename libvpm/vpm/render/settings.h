@@ -11,32 +11,34 @@
 
 namespace vpm {
 
-/// Where light that has not scattered yet comes from: the photon map, or rays towards the lights. In media these start
-/// at every step of the eye rays' march, or equiangular, which is for media alone: at a few distances drawn for that.
+/// What estimates light that has not scattered yet: the photon map, or rays towards the lights. In media, these rays
+/// start at every step of the march along the eye ray. `equiangular` is for media alone: rays start at a few distances
+/// that are drawn for this purpose.
 enum class DirectLight { photons, shadow_rays, equiangular };
 
-/// Where light comes from that surfaces have scattered on: the photon map itself, or final gathering, rays over the
-/// hemisphere that end in the map. Light that only mirrors, glass and media have led to a surface has a map of its own
-/// then, the caustic map.
+/// What estimates light that surfaces have scattered before: the photon map itself, or final gathering, rays over the
+/// hemisphere that end in the map. Under final gathering, light that only mirrors, glass and media have led to a
+/// surface has a map of its own, the caustic map.
 enum class IndirectLight { photons, final_gather };
 
-/// How gather radii change from pass to pass. They must shrink for the mean of passes to converge to the truth: those
-/// of all maps as the pass number tells [Knaus2011], or those of the surface map pixel by pixel, as the photons tell
-/// that the pixel has found [Hachisuka2009], and of other maps as before.
+/// How gather radii change from pass to pass. They must shrink for the mean of passes to converge to the truth.
+/// `per_pass`: those of all maps shrink with the pass number [Knaus2011]. `per_pixel`: each pixel has a radius of its
+/// own for the surface map, which shrinks with the photons that it has found [Hachisuka2009]; the radii of other maps
+/// shrink with the pass number.
 enum class RadiusSchedule { constant, per_pass, per_pixel };
 
 /// How final gathering draws its rays: as the material scatters, or up to half of them to where photons came from.
 enum class GatherBy { material, photons };
 
-/// What rays of final gathering find at diffuse surfaces: an estimate from all photons around their ends, or one
-/// computed beforehand at a place nearby.
+/// The irradiance that rays of final gathering take at diffuse surfaces: an estimate from all photons around their
+/// ends, or one computed beforehand at a cache point nearby.
 enum class EndIrradiance { estimate, precomputed };
 
 /// What estimates radiance: photon maps, or the unbiased reference path tracer.
 enum class Integrator { photon, path };
 
-/// When passes come to their end: once `passes` are done; or, where `seconds` or `error` are asked for, once the first
-/// of these is reached.
+/// When a render ends: once `passes` are done; or, where `seconds` or `error` are asked for, once the first of these
+/// two is reached.
 struct StopRule {
   int passes = 16;       // >= 1; ignored where seconds or error > 0
   double seconds = 0.0;  // > 0: wall clock; passes start until that time is over
@@ -48,14 +50,14 @@ struct StopRule {
 struct RenderSettings {
   Integrator integrator = Integrator::photon;
   uint64_t seed = 1;
-  StopRule until;             // when passes come to their end
+  StopRule until;             // when the render ends
   int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
 
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
   uint64_t photons_stored =
       0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
-  uint32_t photons_in_cube = 0;  // > 0: the most in a cube of half a radius that fly into one octant, see
-                                 // control_density()
+  uint32_t photons_in_cube = 0;  // > 0: the most photons that travel into one octant of directions, in a cube
+                                 // whose edges are half a radius long, see control_density()
   int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
   GuideSettings guide;  // of photons, by importance
@@ -65,9 +67,9 @@ struct RenderSettings {
 
   AskedGather volume;             // volumetric radiance estimate
   AskedGather surface;            // surface radiance estimate
-  AskedGather caustics;           // that of the caustic map, under final gathering
+  AskedGather caustics;           // estimate from the caustic map, under final gathering
   uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
-                                  // what the others bring
+                                  // what the other photons bring
   RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode
   VolumeForm volume_form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]

@@ -15,9 +15,9 @@ struct MediaContradiction {
   MediumId declared = kVacuum;  // the medium that the shape says is there
 };
 
-/// Sends rays through every shape that separates media and follows the media along them, from the world's medium
-/// outside the scene: a nested shape that forgets the medium around it and media that overlap in part are found. A few
-/// rays in a hundred may err at edges and are forgiven. Of several shapes that err the last is told.
+/// Sends rays through every shape that separates media, and follows the media along them, from the world's medium
+/// outside the scene. This finds nested shapes that do not name the medium around them, and media that overlap in part.
+/// A few rays in a hundred may err at edges; that is tolerated. Of several shapes that err, the last is returned.
 std::optional<MediaContradiction> find_media_contradiction(const Scene& scene);
 
 /// Two shapes with a face in common.
@@ -26,9 +26,10 @@ struct CommonFace {
   uint32_t other = 0;  // of a smaller number
 };
 
-/// Sends rays through every shape that light passes and looks for faces of two that coincide as far as rays resolve,
-/// so that light would meet but one of them where both count: two dielectrics, or a boundary and a dielectric that does
-/// not name its media. A common face of a tenth of a box's surface is overlooked with a chance of about 1e-6.
+/// Sends rays through every shape that light passes, and looks for faces of two shapes that coincide as far as rays
+/// resolve. Light would meet only one of the two, where both count: two dielectrics, or a boundary and a dielectric
+/// that does not name its media. A common face of a tenth of a box's surface is overlooked with a probability of about
+/// 1e-6.
 std::optional<CommonFace> find_common_face(const Scene& scene);
 
 }  // namespace vpm

@@ -1,5 +1,5 @@
-// The open set of estimators of the light that rough surfaces send towards the eye: one file each, one virtual call for
-// each surface that an eye ray ends on.
+// The open set of estimators of the light that non-specular surfaces send towards the eye: one file each, one virtual
+// call for each surface that an eye ray ends on.
 #pragma once
 
 #include "vpm/estimate/estimator.h"
@@ -8,7 +8,7 @@
 
 namespace vpm {
 
-/// A rough surface as a path that travels along `travel` in `medium` meets it.
+/// A non-specular surface as met by a path that travels along `travel` in `medium`.
 struct SurfaceView {
   const Hit& hit;
   const Material& material;
@@ -18,9 +18,10 @@ struct SurfaceView {
 
 class SurfaceEstimator : public Estimator {
  public:
-  /// Estimates the radiance that leaves the surface against `travel`, W/(m^2 sr), without its own emission.
+  /// Estimates the radiance that leaves the surface in the direction -`travel`, W/(m^2 sr), without its own emission.
   virtual Rgb sent(const SurfaceView& view, EyeWork& work) const = 0;
-  /// Photons found in the discs of pixels, over their samples; empty where pixels have no discs of their own.
+  /// The number of photons found in the disc of each pixel, over its samples; empty where pixels have no discs of their
+  /// own.
   virtual std::vector<uint64_t> take_found() { return {}; }
 };
 

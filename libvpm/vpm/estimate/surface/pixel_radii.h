@@ -1,5 +1,5 @@
-// Light of surfaces from their photon map by radii of the pixels' own, which shrink as pixels find photons
-// [Hachisuka2009].
+// Estimates the light of surfaces from their photon map. Each pixel has a radius of its own, which shrinks as the pixel
+// finds photons [Hachisuka2009].
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ namespace vpm {
 
 class PixelRadii final : public SurfaceEstimator {
  public:
-  /// `radii`: of the pixels in this pass, m. The map is gathered by radius, with no correction at borders. Without
-  /// `direct` it holds the light, too, that comes straight from lights.
+  /// `radii` are those of the pixels in this pass, m. The map is gathered by radius, without correction at borders.
+  /// Without `direct`, it also holds the light that comes straight from lights.
   PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, std::vector<float> radii,
              std::optional<SurfaceShadowRays> direct);
 

@@ -7,25 +7,25 @@
 
 namespace vpm {
 
-/// What estimators by the photons of surfaces are told.
+/// The settings of estimators that gather photons of surfaces.
 struct SurfaceMapSettings {
   AskedGather gather;
   PassOfMaps pass;
 };
 
-/// The surface radiance estimate [Jarosz2008, eq. 7.5, corrected] at a hit: by the map's gather, with or without the
-/// correction at borders.
+/// The surface radiance estimate [Jarosz2008, eq. 7.5, corrected] at a hit, gathered as the settings of the map say,
+/// with or without the correction at borders.
 Rgb gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work);
 
-/// Photons on rough surfaces: recorded, sorted, gathered.
+/// Records, sorts and gathers the photons on non-specular surfaces.
 class SurfaceMap {
  public:
-  /// Of the photons that the filter takes.
+  /// A map of the photons that the filter takes.
   SurfaceMap(const Scene& scene, const SurfaceMapSettings& settings, PhotonFilter filter,
              HitUse use = HitUse::surface_map)
       : scene_(scene), settings_(settings), hits_(scene, filter, use) {}
 
-  /// Those of `section` in the scene file.
+  /// The map whose settings are in the section [surface] of the scene file.
   MapInfo info() const {
     return {"surface", 2, shrinks(settings_.gather, settings_.pass), nullptr, &hits_.photons, hits_.emitted_count};
   }

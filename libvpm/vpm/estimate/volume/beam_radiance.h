@@ -8,8 +8,8 @@
 
 namespace vpm {
 
-/// With the density at the query it gathers from the medium that the ray is in, with that at the photon from all. The
-/// kernel is one of discs across the ray; nothing is corrected at borders.
+/// With the density at the query, it gathers photons of the medium that the ray is in; with the density at the photon,
+/// those of all media. The kernel is over discs perpendicular to the ray. Nothing is corrected at borders.
 class BeamRadiance final : public VolumeEstimator {
  public:
   BeamRadiance(const Scene& scene, const VolumeMapSettings& settings) : scene_(scene), maps_(scene, settings, 2) {}

@@ -1,9 +1,9 @@
-// Marching an eye ray through a medium, so that the step size may change cost and noise but never exposure.
+// Marching an eye ray through a medium. The step size may change cost and noise, but never brightness.
 //
 // The integral of Tr(t) density(t) f(t) over the ray is cut into steps. Each step takes ONE sample of f, at a point
-// drawn inside the step in proportion to the transmitted density, and weighs it with the step's exact integral. Density
-// integrals come from the exact quartics of the cells, so the result is unbiased for any step, and f = 1 gives (1 -
-// Tr)/sigma_t with no noise at all.
+// drawn in proportion to density times transmittance, and weights it by the exact integral of Tr(t) density(t) over the
+// step. Density integrals come from the exact quartics of the cells, so the result is unbiased for any step. f = 1
+// gives (1 - Tr)/sigma_t with no noise at all.
 #pragma once
 
 #include <algorithm>
@@ -33,39 +33,40 @@ struct Marched {
 /// Marches eye rays. Keeps its buffers between calls: one for each thread.
 class Marcher {
  public:
-  /// Calls add(point, weight) for each step; the sum of weight * f(point), per channel, estimates the integral of Tr
-  /// density f over the interval (weights are in m). Where the transmittance of all channels that matter is below 1 %
+  /// Calls add(point, weight) for each step. The sum of weight * f(point), per channel, estimates the integral of Tr
+  /// density f over the interval (weights are in m). Where the transmittance of all channels that matter is below 1 %,
   /// the march goes on by Russian roulette, so that it ends in endless media.
   template <class Add>
   Marched march(const Medium& medium, const Ray& ray, const Interval& interval, const StepLimits& limits, Rng& rng,
                 Add&& add);
 
  private:
-  /// The stretch of a piece that lies in the present step.
+  /// The part of a piece that lies in the present step.
   struct Part {
     DensityPiece piece;
     double s0;        // m from the piece's start
     double integral;  // m
   };
 
-  /// Adds to the step the stretch of a piece from `s` on, of no more than `length`, m, and no more than fills the
-  /// step's density integral to `most_integral`, m. Returns where it ends, m from the piece's start.
+  /// Adds a part of a piece to the step. The part starts at `s` (m from the start of the piece) and is at most `length`
+  /// m long; it ends early where the density integral of the step reaches `most_integral`, m. Returns where the part
+  /// ends, m from the start of the piece.
   double extend(const DensityPiece& piece, double s, double length, double most_integral);
-  /// Where along the ray the step's density integral reaches `density integral`, m.
+  /// Returns the distance along the ray, m, at which the step's density integral reaches `integral`, m.
   double locate(double integral) const;
 
   std::vector<Part> parts_;
   double integral_ = 0.0;  // of the step so far, m
 };
 
-/// The integral of exp(-sigma c) over c in [0, density integral]: (1 - exp(-sigma density integral))/sigma, whose limit
-/// for sigma -> 0 is the density integral.
+/// The integral of exp(-sigma c) over c in [0, integral]: (1 - exp(-sigma integral))/sigma. Its limit for sigma -> 0 is
+/// `integral`.
 inline double attenuated_integral(double sigma, double integral) {
   return sigma * integral > 1e-8 ? -std::expm1(-sigma * integral) / sigma : integral;
 }
 
-/// A density integral in [0, density integral] with density proportional to exp(-sigma c), for a uniform number u in
-/// [0, 1).
+/// Draws a density integral c in [0, integral] with a probability density proportional to exp(-sigma c), by a uniform
+/// number u in [0, 1).
 inline double draw_attenuated(double sigma, double integral, double u) {
   return sigma * integral > 1e-8 ? -std::log1p(u * std::expm1(-sigma * integral)) / sigma : u * integral;
 }
@@ -73,12 +74,12 @@ inline double draw_attenuated(double sigma, double integral, double u) {
 /// A ray, and the medium that its light passes on the way to the eye.
 struct SeenThrough {
   const Ray& ray;
-  const DensityIntegralsAlong& integrals;  // along it
+  const DensityIntegralsAlong& integrals;  // along the ray
   Rgb sigma_t{0.0f};                       // 1/m at density 1
 };
 
-/// Calls add(point, weight) for one point in each stretch of `length` m of the interval, drawn uniformly; the sum of
-/// weight * f(point) estimates the integral of Tr f over the interval (which must be finite).
+/// Cuts the interval, which must be finite, into equal parts of at most `length` m, and calls add(point, weight) for a
+/// point drawn uniformly in each. The sum of weight * f(point) estimates the integral of Tr f over the interval.
 template <class Add>
 void march_evenly(const SeenThrough& seen, const Interval& interval, float length, Rng& rng, Add&& add) {
   const auto strata = static_cast<uint32_t>(std::max(1.0f, std::ceil(interval.length() / length)));

@@ -1,5 +1,5 @@
-// Single scattering along a segment of an eye ray, found at a few distances: each drawn either equiangularly towards
-// the light or as what scatters there reaches the eye, and weighed as if both had drawn it.
+// Single scattering along a segment of an eye ray, found at a few distances. Each is drawn either equiangularly towards
+// the light, or with the density of what scatters and reaches the eye. MIS weights combine the two.
 #pragma once
 
 #include "vpm/estimate/volume/estimator.h"
@@ -7,8 +7,9 @@
 
 namespace vpm {
 
-/// Pairs of distances, each pair with a point of a light of its own. Where there is such a point one of the pair is
-/// equiangular [Kulla2012]; the balance heuristic [Veach1997, ch. 9] weighs both.
+/// Draws pairs of distances, each pair with a point of a light of its own. Where there is such a point, one distance of
+/// the pair is equiangular [Kulla2012], and the MIS weights of both are those of the balance heuristic [Veach1997,
+/// ch. 9].
 class SingleEquiangular final : public VolumeEstimator {
  public:
   /// `pairs` >= 1, on each segment.

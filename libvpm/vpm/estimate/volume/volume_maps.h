@@ -7,16 +7,17 @@
 
 namespace vpm {
 
-/// What an estimator by photons of media is told.
+/// The settings of an estimator that gathers photons of media.
 struct VolumeMapSettings {
   AskedGather gather;
   VolumeForm form = VolumeForm::density_at_query;
   float density_floor = 0.0f;  // in [0, 1], see stored_power()
-  bool once = true;            // gather photons, too, that come straight from lights
+  bool once = true;            // also gather photons that come straight from lights
   PassOfMaps pass;
 };
 
-/// Map: made by `make`(photons, settings in this pass, radius over that of the first pass, emitted, statistics).
+/// A Map is what `make`(photons, settings in this pass, radius over that of the first pass, emitted, statistics)
+/// returns, see build().
 template <class Map>
 class VolumeMaps {
  public:
@@ -57,10 +58,11 @@ class VolumeMaps {
   std::vector<Map> by_medium_;
 };
 
-/// How long steps among photons are, m: a gather radius, so that none is passed by. Where that would make too many
-/// steps of a stretch (thin media that extend very far) steps are longer: noisier then, but no less right.
+/// The length of steps among photons, m: a gather radius, so that no photon is passed by. Where that would make too
+/// many steps in a segment (thin media that extend very far), steps are longer; the result is then noisier, but no less
+/// right.
 inline float step_among(const PhotonMap& map, const Interval& interval) {
-  constexpr float kMostSteps = 10'000.0f;  // in one stretch of a ray
+  constexpr float kMostSteps = 10'000.0f;  // in one segment of a ray
   return std::max(map.settings.radius, interval.length() / kMostSteps);
 }
 

@@ -20,8 +20,8 @@ struct Bounded {
   double value = 0.0, lo = 0.0, hi = 0.0;
 };
 
-/// Errors of one picture, the expected part that the reference's own noise has in them subtracted: they are unbiased,
-/// and may come out below 0 where the reference is too noisy to tell.
+/// Errors of one picture. The part that the reference's own noise is expected to add is subtracted, so they are
+/// unbiased, and may come out below 0 where the reference is too noisy to tell.
 struct PictureErrors {
   double mse = 0.0;                   // (W/(m^2 sr))^2
   double relative_mse = 0.0;          // as relative_mse()
@@ -35,19 +35,19 @@ PictureErrors picture_errors(const Image& image, const Reference& reference);
 /// The errors of a method at one budget, from repetitions (at least 3) that are independent of each other.
 struct RepeatedErrors {
   Bounded mse, relative_mse;
-  /// Of the mean over pixels and channels, relative to the reference's. The reference's own noise is part of the
-  /// interval as far as its pixels are independent: those of paths are, those of photon maps hang together.
+  /// The bias of the mean over pixels and channels, relative to the reference's. The interval includes the reference's
+  /// own noise, as far as its pixels are independent: those of paths are, those of photon maps are correlated.
   Bounded bias;
-  double bias_p = 1.0;  // of a bias so far from 0, were there none
-  /// The relative MSE that is left when repetitions without end are averaged, and what goes away. Estimated without
-  /// bias: the first may come out below 0.
+  double bias_p = 1.0;  // probability of a bias so far from 0, were there none
+  /// The relative MSE that is left when infinitely many repetitions are averaged, and the part that averages out. Both
+  /// are estimated without bias: the first may come out below 0.
   Bounded squared_bias;
   double variance = 0.0;
   /// By two repetitions, the second before the first: the relative mean square of their difference. Half their mean is
-  /// an unbiased estimate of the variance, too, and no noise of the reference is in it but in its scale.
+  /// an unbiased estimate of the variance, too. The reference's noise enters only through its scale.
   std::vector<std::vector<double>> distances;
   /// By repetition: the relative mean square of its difference from the mean of all, times n/(n - 1). Their mean is
-  /// that same estimate, but they hang together by the mean they share.
+  /// that same estimate, but they are correlated by the mean they share.
   std::vector<double> deviations;
 };
 RepeatedErrors repeated_errors(const std::vector<Image>& images, const Reference& reference);

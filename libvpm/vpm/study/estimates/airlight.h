@@ -8,8 +8,8 @@
 
 namespace vpm {
 
-/// The eye looks along a ray from t = 0; the light is nearest to the ray at t_light, `distance` away, and sends out
-/// 1 W/sr. Scattering counts between t0 and t1; attenuation from the eye on.
+/// The eye looks along a ray from t = 0. The projection of the light onto the ray is t_light, its perpendicular
+/// distance is `distance`; it sends out 1 W/sr. Scattering counts between t0 and t1, attenuation from the eye on.
 struct Airlight {
   double sigma_t = 1.0;  // 1/m
   double albedo = 1.0;
@@ -19,7 +19,8 @@ struct Airlight {
 };
 
 /// Radiance times 10^-log10_scale, W/(m^2 sr): a radiance far below what floats can hold is estimated by the logarithms
-/// of transmittances. The ray is marched in stretches that grow away from the light; a sample is a march over all.
+/// of transmittances. The ray is marched in segments that grow away from the light; a sample is a march over all of
+/// them.
 Moments estimate_airlight(const Airlight& airlight, double log10_scale, uint64_t samples, uint64_t seed);
 
 /// Radiance over all of an endless ray (t0 = 0, t1 infinite) as a render's eye path finds it, by shadow rays from its

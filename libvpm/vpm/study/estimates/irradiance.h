@@ -10,16 +10,17 @@
 
 namespace vpm {
 
-/// Irradiance on the upper side of the plane z = 0 at a point, W/m^2, by direct light sampling. A sample is one of the
-/// light.
+/// Irradiance on the upper side of the plane z = 0 at a point, W/m^2, by direct light sampling. A sample is a sample of
+/// the light.
 Moments estimate_irradiance(const Light& light, const Vec3& receiver, uint64_t samples, uint64_t seed);
 /// The same for a light drawn anew for each sample: one that is the mean of simpler ones.
 Moments estimate_mean_irradiance(const std::function<Light(Rng&)>& draw, const Vec3& receiver, uint64_t samples,
                                  uint64_t seed);
 
-/// The same through surface photon maps of the radii h and h/2, joined so that the h^2 of their bias goes. A sample is
-/// a batch of photons; `fewest`: within h/2, on average. Aimed: photons are emitted to where importons from a camera
-/// above the receiver tell, so that many more come near it.
+/// The same, estimated by surface photon maps of the radii h and h/2. They are combined so that the h^2 term of their
+/// bias cancels. A sample is a batch of photons. `fewest` is the number of photons within h/2, on average. Aimed:
+/// photons are emitted in directions that importons from a camera above the receiver show, so that many more come near
+/// it.
 struct MappedIrradiance {
   Moments unbiased;
   double fewest = 0.0;
@@ -37,15 +38,16 @@ struct Cavity {
 
 /// How often a photon hits the walls. A sample is a photon.
 Moments estimate_wall_hits(const Cavity& cavity, uint64_t photons, uint64_t seed);
-/// The share of even light from the walls of a sphere that the radiance estimate over the radius r misses there, over
-/// (r/R)^2. The part of the sphere within the distance r has the area pi r^2 of a flat disc. But of the light that the
-/// walls send evenly to the part at distance d, tilted by theta, the share (1 - cos theta)/2 = d^2 / (4 R^2) comes from
-/// behind the point and is left out: on the average of the Epanechnikov kernel r^2 / (12 R^2).
+/// The fraction of uniform light from the walls of a sphere of radius R that the radiance estimate over the radius r
+/// misses there, divided by (r/R)^2. The part of the sphere within the distance r has the area pi r^2 of a flat disc.
+/// At distance d, however, the wall is tilted by theta: of the light that the walls send uniformly to that part, the
+/// fraction (1 - cos theta)/2 = d^2 / (4 R^2) comes from behind the point and is left out. Averaged with the
+/// Epanechnikov kernel, that is r^2 / (12 R^2).
 inline constexpr double kCapLoss = 1.0 / 12.0;
 /// The radius of estimate_wall_irradiance(), over the sphere's.
 inline constexpr double kCapRadius = 0.1;
-/// The mean over the walls of a sphere of what a surface photon map shows, W/m^2: of all photons, or of those that have
-/// been reflected; less kCapLoss of the latter. A sample is a batch.
+/// The mean irradiance, W/m^2, that a surface photon map shows over the walls of a sphere: of all photons, or of those
+/// that have been reflected. Of the latter it misses kCapLoss kCapRadius^2. A sample is a batch.
 Moments estimate_wall_irradiance(const Cavity& sphere, bool reflected_only, uint64_t photons, uint64_t seed);
 /// Irradiance at a point of a sphere's wall straight from the source, W/m^2.
 double direct_wall_irradiance(const Cavity& sphere, const Vec3& outward);

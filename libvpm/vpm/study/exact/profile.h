@@ -57,13 +57,13 @@ Profile voxel_profile(const double (&corners)[2][2][2], double scale, const Vec3
 double extinction(const Profile& profile, double t);
 /// int_0^t sigma_t.
 Bounded optical_thickness(const Profile& profile, double t);
-/// exp(-tau): also the share of flights that pass t.
+/// exp(-tau): also the fraction of flights that pass t.
 Bounded transmittance(const Profile& profile, double t);
-/// 1 - exp(-tau): the share of flights that end before t.
+/// 1 - exp(-tau): the fraction of flights that end before t.
 Bounded collision_cdf(const Profile& profile, double t);
-/// The t with collision_cdf = u, for u in [0, 1); none where the flight leaves the ray.
+/// The t with collision_cdf = u, for u in [0, 1); nothing where the flight leaves the ray.
 std::optional<Bounded> flight_quantile(const Profile& profile, double u);
-/// Mean length of flights, those that leave counted with the ray's: int_0^length exp(-tau) dt, m.
+/// Mean length of flights, where those that leave the ray count with its length: int_0^length exp(-tau) dt, m.
 Bounded mean_flight(const Profile& profile);
 
 }  // namespace vpm::exact

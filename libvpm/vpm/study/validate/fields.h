@@ -32,7 +32,7 @@ double mean_density_in_box(const Medium& medium);
 double field_box_volume();
 double field_box_area();
 
-/// A ray through all of these fields, aslant to their voxels, and its stretch inside all of them: there the ramp is a
+/// A ray through all of these fields, oblique to their voxels, and its segment inside all of them, where the ramp is a
 /// straight line.
 Ray test_ray();
 Interval test_stretch();
@@ -40,8 +40,8 @@ Interval test_stretch();
 /// The density integral along [t0, t1], m: Gauss's rule on the ray's part in each voxel, where the density is a cubic.
 double looked_up_integral(const Medium& medium, const Ray& ray, double t0, double t1);
 
-/// The density integral along the test's ray, from the start of its stretch to `t` (m), by the midpoint rule in steps
-/// of `step` m, as a march has it: for stating the bias of one.
+/// The density integral along the test's ray, from the start of test_stretch() to `t` (m), by the midpoint rule in
+/// steps of `step` m, as a march computes it. It serves to state the bias of a march.
 double marched_integral(const Medium& medium, double t, double step);
 
 }  // namespace vpm
