@@ -40,7 +40,7 @@ Surface surface_point(Rng& rng) {
   return {Vec3(0, a, b), side, side};
 }
 
-/// Looks at all cache_points, and computes the irradiance at the nearest.
+/// Looks at all cache points, and computes the irradiance at the nearest.
 std::optional<Rgb> brute_force(const std::vector<CachePoint>& cache_points, const PhotonMap& map, const Hit& hit,
                                const Vec3& towards_eye) {
   const float side = glm::dot(hit.normal, towards_eye) > 0.0f ? 1.0f : -1.0f;

@@ -1,4 +1,5 @@
-"""The pictures that tools/compare_programs compares: what is rendered, and how. The scenes' contents have a file of their own."""
+"""The pictures that tools/compare_programs compares: what is rendered, and how. The scenes' contents have a file of
+their own."""
 import collections
 import itertools
 import pathlib
@@ -23,7 +24,8 @@ WIDE = {"fog_room": "volume.radius=0.3 surface.radius=0.3",
 
 
 def make_files(program, folder):
-    """Lets a program make small grids, meshes and a picture for the scenes to name, in a folder. Throws RuntimeError where it fails."""
+    """Lets a program make small grids, meshes and a picture for the scenes to name, in a folder. Throws RuntimeError
+    where it fails."""
     def make(*arguments):
         done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
@@ -64,7 +66,8 @@ class Cases:
         self.all = []
 
     def add(self, group, scene, sets=(), *, options=(), passes=2, size=16, emitted=1500, bake="", may_refuse=False):
-        """Adds a picture, or with `bake` the light map of that shape: values for --set, in one text where none has blanks, and other options."""
+        """Adds a picture, or with `bake` the light map of that shape: values for --set, in one text where none has
+        blanks, and other options."""
         sets = sets.split() if isinstance(sets, str) else list(sets)
         changes = [f"photons.emitted={emitted}"] if not any(change.startswith("photons.") for change in sets) else []
         if scene in MADE:
@@ -211,9 +214,11 @@ TIMED = ("render.seconds", '"auto" of `emitted`')
 
 
 def unused_words(cases):
-    """Keys of the table of settings in scenes/README.md that no case sets, and words that no key of their section is given.
+    """Keys of the table of settings in scenes/README.md that no case sets, and words that no key of their section is
+    given.
 
-    A list of cases says nothing of what it leaves out, such as a setting that came later; so this is read from the page.
+    A list of cases says nothing of what it leaves out, such as a setting that came later; so this is read from the
+    page.
     """
     given = {change for case in cases for flag, change in zip(case.arguments, case.arguments[1:]) if flag == "--set"}
     given = {word for change in given for word in [change, change.partition("=")[0]]}

@@ -1,4 +1,5 @@
-"""How far two pictures are apart: the channels of EXR files as vpm writes them, and the largest difference between those of two."""
+"""How far two pictures are apart: the channels of EXR files as vpm writes them, and the largest difference between
+those of two."""
 import array
 import itertools
 import math
@@ -8,7 +9,8 @@ import zlib
 
 
 def undo_zip(packed, size):
-    """The bytes of a block that OpenEXR compressed by ZIP: zlib's bytes are differences, of the even bytes and then of the odd ones."""
+    """The bytes of a block that OpenEXR compressed by ZIP: zlib's bytes are differences, of the even bytes and then
+    of the odd ones."""
     if len(packed) == size:  # a block that compression would have made longer is stored as it is
         return packed
     summed = bytes(itertools.accumulate(zlib.decompress(packed), lambda last, step: (last + step - 128) & 255))
@@ -47,8 +49,8 @@ def channel_names(channels):
 def read_exr(file):
     """The width and height of a picture, and the bytes of each of its channels.
 
-    Python's own library reads no EXR, and `vpm error` would look at red, green and blue alone. Throws ValueError, or what reading past
-    the end throws, where the file is not one that vpm wrote.
+    Python's own library reads no EXR, and `vpm error` would look at red, green and blue alone. Throws ValueError, or
+    what reading past the end throws, where the file is not one that vpm wrote.
     """
     data = file.read_bytes()
     header, table = read_header(data)
@@ -79,8 +81,8 @@ def floats(values):
 def channel_difference(before, after):
     """The largest difference of two channels of one size, infinite where none can be told.
 
-    It is relative to the mean magnitude of the first channel or, where that is more, to the pixel's: the last bit of a pixel that is a thousand
-    times as bright as the mean is no fault, nor is any noise in one that should be black.
+    It is relative to the mean magnitude of the first channel or, where that is more, to the pixel's: the last bit of a
+    pixel that is a thousand times as bright as the mean is no fault, nor is any noise in one that should be black.
     """
     if before == after:
         return 0.0

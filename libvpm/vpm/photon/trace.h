@@ -22,8 +22,7 @@ struct TraceSettings {
   int max_events = 100'000;            // of one photon
   const PhotonGuide* guide = nullptr;  // where photons are emitted and scattered; null: as power is
   bool split = false;                  // with a guide: by importance also on their way
-  const std::atomic<bool>* stop =
-      nullptr;  // once true, tracing ends as soon as it can, and its photons must not be used
+  const std::atomic<bool>* stop = nullptr;  // once true, tracing ends soon, and its photons must not be used
 };
 
 /// Traces photons in parallel and deposits what becomes of them into the recorders. Photon i depends on (seed, pass, i)

@@ -14,7 +14,7 @@ float wrapped(float coordinate, int count) { return (coordinate - std::floor(coo
 /// The two texels next to a place among `count`, and the weight of the second.
 struct Neighbours {
   int first, second;
-  float share;
+  float weight;
 };
 Neighbours neighbours_of(float place, int count) {
   const float from_first_centre = place - 0.5f;
@@ -38,8 +38,8 @@ Texture::Texture(Image image, TextureFilter filter) : image_(std::move(image)), 
 Rgb Texture::bilinear(const Vec2& uv) const {
   const Neighbours x = neighbours_of(wrapped(uv.x, image_.width), image_.width);
   const Neighbours y = neighbours_of(wrapped(-uv.y, image_.height), image_.height);
-  const auto row = [&](int at) { return glm::mix(image_.at(x.first, at), image_.at(x.second, at), x.share); };
-  return glm::mix(row(y.first), row(y.second), y.share);
+  const auto row = [&](int at) { return glm::mix(image_.at(x.first, at), image_.at(x.second, at), x.weight); };
+  return glm::mix(row(y.first), row(y.second), y.weight);
 }
 
 Rgb Texture::nearest(const Vec2& uv) const {

@@ -146,7 +146,7 @@ CaseResult run_radius(const OracleCase& c, const Effort& effort) {
   const int d = read_dimension(c, 2);
   const uint64_t n = c.count("N");
   const double h = c.number_in("h", 1e-6, 0.5);
-  const double photons = effort.full ? 5e9 : 8e6;
+  const double photons = effort.full ? 5e9 : 2.5e7;
   const auto maps = static_cast<uint64_t>(std::clamp(photons / static_cast<double>(n), 500.0, 1e6));
   const DensityFacts facts = estimate_radius_density(d, n, h, maps, effort.seed_of(c.place()));
   CaseResult result;

@@ -69,7 +69,7 @@ void check_list(std::vector<Check>& checks, const OracleCase& c, const char* fie
 void check_photons(std::vector<Check>& checks, const OracleCase& c, const Slab& slab, const Effort& effort) {
   const auto strategy = make_distance_strategy({});
   const uint64_t seed = effort.seed_of(c.place());
-  const uint64_t photons = samples_for(slab, effort.full ? 4e7 : 1e5, seed);
+  const uint64_t photons = samples_for(slab, effort.full ? 4e7 : 3.5e5, seed);
   const SlabEstimate e = estimate_slab(slab, *strategy, read_tallies(c, slab), photons, seed + 1);
   const auto check = [&](const char* field, const Moments& found) {
     if (c.has(field)) checks.push_back(check_probability(field, found, c.share(field)));
@@ -117,7 +117,7 @@ void check_paths(std::vector<Check>& checks, const OracleCase& c, const Slab& sl
   }
   if (exact.empty()) return;
   const uint64_t seed = effort.seed_of(c.place());
-  const uint64_t samples = samples_for(slab, (effort.full ? 2e7 : 3e5) / static_cast<double>(exact.size()), seed);
+  const uint64_t samples = samples_for(slab, (effort.full ? 2e7 : 1e6) / static_cast<double>(exact.size()), seed);
   const SlabRadiances e = estimate_slab_radiance(slab, exits, depths, samples, seed + 2);
   for (size_t i = 0; i < exits.size(); ++i)
     checks.push_back(

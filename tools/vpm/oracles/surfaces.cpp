@@ -93,7 +93,7 @@ CaseResult run_irradiance(const OracleCase& c, const Effort& effort) {
     return result;
   }
   const double exact = c.number("E");
-  const uint64_t seed = effort.seed_of(c.place()), samples = effort.count(30'000, 10'000'000);
+  const uint64_t seed = effort.seed_of(c.place()), samples = effort.count(100'000, 10'000'000);
   if (light->drawn) {
     const Moments found = estimate_mean_irradiance(light->draw, Vec3(receiver), samples, seed);
     result.checks.push_back(check_mean("E", found, exact, 1e-6 * exact));
@@ -109,7 +109,7 @@ CaseResult run_irradiance(const OracleCase& c, const Effort& effort) {
   const double size = light->size > 0.0 ? light->size : glm::distance(c.vector("center"), receiver);
   for (const bool aimed : {false, true}) {
     const char* name = aimed ? "E by maps of photons that are aimed" : "E by photon maps";
-    const uint64_t photons = effort.count(20'000, aimed ? 4'000'000 : 1'000'000);
+    const uint64_t photons = effort.count(50'000, aimed ? 4'000'000 : 1'000'000);
     const MappedIrradiance mapped =
         estimate_mapped_irradiance(fixed, Vec3(receiver), 0.15 * size, aimed, photons, seed + 1);
     if (exact == 0.0)
@@ -127,7 +127,7 @@ CaseResult run_irradiance(const OracleCase& c, const Effort& effort) {
 double per_watt(const OracleCase& c, const char* field) { return c.number(field) / c.number_in("P", 1e-30, 1e30); }
 
 Check check_hits(const OracleCase& c, const Cavity& cavity, const Effort& effort) {
-  const Moments hits = estimate_wall_hits(cavity, effort.count(30'000, 5'000'000), effort.seed_of(c.place()));
+  const Moments hits = estimate_wall_hits(cavity, effort.count(100'000, 5'000'000), effort.seed_of(c.place()));
   return check_mean("total_incident_power", hits, per_watt(c, "total_incident_power"));
 }
 
@@ -137,7 +137,7 @@ constexpr double kMissed = kCapLoss * kCapRadius * kCapRadius;
 
 void check_sphere(std::vector<Check>& checks, const OracleCase& c, const Cavity& cavity, const Effort& effort) {
   const uint64_t seed = effort.seed_of(c.place());
-  const uint64_t photons = effort.count(60'000, 8'000'000);
+  const uint64_t photons = effort.count(200'000, 8'000'000);
   const double e = per_watt(c, "E_total_everywhere"), direct = per_watt(c, "E_direct");
   checks.push_back(check_hits(c, cavity, effort));
   if (c.has("mean_number_of_wall_hits_per_photon")) {
@@ -151,7 +151,7 @@ void check_sphere(std::vector<Check>& checks, const OracleCase& c, const Cavity&
   checks.push_back(check_mean("E_total_everywhere by photon maps", mapped, by_map(e)));
   checks.push_back(
       check_mean("multiplier times E_direct by photon maps", mapped, by_map(c.number("multiplier") * direct)));
-  const Moments seen = estimate_cavity_radiance(cavity, nullptr, effort.count(15'000, 2'000'000), seed + 3);
+  const Moments seen = estimate_cavity_radiance(cavity, nullptr, effort.count(40'000, 2'000'000), seed + 3);
   checks.push_back(check_mean("outgoing_radiance by path tracing", seen, per_watt(c, "outgoing_radiance")));
   checks.push_back(
       check_mean("indirect_fluence over 4 pi by path tracing", seen, per_watt(c, "indirect_fluence") / (4.0 * kPiD)));
@@ -166,9 +166,9 @@ void check_off_centre(std::vector<Check>& checks, const OracleCase& c, Cavity ca
   const double near = std::abs(cavity.size - offset) / cavity.size;  // float errors grow near the wall
   const double found = direct_wall_irradiance(cavity, outward);
   checks.push_back(check_bound("E_direct", found, direct, 1e-5 / near * direct));
-  const Moments reflected = estimate_wall_irradiance(cavity, true, effort.count(60'000, 8'000'000), seed);
+  const Moments reflected = estimate_wall_irradiance(cavity, true, effort.count(200'000, 8'000'000), seed);
   checks.push_back(check_mean("E_total less E_direct by photon maps", reflected, (1.0 - kMissed) * (total - direct)));
-  const Moments seen = estimate_cavity_radiance(cavity, &outward, effort.count(15'000, 2'000'000), seed + 1);
+  const Moments seen = estimate_cavity_radiance(cavity, &outward, effort.count(40'000, 2'000'000), seed + 1);
   checks.push_back(check_mean("reflectance/pi E_total by path tracing", seen, cavity.reflectance / kPiD * total,
                               1e-5 / near * direct));
 }
@@ -183,7 +183,7 @@ CaseResult run_cavity(const OracleCase& c, const Effort& effort) {
     cavity.size = 0.5 * std::sqrt(area / 6.0);  // the mean is that of any shape
     cavity.source = as_float(cavity.size) * Vec3(0.3f, -0.5f, 0.2f);
     result.checks.push_back(check_hits(c, cavity, effort));
-    const Moments hits = estimate_wall_hits(cavity, effort.count(30'000, 5'000'000), effort.seed_of(c.place()) + 1);
+    const Moments hits = estimate_wall_hits(cavity, effort.count(100'000, 5'000'000), effort.seed_of(c.place()) + 1);
     result.checks.push_back(check_mean("E_mean times area", hits, per_watt(c, "E_mean") * area));
     return result;
   }

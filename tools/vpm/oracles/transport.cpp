@@ -28,7 +28,7 @@ MediumResults estimate_medium(const PointSource& source, const std::vector<doubl
   // Collisions of a photon: until it is absorbed, or until it leaves the medium by diffusion.
   const double diffusion = missing.end > 0.0 ? missing.end * missing.end / (6.0 * missing.diffusion) : 1e30;
   const double collisions = std::min(1.0 / (1.0 - source.albedo), diffusion) + 1.0;
-  const double work = effort.full ? 6e8 : 2e6;
+  const double work = effort.full ? 6e8 : 6e6;
   const auto photons = static_cast<uint64_t>(std::clamp(work / collisions, 1e4, 2e7));
   const uint64_t seed = effort.seed_of(fmt::format("point source {} {}", source.albedo, source.g));
   const MapEffort maps{20, std::max<uint64_t>(photons / 20, 500), seed};
@@ -117,7 +117,7 @@ std::vector<CaseResult> run_spheres(const OracleList& list, const Effort& effort
                              c.number_in("g", -0.999, 0.999)};
     const uint64_t seed = effort.seed_of(c.place());
     const double collisions = 4.0 / 3.0 * sphere.optical_radius + 1.0;  // the most, where nothing is absorbed
-    const double work = effort.full ? 6e7 : 4e5;
+    const double work = effort.full ? 6e7 : 1e6;
     const auto photons = static_cast<uint64_t>(std::clamp(work / collisions, 1e4, 1e7));
     const SpherePhotons e = estimate_sphere_photons(sphere, photons, seed);
     CaseResult result;

@@ -67,29 +67,37 @@ Check check_controlled(const Effort& effort) {
   return check_mean(name, samples[0], 1.0 / 8.0);
 }
 
-/// Radiance along a ray through the middle of the cube, by isotropic scattering of albedo 1, attenuated by 0.5 / m;
-/// discs of half a metre, or of the balls of about so many photons.
-double estimate_around_ray(KernelKind kernel, uint32_t count, Rng& rng) {
+const Rgb kAttenuation(0.2f, 1.0f, 3.0f);  // 1/m
+
+/// Radiance along a ray through the middle of the cube, by isotropic scattering of albedo 1, attenuated by
+/// kAttenuation; discs of half a metre, or of the balls of about so many photons.
+Rgb estimate_around_ray(KernelKind kernel, uint32_t count, Rng& rng) {
   const GatherSettings settings{.mode = GatherMode::beam, .radius = 0.5f, .kernel = kernel, .beam_count = count};
   const BeamMap map{settings, SegmentMap(even_photons(kPhotonsAroundRays, false, rng), {settings.radius, count},
                                          1.0f / kPhotonsAroundRays)};
   const Ray ray{Vec3(0.1f, -0.05f, 1.0f), Vec3(0.0f, 0.0f, -1.0f)};
-  const auto transmittance = [](float t) { return Rgb(std::exp(-0.5f * t)); };
+  const auto transmittance = [](float t) { return glm::exp(-kAttenuation * t); };
   GatherCounters counters;
-  return beam_sum(Isotropic{}, ray, {0.0f, 2.0f}, each_distance(transmittance), map, counters).g;
+  return beam_sum(Isotropic{}, ray, {0.0f, 2.0f}, each_distance(transmittance), map, counters);
 }
 
+/// The photons' density, 1/(8 m^3), times the integral of exp(-sigma t) over the 2 m of the cube, at 1/(4 pi) sr.
+double exact_around_ray(double sigma) { return -std::expm1(-2.0 * sigma) / sigma / 8.0 / (4.0 * kPiD); }
+
 std::vector<Check> check_beams(const Effort& effort) {
-  const double exact = -std::expm1(-1.0) / 0.5 / 8.0 / (4.0 * kPiD);
   std::vector<Check> checks;
   for (const KernelInfo& kernel : kKernels)
     for (const uint32_t count : {0u, 10u}) {
       const std::string name =
           fmt::format("{} kernel, around a ray{}", kernel.name, count > 0 ? ", radii of their own" : "");
       const auto samples =
-          sample_moments(1, effort.count(1'500, 12'000), effort.seed_of(name),
-                         [&](Rng& rng, double* out) { out[0] = estimate_around_ray(kernel.kind, count, rng); });
-      checks.push_back(check_mean(name, samples[0], exact));
+          sample_moments(3, effort.count(1'500, 12'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+            const Rgb radiance = estimate_around_ray(kernel.kind, count, rng);
+            for (int c = 0; c < 3; ++c) out[c] = radiance[c];
+          });
+      for (size_t c = 0; c < 3; ++c)
+        checks.push_back(
+            check_mean(name + kOfChannel[c], samples[c], exact_around_ray(kAttenuation[static_cast<int>(c)])));
     }
   return checks;
 }
