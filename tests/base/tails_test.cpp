@@ -10,7 +10,8 @@
 namespace vpm {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN(),
+                 kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(NormalTail, KnownValues) {
   EXPECT_EQ(normal_tail(0.0), 1.0);
@@ -18,7 +19,7 @@ TEST(NormalTail, KnownValues) {
                              {-3.0, 0.0026997960632601891},  {5.0, 5.7330314375838782e-7},
                              {10.0, 1.5239706048321052e-23}, {30.0, 9.8134278542963741e-198}};
   for (const auto& [z, p] : known) EXPECT_NEAR(normal_tail(z) / p, 1.0, 1e-12) << z;
-  EXPECT_TRUE(std::isnan(normal_tail(kNaN)));
+  EXPECT_TRUE(std::isnan(normal_tail(kNotANumber)));
 }
 
 TEST(NormalQuantile, KnownValues) {
@@ -53,9 +54,9 @@ TEST(Chi2Tail, KnownValues) {
 
 TEST(Chi2Tail, Ends) {
   EXPECT_EQ(chi2_tail(0.0, 7.0), 1.0);
-  EXPECT_EQ(chi2_tail(kInf, 7.0), 0.0);
+  EXPECT_EQ(chi2_tail(kInfinity, 7.0), 0.0);
   EXPECT_EQ(chi2_tail(1e6, 7.0), 0.0);
-  EXPECT_TRUE(std::isnan(chi2_tail(kNaN, 7.0)));
+  EXPECT_TRUE(std::isnan(chi2_tail(kNotANumber, 7.0)));
 }
 
 TEST(Chi2Tail, AgreesWithTheNormalTailForOneDegree) {
@@ -79,8 +80,8 @@ TEST(StudentTail, BecomesNormal) {
     EXPECT_NEAR(student_tail(t, dof) / normal_tail(z), 1.0, 1e-8 * z * z * z * z * z) << z;
   }
   EXPECT_NEAR(student_tail(2.0, 1e12) / normal_tail(2.0), 1.0, 1e-10);
-  EXPECT_DOUBLE_EQ(student_tail(2.0, kInf), normal_tail(2.0));
-  EXPECT_TRUE(std::isnan(student_tail(kNaN, 7.0)));
+  EXPECT_DOUBLE_EQ(student_tail(2.0, kInfinity), normal_tail(2.0));
+  EXPECT_TRUE(std::isnan(student_tail(kNotANumber, 7.0)));
 }
 
 TEST(StudentQuantile, IsTheInverseOfTheTail) {

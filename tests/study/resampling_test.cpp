@@ -22,7 +22,7 @@ Repetitions noisy(double variance, int pixels, size_t count, Rng& rng) {
 }
 
 TEST(Resampling, IntervalsOfMeansAreStudents) {
-  const Bounded mean = mean_with_interval({1.0, 2.0, 3.0, 4.0, 5.0});
+  const ConfidenceInterval mean = mean_with_interval({1.0, 2.0, 3.0, 4.0, 5.0});
   EXPECT_DOUBLE_EQ(mean.value, 3.0);
   EXPECT_NEAR(mean.hi - 3.0, 2.776445105 * std::sqrt(0.5), 1e-8);  // t at 97.5 %, 4 degrees of freedom
   EXPECT_NEAR(3.0 - mean.lo, mean.hi - 3.0, 1e-12);
@@ -41,8 +41,8 @@ TEST(Resampling, MeansBesideWhatHasAnErrorAreWelchs) {
 
 TEST(Resampling, TheJackknifeOfAMeanIsStudents) {
   const std::vector<double> samples{0.3, 1.7, 0.9, 4.1, 2.2, 0.1};
-  const Bounded direct = mean_with_interval(samples);
-  const Bounded found = jackknife(samples.size(), [&](const std::vector<double>& weights) {
+  const ConfidenceInterval direct = mean_with_interval(samples);
+  const ConfidenceInterval found = jackknife(samples.size(), [&](const std::vector<double>& weights) {
     double sum = 0.0, all = 0.0;
     for (size_t i = 0; i < samples.size(); ++i) {
       sum += weights[i] * samples[i];
@@ -137,7 +137,9 @@ TEST(Resampling, RelativeDifferencesHoldTheTruth) {
       like_a.push_back(a.back() / 1.1 + 0.005 * normal(rng));
     }
     const Tested difference = relative_difference(a, b), of_pairs = relative_difference(a, like_a);
-    const auto holds = [](const Bounded& bound, double truth) { return bound.lo <= truth && truth <= bound.hi; };
+    const auto holds = [](const ConfidenceInterval& bound, double truth) {
+      return bound.lo <= truth && truth <= bound.hi;
+    };
     covered += holds(difference.value, 0.1);
     covered_pairs += holds(of_pairs.value, 0.1);
     seen += difference.p < 0.05;
@@ -160,7 +162,7 @@ TEST(Resampling, SlopesOfPowersAreExact) {
     const double error = 3.0 * std::pow(cost, -0.8);
     budgets.push_back({mean_of({error, 1.5 * error, 0.5 * error}), {cost, cost, cost}});
   }
-  const Bounded slope = convergence_slope(budgets);
+  const ConfidenceInterval slope = convergence_slope(budgets);
   EXPECT_NEAR(slope.value, -0.8, 1e-12);
   EXPECT_NEAR(slope.lo, -0.8, 1e-9);
   EXPECT_NEAR(slope.hi, -0.8, 1e-9);

@@ -3,18 +3,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "json.h"
 
 namespace vpm::tools {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
-
-}  // namespace
-
 const char* verdict_word(Verdict verdict) {
   switch (verdict) {
     case Verdict::pass:

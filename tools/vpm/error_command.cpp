@@ -5,10 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands.h"
+#include "json.h"
 #include "vpm/base/error.h"
 #include "vpm/base/line_fit.h"
 #include "vpm/image/exr.h"
@@ -17,14 +17,12 @@
 namespace vpm::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr const char* kMse = "mean of (I - R)^2";
 constexpr const char* kRelativeMse = "mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over the channel";
 constexpr const char* kRelativeMseOfPbrt = "mean of (I - R)^2 / (R + 0.01)^2";
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(fmt::format("{}", x)); }
 Json rgb(const Rgbd& c) { return Json::array({number(c.r), number(c.g), number(c.b)}); }
 
 struct Errors {

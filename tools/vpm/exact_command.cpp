@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "exact_problems.h"
+#include "json.h"
 #include "vpm/base/error.h"
 
 namespace vpm::tools {
@@ -60,11 +60,11 @@ void print_quantity(const ExactQuantity& quantity) {
 
 void print_json(const std::string& problem, const ExactArguments& arguments,
                 const std::vector<ExactQuantity>& quantities) {
-  nlohmann::ordered_json report;
+  Json report;
   report["problem"] = problem;
   for (const auto& [key, value] : arguments.read()) report["arguments"][key] = value;
   for (const ExactQuantity& quantity : quantities) {
-    nlohmann::ordered_json entry;
+    Json entry;
     entry["name"] = quantity.name;
     entry["unit"] = quantity.unit;
     if (!quantity.place.empty()) {
@@ -73,7 +73,7 @@ void print_json(const std::string& problem, const ExactArguments& arguments,
       entry["places"] = quantity.places;
     }
     for (size_t i = 0; i < quantity.values.size(); ++i) {
-      entry["values"].push_back(quantity.values[i] ? nlohmann::ordered_json(*quantity.values[i]) : nullptr);
+      entry["values"].push_back(quantity.values[i] ? Json(*quantity.values[i]) : nullptr);
       entry["errors"].push_back(quantity.errors[i]);
     }
     report["quantities"].push_back(entry);

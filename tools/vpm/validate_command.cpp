@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "check_report.h"
 #include "commands.h"
+#include "json.h"
 #include "oracles/oracle_command.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -16,8 +16,6 @@
 
 namespace vpm::tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A check with where it stands.
 struct Line {

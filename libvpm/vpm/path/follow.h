@@ -28,14 +28,14 @@
 namespace vpm {
 
 /// The limit of events for paths that end by themselves.
-inline constexpr int kNoLimit = std::numeric_limits<int>::max();
+inline constexpr int kAnyNumberOfEvents = std::numeric_limits<int>::max();
 
 /// What a walk needs, and the counters that it adds to.
 struct Walk {
   const Scene& scene;
   const DistanceStrategy& strategy;
   WalkCounters& counters;
-  int max_events = kNoLimit;  // of one path
+  int max_events = kAnyNumberOfEvents;  // of one path
 };
 
 /// Follows a path until the visitor ends it, it is absorbed, it escapes, its throughput is 0, or it has met as many

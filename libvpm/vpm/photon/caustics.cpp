@@ -11,7 +11,7 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 4096;  // photons traced one after another
+constexpr size_t kCausticChunk = 4096;  // photons traced one after another
 // Scouts for each photon, and at most: enough for ten to find what a ten thousandth of all emission meets.
 constexpr uint64_t kScouts = 4, kMostScouts = 100'000;
 
@@ -43,8 +43,8 @@ std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& s
   };
   const EmissionGuide guide = EmissionGuide::learn(std::min(kScouts * settings.emitted, kMostScouts), settings.seed,
                                                    rng_stream(RngUse::caustic_scout, settings.pass), score);
-  std::vector<std::vector<Photon>> parts(chunk_count(settings.emitted, kChunk));
-  parallel_for_chunks(settings.emitted, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+  std::vector<std::vector<Photon>> parts(chunk_count(settings.emitted, kCausticChunk));
+  parallel_for_chunks(settings.emitted, kCausticChunk, [&](size_t begin, size_t end, size_t chunk) {
     if (settings.stop && *settings.stop) return;
     for (size_t i = begin; i < end; ++i) {
       Rng rng(settings.seed, rng_stream(RngUse::caustic, settings.pass), i);

@@ -15,7 +15,7 @@ constexpr double kSignificant = 3.0;   // standard deviations: the oddness of a 
 constexpr double kLeastGain = 0.02;    // of the standard deviation, by which a halving must pay
 constexpr int kDeepest = 40;           // halvings
 constexpr double kUniformShare = 0.1;  // of the density
-constexpr size_t kChunk = 1024;        // scouts scored one after another
+constexpr size_t kScoutChunk = 1024;   // scouts scored one after another
 
 using Corner = std::array<double, EmissionPoint::kDimensions>;
 
@@ -153,7 +153,7 @@ EmissionGuide EmissionGuide::learn(uint64_t scouts, uint64_t seed, uint64_t stre
   std::vector<Scored> all(scouts);
   for (uint64_t round = 0; round < kRounds; ++round) {
     const uint64_t first = scouts * round / kRounds, end = scouts * (round + 1) / kRounds;
-    parallel_for_chunks(end - first, kChunk, [&](size_t begin, size_t stop, size_t) {
+    parallel_for_chunks(end - first, kScoutChunk, [&](size_t begin, size_t stop, size_t) {
       for (size_t i = first + begin; i < first + stop; ++i) {
         Rng rng(seed, stream, i);
         const Sample drawn = guide.sample(rng);

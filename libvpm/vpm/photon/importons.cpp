@@ -9,10 +9,10 @@
 namespace vpm {
 namespace {
 
-constexpr int kResolution = 32;           // cubes of importance along the scene's longest edge
-constexpr int kDirectionResolution = 16;  // those of directions: each takes the memory of many
-constexpr size_t kChunk = 4096;           // importons traced one after another
-constexpr uint64_t kWave = 32 * kChunk;   // those whose tracks wait to be added
+constexpr int kResolution = 32;                  // cubes of importance along the scene's longest edge
+constexpr int kDirectionResolution = 16;         // those of directions: each takes the memory of many
+constexpr size_t kImportonChunk = 4096;          // importons traced one after another
+constexpr uint64_t kWave = 32 * kImportonChunk;  // those whose tracks wait to be added
 
 void merge(Importance& all, const Importance& part) {
   all.map.merge(part.map);
@@ -57,8 +57,8 @@ Importance trace_importons(const Scene& scene, const DistanceStrategy& strategy,
   const Importance none = all;
   for (uint64_t first = 0; first < settings.importons; first += kWave) {
     const uint64_t wave = std::min(kWave, settings.importons - first);
-    std::vector<Importance> parts(chunk_count(wave, kChunk), none);
-    parallel_for_chunks(wave, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+    std::vector<Importance> parts(chunk_count(wave, kImportonChunk), none);
+    parallel_for_chunks(wave, kImportonChunk, [&](size_t begin, size_t end, size_t chunk) {
       for (uint64_t i = first + begin; i < first + end; ++i) {
         Rng rng(seed, rng_stream(RngUse::importon, pass), i);
         trace_importon(scene, strategy, rng, max_events, parts[chunk]);

@@ -9,8 +9,8 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kAlone = 1 << 15;  // parts of fewer photons are not worth a thread of their own
-constexpr size_t kChunk = 1 << 16;  // photons copied one after another
+constexpr size_t kAlone = 1 << 15;      // parts of fewer photons are not worth a thread of their own
+constexpr size_t kCopyChunk = 1 << 16;  // photons copied one after another
 
 /// A photon on its way to its leaf.
 struct Item {
@@ -51,7 +51,7 @@ LeafOrder sort_into_leaves(const std::vector<Photon>& photons, size_t largest) {
   tree.leaves = std::bit_ceil(std::max<size_t>(1, (photons.size() + largest - 1) / largest));
   tree.splits.resize(tree.leaves);
   std::vector<Item> items(photons.size());
-  parallel_for_chunks(items.size(), kChunk, [&](size_t begin, size_t end, size_t) {
+  parallel_for_chunks(items.size(), kCopyChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) items[i] = {photons[i].position, static_cast<uint32_t>(i)};
   });
   part(items, tree, 1, 0, tree.leaves);

@@ -6,13 +6,13 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 1 << 14;  // photons one thread takes at once
+constexpr size_t kTableChunk = 1 << 14;  // photons one thread takes at once
 
 }  // namespace
 
 PhotonTable::PhotonTable(const std::vector<Photon>& photons, const std::vector<uint32_t>& order, float scale)
     : x_(order.size() + kBlock), y_(order.size() + kBlock), z_(order.size() + kBlock), payload_(order.size()) {
-  parallel_for_chunks(order.size(), kChunk, [&](size_t begin, size_t end, size_t) {
+  parallel_for_chunks(order.size(), kTableChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       const Photon& photon = photons[order[i]];
       x_[i] = photon.position.x;
@@ -24,8 +24,8 @@ PhotonTable::PhotonTable(const std::vector<Photon>& photons, const std::vector<u
 }
 
 Box bounds_of(const std::vector<Photon>& photons) {
-  std::vector<Box> parts(chunk_count(photons.size(), kChunk));
-  parallel_for_chunks(photons.size(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
+  std::vector<Box> parts(chunk_count(photons.size(), kTableChunk));
+  parallel_for_chunks(photons.size(), kTableChunk, [&](size_t begin, size_t end, size_t chunk) {
     for (size_t i = begin; i < end; ++i) parts[chunk].add(photons[i].position);
   });
   Box bounds;

@@ -13,8 +13,8 @@ namespace {
 /// Cells of edge `size` that cover `extent`, each at least 1.
 Vec3d cells_for(const Vec3& extent, double size) { return glm::floor(Vec3d(extent) / size) + 1.0; }
 
-constexpr size_t kChunk = 1 << 14;  // photons one thread takes at once
-constexpr size_t kParts = 8;        // of the cells, that threads sort one by one
+constexpr size_t kCellChunk = 1 << 14;  // photons one thread takes at once
+constexpr size_t kParts = 8;            // of the cells, that threads sort one by one
 
 /// The edge of the cells: a radius, or more where that would make over a cell a photon.
 double cell_size(const Vec3& extent, float radius, size_t photons) {
@@ -35,7 +35,7 @@ RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float sca
   per_cell_ = static_cast<float>(1.0 / size);
   count_ = Vec3i(cells_for(bounds_.extent(), size));
   std::vector<uint32_t> cells(photons.size());  // of each photon
-  parallel_for_chunks(cells.size(), kChunk, [&](size_t begin, size_t end, size_t) {
+  parallel_for_chunks(cells.size(), kCellChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       const Vec3& p = photons[i].position;
       cells[i] = (cell_along(2, p.z) * count_.y + cell_along(1, p.y)) * count_.x + cell_along(0, p.x);

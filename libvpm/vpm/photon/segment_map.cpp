@@ -9,7 +9,7 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 1 << 10;  // leaves one thread takes at once
+constexpr size_t kLeafChunk = 1 << 10;  // leaves one thread takes at once
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void SegmentMap::choose_radii(const BeamRadii& radii) {
   radius_.assign(leaves_, radii.largest);
   if (radii.count == 0 || size() == 0) return;
   const size_t group = std::clamp<size_t>(std::bit_floor(radii.count * leaves_ / size() + 1), 1, leaves_);
-  parallel_for_chunks(leaves_ / group, kChunk, [&](size_t begin, size_t end, size_t) {
+  parallel_for_chunks(leaves_ / group, kLeafChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t g = begin; g < end; ++g) {
       const size_t first = leaf_begin(size(), leaves_, g * group), last = leaf_begin(size(), leaves_, (g + 1) * group);
       const auto n = static_cast<double>(last - first);
@@ -50,7 +50,7 @@ void SegmentMap::make_boxes() {
     lo_[a].assign(begin_[depth_ + 1] + kBlock, kInfinity);  // whole blocks are read
     hi_[a].assign(begin_[depth_ + 1] + kBlock, -kInfinity);
   }
-  parallel_for_chunks(leaves_, kChunk, [&](size_t begin, size_t end, size_t) {
+  parallel_for_chunks(leaves_, kLeafChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t leaf = begin; leaf < end; ++leaf) {
       // A hair more than the radius, so that rounding loses no photon that the last test would take.
       const float reach = 1.0001f * radius_[leaf];

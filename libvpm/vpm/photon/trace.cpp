@@ -14,7 +14,7 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 4096;          // photons traced one after another
+constexpr size_t kPhotonChunk = 4096;    // photons traced one after another
 constexpr size_t kFirstWave = 4;         // chunks traced before the first look at how many are stored
 constexpr size_t kLargestWave = 64;      // chunks whose records wait to be joined
 constexpr double kWorthSplitting = 2.0;  // photons: what a path is worth at least that is followed by several
@@ -247,14 +247,14 @@ struct Joined {
 /// How many photons to trace before looking again. Any answer gives the same result: what lies beyond a full recorder
 /// is dropped.
 uint64_t next_wave(const Tally& tally, const TraceSettings& settings) {
-  const uint64_t most = settings.emitted > 0 ? settings.emitted - tally.emitted : kChunk * kLargestWave;
-  if (settings.stored == 0) return std::min<uint64_t>(most, kChunk * kLargestWave);
+  const uint64_t most = settings.emitted > 0 ? settings.emitted - tally.emitted : kPhotonChunk * kLargestWave;
+  if (settings.stored == 0) return std::min<uint64_t>(most, kPhotonChunk * kLargestWave);
   const size_t stored = tally.stored();
-  if (stored == 0) return std::min<uint64_t>(most, kChunk * (tally.emitted == 0 ? kFirstWave : kLargestWave));
+  if (stored == 0) return std::min<uint64_t>(most, kPhotonChunk * (tally.emitted == 0 ? kFirstWave : kLargestWave));
   const double missing =
       static_cast<double>(settings.stored - stored) * static_cast<double>(tally.emitted) / static_cast<double>(stored);
   return std::min<uint64_t>(
-      most, kChunk * std::clamp<uint64_t>(static_cast<uint64_t>(missing / kChunk) + 1, 1, kLargestWave));
+      most, kPhotonChunk * std::clamp<uint64_t>(static_cast<uint64_t>(missing / kPhotonChunk) + 1, 1, kLargestWave));
 }
 
 bool is_stopped(const TraceSettings& settings) { return settings.stop && *settings.stop; }
@@ -274,14 +274,14 @@ Ledger trace_photons(const Scene& scene, const DistanceStrategy& strategy, const
   std::vector<Part> parts;
   while (!is_full(traced, settings) && !is_stopped(settings)) {
     const uint64_t first = traced.emitted, last = first + next_wave(traced, settings);
-    std::vector<Part> next(chunk_count(last - first, kChunk));
+    std::vector<Part> next(chunk_count(last - first, kPhotonChunk));
     // One thread joins the wave before, while the others trace this one.
     parallel_for_chunks(next.size() + 1, 1, [&](size_t task, size_t, size_t) {
       if (task == 0) return joined.add(parts, settings);
       Part& part = next[task - 1] = empty_part(recorders);
       if (is_stopped(settings)) return;
       PhotonPath path(scene, strategy, settings, part);
-      const uint64_t begin = first + (task - 1) * kChunk, end = std::min(begin + kChunk, last);
+      const uint64_t begin = first + (task - 1) * kPhotonChunk, end = std::min(begin + kPhotonChunk, last);
       for (uint64_t i = begin; i < end; ++i) path.trace(i);
       progress.advance(end - begin);
     });

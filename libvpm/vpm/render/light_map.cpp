@@ -11,7 +11,7 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 256;  // texels, of parallel work
+constexpr size_t kTexelChunk = 256;  // texels, of parallel work
 
 /// The medium on the side of the outward normal.
 MediumId medium_outside(const Scene& scene, const Hit& point) {
@@ -77,10 +77,10 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
   prepare_pass(scene, settings, estimators, {pass, stop, progress}, result.statistics);
   const TexelContext context{scene, settings, layout, *estimators.surface, pass};
   const auto start = std::chrono::steady_clock::now();
-  const size_t chunks = chunk_count(layout.texels(), kChunk);
+  const size_t chunks = chunk_count(layout.texels(), kTexelChunk);
   std::vector<EyeCounters> counters(chunks);
   Progress bar("texels", chunks, progress.stages);
-  parallel_for_chunks(layout.texels(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
+  parallel_for_chunks(layout.texels(), kTexelChunk, [&](size_t begin, size_t end, size_t chunk) {
     if (stop) return;
     TexelWork work{counters[chunk], {}, {}};
     for (size_t texel = begin; texel < end; ++texel) result.image.pixels[texel] = bake_texel(context, texel, work);
@@ -93,6 +93,6 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
   return result;
 }
 
-uint64_t light_map_work(const UvLayout& layout) { return chunk_count(layout.texels(), kChunk); }
+uint64_t light_map_work(const UvLayout& layout) { return chunk_count(layout.texels(), kTexelChunk); }
 
 }  // namespace vpm

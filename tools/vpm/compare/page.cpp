@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "compare/page_template.h"
+#include "json.h"
 #include "vpm/image/half_pixels.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 
 namespace vpm::tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Bytes as text [Josefsson2006, sec. 4].
 std::string base64(const std::vector<uint8_t>& bytes) {

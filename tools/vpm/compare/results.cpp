@@ -6,26 +6,26 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "compare/store.h"
+#include "json.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
 
 namespace vpm::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// Null where it is not known.
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-Json bounded(const Bounded& b) { return {{"value", number(b.value)}, {"lo", number(b.lo)}, {"hi", number(b.hi)}}; }
+Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json interval_json(const ConfidenceInterval& b) {
+  return {{"value", number_or_null(b.value)}, {"lo", number_or_null(b.lo)}, {"hi", number_or_null(b.hi)}};
+}
 
 Json comparison_json(const Comparison& comparison) {
-  Json json = bounded(comparison.ratio);
-  json["p"] = comparison.known ? number(comparison.p) : Json(nullptr);
-  json["p_holm"] = comparison.known ? number(comparison.p_holm) : Json(nullptr);
+  Json json = interval_json(comparison.ratio);
+  json["p"] = comparison.known ? number_or_null(comparison.p) : Json(nullptr);
+  json["p_holm"] = comparison.known ? number_or_null(comparison.p_holm) : Json(nullptr);
   return json;
 }
 
@@ -50,21 +50,21 @@ Json budget_json(const BudgetSummary& budget, const MethodSummary& method, size_
   Json runs = Json::array();
   for (size_t i = 0; i < budget.each.size(); ++i) {
     Json run = Json::parse(cost_json(budget.costs[i]));
-    run["mse"] = number(budget.each[i].mse);
-    run["relative_mse"] = number(budget.each[i].relative_mse);
-    run["relative_mse_of_pbrt"] = number(budget.each[i].relative_mse_of_pbrt);
-    run["mean_ratio"] = number(budget.each[i].mean_ratio);
-    run["variance"] = number(budget.errors.deviations[i]);
+    run["mse"] = number_or_null(budget.each[i].mse);
+    run["relative_mse"] = number_or_null(budget.each[i].relative_mse);
+    run["relative_mse_of_pbrt"] = number_or_null(budget.each[i].relative_mse_of_pbrt);
+    run["mean_ratio"] = number_or_null(budget.each[i].mean_ratio);
+    run["variance"] = number_or_null(budget.errors.deviations[i]);
     runs.push_back(std::move(run));
   }
   const RepeatedErrors& errors = budget.errors;
-  return {{"mse", bounded(errors.mse)},
-          {"relative_mse", bounded(errors.relative_mse)},
-          {"bias", bounded(errors.bias)},
-          {"own_bias", method.own_bias[b] ? bounded(method.own_bias[b]->value) : Json(nullptr)},
+  return {{"mse", interval_json(errors.mse)},
+          {"relative_mse", interval_json(errors.relative_mse)},
+          {"bias", interval_json(errors.bias)},
+          {"own_bias", method.own_bias[b] ? interval_json(method.own_bias[b]->value) : Json(nullptr)},
           {"why_bias_unknown", budget.why_bias_unknown},
-          {"squared_bias", bounded(errors.squared_bias)},
-          {"variance", number(errors.variance)},
+          {"squared_bias", interval_json(errors.squared_bias)},
+          {"variance", number_or_null(errors.variance)},
           {"efficiency_by_mse", comparison_json(method.by_mse[b])},
           {"efficiency_by_variance", comparison_json(method.by_variance[b])},
           {"efficiency", comparison_json(method.by_relative_mse[b])},
@@ -73,8 +73,8 @@ Json budget_json(const BudgetSummary& budget, const MethodSummary& method, size_
 
 Json verdict_json(const BiasEvidence& evidence) {
   return {{"says", verdict_name(evidence.verdict)},
-          {"p", is_judged(evidence) ? number(evidence.p) : Json(nullptr)},
-          {"p_holm", is_judged(evidence) ? number(evidence.p_holm) : Json(nullptr)},
+          {"p", is_judged(evidence) ? number_or_null(evidence.p) : Json(nullptr)},
+          {"p_holm", is_judged(evidence) ? number_or_null(evidence.p_holm) : Json(nullptr)},
           {"why", evidence.why}};
 }
 
@@ -88,7 +88,7 @@ Json method_json(const ComparisonPlan& plan, const SceneResults& scene, size_t m
           {"overrides", plan.methods[m].settings},
           {"settings", scene.settings[m]},
           {"scene_hash", scene.hashes[m]},
-          {"slope", bounded(summary.slope)},
+          {"slope", interval_json(summary.slope)},
           {"equal_error", std::move(equal_error)},
           {"verdict", verdict_json(scene.verdicts[m])},
           {"budgets", std::move(budgets)}};
@@ -131,9 +131,11 @@ std::string csv_text(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string with_interval(const Bounded& b) { return fmt::format("{:.3g} [{:.3g}, {:.3g}]", b.value, b.lo, b.hi); }
+std::string with_interval(const ConfidenceInterval& b) {
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", b.value, b.lo, b.hi);
+}
 
-std::string percent_with_interval(const Bounded& b) {
+std::string percent_with_interval(const ConfidenceInterval& b) {
   return with_interval({100.0 * b.value, 100.0 * b.lo, 100.0 * b.hi});
 }
 
@@ -183,7 +185,8 @@ std::string pairs_text(const ComparisonPlan& plan, const SceneResults& scene) {
     unknown += !c.known;
     if (!c.known || c.p_holm >= kRate) continue;
     const bool first = c.ratio.value > 1.0;
-    const Bounded ratio = first ? c.ratio : Bounded{1.0 / c.ratio.value, 1.0 / c.ratio.hi, 1.0 / c.ratio.lo};
+    const ConfidenceInterval ratio =
+        first ? c.ratio : ConfidenceInterval{1.0 / c.ratio.value, 1.0 / c.ratio.hi, 1.0 / c.ratio.lo};
     text += fmt::format("    {} is {} times as efficient as {} (p (Holm) {:.1g})\n",
                         plan.methods[first ? pair.first : pair.second].name, with_interval(ratio),
                         plan.methods[first ? pair.second : pair.first].name, c.p_holm);

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "json.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
@@ -15,9 +15,8 @@ namespace vpm::tools {
 namespace {
 
 namespace fs = std::filesystem;
-using json = nlohmann::ordered_json;
 
-RunCost cost_of(const json& j) {
+RunCost cost_of(const Json& j) {
   RunCost cost;
   for_each_counter(cost, [&](const std::string& name, auto& number) { number = j.at(name); });
   return cost;
@@ -45,7 +44,7 @@ std::optional<Image> layer(const ExrChannels& file, const std::string& prefix) {
 }  // namespace
 
 std::string cost_json(const RunCost& cost) {
-  json all;
+  Json all;
   for_each_counter(cost, [&](const std::string& name, const auto& number) { all[name] = number; });
   return all.dump();
 }
@@ -66,12 +65,12 @@ std::optional<std::vector<RunCost>> Store::find_run(const std::string& identity)
   std::ifstream stream(path);
   if (!stream) return std::nullopt;
   try {
-    const json run = json::parse(stream);
+    const Json run = Json::parse(stream);
     if (run.at("identity") != identity) return std::nullopt;
     std::vector<RunCost> costs;
-    for (const json& cost : run.at("budgets")) costs.push_back(cost_of(cost));
+    for (const Json& cost : run.at("budgets")) costs.push_back(cost_of(cost));
     return costs;
-  } catch (const json::exception& error) {
+  } catch (const Json::exception& error) {
     throw InputError(
         fmt::format("{}: the run is damaged: {}; remove the file, and it is repeated", path.string(), error.what()));
   }
@@ -82,13 +81,13 @@ Image Store::picture(const std::string& identity, size_t budget) const {
 }
 
 void Store::add_run(const std::string& identity, const std::vector<Snapshot>& snapshots) const {
-  json costs = json::array();
+  Json costs = Json::array();
   for (size_t i = 0; i < snapshots.size(); ++i) {
     write_exr(file("runs", identity, fmt::format(".{}.exr", i)), snapshots[i].mean, {}, {{"vpm.run", identity}});
-    costs.push_back(json::parse(cost_json(snapshots[i].cost)));
+    costs.push_back(Json::parse(cost_json(snapshots[i].cost)));
   }
   // Last: with it the run is finished.
-  write_text(file("runs", identity, ".json"), json{{"identity", identity}, {"budgets", costs}}.dump(1) + "\n");
+  write_text(file("runs", identity, ".json"), Json{{"identity", identity}, {"budgets", costs}}.dump(1) + "\n");
 }
 
 std::optional<Reference> Store::find_reference(const std::string& identity) const {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "check_report.h"
+#include "json.h"
 #include "oracles/read_folder.h"
 #include "oracles/tables.h"
 #include "vpm/base/atomic_file.h"
@@ -18,7 +18,6 @@
 namespace vpm::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }

@@ -7,7 +7,7 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kChunk = 256;  // points computed one after another
+constexpr size_t kCachePointChunk = 256;  // points computed one after another
 
 Photon point_at(const CachePoint& point, const CountedMap& map) {
   Hit hit;
@@ -24,8 +24,8 @@ IrradianceCache::IrradianceCache(const std::vector<CachePoint>& cache_points, co
     : gather_{.mode = GatherMode::nearest, .radius = map.settings.radius, .count = 1},
       thickness_(plane_thickness(map.settings)) {
   std::vector<Photon> points(cache_points.size());
-  std::vector<GatherCounters> counted(chunk_count(cache_points.size(), kChunk));
-  parallel_for_chunks(cache_points.size(), kChunk, [&](size_t begin, size_t end, size_t chunk) {
+  std::vector<GatherCounters> counted(chunk_count(cache_points.size(), kCachePointChunk));
+  parallel_for_chunks(cache_points.size(), kCachePointChunk, [&](size_t begin, size_t end, size_t chunk) {
     Neighbours neighbours;
     const CountedMap here{map, {counted[chunk], neighbours}};
     for (size_t i = begin; i < end; ++i) points[i] = point_at(cache_points[i], here);

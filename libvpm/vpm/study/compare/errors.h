@@ -16,7 +16,7 @@ struct Reference {
 };
 
 /// An estimate between the ends of a 95 % confidence interval.
-struct Bounded {
+struct ConfidenceInterval {
   double value = 0.0, lo = 0.0, hi = 0.0;
 };
 
@@ -34,14 +34,14 @@ PictureErrors picture_errors(const Image& image, const Reference& reference);
 
 /// The errors of a method at one budget, from repetitions (at least 3) that are independent of each other.
 struct RepeatedErrors {
-  Bounded mse, relative_mse;
+  ConfidenceInterval mse, relative_mse;
   /// The bias of the mean over pixels and channels, relative to the reference's. The interval includes the reference's
   /// own noise, as far as its pixels are independent: those of paths are, those of photon maps are correlated.
-  Bounded bias;
+  ConfidenceInterval bias;
   double bias_p = 1.0;  // probability of a bias so far from 0, were there none
   /// The relative MSE that is left when infinitely many repetitions are averaged, and the part that averages out. Both
   /// are estimated without bias: the first may come out below 0.
-  Bounded squared_bias;
+  ConfidenceInterval squared_bias;
   double variance = 0.0;
   /// By two repetitions, the second before the first: the relative mean square of their difference. Half their mean is
   /// an unbiased estimate of the variance, too. The reference's noise enters only through its scale.

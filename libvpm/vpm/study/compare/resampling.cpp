@@ -33,7 +33,7 @@ Estimate jackknifed(size_t count, const Statistic& statistic) {
   return {statistic(weights), (n - 1.0) * std::sqrt(with_one_less.variance() / n)};
 }
 
-Bounded with_interval(const Estimate& estimate, double dof) {
+ConfidenceInterval with_interval(const Estimate& estimate, double dof) {
   const double reach = student_quantile(kRate, dof) * estimate.error;
   return {estimate.value, estimate.value - reach, estimate.value + reach};
 }
@@ -76,7 +76,7 @@ Tested mean_beside(const std::vector<double>& samples, double error) {
   return tested({moments.mean(), std::sqrt(all)}, dof);
 }
 
-Bounded mean_with_interval(const std::vector<double>& samples) { return mean_beside(samples, 0.0).value; }
+ConfidenceInterval mean_with_interval(const std::vector<double>& samples) { return mean_beside(samples, 0.0).value; }
 
 Tested relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
   assert(a.size() == b.size());
@@ -86,7 +86,7 @@ Tested relative_difference(const std::vector<double>& a, const std::vector<doubl
   return tested(jackknifed(a.size(), difference), static_cast<double>(a.size() - 1));
 }
 
-Bounded jackknife(size_t count, const Statistic& statistic) {
+ConfidenceInterval jackknife(size_t count, const Statistic& statistic) {
   assert(count >= 3);
   const Estimate estimate = jackknifed(count, statistic);
   if (std::isnan(estimate.value) || std::isnan(estimate.error)) return {estimate.value, kUnknown, kUnknown};
@@ -157,7 +157,7 @@ void correct_for_many(std::vector<Comparison>& comparisons) {
   for (size_t i = 0; i < known.size(); ++i) known[i]->p_holm = corrected[i];
 }
 
-Bounded convergence_slope(const std::vector<Repetitions>& budgets) {
+ConfidenceInterval convergence_slope(const std::vector<Repetitions>& budgets) {
   assert(budgets.size() >= 2);
   const Statistic slope = [&](const std::vector<double>& weights) {
     std::vector<double> x, y;

@@ -10,14 +10,14 @@ namespace vpm {
 
 /// An estimate with the probability of one so far from 0, were the truth 0.
 struct Tested {
-  Bounded value;
+  ConfidenceInterval value;
   double p = 1.0;
 };
 /// The mean of independent samples (at least 2) of which a number has been subtracted that has itself this standard
 /// error: by Student's t, its degrees of freedom by [Welch1947].
 Tested mean_beside(const std::vector<double>& samples, double error);
 /// The mean of independent samples (at least 2) with its interval [Student1908].
-Bounded mean_with_interval(const std::vector<double>& samples);
+ConfidenceInterval mean_with_interval(const std::vector<double>& samples);
 
 /// The mean of `a` over that of `b`, less 1, from samples (at least 2) that are paired by number, and whose means are
 /// not near 0: by the delete-one jackknife over pairs [Tukey1958].
@@ -31,14 +31,14 @@ Statistic mean_of(std::vector<double> samples);
 Statistic variance_of(std::vector<std::vector<double>> distances);
 
 /// With its interval by the delete-one jackknife [Tukey1958], of `count` >= 3 repetitions.
-Bounded jackknife(size_t count, const Statistic& statistic);
+ConfidenceInterval jackknife(size_t count, const Statistic& statistic);
 
 /// How much better one method did than another over paired repetitions.
 struct Comparison {
-  Bounded ratio;        // of efficiencies 1/(error cost): the first's over the second's; bounds NaN where unknown
-  double p = 1.0;       // of a ratio so far from 1, were they equal
-  double p_holm = 1.0;  // the same, corrected for all comparisons made together [Holm1979]
-  bool known = false;   // false: an error is 0, or hidden by the reference's noise
+  ConfidenceInterval ratio;  // of efficiencies 1/(error cost): the first's over the second's; bounds NaN where unknown
+  double p = 1.0;            // of a ratio so far from 1, were they equal
+  double p_holm = 1.0;       // the same, corrected for all comparisons made together [Holm1979]
+  bool known = false;        // false: an error is 0, or hidden by the reference's noise
 };
 
 /// Repetitions of one method; two of them are paired by number.
@@ -63,6 +63,6 @@ void correct_for_many(std::vector<Comparison>& comparisons);
 
 /// The slope of log(error) over log(cost), of means over repetitions at several budgets (at least 2). Least squares;
 /// NaN where an error is not above 0 or all costs are the same.
-Bounded convergence_slope(const std::vector<Repetitions>& budgets);
+ConfidenceInterval convergence_slope(const std::vector<Repetitions>& budgets);
 
 }  // namespace vpm

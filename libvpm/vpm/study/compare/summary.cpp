@@ -87,7 +87,8 @@ SceneSummary summarise_scene(const std::vector<std::vector<BudgetSummary>>& budg
   }
   for (size_t m = 0; m < budgets.size(); ++m) {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    summary.methods[m].slope = budget_count > 1 ? convergence_slope(curves[m]) : Bounded{kUnknown, kUnknown, kUnknown};
+    summary.methods[m].slope =
+        budget_count > 1 ? convergence_slope(curves[m]) : ConfidenceInterval{kUnknown, kUnknown, kUnknown};
     for (const double target : summary.targets) summary.methods[m].equal_error.push_back(cost_of(target, curves[m]));
   }
   std::vector<Comparison> comparisons;

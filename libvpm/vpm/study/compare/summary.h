@@ -30,7 +30,7 @@ struct PairSummary {
 struct MethodSummary {
   std::vector<Comparison> by_mse, by_relative_mse, by_variance;  // by budget: efficiency over that of the best method
   std::vector<std::optional<Tested>> own_bias;  // by budget: of the mean, against that of the baseline; of others only
-  Bounded slope;                                // of relative MSE over cost; NaN at a single budget
+  ConfidenceInterval slope;                     // of relative MSE over cost; NaN at a single budget
   std::vector<std::optional<double>> equal_error;  // by target: the cost at which it is reached
 };
 

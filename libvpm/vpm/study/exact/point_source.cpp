@@ -12,7 +12,7 @@ namespace vpm::exact {
 
 namespace {
 
-constexpr double kRounding = 1e-13;
+constexpr double kRoundingOfIntegrals = 1e-13;
 
 double uncollided_fluence(double r) { return std::exp(-r) / (4.0 * kPiD * r * r); }
 
@@ -97,14 +97,14 @@ PointSourceSolution point_source_case(double albedo, const std::vector<double>& 
       };
       const Bounded tail = integrate(decay, -45.0, std::max(0.0, std::log(745.0 / r)));
       const double near = mode.d * std::exp(-mode.k0 * r), norm = 4.0 * kPiD * r;
-      phi = {(near + tail.value) / norm, (tail.error + kRounding * near) / norm};
+      phi = {(near + tail.value) / norm, (tail.error + kRoundingOfIntegrals * near) / norm};
       const Bounded inner = integrate(moment, -45.0, 45.0);
       const double outer = mode.d * exponential_moment(mode.k0, r);
-      count = {count.value + outer + inner.value, inner.error + kRounding * outer};
+      count = {count.value + outer + inner.value, inner.error + kRoundingOfIntegrals * outer};
     }
     solution.uncollided.push_back(uncollided_fluence(r));
     solution.collided.push_back(phi);
-    solution.collisions.push_back({count.value, count.error + kRounding * count.value});
+    solution.collisions.push_back({count.value, count.error + kRoundingOfIntegrals * count.value});
   }
   return solution;
 }
@@ -123,8 +123,9 @@ PointSourceSolution point_source_pn(double albedo, const PhaseMoments& phase, co
     const double count = collisions(fine, r) - collisions(free_fine, r) - std::expm1(-r);
     const double coarse_count = collisions(coarse, r) - collisions(free_coarse, r) - std::expm1(-r);
     solution.uncollided.push_back(uncollided_fluence(r));
-    solution.collided.push_back({phi, std::fabs(phi - coarse_phi) + kRounding * (phi + uncollided_fluence(r))});
-    solution.collisions.push_back({count, std::fabs(count - coarse_count) + kRounding * count});
+    solution.collided.push_back(
+        {phi, std::fabs(phi - coarse_phi) + kRoundingOfIntegrals * (phi + uncollided_fluence(r))});
+    solution.collisions.push_back({count, std::fabs(count - coarse_count) + kRoundingOfIntegrals * count});
   }
   return solution;
 }

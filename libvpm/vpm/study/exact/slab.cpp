@@ -109,11 +109,11 @@ SlabSolution solve_with(int count, const Slab& slab, const SlabPlaces& places) {
   return solution;
 }
 
-constexpr double kRounding = 1e-12;  // of sums of some hundred modes, relative to values of order 1
-constexpr double kCaution = 4.0;     // errors oscillate with the number of ordinates: two can be close by chance
+constexpr double kRoundingOfModes = 1e-12;  // of sums of some hundred modes, relative to values of order 1
+constexpr double kCaution = 4.0;            // errors oscillate with the number of ordinates: two can be close by chance
 
 void bound(Bounded& fine, const Bounded& coarse) {
-  fine.error = kCaution * std::fabs(fine.value - coarse.value) + kRounding;
+  fine.error = kCaution * std::fabs(fine.value - coarse.value) + kRoundingOfModes;
 }
 void bound(BoundedSeries& fine, const BoundedSeries& coarse) {
   double largest = 1.0;
@@ -121,7 +121,7 @@ void bound(BoundedSeries& fine, const BoundedSeries& coarse) {
     fine.error = std::max(fine.error, std::fabs(fine.values[i] - coarse.values[i]));
     largest = std::max(largest, std::fabs(fine.values[i]));
   }
-  fine.error = kCaution * fine.error + kRounding * largest;
+  fine.error = kCaution * fine.error + kRoundingOfModes * largest;
 }
 
 }  // namespace

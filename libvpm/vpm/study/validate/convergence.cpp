@@ -137,7 +137,7 @@ std::vector<double> model_errors(const Field& field, double photons, const std::
   return errors;
 }
 
-constexpr uint64_t kPhotons = 1000;  // in a pass
+constexpr uint64_t kPhotonsOfPass = 1000;  // in a pass
 
 std::vector<Check> density_estimation(const Field& field, const std::string& name, const Effort& effort) {
   const std::vector<int> n = pass_counts(4, static_cast<int>(effort.count(128, 1024)));
@@ -155,7 +155,7 @@ std::vector<Check> density_estimation(const Field& field, const std::string& nam
     }
     return errors;
   });
-  const std::vector<double> model = model_errors(field, kPhotons, n);
+  const std::vector<double> model = model_errors(field, kPhotonsOfPass, n);
   const double asymptote = -4.0 / (field.dimension + 4.0);
   std::vector<Check> checks{
       check_mean("slope of the mean squared error", groups.slopes, slope(n, model)),
@@ -170,7 +170,7 @@ PhotonLists trace(const Scene& scene, uint64_t seed, int pass) {
   ListSettings settings;
   settings.seed = seed;
   settings.pass = static_cast<uint64_t>(pass);
-  settings.emitted = kPhotons;
+  settings.emitted = kPhotonsOfPass;
   return list_photons(scene, *make_distance_strategy({}), settings);
 }
 
@@ -198,7 +198,8 @@ std::vector<Check> volume_photons(const Effort& effort) {
     return sum / kDistance;
   };
   field.estimate = [&](uint64_t seed, int pass, float radius) {
-    const PhotonMap map = make_photon_map(trace(scene, seed, pass).volume[0], {GatherMode::radius, radius}, kPhotons);
+    const PhotonMap map =
+        make_photon_map(trace(scene, seed, pass).volume[0], {GatherMode::radius, radius}, kPhotonsOfPass);
     std::vector<double> estimates;
     for (const Vec3& axis : axes)
       estimates.push_back(fluence(scene.media[0].majorant(), static_cast<float>(kDistance) * axis, map).g);
@@ -228,7 +229,8 @@ std::vector<Check> surface_photons(const Effort& effort) {
     return sum;
   };
   field.estimate = [&](uint64_t seed, int pass, float radius) {
-    const PhotonMap map = make_photon_map(trace(scene, seed, pass).surface, {GatherMode::radius, radius}, kPhotons);
+    const PhotonMap map =
+        make_photon_map(trace(scene, seed, pass).surface, {GatherMode::radius, radius}, kPhotonsOfPass);
     std::vector<double> estimates;
     for (const Vec3& axis : axes)
       estimates.push_back(surface_irradiance(static_cast<float>(kFromFoot) * axis, Vec3(0, 1, 0), map).g);

@@ -15,10 +15,10 @@ namespace vpm {
 
 namespace {
 
-constexpr size_t kRings = 6;
+constexpr size_t kEscapeRings = 6;
 
 /// What is summed over a photon's way, for each channel.
-enum Tally : size_t { length, collisions, escapes, tallies = escapes + kRings * kSectors };
+enum Tally : size_t { length, collisions, escapes, tallies = escapes + kEscapeRings * kSectors };
 
 /// The area that the lit box shows to a direction, over its mean, a quarter of the surface: what even light enters by.
 double shown_share(const Box& lit, const Vec3& direction) {
@@ -40,7 +40,7 @@ void follow(const LitBody& body, const DistanceStrategy& strategy, double hit_sh
       sums[length] += flown * now.throughput[c] / hit_share;
       if (event.kind == EventKind::collision) sums[collisions] += now.throughput[c] / hit_share;
       if (event.kind == EventKind::escape) {
-        const size_t ring = cell_of(0.5 * away_from(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction), kRings);
+        const size_t ring = cell_of(0.5 * away_from(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction), kEscapeRings);
         sums[escapes + ring * kSectors + sector_about(Vec3(0.0f, 0.0f, 1.0f), now.ray.direction)] +=
             now.throughput[c] / shown_share(body.scene.bounds, now.ray.direction);
       }
@@ -67,7 +67,7 @@ void check_body(std::vector<Check>& checks, const LitBody& body, std::string_vie
     checks.push_back(
         check_weighted_mean(channel + ", collisions", sums[collisions], 4.0 * body.volume * sigma_t / body.area));
     checks.push_back(check_weights(channel + ", directions of escape", {sums + escapes, sums + tallies},
-                                   std::vector<double>(kRings * kSectors, 1.0 / (kRings * kSectors))));
+                                   std::vector<double>(kEscapeRings * kSectors, 1.0 / (kEscapeRings * kSectors))));
   }
 }
 

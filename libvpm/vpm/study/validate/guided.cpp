@@ -13,7 +13,7 @@ namespace vpm {
 
 namespace {
 
-constexpr size_t kRings = 6, kCells = kRings * kSectors;
+constexpr size_t kGuideRings = 6, kGuideCells = kGuideRings * kSectors;
 const Vec3 kUp(0.0f, 0.0f, 1.0f);
 
 /// One cube that knows of some light along all directions and of much along a few.
@@ -38,10 +38,10 @@ std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort
     return state;
   };
   const uint64_t count = effort.count(100'000, 4'000'000);
-  const auto even = sample_moments(kCells, count, effort.seed_of("guided, isotropic"), [&](Rng& rng, double* out) {
+  const auto even = sample_moments(kGuideCells, count, effort.seed_of("guided, isotropic"), [&](Rng& rng, double* out) {
     const PathState state = scattered(isotropic, rng);
     const Vec3& d = state.ray.direction;
-    out[cell_of(0.5 * away_from(kUp, d), kRings) * kSectors + sector_about(kUp, d)] = state.throughput.g;
+    out[cell_of(0.5 * away_from(kUp, d), kGuideRings) * kSectors + sector_about(kUp, d)] = state.throughput.g;
   });
   const auto forward = sample_moments(2, count, effort.seed_of("guided, forward"), [&](Rng& rng, double* out) {
     const PathState state = scattered(haze, rng);
@@ -49,7 +49,7 @@ std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort
     out[1] = state.throughput.g * (1.0 - away_from(travel, state.ray.direction));
   });
   return {check_weights("isotropic medium, power by direction", even,
-                        std::vector<double>(kCells, kAlbedo / static_cast<double>(kCells))),
+                        std::vector<double>(kGuideCells, kAlbedo / static_cast<double>(kGuideCells))),
           check_mean("Henyey-Greenstein, g = 0.6, power", forward[0], double{kAlbedo}),
           check_mean("Henyey-Greenstein, g = 0.6, power times cosine", forward[1], double{kAlbedo} * double{kG})};
 }
@@ -91,12 +91,12 @@ std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& eff
   const Landing diffuse(Lambertian{Rgb(kReflectance)}), glass(RoughDielectric{1.5f, 0.4f});
   const Landing metal(RoughConductor{Rgb(0.4f), Rgb(2.5f), 0.6f});
   const uint64_t count = effort.count(100'000, 4'000'000);
-  const auto above = sample_moments(kCells, count, effort.seed_of("guided, diffuse"), [&](Rng& rng, double* out) {
+  const auto above = sample_moments(kGuideCells, count, effort.seed_of("guided, diffuse"), [&](Rng& rng, double* out) {
     Scatter scatter;
     const PathState state = diffuse.scattered(&guide, rng, scatter);
     const Vec3& d = state.ray.direction;
     const double cosine = 1.0 - away_from(kUp, d);
-    if (cosine > 0.0) out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(kUp, d)] = state.throughput.g;
+    if (cosine > 0.0) out[cell_of(cosine * cosine, kGuideRings) * kSectors + sector_about(kUp, d)] = state.throughput.g;
   });
   const auto balance = sample_moments(1, count, effort.seed_of("guided, metal"), [&](Rng& rng, double* out) {
     Scatter scatter;
@@ -112,7 +112,7 @@ std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& eff
   };
   const auto guided = by_side(&guide, "guided, glass"), plain = by_side(nullptr, "not guided, glass");
   return {check_weights("diffuse sheet, power by direction", above,
-                        std::vector<double>(kCells, kReflectance / static_cast<double>(kCells))),
+                        std::vector<double>(kGuideCells, kReflectance / static_cast<double>(kGuideCells))),
           check_mean("rough metal, power that goes on and is absorbed", balance[0], 1.0),
           check_same("rough glass, reflected power", guided[0], plain[0]),
           check_same("rough glass, transmitted power", guided[1], plain[1])};

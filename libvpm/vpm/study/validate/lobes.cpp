@@ -9,8 +9,8 @@ namespace vpm {
 
 namespace {
 
-constexpr size_t kRings = 16, kCells = kRings * kSectors;  // on a side
-constexpr int kPoints = 48;                                // in a cell, both ways
+constexpr size_t kLobeRings = 16, kLobeCells = kLobeRings * kSectors;  // on a side
+constexpr int kPoints = 48;                                            // in a cell, both ways
 
 /// The scale of the material's narrowest lobe, as an angle squared.
 double narrowest(const Material& material) {
@@ -39,20 +39,20 @@ LobeCells::LobeCells(const RoughIncidence& incidence)
       near_axis_(glm::reflect(incidence.travel, incidence.normal)),
       far_axis_(refracted(incidence)) {}
 
-size_t LobeCells::count() const { return 2 * kCells; }
+size_t LobeCells::count() const { return 2 * kLobeCells; }
 
 size_t LobeCells::cell_of(const Vec3& direction) const {
   const bool far = on_far_side(incidence_, direction);
   const Vec3& axis = far ? far_axis_ : near_axis_;
   const double ring = std::log1p(away_from(axis, direction) / width_) / std::log1p(2.0 / width_);
-  return (far ? kCells : 0) + vpm::cell_of(ring, kRings) * kSectors + sector_about(axis, direction);
+  return (far ? kLobeCells : 0) + vpm::cell_of(ring, kLobeRings) * kSectors + sector_about(axis, direction);
 }
 
 /// A midpoint rule in each cell, whose edges are those of the rule's azimuths, too; what lies beyond the horizon
 /// belongs to the other side.
 LobeCells::Integrals LobeCells::integrate() const {
   Integrals result{std::vector<double>(count(), 0.0)};
-  const double span = std::log1p(2.0 / width_), rings = kRings * kPoints, turns = kSectors * kPoints;
+  const double span = std::log1p(2.0 / width_), rings = kLobeRings * kPoints, turns = kSectors * kPoints;
   for (const bool far : {false, true}) {
     if (far && !scatters_through(incidence_.material)) continue;
     for (double i = 0.5; i < rings; i += 1.0)
