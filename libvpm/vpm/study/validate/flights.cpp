@@ -154,7 +154,7 @@ std::vector<Check> flights_by(const StrategyInfo& info, const Effort& effort) {
     fields.push_back(fine_field());
   }
   // Beyond majorants weights grow with the optical thickness: in thin media they can still be judged.
-  const float sigma_t = info.positive ? 1.2f : 0.15f;
+  const float sigma_t = info.positive ? 1.2f : 0.1f;
   std::vector<Check> checks;
   for (const TestField& field : fields) {
     check_flights(checks, field, Rgb(sigma_t), info, effort);
