@@ -13,20 +13,20 @@ namespace {
 
 constexpr double kFalseAlarms = 1e-6;  // of each comparison
 
-/// Samples of the radiance along a ray from outside all shapes, one channel.
-Moments samples(const Scene& scene, const Ray& ray, int count, const RenderSettings& settings = {}, int channel = 0) {
-  const PathContext context = make_path_context(scene, settings);
+/// Samples of the radiance along a ray from outside all shapes, red channel.
+Moments samples(const Scene& scene, const Ray& ray, int count) {
+  const PathContext context = make_path_context(scene, {});
   EyeCounters counters;
   Moments moments;
   for (int i = 0; i < count; ++i) {
     Rng rng(5, rng_stream(RngUse::test, 0), static_cast<uint64_t>(i));
-    moments.add(path_radiance(context, ray, scene.world_medium, rng, counters)[channel]);
+    moments.add(path_radiance(context, ray, scene.world_medium, rng, counters).r);
   }
   EXPECT_EQ(counters.cut_paths, 0u);
   return moments;
 }
 
-/// A floor, and above it a lamp that faces it. `light`: a QuadLight or a SphereLight.
+/// A floor, and above it a lamp that faces it. `lamp`: a DiscLight or a MeshLight.
 template <class Lamp, class Surface>
 Scene lit_floor(const Lamp& lamp, const Surface& surface) {
   Scene scene;

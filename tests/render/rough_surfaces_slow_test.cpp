@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
-#include "support/statistics.h"
 #include "vpm/base/progress.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -10,8 +9,7 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-constexpr double kSpread = 1e-5;       // relative, of what rays less than 1e-3 rad apart see of a smooth lobe
+constexpr double kSpread = 1e-5;  // relative, of what rays less than 1e-3 rad apart see of a smooth lobe
 
 /// A sheet in the plane z = 0 seen from far away, at 45 degrees, by rays less than 1e-3 rad apart.
 Scene sheet(const Material& material, const Light& light, bool from_outside) {
