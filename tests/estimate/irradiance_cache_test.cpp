@@ -1,8 +1,7 @@
-// Irradiance computed beforehand: its brute-force twin, and a cavity where the irradiance is the same everywhere.
+// Irradiance computed beforehand: its brute-force twin, and where there is none.
 #include <gtest/gtest.h>
 
 #include "support/recorders.h"
-#include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface/irradiance_cache.h"
@@ -12,8 +11,6 @@
 
 namespace vpm {
 namespace {
-
-constexpr double kFalseAlarms = 1e-6;
 
 Hit hit_at(const Vec3& position, const Vec3& normal, const Vec3& shading_normal) {
   Hit hit;
@@ -109,46 +106,6 @@ TEST(IrradianceCache, AreNoneWhereTheTwoNormalsAreSeenFromDifferentSides) {
   EXPECT_TRUE(seen(points, hit, up));
   EXPECT_FALSE(seen(points, hit, glm::normalize(Vec3(-1.0f, 0.5f, 0.0f))));
   EXPECT_FALSE(seen(points, hit, -up));  // the other side
-}
-
-// In a diffuse sphere with a light in its centre all photons are uniform, and a ball cuts a cap of pi r^2 out of it, in
-// which areas of equal distance are a disc's: no kernel and no cell has a bias there, however few photons lie near.
-// Here 4.8 and 1.6 places do on average; a fifth of the queries finds no place and asks the map.
-TEST(SlowIrradianceCache, HaveNoBiasInASphereWhereLightIsUniform) {
-  constexpr float kReflectance = 0.5f;
-  Scene scene;
-  add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Lambertian{Rgb(kReflectance)});
-  scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
-  scene.geometry.commit();
-  finish(scene);
-  TraceSettings settings;
-  settings.emitted = 2'000;
-  Moments means;
-  uint64_t found = 0, missed = 0;
-  for (uint64_t pass = 0; pass < 300; ++pass) {
-    settings.pass = pass;
-    HitRecorder hits(scene, any_photon, HitUse::surface_map_without_cache_points);
-    CachePointRecorder recorder(scene);
-    trace_into(scene, settings, {&hits, &recorder});
-    EXPECT_EQ(hits.emitted_count, settings.emitted - settings.emitted / kCachePointStep);
-    const PhotonMap map = make_photon_map(std::move(hits.photons), {GatherMode::radius, 0.08f}, hits.emitted_count);
-    GatherCounters counters;
-    const IrradianceCache points(recorder.points, map, counters);
-    Moments pass_mean;
-    for (uint64_t i = 0; i < 500; ++i) {
-      Rng rng(5, rng_stream(RngUse::test, 3 + pass), i);
-      const Vec3 at = uniform_sphere(rng.uniform2());
-      const Hit hit = hit_at(at, at, at);
-      const std::optional<Rgb> near = seen(points, hit, -at);
-      ++(near ? found : missed);
-      pass_mean.add((near ? *near : shaded_irradiance(hit, -at, map)).g);
-    }
-    means.add(pass_mean.mean());
-  }
-  EXPECT_NEAR(static_cast<double>(missed) / static_cast<double>(found + missed), 0.2, 0.01);
-  // 4 pi W over the sphere's 4 pi m^2, again and again.
-  expect_mean(means, 1.0 / (1.0 - kReflectance), kFalseAlarms);
-  EXPECT_LT(std::sqrt(means.variance_of_mean()), 0.005 * means.mean());
 }
 
 TEST(IrradianceCache, AreNoneOnBlackSurfaces) {

@@ -1,4 +1,4 @@
-// The correction at borders of media: shares of balls that are cut, even light in a cube, and light behind walls.
+// The correction at borders of media: shares of balls that are cut, and light behind walls.
 #include "vpm/estimate/volume_region.h"
 
 #include <gtest/gtest.h>
@@ -160,28 +160,6 @@ TEST(VolumeRegion, LeavesOutWhereThereIsNoDensity) {
     EXPECT_FALSE(share.others);
   }
   EXPECT_EQ(VolumeRegion(scene, 0, {-0.55f, 0.1f, 0.0f}, KernelKind::epanechnikov).share(0.1f).inside, 1.0);
-}
-
-// False alarms: 1e-6 each. The share's error at these places is below 0.5 %, a fifth of the standard errors.
-TEST(SlowVolumeRegion, EvenLightInACubeIsEvenUpToItsCorners) {
-  const Scene scene = cube();
-  const Vec3 lo(-1.0f), hi(1.0f);
-  uint64_t use = 10;
-  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest}) {
-    const GatherSettings gather{mode, mode == GatherMode::radius ? 0.7f : 1.5f, 12, KernelKind::epanechnikov};
-    // At a face, an edge and a corner the ball is a half, a quarter and an eighth of one.
-    const auto at = [&](const Vec3& point, double part, const char* what) {
-      const Estimates found = estimate(scene, point, gather, {lo, hi}, 1500, use++);
-      expect_mean(found.corrected, 1.0, 1e-6, what);
-      if (mode == GatherMode::radius) expect_mean(found.plain, part, 1e-6, what);
-      EXPECT_LT(found.plain.mean(), 0.85) << what;
-      EXPECT_EQ(found.counters.corrected, 1500u);
-      EXPECT_EQ(found.counters.least_shares, 0u);
-    };
-    at(Vec3(0.99999f, 0.1f, -0.2f), 0.5, "face");
-    at(Vec3(0.99999f, 0.99999f, -0.2f), 0.25, "edge");
-    at(Vec3(0.99999f), 0.125, "corner");
-  }
 }
 
 TEST(VolumeRegion, LightDoesNotLeakThroughThinWalls) {

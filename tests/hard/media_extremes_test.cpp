@@ -7,6 +7,7 @@
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/study/careful_settings.h"
+#include "vpm/study/exact/slab.h"
 
 namespace vpm {
 namespace {
@@ -143,25 +144,6 @@ TEST(MediaExtremes, SingleScatteringIsExactWhereNoPhotonCollides) {
   }
 }
 
-/// Chandrasekhar's H function of isotropic scattering at cosine 1, by iterating its integral equation in the form
-/// 1/H(m) = sqrt(1 - a) + a/2 int_0^1 m' H(m') / (m + m') dm' [Chandrasekhar1960, ch. V].
-double chandrasekhar_h1(double albedo) {
-  constexpr int kNodes = 400;
-  std::vector<double> h(kNodes, 1.0);
-  const auto node = [](int i) { return (i + 0.5) / kNodes; };
-  const auto inverse = [&](double m) {
-    double sum = 0.0;
-    for (int i = 0; i < kNodes; ++i) sum += node(i) * h[i] / (m + node(i)) / kNodes;
-    return std::sqrt(1.0 - albedo) + 0.5 * albedo * sum;
-  };
-  for (int round = 0; round < 200; ++round) {
-    std::vector<double> next(kNodes);
-    for (int i = 0; i < kNodes; ++i) next[i] = 1.0 / inverse(node(i));
-    h = next;
-  }
-  return 1.0 / inverse(1.0);
-}
-
 /// A pencil of light straight down on a medium that fills z of [-depth, 0] and as much to the sides.
 Scene half_space(const Medium& medium, double depth) {
   Scene scene;
@@ -178,7 +160,7 @@ TEST(MediaExtremes, AHalfSpaceReflectsByItsAlbedoWhateverItsExtinction) {
   constexpr uint64_t kPhotons = 20000;
   Worst worst("error of the reflected share");
   for (const float albedo : {0.5f, 0.9f}) {
-    const double exact = 1.0 - chandrasekhar_h1(albedo) * std::sqrt(1.0 - double(albedo));
+    const double exact = 1.0 - exact::chandrasekhar_h(albedo, 1.0).value * std::sqrt(1.0 - double(albedo));
     for (const auto& [sigma, depth] : {std::pair(1e-7f, 1e9), std::pair(1e-3f, 1e5), std::pair(1.0f, 1e2),
                                        std::pair(1e3f, 1.0), std::pair(1e6f, 1.0), std::pair(1e9f, 1e-4)}) {
       const Ledger ledger =

@@ -70,6 +70,15 @@ TEST(Render, GoesOnToTheSameBits) {
   EXPECT_EQ(resumed.statistics.passes, 5);
 }
 
+TEST(Render, CorrectsEstimatesAtBorders) {
+  RenderJob job = lit_floor();
+  job.settings.surface.boundary = BoundaryRule::corrected;
+  job.settings.surface.radius = 4.0f;  // beyond the floor's edges from all of its points
+  const GatherCounters gather = render_until(job, {.passes = 1}).statistics.eye.gather;
+  EXPECT_GT(gather.corrected, 0u);
+  EXPECT_EQ(gather.least_shares, 0u);
+}
+
 TEST(RenderJob, OfCodeBecomesPictureReportAndMessages) {
   const RenderJob job = lit_floor();
   const RenderResult result = render_until(job, {.passes = kLeastPasses});

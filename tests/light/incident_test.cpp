@@ -24,18 +24,6 @@ Moments irradiance(const Light& light, const Vec3& point, const Vec3& normal, ui
   return moments;
 }
 
-/// Irradiance of a polygon of radiance 1 wholly above the horizon: half the sum, over its edges, of the angle each
-/// subtends times the cosine of the receiver's normal to the normal of the plane through edge and point [Arvo1994, eq.
-/// 3].
-double lambert_polygon(const std::vector<Vec3d>& corners, const Vec3d& point, const Vec3d& normal) {
-  double sum = 0.0;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    const Vec3d a = glm::normalize(corners[i] - point), b = glm::normalize(corners[(i + 1) % corners.size()] - point);
-    sum += std::acos(glm::dot(a, b)) * glm::dot(glm::normalize(glm::cross(a, b)), normal);
-  }
-  return 0.5 * std::abs(sum);
-}
-
 TEST(Incident, PointLightFallsWithTheSquare) {
   Rng rng = test_rng(0);
   const auto in = sample_towards(PointLight{{0, 3, 4}, Rgb(50, 25, 5)}, {0, 0, 0}, rng);
@@ -83,54 +71,6 @@ TEST(Incident, DirectionalLightIsEverywhereTheSame) {
   EXPECT_EQ(in->pdf, 0.0f);
 }
 
-// False-alarm rate 1e-5 for each point.
-TEST(Incident, QuadMatchesLambertsFormula) {
-  const QuadLight quad{{-1, 2, -0.5f}, {1.5f, 0.3f, 0}, {0.4f, -0.2f, 1.2f}, Rgb(2)};
-  const Vec3d c(quad.corner), u(quad.edge_u), v(quad.edge_v);
-  const Vec3 normal = glm::normalize(Vec3(0.1f, 1.0f, 0.2f));
-  for (const Vec3& point : {Vec3(0, 0, 0), Vec3(2, -1, 1), Vec3(-0.5f, 1, 0.2f)}) {
-    const double expected =
-        2.0 * lambert_polygon({c, c + u, c + u + v, c + v}, Vec3d(point), glm::normalize(Vec3d(normal)));
-    // It emits to the side of its normal, here downwards; the same quad with its edges exchanged emits upwards only.
-    ASSERT_LT(glm::cross(quad.edge_u, quad.edge_v).y, 0.0f);
-    expect_mean(irradiance(quad, point, normal, 10), expected, 1e-5, "front");
-    EXPECT_EQ(irradiance(QuadLight{quad.corner, quad.edge_v, quad.edge_u, Rgb(2)}, point, normal, 11, 1000).mean(),
-              0.0);
-  }
-}
-
-// Under the middle of a disc that faces a plane, E = pi L sin^2 of the half angle. False-alarm rate 1e-5 for each
-// distance.
-TEST(Incident, DiscMatchesItsFormFactorOnTheAxis) {
-  const Vec3 towards = glm::normalize(Vec3(0.2f, 0.9f, 0.3f));
-  for (const double distance : {0.3, 1.5, 100.0}) {
-    const DiscLight disc{static_cast<float>(distance) * towards, -towards, 0.5f, Rgb(2)};
-    const double expected = 2.0 * kPiD * 0.25 / (0.25 + distance * distance);
-    const Moments m = irradiance(disc, {0, 0, 0}, towards, 23);
-    EXPECT_NEAR(m.mean() / expected, 1.0, 1e-6 + normal_quantile(1e-5) * std::sqrt(m.variance_of_mean()) / expected)
-        << distance;
-  }
-  const DiscLight away{{0, 1, 0}, {0, 1, 0}, 0.5f, Rgb(2)};
-  EXPECT_EQ(irradiance(away, {0, 0, 0}, {0, 1, 0}, 24, 1000).mean(), 0.0);
-}
-
-// A box as a mesh: what faces the point is the sum of its faces by Lambert's formula. False-alarm rate 1e-5.
-TEST(Incident, MeshMatchesLambertsFormulaForEveryFaceSeen) {
-  const TriangleMesh box = box_mesh(Vec3d(0.5, 1.0, -0.4), Vec3d(1.2, 1.5, 0.9));
-  const MeshLight light{std::make_shared<const EmittingMesh>(box), Rgb(2)};
-  const Vec3 point(0.1f, 0.2f, 0.3f), normal = glm::normalize(Vec3(0.1f, 1.0f, 0.2f));
-  double expected = 0.0;
-  int seen = 0;
-  for (const glm::uvec3& t : box.triangles) {
-    const Vec3d a(box.positions[t.x]), b(box.positions[t.y]), c(box.positions[t.z]);
-    if (glm::dot(glm::cross(b - a, c - a), Vec3d(point) - a) <= 0.0) continue;
-    expected += 2.0 * lambert_polygon({a, b, c}, Vec3d(point), glm::normalize(Vec3d(normal)));
-    ++seen;
-  }
-  ASSERT_EQ(seen, 4);
-  expect_mean(irradiance(light, point, normal, 25), expected, 1e-5);
-}
-
 // E = pi L (R/d)^2 cos for a sphere above the horizon, from just off it to a million radii. False-alarm rate 1e-5 for
 // each distance.
 TEST(Incident, SphereMatchesItsFormFactor) {
@@ -159,24 +99,6 @@ TEST(Incident, SphereIsMetAtItsNearSide) {
   }
 }
 
-// A hemisphere of constant radiance L: E = pi L. False-alarm rate 1e-5 each.
-TEST(Incident, EnvironmentsMatchTheirCosineIntegral) {
-  const Vec3 normal = glm::normalize(Vec3(-0.4f, 0.3f, 0.8f));
-  expect_mean(irradiance(ConstantEnvironment{Rgb(2)}, {5, 6, 7}, normal, 30), 2.0 * kPiD, 1e-5, "constant");
-  const EnvironmentMap map = test_map();
-  double expected = 0.0;  // by the midpoint rule within every texel's smooth piece
-  constexpr int kRows = 800, kColumns = 1600;
-  for (int r = 0; r < kRows; ++r) {
-    for (int c = 0; c < kColumns; ++c) {
-      const double theta = (r + 0.5) * kPiD / kRows, phi = (c + 0.5) * 2.0 * kPiD / kColumns;
-      const Vec3 d(Vec3d(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)));
-      const double solid_angle = std::sin(theta) * kPiD / kRows * 2.0 * kPiD / kColumns;
-      expected += map.image->radiance(d).r * std::max(0.0f, glm::dot(normal, d)) * solid_angle;
-    }
-  }
-  expect_mean(irradiance(map, {5, 6, 7}, normal, 31), expected, 1e-5, "map");
-}
-
 TEST(Incident, RadianceIsSeenFromTheFrontOnly) {
   const Light disc = DiscLight{{}, {0, 0, 1}, 1.0f, Rgb(6)};
   const Light mesh = MeshLight{std::make_shared<const EmittingMesh>(test_tetrahedron()), Rgb(7)};
@@ -187,6 +109,8 @@ TEST(Incident, RadianceIsSeenFromTheFrontOnly) {
   const Light quad = QuadLight{{}, {1, 0, 0}, {0, 1, 0}, Rgb(3)}, sphere = SphereLight{{}, 1.0f, Rgb(4)};
   EXPECT_EQ(surface_radiance(quad, {0, 0, 1}, {0, 0, -1}), Rgb(3));
   EXPECT_EQ(surface_radiance(quad, {0, 0, 1}, {0, 0, 1}), Rgb(0));
+  EXPECT_EQ(irradiance(quad, {0, 0, -1}, {0, 0, 1}, 11, 1000).mean(), 0.0);
+  EXPECT_EQ(irradiance(disc, {0, 0, -1}, {0, 0, 1}, 24, 1000).mean(), 0.0);
   EXPECT_EQ(surface_radiance(sphere, {0, 0, 1}, {0, 0, -1}), Rgb(4));
   EXPECT_EQ(surface_radiance(PointLight{}, {0, 0, 1}, {0, 0, -1}), Rgb(0));
   EXPECT_EQ(environment_radiance(ConstantEnvironment{Rgb(5)}, {0, 0, 1}), Rgb(5));

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "light/lights.h"
+#include "vpm/base/error.h"
 
 namespace vpm {
 namespace {
@@ -17,6 +18,10 @@ TEST(LightOfSurface, KeepsPlaceAndNormal) {
   EXPECT_TRUE(disc.centre == Vec3(1, 2, 3) && disc.normal == Vec3(0, 0, 1) && disc.radius == 0.5f);
   const auto mesh = std::get<MeshLight>(light_of(box_mesh(Vec3d(0), Vec3d(1)), Rgb(7)));
   EXPECT_DOUBLE_EQ(mesh.mesh->area(), 6.0);
+}
+
+TEST(LightOfSurface, IsNoMeshWithoutArea) {
+  EXPECT_THROW(EmittingMesh(TriangleMesh{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}}), InputError);
 }
 
 TEST(LightOfSurface, AQuadKeepsItsNormalUnderMirrors) {

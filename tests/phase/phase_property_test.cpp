@@ -52,6 +52,7 @@ RC_GTEST_PROP(PhaseProperty, SamplesInvertTheCumulativeDistribution, ()) {
   const Vec3 travel = *unit_vector();
   const Vec2 u = *uniform_pair();
   const bool backward = *rc::gen::arbitrary<bool>();
+  RC_ASSERT(std::isfinite(phase_value(HenyeyGreenstein{backward ? -g : g}, backward ? -1.0f : 1.0f)));
   const Vec3 d = phase_sample(HenyeyGreenstein{backward ? -g : g}, travel, u);
   RC_ASSERT(std::abs(glm::length(Vec3d(d)) - 1.0) < 5e-7);
   const Vec3d apart = Vec3d(d) - (backward ? -1.0 : 1.0) * Vec3d(travel);

@@ -161,34 +161,6 @@ TEST(PhotonMap, SmallAndEmptyMapsAnswer) {
     }
 }
 
-TEST(SlowPhotonMap, KNearestIsUnbiasedInUniformPhotons) {
-  // 2000 photons of power 1/2000 uniform in the unit cube: the density at its middle is 1. With k counted instead of k
-  // - 1 the mean would be k/(k-1).
-  for (const auto& [kernel, kernel_name, disc_norm, ball_norm] : kKernels) {
-    Moments density;
-    for (uint64_t trial = 0; trial < 1000; ++trial) {
-      Rng rng(4, rng_stream(RngUse::test, 30), trial);
-      std::vector<Photon> all(2000);
-      for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
-      const PhotonMap map = make_photon_map(all, {GatherMode::nearest, 10.0f, 12, kernel}, 2000);
-      density.add(kernel_sum<3>(map, Vec3(0.5f), AnyPhoton{}, [](auto&&, const Rgb& p) { return p; }).r);
-    }
-    expect_mean(density, 1.0, 1e-6, "density");
-  }
-}
-
-TEST(PhotonMap, FixedRadiusMeanIsTheSmoothedDensity) {
-  Moments density;
-  for (uint64_t trial = 0; trial < 2000; ++trial) {
-    Rng rng(4, rng_stream(RngUse::test, 31), trial);
-    std::vector<Photon> all(500);
-    for (Photon& p : all) p = {{rng.uniform(), rng.uniform(), rng.uniform()}, {}, Rgb(1.0f)};
-    const PhotonMap map = make_photon_map(all, {GatherMode::radius, 0.3f, 0, KernelKind::biweight}, 500);
-    density.add(kernel_sum<3>(map, Vec3(0.5f), AnyPhoton{}, [](auto&&, const Rgb& p) { return p; }).r);
-  }
-  expect_mean(density, 1.0, 1e-6, "density");
-}
-
 TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
   const std::vector<Photon> all = photons(Layout::spread, 5000);
   const Vec3 at(0.5f);
@@ -211,25 +183,6 @@ TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
   EXPECT_LT(nearest.visited, 2000u);  // a tree does not look at all
   const std::vector<Photon> none;
   EXPECT_EQ(count(make_photon_map(none, by_radius, 1)).visited, 0u);
-}
-
-TEST(Kernel, IsNormalised) {
-  constexpr int kSteps = 100000;
-  for (const auto& [kind, kernel_name, disc_norm, ball_norm] : kKernels) {
-    const float r = 0.7f;
-    double disc = 0.0, ball = 0.0;
-    with_kernel(kind, [&](auto profile) {
-      for (int i = 0; i < kSteps; ++i) {
-        const double t = (i + 0.5) / kSteps;
-        const double value = profile(static_cast<float>(t * t)) * r / kSteps;
-        disc += value * 2.0 * kPiD * (t * r);
-        ball += value * 4.0 * kPiD * (t * r) * (t * r);
-      }
-      return 0;
-    });
-    EXPECT_NEAR(disc * kernel_norm_2d(kind, r), 1.0, 1e-5);
-    EXPECT_NEAR(ball * kernel_norm_3d(kind, r), 1.0, 1e-5);
-  }
 }
 
 TEST(Kernel, KnowsItsIntegralUpToAnyRadius) {

@@ -1,4 +1,4 @@
-// Photon tracing: the strategies against each other without a kernel, the ledger, what is stored, and reproducibility.
+// Photon tracing: what is stored and told, by whom, and reproducibility.
 #include "vpm/photon/photon_lists.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,6 @@ namespace vpm {
 namespace {
 
 constexpr double kFalseAlarms = 1e-6;  // of each comparison
-constexpr int kBoxes = 3;              // along an edge of [-1, 1]^3
-constexpr int kBatches = 100;
 
 /// A spot from above that grazes the box's side, so that photons enter by several faces.
 const Light kSpot =
@@ -25,45 +23,6 @@ const Light kSpot =
 PhotonLists trace(const Scene& scene, const std::string& strategy, ListSettings settings) {
   settings.volume_form = VolumeForm::density_at_photon;
   return list_photons(scene, *make_distance_strategy({.strategy = strategy}), settings);
-}
-
-/// The power that collides in each box and channel, and what escapes, over independent batches.
-struct Tally {
-  std::vector<Moments> values;
-  double effective_sample_size = 0.0;
-};
-
-Tally tally(const Scene& scene, const std::string& strategy, uint64_t seed) {
-  Tally result{std::vector<Moments>(kBoxes * kBoxes * kBoxes * 3 + 3), 0.0};
-  Ledger all;
-  for (int batch = 0; batch < kBatches; ++batch) {
-    ListSettings settings;
-    settings.seed = seed;
-    settings.pass = static_cast<uint64_t>(batch);
-    settings.emitted = 1000;
-    const PhotonLists photons = trace(scene, strategy, settings);
-    std::vector<double> sums(result.values.size(), 0.0);
-    for (const Photon& p : photons.volume[0]) {
-      const Vec3i box = glm::clamp(Vec3i((p.position + 1.0f) * (0.5f * kBoxes)), Vec3i(0), Vec3i(kBoxes - 1));
-      for (int c = 0; c < 3; ++c) sums[((box.z * kBoxes + box.y) * kBoxes + box.x) * 3 + c] += p.power[c];
-    }
-    for (int c = 0; c < 3; ++c) sums[sums.size() - 3 + c] = photons.ledger.escaped[c];
-    for (size_t i = 0; i < sums.size(); ++i) result.values[i].add(sums[i] / 1000.0);
-    all.merge(photons.ledger);
-  }
-  result.effective_sample_size = all.weights.effective_sample_size();
-  return result;
-}
-
-/// z-tests of all boxes. The weights must tell enough to decide them.
-void expect_equal(const Tally& a, const Tally& b, const std::string& what) {
-  EXPECT_GE(std::min(a.effective_sample_size, b.effective_sample_size), 10.0 * kLeastSampleSize) << what;
-  for (size_t i = 0; i < a.values.size(); ++i) {
-    const double error = std::sqrt(a.values[i].variance_of_mean() + b.values[i].variance_of_mean());
-    EXPECT_LE(std::abs(a.values[i].mean() - b.values[i].mean()), normal_quantile(kFalseAlarms) * error + 1e-9)
-        << what << ", value " << i << ": " << a.values[i].mean() << " against " << b.values[i].mean() << " +- "
-        << error;
-  }
 }
 
 std::shared_ptr<const DensityGrid> grid_over_box(double (*density)(int, int, int)) {
@@ -77,35 +36,6 @@ Medium colourful(std::shared_ptr<const DensityGrid> grid) {
   medium.sigma_s = medium.sigma_t * Rgb(0.95f, 0.7f, 0.3f);
   medium.phase = HenyeyGreenstein{0.5f};
   return medium;
-}
-
-TEST(SlowPhotonTracing, AConstantGridEqualsTheHomogeneousMedium) {
-  const auto constant = grid_over_box([](int, int, int) { return 1.0; });
-  for (const bool grey : {true, false}) {
-    const Medium in_grid = grey ? make_medium(constant, Rgb(1.5f), 0.8f) : colourful(constant);
-    Medium plain = in_grid;
-    plain.grid = nullptr;
-    const Tally expected = tally(boxed_medium(plain, kSpot), "homogeneous", 1);
-    uint64_t seed = 2;
-    for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march", "regular", "ray-march-adaptive",
-                                 "delta", "delta-local", "decomposition"})
-      expect_equal(tally(boxed_medium(in_grid, kSpot), strategy, seed++), expected,
-                   strategy + std::string(grey ? ", grey" : ", RGB"));
-  }
-}
-
-// Effective sample sizes: 134 thousand grey collisions by the regular strategy, 41 thousand by the mean extinction's.
-TEST(SlowPhotonTracing, TheStrategiesAgreeOnASmoothGrid) {
-  const auto smooth =
-      grid_over_box([](int x, int y, int z) { return 0.25 + std::exp(-0.015 * ((x - 2) * (x - 2) + y * y + z * z)); });
-  for (const bool grey : {true, false}) {
-    const Scene scene = boxed_medium(grey ? make_medium(smooth, Rgb(1.5f), 0.8f) : colourful(smooth), kSpot);
-    const Tally exact = tally(scene, "regular", 11);
-    uint64_t seed = 12;
-    for (const char* strategy : {"local-extinction", "mean-extinction", "ray-march", "ray-march-adaptive", "delta",
-                                 "delta-local", "decomposition"})
-      expect_equal(tally(scene, strategy, seed++), exact, strategy + std::string(grey ? ", grey" : ", RGB"));
-  }
 }
 
 /// A scene with everything a photon can meet: fog, a glass ball, a mirror, coloured walls. The fog is around the ball
@@ -123,38 +53,6 @@ Scene full_scene(bool fog_in_glass = false) {
   scene.geometry.commit();
   finish(scene);
   return scene;
-}
-
-// Photon by photon in the sum of channels; in each channel, which photons' mixtures must conserve on average.
-TEST(PhotonTracing, TheLedgerCloses) {
-  const Scene in_fog = full_scene(), fog_in_glass = full_scene(true);
-  for (const auto& [scene, strategy] :
-       {std::pair(&in_fog, "homogeneous"), std::pair(&in_fog, "local-extinction"),
-        std::pair(&in_fog, "mean-extinction"), std::pair(&in_fog, "ray-march"), std::pair(&in_fog, "regular"),
-        std::pair(&in_fog, "delta"), std::pair(&in_fog, "progressive-null"), std::pair(&fog_in_glass, "homogeneous")}) {
-    Ledger all;
-    Moments emitted;                    // green, W
-    std::array<Moments, 3> difference;  // of what went and what came, W
-    for (int batch = 0; batch < kBatches; ++batch) {
-      ListSettings settings;
-      settings.pass = static_cast<uint64_t>(batch);
-      settings.emitted = 500;
-      const Ledger ledger = trace(*scene, strategy, settings).ledger;
-      const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
-      for (int c = 0; c < 3; ++c) difference[c].add((gone[c] - ledger.emitted[c]) / 500.0);
-      emitted.add(ledger.emitted.g / 500.0);
-      all.merge(ledger);
-    }
-    EXPECT_LT(std::abs(all.imbalance.mean()),
-              normal_quantile(kFalseAlarms) * std::sqrt(all.imbalance.variance_of_mean()))
-        << strategy;
-    for (const Moments& channel : difference) EXPECT_GE(check_mean("", channel, 0.0).p, kFalseAlarms) << strategy;
-    const double power = 2.0 * 4.0 * kPiD + light_power(kSpot, scene->bounds).g;
-    EXPECT_GE(check_mean("", emitted, power).p, kFalseAlarms) << strategy;
-    EXPECT_EQ(all.non_finite, 0u);
-    EXPECT_EQ(all.cut_count, 0u);
-    EXPECT_EQ(all.walk.medium_mismatches, 0u);
-  }
 }
 
 TEST(PhotonTracing, IsTheSameForAnyNumberOfThreads) {

@@ -5,7 +5,6 @@
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
-#include "vpm/base/tails.h"
 #include "vpm/image/metrics.h"
 #include "vpm/photon/records.h"
 #include "vpm/render/path_tracer.h"
@@ -76,17 +75,6 @@ void expect_same(const Moments& gathered, const Moments& paths) {
   EXPECT_GE(check.p, kFalseAlarms) << check.value << " against " << check.exact << " +- " << check.error;
 }
 
-// Within a radius of the cube's edges the map is dark, which gathering rays see in proportion to the radius: at 0.1 m
-// 0.5 % of all light is missing, at 1 m 6 %. Extrapolated to 0 from 0.1 m and 0.2 m it is 0.04 %.
-TEST(SlowFinalGather, SeesWhatPathsSee) {
-  const Scene scene = hollow_cube();
-  const Moments extrapolated = means([&](int pass) {
-    return 2.0 * pass_mean(scene, gathering(0.1f), pass, render_photon_pass) -
-           pass_mean(scene, gathering(0.2f), pass + 1000, render_photon_pass);
-  });
-  expect_same(extrapolated, by_paths(scene));
-}
-
 // Where every ray is too short for the map nothing is left of its blur.
 TEST(SlowFinalGather, NeedsNoMapInACavitySmallerThanItsRadius) {
   const Scene scene = hollow_cube();
@@ -131,30 +119,12 @@ TEST(FinalGather, RaysBeyondTheNearestPhotonsEndInTheMap) {
   EXPECT_NEAR(rays(nearest), rays(gathering(0.1f)), 0.05 * rays(gathering(0.1f)));
 }
 
-// Light varies over the walls by half of it within 1 m, and points lie about 0.05 m apart: seen is a difference of
-// 0.1 % with a standard error of 0.1 %.
-TEST(SlowFinalGather, SeesNearlyTheSameByIrradianceComputedBeforehand) {
-  const Scene scene = hollow_cube();
-  RenderSettings settings = gathering(0.1f);
-  settings.end_irradiance = EndIrradiance::precomputed;
-  EyeCounters eye;
-  const Moments precomputed = means([&](int pass) {
-    const Pass result = render_photon_pass(scene, settings, pass + 1000, kGoOn);
-    eye.merge(result.statistics.eye);
-    return channel_means(result.image).g;
-  });
-  EXPECT_GT(eye.irradiance_lookups, 20 * eye.irradiance_misses);
-  EXPECT_GT(eye.irradiance_misses, 0u);
-  const Check check = check_same("", precomputed, by_gathering(scene, 0.1f));
-  EXPECT_LT(check.error, 0.002 * check.exact);
-  EXPECT_NEAR(check.value, check.exact, 0.003 * check.exact + normal_quantile(kFalseAlarms) * check.error);
-}
-
 TEST(FinalGather, ByPhotonsAndIrradianceComputedBeforehandIsTheSameOnAnyNumberOfThreads) {
   const Scene scene = hollow_cube();
   RenderSettings settings = gathering(0.1f);
   settings.gather_by = GatherBy::photons;
   settings.end_irradiance = EndIrradiance::precomputed;
+  settings.samples_per_pixel = 16;
   set_threads(1);
   const Pass one = render_photon_pass(scene, settings, 0, kGoOn);
   set_threads(4);
@@ -163,6 +133,9 @@ TEST(FinalGather, ByPhotonsAndIrradianceComputedBeforehandIsTheSameOnAnyNumberOf
   EXPECT_EQ(one.image.pixels, four.image.pixels);
   EXPECT_EQ(one.statistics.guiding_photons, four.statistics.guiding_photons);
   EXPECT_EQ(one.statistics.irradiance_points, four.statistics.irradiance_points);
+  const EyeCounters& eye = one.statistics.eye;
+  EXPECT_GT(eye.irradiance_lookups, 20 * eye.irradiance_misses);
+  EXPECT_GT(eye.irradiance_misses, 0u);  // few
 }
 
 TEST(FinalGather, CountsItsRays) {

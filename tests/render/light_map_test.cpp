@@ -11,7 +11,6 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
-#include "vpm/base/tails.h"
 #include "vpm/job/bake.h"
 #include "vpm/scene/build.h"
 
@@ -100,26 +99,6 @@ TEST(LightMap, ShadowRaysGiveThePointLightsIrradiance) {
   EXPECT_EQ(brightest / kTexels, 1u);
 }
 
-// The mean of a map with the constant kernel is the irradiance averaged over the disc.
-TEST(LightMap, PhotonsGiveThePointLightsIrradianceBlurredByTheKernel) {
-  constexpr int kTexels = 8, kRings = 6, kSpokes = 12;
-  constexpr double kRadius = 0.25;
-  const Vec3d light(0.3, 0.7, -0.2);
-  const Scene scene = lit(floor_mesh(), PointLight{Vec3(light), Rgb(1.0f)});
-  RenderSettings settings = fixed_radius(static_cast<float>(kRadius), 20'000);
-  settings.surface_direct = DirectLight::photons;
-  const auto blurred = [&](double x, double z) {
-    double sum = 0.0;
-    for (int i = 0; i < kRings; ++i)
-      for (int j = 0; j < kSpokes; ++j) {
-        const double r = kRadius * std::sqrt((i + 0.5) / kRings), phi = 2.0 * kPiD * j / kSpokes;
-        sum += point_irradiance(light, x + r * std::cos(phi), z + r * std::sin(phi));
-      }
-    return sum / (kRings * kSpokes);
-  };
-  expect_texels(bake(scene, settings, lay_out_light_map(scene, 0, kTexels), 100), kTexels, 1, blurred);
-}
-
 // Outward is up: from below nothing arrives on that side, whatever estimates it.
 TEST(LightMap, IsOfTheOutwardSide) {
   const Scene scene = lit(floor_mesh(), PointLight{Vec3(0.0f, -1.0f, 0.0f), Rgb(1.0f)});
@@ -164,24 +143,6 @@ Scene cube_of_quads() {
   scene.geometry.commit();
   finish(scene);
   return scene;
-}
-
-// Over the walls of a closed cavity the mean of irradiance is Phi / (A (1 - rho)), by symmetry on each wall of a cube.
-// Indirect light of the map is dark within a radius of the edges: at most by a half there.
-TEST(SlowLightMap, OnTheWallOfACubeEachWattArrivesTwice) {
-  const Scene scene = cube_of_quads();
-  constexpr double kPower = 1.0 / 6.0 / (1.0 - kReflectance), kIndirect = kPower / 2.0;
-  constexpr float kRadius = 0.04f;
-  RenderSettings settings = fixed_radius(kRadius, 20'000);
-  for (const auto& [indirect, dark] : {std::pair{IndirectLight::photons, 0.5 * 4.0 * 2.0 * kRadius / 4.0},
-                                       std::pair{IndirectLight::final_gather, 0.003}}) {
-    settings.surface_indirect = indirect;
-    const Moments power = bake(scene, settings, lay_out_light_map(scene, 3, 24), 60).power;
-    const double error = normal_quantile(kFalseAlarms) * std::sqrt(power.variance_of_mean());
-    EXPECT_LT(error, 0.01 * kPower);
-    EXPECT_LT(power.mean(), kPower + error);
-    EXPECT_GT(power.mean(), kPower - dark * kIndirect - error);
-  }
 }
 
 /// The floor with coordinates that stretch its triangles differently, and leave some of the map empty.

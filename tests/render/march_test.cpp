@@ -5,8 +5,6 @@
 
 #include "support/grids.h"
 #include "support/statistics.h"
-#include "vpm/estimate/radius_schedule.h"
-#include "vpm/render/film.h"
 
 namespace vpm {
 namespace {
@@ -72,19 +70,6 @@ TEST(SlowMarch, IsUnbiasedForAnyStep) {
   }
 }
 
-TEST(March, EndsInEndlessMedia) {
-  const Medium medium = make_medium(nullptr, Rgb(0.5f));
-  Moments sums;
-  Marcher marcher;
-  for (uint64_t i = 0; i < 4000; ++i) {
-    Rng rng(1, rng_stream(RngUse::test, 1), i);
-    double sum = 0.0;
-    marcher.march(medium, kRay, {}, {0.5f, 0.3f}, rng, [&](const Vec3&, const Rgb& w) { sum += w.r; });
-    sums.add(sum);
-  }
-  expect_mean(sums, 2.0, kFalseAlarms, "endless");
-}
-
 TEST(March, EndsInEndlessMediaThatAreClearInOneChannel) {
   const Medium medium = make_medium(nullptr, Rgb(0.5f, 0.0f, 0.2f));
   Marcher marcher;
@@ -112,18 +97,6 @@ TEST(March, EvenStepsAreUnbiasedToo) {
       sums.add(sum);
     }
     expect_mean(sums, exact, kFalseAlarms, "even steps");
-  }
-}
-
-TEST(RadiusSchedule, FollowsTheRecurrence) {
-  for (const int d : {1, 2, 3}) {
-    const double a = 4.0 / (d + 4.0);
-    double measure = 1.0;
-    EXPECT_FLOAT_EQ(radius_of_pass(2.0f, d, 0), 2.0f);
-    for (int i = 1; i < 50; ++i) {
-      measure *= (i + a) / (i + 1.0);
-      EXPECT_NEAR(radius_of_pass(2.0f, d, i), 2.0 * std::pow(measure, 1.0 / d), 1e-6);
-    }
   }
 }
 

@@ -28,12 +28,6 @@ Moments pass_means(const Scene& scene, const RenderSettings& settings, int passe
   return means;
 }
 
-void expect_same(const Moments& a, const Moments& b, double relative_bias, const std::string& what) {
-  const double error = std::sqrt(a.variance_of_mean() + b.variance_of_mean());
-  EXPECT_LT(std::abs(a.mean() - b.mean()), normal_quantile(kFalseAlarms) * error + relative_bias * b.mean())
-      << what << ": " << a.mean() << " against " << b.mean() << " +- " << error;
-}
-
 RenderSettings settings_of(uint64_t photons, float radius) {
   RenderSettings settings;
   settings.photons_emitted = photons;
@@ -77,32 +71,6 @@ Scene lamp_and_floor(const Medium* fog, const Rgb& floor_in_fog = Rgb(0.0f)) {
   return scene;
 }
 
-// A check of the references: photons of direct light only, visualised directly, look like direct lighting.
-TEST(PhotonPass, DirectLightByPhotonsEqualsShadowRaysOnSurfaces) {
-  const Scene scene = lamp_and_floor(nullptr);
-  RenderSettings settings = settings_of(40000, 0.06f);
-  settings.surface_direct = DirectLight::photons;
-  const Moments photons = pass_means(scene, settings, 12);
-  settings.surface_direct = DirectLight::shadow_rays;
-  const Moments rays = pass_means(scene, settings, 12);
-  expect_same(photons, rays, 2e-3, "direct light on a floor");
-}
-
-TEST(SlowPhotonPass, SingleScatteringByPhotonsEqualsShadowRays) {
-  Medium fog = make_medium(nullptr, Rgb(0.4f, 0.6f, 0.9f), 0.7f);
-  fog.phase = HenyeyGreenstein{0.4f};
-  const Scene scene = lamp_and_floor(&fog);
-  for (auto [name, settings] : volume_estimates(settings_of(30000, 0.1f))) {
-    settings.volume_direct = DirectLight::photons;
-    const Moments photons = pass_means(scene, settings, 12);
-    settings.volume_direct = DirectLight::shadow_rays;
-    const Moments rays = pass_means(scene, settings, 12);
-    expect_same(photons, rays, 5e-3, "single scattering in fog, photons " + name);
-    settings.volume_direct = DirectLight::equiangular;
-    expect_same(pass_means(scene, settings, 12), rays, 0.0, "equiangular single scattering, photons " + name);
-  }
-}
-
 /// A ball of albedo 1 in front of uniform light: it must vanish, whatever its density, phase function and the estimate.
 Scene furnace(std::shared_ptr<const DensityGrid> grid, float sigma_t) {
   Scene scene;
@@ -116,51 +84,6 @@ Scene furnace(std::shared_ptr<const DensityGrid> grid, float sigma_t) {
   scene.geometry.commit();
   finish(scene);
   return scene;
-}
-
-TEST(PhotonPass, AWhiteFurnaceIsUniform) {
-  const GridFrame frame = centred_frame(9, 0.15);
-  const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.2 + lattice_noise(x, y, z); });
-  for (const auto& density : {std::shared_ptr<const DensityGrid>(), grid})
-    for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays, DirectLight::equiangular})
-      for (auto [name, settings] : volume_estimates(settings_of(20000, 0.1f))) {
-        const Scene scene = furnace(density, 1.5f);
-        settings.volume_direct = direct;
-        const Moments mean = pass_means(scene, settings, 16);
-        // The camera looks at the ball's middle half: the kernel's darkening within 0.1 m of its surface takes below 1
-        // %.
-        EXPECT_NEAR(mean.mean(), 1.0, 0.012 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean()))
-            << (density ? "grid" : "homogeneous") << ", direct " << static_cast<int>(direct) << ", photons " << name;
-      }
-}
-
-TEST(SlowPhotonPass, AClosedDiffuseFurnaceIsUniform) {
-  // Six walls of reflectance 1/2 that also emit 1: L = 1 / (1 - 1/2) everywhere, fog of albedo 1 or none.
-  for (const bool foggy : {false, true}) {
-    Scene scene;
-    if (foggy) {
-      scene.media.push_back(make_medium(nullptr, Rgb(0.8f), 1.0f));
-      scene.world_medium = 0;
-    }
-    const Vec3 corners[6] = {{-1, -1, 1}, {-1, 1, -1}, {-1, -1, -1}, {1, -1, -1}, {-1, -1, -1}, {-1, -1, 1}};
-    const Vec3 us[6] = {{2, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 0}, {0, 2, 0}};
-    const Vec3 vs[6] = {{0, 0, -2}, {0, 0, 2}, {0, 0, 2}, {0, 2, 0}, {0, 2, 0}, {2, 0, 0}};
-    for (int i = 0; i < 6; ++i) {
-      scene.lights.push_back(QuadLight{corners[i], us[i], vs[i], Rgb(1.0f)});
-      add_shape(scene, quad_mesh(corners[i], us[i], vs[i]), Lambertian{Rgb(0.5f)}, nullptr, i);
-    }
-    scene.camera = make_camera(Vec3(0.1f, 0.2f, 0.3f), Vec3(0.1f, 0.2f, -1.0f), Vec3(0, 1, 0), 35.0f, {10, 10});
-    scene.camera_medium = scene.world_medium;
-    scene.geometry.commit();
-    finish(scene);
-    for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
-      RenderSettings settings = settings_of(20000, 0.12f);
-      settings.surface_direct = direct;
-      settings.volume_direct = direct;
-      const Moments mean = pass_means(scene, settings, 12);
-      EXPECT_NEAR(mean.mean(), 2.0, 0.01 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean())) << foggy;
-    }
-  }
 }
 
 TEST(PhotonPass, AWhiteFurnaceIsUniformThroughGlass) {
@@ -213,34 +136,6 @@ TEST(PhotonPass, FogDimsBeforeAndBehindThePhotons) {
     }
 }
 
-TEST(PhotonPass, LightFarFromTheEyeIsDimmedOnItsWay) {
-  const Scene scene = cone_in_fog(0.0f);
-  RenderSettings settings = settings_of(20000, 0.03f);
-  settings.volume_direct = DirectLight::shadow_rays;
-  const Moments rays = pass_means(scene, settings, 12);
-  settings.volume_direct = DirectLight::equiangular;
-  expect_same(pass_means(scene, settings, 12), rays, 0.0, "a cone of light 2 m away, equiangular");
-  settings.volume_direct = DirectLight::photons;
-  for (const auto& [name, photons] : volume_estimates(settings))
-    expect_same(pass_means(scene, photons, 12), rays, 0.01, "a cone of light 2 m away, photons " + name);
-}
-
-TEST(PhotonPass, PhotonsBesideRaysAgreeWithThoseAroundPointsAsRadiiShrink) {
-  // A cloud whose density changes within a gather radius, lit from one side: what the kernels' shapes do to the mean
-  // picture is of the order of the radius squared.
-  const GridFrame frame = centred_frame(9, 0.2);
-  const auto grid = make_grid(frame, [](int x, int y, int z) { return 0.05 + lattice_noise(x, y, z); });
-  Scene scene =
-      boxed_medium(make_medium(grid, Rgb(2.0f), 0.8f), SpotLight{Vec3(3, 1, 0), Vec3(-1, 0, 0), 0.9f, 0.9f, Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 25.0f, {10, 10});
-  for (const float radius : {0.2f, 0.1f, 0.05f}) {
-    const auto all = volume_estimates(settings_of(20000, radius));
-    const Moments marched = pass_means(scene, all.front().second, 12);
-    for (const auto& [name, settings] : all)
-      expect_same(pass_means(scene, settings, 12), marched, 2.0 * radius * radius, "a cloud, photons " + name);
-  }
-}
-
 TEST(PhotonPass, OnlyTheDensityAtThePhotonSpreadsBeyondItsMedium) {
   // Seen along a face of the medium, from outside but within the radius of photons inside.
   Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 0.8f),
@@ -250,22 +145,6 @@ TEST(PhotonPass, OnlyTheDensityAtThePhotonSpreadsBeyondItsMedium) {
     const double mean = pass_means(scene, settings, 1).mean();
     EXPECT_EQ(mean > 0.0, settings.volume_form == VolumeForm::density_at_photon) << name << ": " << mean;
   }
-}
-
-TEST(PhotonPass, RadiiShrinkFromPassToPass) {
-  Medium fog = make_medium(nullptr, Rgb(0.5f));
-  const Scene scene = lamp_and_floor(&fog, Rgb(0.5f));
-  const auto radii = [&](const RenderSettings& settings, int pass) {
-    const RenderStatistics s = render_photon_pass(scene, settings, pass, kGoOn).statistics;
-    return Vec2(s.last_volume_radius, s.last_surface_radius);
-  };
-  RenderSettings settings = settings_of(100, 0.1f);
-  settings.surface.radius = 0.2f;
-  EXPECT_EQ(radii(settings, 7), Vec2(0.1f, 0.2f));
-  settings.radii = RadiusSchedule::per_pass;
-  EXPECT_EQ(radii(settings, 7), Vec2(radius_of_pass(0.1f, 3, 7), radius_of_pass(0.2f, 2, 7)));
-  settings.volume.mode = GatherMode::beam;
-  EXPECT_EQ(radii(settings, 7), Vec2(radius_of_pass(0.1f, 2, 7), radius_of_pass(0.2f, 2, 7)));
 }
 
 TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
@@ -300,22 +179,6 @@ TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
   // By paths nothing has a kernel.
   settings.integrator = Integrator::path;
   EXPECT_EQ(square(both, settings), 0.0);
-}
-
-TEST(PhotonPass, AnInvisibleGlassBallCastsNoShadow) {
-  // A ball of IOR 1 between light and floor: what shadow rays lose to it, photons bring back.
-  Scene with = lamp_and_floor(nullptr);
-  const Moments without = pass_means(with, settings_of(40000, 0.06f), 12);
-  Scene scene;
-  const QuadLight lamp{Vec3(-0.2f, 1.5f, -0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, 0.4f), Rgb(10.0f, 5.0f, 2.0f)};
-  scene.lights.push_back(lamp);
-  add_shape(scene, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 0);
-  add_shape(scene, quad_mesh(Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6)), Lambertian{Rgb(0.6f, 0.5f, 0.4f)});
-  add_shape(scene, SphereShape{Vec3(0.0f, 0.8f, 0.0f), 0.3f}, Dielectric{1.0f});
-  scene.camera = with.camera;
-  scene.geometry.commit();
-  finish(scene);
-  expect_same(pass_means(scene, settings_of(40000, 0.06f), 12), without, 3e-3, "ball of IOR 1");
 }
 
 TEST(PhotonPass, AMediumStandsOnAFloor) {

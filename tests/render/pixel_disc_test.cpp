@@ -12,7 +12,6 @@
 #include "vpm/base/progress.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/job/render.h"
-#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {
@@ -133,41 +132,6 @@ RenderSettings per_pixel(uint64_t photons) {
 
 RenderResult render_all(const Scene& scene, const RenderSettings& settings) {
   return render(scene, settings, nothing_rendered(scene.camera), {kGoOn});
-}
-
-/// The light of a light near the floor, on some pixels bright, on others next to none.
-TEST(RadiiOfPixels, ARenderIsTheTextbooksPixelByPixel) {
-  const Scene scene = lit_floor(PointLight{Vec3(-0.5f, 0.3f, 0.2f), Rgb(1.0f)});
-  for (const int samples : {1, 3}) {
-    RenderSettings settings = per_pixel(3000);
-    settings.samples_per_pixel = samples;
-    const size_t pixels = nothing_rendered(scene.camera).film.mean().pixels.size();
-    std::vector<Textbook> textbook(pixels, Textbook{settings.surface.radius.metres()});
-    const double power = light_power(scene.lights[0], scene.bounds).g;
-    const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
-      Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kGoOn, shown});
-      EXPECT_EQ(pass.found.size(), pixels);
-      for (size_t i = 0; i < pixels; ++i) {
-        const auto found = static_cast<double>(pass.found[i]);
-        textbook[i].add(found, found * power / samples);  // the mean of the samples' fluxes
-      }
-      return pass;
-    };
-    const RenderResult result =
-        run_passes(settings.until, {run, tile_count(scene.camera)}, nothing_rendered(scene.camera), {kGoOn});
-    const Image mean = result.film.mean();
-    ASSERT_EQ(result.discs.size(), pixels);
-    int lit = 0;
-    for (size_t i = 0; i < pixels; ++i) {
-      EXPECT_NEAR(disc_radius(result.discs[i], settings.surface.radius.metres()), textbook[i].radius, 1e-6);
-      const double exact = 0.5 / kPiD * textbook[i].irradiance(settings.until.passes, 3000.0);
-      EXPECT_NEAR(mean.pixels[i].g, exact, 1e-5 * exact);
-      lit += exact > 0.0;
-    }
-    EXPECT_GT(lit, 100);
-    EXPECT_TRUE(std::memcmp(mean.pixels.data(), render_all(scene, settings).film.mean().pixels.data(),
-                            pixels * sizeof(Rgb)) == 0);
-  }
 }
 
 TEST(RadiiOfPixels, ShrinkTheLaterTheFewerPhotonsArrive) {

@@ -1,18 +1,15 @@
-// Rough surfaces in whole renders: uniform light from both sides, and the two integrators against each other.
+// Rough surfaces in whole renders: parallel light from both sides, and shadow rays behind them.
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
-#include "support/statistics.h"
 #include "vpm/base/progress.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
-#include "vpm/study/validate/lobes.h"
 
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-constexpr double kSpread = 1e-5;       // relative, of what rays less than 1e-3 rad apart see of a smooth lobe
+constexpr double kSpread = 1e-5;  // relative, of what rays less than 1e-3 rad apart see of a smooth lobe
 
 /// A sheet in the plane z = 0 seen from far away, at 45 degrees, by rays less than 1e-3 rad apart.
 Scene sheet(const Material& material, const Light& light, bool from_outside) {
@@ -62,27 +59,6 @@ void expect_near(const Moments& samples, double expected, double bound, const st
 
 const Material kMaterials[] = {Phong{Rgb(0.2f), Rgb(0.7f), 20.0f}, RoughConductor{Rgb(0.4f), Rgb(2.5f), 0.4f},
                                RoughDielectric{1.5f, 0.3f}, RoughDielectric{0.7f, 0.5f}};
-
-// In uniform light of radiance 1 a sheet sends out the share it reflects, and 1/eta^2 of what comes through: by shadow
-// rays, by photons, and by paths. A kernel has no bias there.
-TEST(RoughSurfaces, SendOutTheirAlbedoInUniformLight) {
-  for (const Material& material : kMaterials)
-    for (const bool from_outside : {true, false}) {
-      const Scene scene = sheet(material, ConstantEnvironment{Rgb(1.0f)}, from_outside);
-      const Vec3 normal(0, 0, from_outside ? 1 : -1), travel = glm::normalize(Vec3(-1, 0, -1));
-      const LobeCells::Integrals all = LobeCells({material_of_sheet(scene), normal, travel}).integrate();
-      const auto* glass = std::get_if<RoughDielectric>(&material);
-      const double eta = !glass ? 1.0 : from_outside ? glass->ior : 1.0 / glass->ior;
-      const double expected = all.near + all.far / (eta * eta), bound = LobeCells::kError * (1.0 + 1.0 / (eta * eta));
-      const std::string name = std::to_string(&material - kMaterials) + (from_outside ? " outside" : " inside");
-      expect_near(means(scene, settings_of(DirectLight::photons), render_photon_pass), expected, bound,
-                  name + ", photons");
-      expect_near(means(scene, settings_of(DirectLight::shadow_rays), render_photon_pass), expected, bound,
-                  name + ", shadow rays");
-      expect_near(means(scene, settings_of(DirectLight::shadow_rays), render_path_pass), expected, bound,
-                  name + ", paths");
-    }
-}
 
 // Light from one direction: the BSDF itself, before and behind the sheet. What the pictures' rays see differs from it
 // by their spread and by single precision. Photons remember a direction close to the light's.

@@ -158,26 +158,6 @@ Scene lamp_in_fog(const Medium& fog, const Vec3& position) {
   return scene;
 }
 
-TEST(SingleScattering, IsExactForALampInFog) {
-  for (const Rgb& sigma_t : {Rgb(1e-6f), Rgb(0.5f, 1.0f, 3.0f)})
-    for (const float off : {0.01f, 1.0f})
-      for (const float g : {0.0f, 0.7f})
-        for (const Interval interval : {Interval{0.0f, 3.0f}, Interval{0.0f, kInfinity}})
-          for (const int pairs : {1, 3}) {
-            Medium fog = make_medium(nullptr, sigma_t, 0.8f);
-            if (g != 0.0f) fog.phase = HenyeyGreenstein{g};
-            const Scene scene = lamp_in_fog(fog, Vec3(0.0f, off, 1.25f));
-            const Rgb throughput(1.0f, 0.25f, 2.0f);
-            const auto found = estimates(scene, equiangular(scene, pairs), {Ray{}, interval, throughput}, 20'000, 1);
-            for (int c = 0; c < 3; ++c) {
-              const auto exact =
-                  exact::solve_airlight({sigma_t[c], fog.albedo()[c], g, off, 1.25, interval.t0, interval.t1});
-              expect_mean(found[c], throughput[c] * exact.radiance.value, kFalseAlarms,
-                          fmt::format("{} m off, g {}, extinction {}, {} pairs", off, g, sigma_t[c], pairs).c_str());
-            }
-          }
-}
-
 // In fog that does not attenuate, a light's light comes with exactly the equiangular density. The other technique's
 // distances are then uniform, and the balance heuristic bounds what either brings: light over half its own density.
 TEST(SingleScattering, StaysBoundedBesideALamp) {

@@ -5,7 +5,6 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/lobes.h"
 #include "vpm/surface/facet_loss.h"
 #include "vpm/surface/fresnel.h"
@@ -170,39 +169,6 @@ TEST(Phong, ReflectsItsCoefficientsAlongTheNormalAndNoMoreElsewhere) {
     EXPECT_NEAR(albedo(phong, 0.0), 0.9, 1e-3) << exponent;
     for (const double angle : {0.5, 1.0, 1.5}) EXPECT_LT(albedo(phong, angle), 0.901) << exponent << " at " << angle;
   }
-}
-
-// Directions, weights, what is absorbed, and reciprocity. False-alarm rate 1e-6 of all together.
-TEST(SlowRoughMaterials, DrawWhatTheirValuesSay) {
-  const Rgb eta(0.4f), k(2.5f);
-  const Material materials[] = {Lambertian{Rgb(0.7f)},
-                                Phong{Rgb(0.0f), Rgb(0.6f), 0.0f},
-                                Phong{Rgb(0.2f), Rgb(0.5f), 100.0f},
-                                Phong{Rgb(0.0f), Rgb(0.9f), 1e6f},
-                                RoughConductor{eta, k, 0.001f},
-                                RoughConductor{eta, k, 0.2f},
-                                RoughConductor{eta, k, 1.0f},
-                                RoughDielectric{1.5f, 0.01f},
-                                RoughDielectric{1.5f, 0.3f},
-                                RoughDielectric{1.2f, 1.0f},
-                                RoughDielectric{1.01f, 0.1f},
-                                RoughDielectric{0.6f, 0.5f}};
-  std::vector<Check> checks;
-  const auto draw = [&](const std::string& name, const Material& material, std::initializer_list<double> angles) {
-    for (const bool from_outside : {true, false})
-      for (const double angle : angles)
-        append(checks, check_lobes(name + (from_outside ? " outside " : " inside ") + std::to_string(angle),
-                                   {material, kNormal, arriving(angle, from_outside)}, 20000, {}));
-  };
-  for (const Material& material : materials) {
-    const std::string name = "number " + std::to_string(&material - materials);
-    draw(name, material, {0.0, 0.8, 1.45});
-    if (facet_loss_of(material)) draw(name + ", lossless", Lossless(material).material(), {0.8});
-  }
-  judge(checks, 1e-6);
-  for (const Check& check : checks)
-    EXPECT_EQ(check.verdict, Verdict::pass) << check.name << ": " << check.value << " for " << check.exact << " +- "
-                                            << check.error << ", p " << check.p << " " << check.note;
 }
 
 // weight pdf = value for every drawn direction, and the two agree on what refraction does to radiance.

@@ -143,11 +143,13 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
       RenderSettings beams = base;
       beams.volume.mode = GatherMode::beam;
       beams.volume_form = form;
-      all.emplace_back(fmt::format("photons around rays, density at the {}",
-                                   form == VolumeForm::density_at_query ? "query" : "photon"),
-                       beams);
+      const std::string name = fmt::format("photons around rays, density at the {}",
+                                           form == VolumeForm::density_at_query ? "query" : "photon");
+      all.emplace_back(name, beams);
+      beams.volume_direct = DirectLight::shadow_rays;
+      all.emplace_back(name + ", single scattering by shadow rays", beams);
       beams.volume_direct = DirectLight::equiangular;
-      all.emplace_back(all.back().first + ", single scattering equiangular", beams);
+      all.emplace_back(name + ", single scattering equiangular", beams);
     }
     RenderSettings own_radii = base;
     own_radii.volume.mode = GatherMode::beam;
@@ -157,8 +159,13 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
   RenderSettings guided = base;
   guided.guide.importons = 1'000;
   all.emplace_back("photons guided by importance", guided);
+  RenderSettings only_split = guided;
+  only_split.guide.aim = false;
+  all.emplace_back("photons guided by importance, not aimed", only_split);
   guided.guide.scatter = true;
   all.emplace_back("photons guided by importance, where they scatter, too", guided);
+  guided.guide.split = false;
+  all.emplace_back("photons guided by importance, where they scatter, too, but not split", guided);
   if (surfaces) {
     RenderSettings corrected = base;
     corrected.volume.boundary = corrected.surface.boundary = corrected.caustics.boundary = BoundaryRule::corrected;

@@ -1,6 +1,8 @@
 // Nothing gets lost: reflected, transmitted and absorbed power, each tallied where it happens, make up what was sent;
 // and in a closed cavity whose walls keep the share rho, light arrives 1/(1 - rho) times.
 #include <fmt/format.h>
+#include <array>
+#include <optional>
 
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/path/follow.h"
@@ -60,15 +62,16 @@ std::vector<Check> check_box(const TestField& field, const StrategyInfo& info, c
   return checks;
 }
 
-/// Coloured fog over a floor, a sphere of glass, lights of many kinds.
-Scene scene_with_everything() {
+/// Coloured fog over a floor, a sphere of glass, a mirror, lights of many kinds, and a camera for what guides photons.
+Scene scene_with_everything(const TestField& field) {
   Scene scene;
-  scene.media.push_back(coloured_medium(test_fields()[5]));
+  scene.media.push_back(coloured_medium(field));
   const Interface media{0, kVacuum};
   add_shape(scene, field_box(), Boundary{}, &media);
   add_shape(scene, quad_mesh(Vec3d(-2.0, -1.5, -2.0), Vec3d(0.0, 0.0, 5.0), Vec3d(5.0, 0.0, 0.0)),
             Lambertian{Rgb(0.8f, 0.5f, 0.3f)});
   add_shape(scene, SphereShape{field_point({1.0, -2.0, 1.0}), 0.3f}, Dielectric{1.4f});
+  add_shape(scene, SphereShape{Vec3(-1.2f, 0.6f, 1.2f), 0.4f}, Mirror{Rgb(0.9f, 0.8f, 0.7f)});
   scene.lights.push_back(PointLight{field_point({2.0, 3.0, 0.0}), Rgb(1.0f, 0.5f, 0.2f)});
   scene.lights.push_back(ConstantEnvironment{Rgb(0.2f)});
   scene.lights.push_back(BeamLight{test_ray().origin, test_ray().direction, 0.2f, Rgb(4.0f)});
@@ -79,26 +82,60 @@ Scene scene_with_everything() {
   const TriangleMesh light = box_mesh(Vec3d(1.6, 1.7, 1.6), Vec3d(1.9, 1.9, 1.8));
   add_shape(scene, light, Lambertian{Rgb(0.4f)}, nullptr, static_cast<int>(scene.lights.size()));
   scene.lights.push_back(MeshLight{std::make_shared<EmittingMesh>(light), Rgb(0.8f)});
+  scene.camera = make_camera(Vec3(3.0f, 0.5f, 3.0f), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {8, 8});
   scene.geometry.commit();
   finish(scene);
   return scene;
 }
 
-/// The photons' own ledger: of each photon, what became of its power less what it was.
-Check check_ledger(const Scene& scene, std::string_view strategy_name, const Effort& effort) {
-  const std::string name = fmt::format("ledger of a scene with everything, {}", strategy_name);
+/// The photons' own ledger: of each photon, what became of its power less what it was, in the sum of channels; and over
+/// batches of photons in each channel, where these mix on their way, and what was emitted.
+std::vector<Check> check_ledger(const Scene& scene, std::string_view strategy_name, const GuideSettings& guided,
+                                const Effort& effort) {
+  const std::string name = fmt::format("ledger of a scene with everything, {}{}", strategy_name,
+                                       guided.importons == 0 ? ""
+                                       : guided.scatter      ? ", guided where they scatter, too"
+                                                             : ", guided");
+  const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name)});
   TraceSettings settings;
   settings.seed = effort.seed_of(name);
-  settings.emitted = effort.count(20'000, 4'000'000);
-  const auto strategy = make_distance_strategy({.strategy = std::string(strategy_name)});
-  Progress progress("", 0, false);
-  const Ledger ledger = trace_photons(scene, *strategy, settings, {}, progress);
-  const double size = ledger.weights.effective_sample_size();
-  const double emitted = sum_channels(Rgb(ledger.emitted)) / static_cast<double>(ledger.emitted_count);
-  Check check = size < kLeastSampleSize ? not_determined(name, ledger.imbalance.mean(), 0.0, "")
-                                        : check_mean(name, ledger.imbalance, 0.0);
-  check.note = fmt::format("of {:.3g} W emitted; effective sample size {:.0f}", emitted, size);
-  return check;
+  settings.emitted = effort.count(200, 40'000);
+  std::optional<PhotonGuide> guide;
+  if (guided.importons > 0) {
+    guide = learn_guide(scene, *strategy, guided, settings.seed, 0, settings.max_events);
+    settings.guide = &*guide;
+    settings.split = guided.split;
+  }
+  Rgbd power(0.0);
+  for (const Light& light : scene.lights) power += Rgbd(light_power(light, scene.bounds));
+  Ledger all;
+  std::array<Moments, 3> gained, emitted;  // W, by batch
+  for (settings.pass = 0; settings.pass < 100; ++settings.pass) {
+    Progress progress("", 0, false);
+    const Ledger ledger = trace_photons(scene, *strategy, settings, {}, progress);
+    const Rgbd gone = ledger.absorbed_in_media + ledger.absorbed_on_surfaces + ledger.escaped + ledger.cut;
+    for (int c = 0; c < 3; ++c) {
+      gained[c].add((gone[c] - ledger.emitted[c]) / static_cast<double>(ledger.emitted_count));
+      emitted[c].add(ledger.emitted[c] / static_cast<double>(ledger.emitted_count));
+    }
+    all.merge(ledger);
+  }
+  const double size = all.weights.effective_sample_size();
+  const auto check = [&](std::string what, const Moments& samples, double exact) {
+    return size < kLeastSampleSize ? not_determined(std::move(what), samples.mean(), exact,
+                                                    fmt::format("effective sample size {:.0f}", size))
+                                   : check_mean(std::move(what), samples, exact);
+  };
+  const uint64_t faults = all.non_finite + all.cut_count + all.walk.medium_mismatches;
+  std::vector<Check> checks{
+      check(name, all.imbalance, 0.0),
+      check_bound(name + ", cut, not finite or in the wrong medium", static_cast<double>(faults), 0.0, 0.0)};
+  for (size_t c = 0; c < 3; ++c) {
+    const auto channel = static_cast<int>(c);
+    checks.push_back(check(name + kOfChannel[c], gained[c], 0.0));
+    checks.push_back(check(name + ", emitted" + kOfChannel[c], emitted[c], power[channel]));
+  }
+  return checks;
 }
 
 std::vector<Check> check_flows(const Effort& effort) {
@@ -107,8 +144,12 @@ std::vector<Check> check_flows(const Effort& effort) {
   append(checks, check_box({"homogeneous", nullptr}, strategy_info("homogeneous"), effort));
   for (const StrategyInfo& info : distance_strategies())
     if (info.heterogeneous && info.positive) append(checks, check_box(fields[5], info, effort));
+  append(checks, check_ledger(scene_with_everything({"homogeneous", nullptr}), "homogeneous", {}, effort));
+  const Scene scene = scene_with_everything(fields[5]);
   for (const StrategyInfo& info : distance_strategies())
-    if (info.heterogeneous && info.positive) checks.push_back(check_ledger(scene_with_everything(), info.name, effort));
+    if (info.heterogeneous && info.positive) append(checks, check_ledger(scene, info.name, {}, effort));
+  for (const bool scatter : {false, true})
+    append(checks, check_ledger(scene, "regular", {.importons = 2'000, .scatter = scatter}, effort));
   return checks;
 }
 

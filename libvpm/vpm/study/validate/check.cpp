@@ -131,7 +131,7 @@ Check check_weighted_mean(std::string name, const Moments& samples, double exact
 
 Check check_weights(std::string name, const std::vector<Moments>& cells, const std::vector<double>& means,
                     const std::vector<double>& errors) {
-  assert(cells.size() == means.size() && cells.size() > 1);
+  assert(cells.size() == means.size() && !cells.empty());
   const auto draws = static_cast<double>(cells[0].count());
   constexpr double kLeastInCell = 50.0;
   // With m_b the mean and s_b the mean square in cell b, the covariance of one draw is diag(s) - m m^T: a draw is in

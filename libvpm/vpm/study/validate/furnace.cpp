@@ -9,6 +9,8 @@
 #include "vpm/estimate/surface_region.h"
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/estimate/volume_region.h"
+#include "vpm/image/metrics.h"
+#include "vpm/medium/make_grid.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
@@ -54,8 +56,8 @@ Scene furnished_box(const Medium& medium) {
   return scene;
 }
 
-/// A room whose walls glow evenly, six lights of three sizes, and in it a white ball: shadow rays and paths that run
-/// into walls share what they find, by the lights' densities and probabilities.
+/// A room whose walls glow evenly, six lights of three sizes, and reflect half of what they get; in it a white ball.
+/// Shadow rays and paths that run into walls share what they find, by the lights' densities and probabilities.
 Scene glowing_room(const Medium& medium) {
   const Vec3 half(1.5f, 1.0f, 0.75f);
   const Interface media{kVacuum, 0};
@@ -70,8 +72,8 @@ Scene glowing_room(const Medium& medium) {
         corner[axis] = half[axis];
         std::swap(u, v);
       }
-      add_shape(scene, quad_mesh(corner, u, v), Lambertian{Rgb(0.0f)}, &media, static_cast<int>(scene.lights.size()));
-      scene.lights.push_back(QuadLight{corner, u, v, Rgb(1.0f)});
+      add_shape(scene, quad_mesh(corner, u, v), Lambertian{Rgb(0.5f)}, &media, static_cast<int>(scene.lights.size()));
+      scene.lights.push_back(QuadLight{corner, u, v, Rgb(0.5f)});
     }
   add_shape(scene, SphereShape{Vec3(-0.6f, 0.1f, 0.0f), 0.3f}, Lambertian{Rgb(1.0f)});
   scene.geometry.commit();
@@ -248,6 +250,38 @@ std::vector<Check> check_sheet(const Effort& effort) {
   return checks;
 }
 
+/// The picture of a white medium in the box of the fields, gathered from a large radius up to where it ends.
+std::vector<Check> check_picture(const std::string& name, const Medium& medium, float radius, double bound,
+                                 const Effort& effort) {
+  Scene scene = lit_box("", medium).scene;
+  scene.camera = make_camera(field_point({20, 17, 25}), field_point(Vec3d(0.0)), Vec3(0, 1, 0), 14.0f, {8, 8});
+  RenderSettings settings;
+  settings.seed = effort.seed_of(name);
+  settings.photons_emitted = 10'000;
+  settings.radii = RadiusSchedule::constant;
+  settings.volume.radius = radius;
+  settings.volume.boundary = BoundaryRule::corrected;
+  Moments means;
+  uint64_t least_shares = 0;
+  for (int pass = 0; pass < static_cast<int>(effort.count(24, 400)); ++pass) {
+    const Pass found = render_photon_pass(scene, settings, pass, kGoOn);
+    means.add(channel_means(found.image).g);
+    least_shares += found.statistics.eye.gather.least_shares;
+  }
+  return {check_within(name, means, 1.0, bound),
+          check_bound(name + ", least shares", static_cast<double>(least_shares), 0.0, 0.0)};
+}
+
+/// In the corners of the box there is nothing around a ball of voxels.
+Medium ball_of_voxels() {
+  const GridFrame& voxels = test_fields()[2].grid->frame();
+  return white_medium(make_grid(voxels,
+                                [](int x, int y, int z) {
+                                  return glm::length(Vec3d(x, y, z)) > 6.0 ? 0.0 : (x + y + z) & 1 ? 1.4 : 1.0;
+                                }),
+                      Rgb(1.5f), Isotropic{});
+}
+
 std::vector<Check> check_borders(const Effort& effort) {
   const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
   const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
@@ -257,6 +291,8 @@ std::vector<Check> check_borders(const Effort& effort) {
   append(checks,
          check_border_of_medium(lit_box("near a corner of a box", white), field_point({6.4, 6.2, -6.5}), effort));
   append(checks, check_sheet(effort));
+  append(checks, check_picture("picture of a box", white, 0.6f, 0.005, effort));
+  append(checks, check_picture("picture of a ball of voxels", ball_of_voxels(), 0.4f, 0.01, effort));
   return checks;
 }
 

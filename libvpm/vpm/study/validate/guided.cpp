@@ -1,5 +1,6 @@
 // Scattering by a guide that is far from what media and surfaces do by themselves: what goes on is still what they
-// send on, and where they send it.
+// send on, and where they send it, and with what they absorb it is what came.
+#include <fmt/format.h>
 #include <cassert>
 
 #include "vpm/medium/make_grid.h"
@@ -13,8 +14,10 @@ namespace vpm {
 
 namespace {
 
-constexpr size_t kGuideRings = 6, kGuideCells = kGuideRings * kSectors;
 const Vec3 kUp(0.0f, 0.0f, 1.0f);
+constexpr size_t kGuideRings = 4,
+                 kGuideCells = kGuideRings * kSectors;  // of directions, of equal solid angle about the z axis
+const Rgb kPower(1.0f, 0.6f, 0.3f);                     // W, that comes
 
 /// One cube that knows of some light along all directions and of much along a few.
 DirectionGuide lopsided() {
@@ -25,97 +28,97 @@ DirectionGuide lopsided() {
   return guide;
 }
 
-/// An isotropic medium fills cells of equal solid angle evenly; a forward scattering one keeps its mean cosine.
-std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort) {
-  constexpr float kAlbedo = 0.7f, kG = 0.6f;
-  const Vec3 travel = glm::normalize(Vec3(0.2f, -0.3f, 0.9f));
-  const Medium isotropic = make_medium(nullptr, Rgb(1.0f), kAlbedo);
-  Medium haze = isotropic;
-  haze.phase = HenyeyGreenstein{kG};
-  const auto scattered = [&](const Medium& fog, Rng& rng) {
-    PathState state{{Vec3(0.1f), travel}, 0, Rgb(1.0f)};
-    if (!scatter_in_medium(guide, fog, state, rng)) state.throughput = Rgb(0.0f);
-    return state;
+/// What an event makes of a photon, W.
+struct Outcome {
+  Rgb power{0.0f};     // that goes on
+  Rgb absorbed{0.0f};  // as the event tells it
+  Vec3 direction{0.0f};
+};
+
+/// scatter(guide, rng) makes an event of kPower: by the guide as without one (a null pointer).
+template <class ScatterOnce>
+std::vector<Check> compare(const std::string& name, const DirectionGuide& guide, const Effort& effort,
+                           const ScatterOnce& scatter) {
+  const uint64_t count = effort.count(100'000, 2'000'000);
+  const auto measure = [&](const DirectionGuide* by, uint64_t events) {
+    const uint64_t seed = effort.seed_of(name + (by ? ", guided" : ", not guided"));
+    return sample_moments(kGuideCells + 1, events, seed, [&](Rng& rng, double* out) {
+      const Outcome after = scatter(by, rng);
+      const double power = sum_channels(after.power);
+      out[cell_of(0.5 * away_from(kUp, after.direction), kGuideRings) * kSectors + sector_about(kUp, after.direction)] =
+          power;
+      out[kGuideCells] = power + sum_channels(after.absorbed - kPower);
+    });
   };
-  const uint64_t count = effort.count(100'000, 4'000'000);
-  const auto even = sample_moments(kGuideCells, count, effort.seed_of("guided, isotropic"), [&](Rng& rng, double* out) {
-    const PathState state = scattered(isotropic, rng);
-    const Vec3& d = state.ray.direction;
-    out[cell_of(0.5 * away_from(kUp, d), kGuideRings) * kSectors + sector_about(kUp, d)] = state.throughput.g;
-  });
-  const auto forward = sample_moments(2, count, effort.seed_of("guided, forward"), [&](Rng& rng, double* out) {
-    const PathState state = scattered(haze, rng);
-    out[0] = state.throughput.g;
-    out[1] = state.throughput.g * (1.0 - away_from(travel, state.ray.direction));
-  });
-  return {check_weights("isotropic medium, power by direction", even,
-                        std::vector<double>(kGuideCells, kAlbedo / static_cast<double>(kGuideCells))),
-          check_mean("Henyey-Greenstein, g = 0.6, power", forward[0], double{kAlbedo}),
-          check_mean("Henyey-Greenstein, g = 0.6, power times cosine", forward[1], double{kAlbedo} * double{kG})};
+  // So many without a guide that their errors hardly count, which are not quite independent from cell to cell.
+  const std::vector<Moments> guided = measure(&guide, count), plain = measure(nullptr, 10 * count);
+  std::vector<Moments> cells;
+  std::vector<double> means, errors;
+  for (size_t i = 0; i < kGuideCells; ++i) {
+    if (effective_sample_size(plain[i]) < kLeastSampleSize) continue;  // hardly anything goes there
+    cells.push_back(guided[i]);
+    means.push_back(plain[i].mean());
+    errors.push_back(std::sqrt(plain[i].variance_of_mean()));
+  }
+  return {check_weights(name + ", power by direction", cells, means, errors),
+          check_mean(name + ", power that goes on and is absorbed, less what came", guided[kGuideCells], 0.0)};
 }
 
-/// A level sheet of that material.
+std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort) {
+  const Ray ray{Vec3(0.1f), glm::normalize(Vec3(0.2f, -0.3f, 0.9f))};
+  Medium fog = make_medium(nullptr, Rgb(1.0f));
+  fog.sigma_s = Rgb(0.9f, 0.7f, 0.4f);
+  std::vector<Check> checks;
+  for (const auto& [name, phase] : {std::pair<const char*, Phase>("isotropic medium", Isotropic{}),
+                                    {"Rayleigh", Rayleigh{}},
+                                    {"Henyey-Greenstein, g = 0.6", HenyeyGreenstein{0.6f}}}) {
+    fog.phase = phase;
+    append(checks, compare(name, guide, effort, [&](const DirectionGuide* by, Rng& rng) {
+             PathState state{ray, 0, kPower};
+             const bool alive = by ? scatter_in_medium(*by, fog, state, rng) : scatter_in_medium(fog, state, rng);
+             return Outcome{alive ? state.throughput : Rgb(0.0f), kPower * (Rgb(1.0f) - fog.albedo()),
+                            state.ray.direction};
+           }));
+  }
+  return checks;
+}
+
+/// A level sheet of that material, shaded as if it leaned.
 Scene sheet(const Material& material) {
   Scene scene;
-  add_shape(scene, quad_mesh(Vec3d(-1, -1, 0), Vec3d(2, 0, 0), Vec3d(0, 2, 0)), material);
+  TriangleMesh mesh = quad_mesh(Vec3d(-1, -1, 0), Vec3d(2, 0, 0), Vec3d(0, 2, 0));
+  mesh.normals.assign(mesh.positions.size(), Vec3(0.3f, 0.1f, 1.0f));
+  add_shape(scene, mesh, material);
   scene.geometry.commit();
   return scene;
 }
 
-/// A path that comes down on the sheet, scattered there.
-class Landing {
- public:
-  explicit Landing(const Material& material) : scene_(sheet(material)) {
-    met_ = scene_.geometry.encounter(ray_, kInfinity);
-    assert(met_);
-  }
-  /// By `guide`, or by the surface alone where there is none. Its power is 0 where it was absorbed.
-  PathState scattered(const DirectionGuide* guide, Rng& rng, Scatter& scatter) const {
-    PathState state{ray_, kVacuum, Rgb(1.0f)};
-    const bool alive = guide ? scatter_at_surface(*guide, scene_, met_.hits[0], state, rng, scatter)
-                             : scatter_at_surface(scene_, met_.hits[0], state, rng, scatter);
-    if (!alive) state.throughput = Rgb(0.0f);
-    return state;
-  }
-
- private:
-  Scene scene_;
-  const Ray ray_{Vec3(0.2f, -0.1f, 1.0f), glm::normalize(Vec3(-0.4f, 0.3f, -1.0f))};
-  Encounter met_;
-};
-
-/// A diffuse sheet fills cells of equal flux evenly; what metal sends on and absorbs, by directions that absorb unlike
-/// shares, is what came; rough glass sends to either side what it does without a guide.
+/// From both sides: light does not meet the same material from below.
 std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& effort) {
-  constexpr float kReflectance = 0.7f;
-  const Landing diffuse(Lambertian{Rgb(kReflectance)}), glass(RoughDielectric{1.5f, 0.4f});
-  const Landing metal(RoughConductor{Rgb(0.4f), Rgb(2.5f), 0.6f});
-  const uint64_t count = effort.count(100'000, 4'000'000);
-  const auto above = sample_moments(kGuideCells, count, effort.seed_of("guided, diffuse"), [&](Rng& rng, double* out) {
-    Scatter scatter;
-    const PathState state = diffuse.scattered(&guide, rng, scatter);
-    const Vec3& d = state.ray.direction;
-    const double cosine = 1.0 - away_from(kUp, d);
-    if (cosine > 0.0) out[cell_of(cosine * cosine, kGuideRings) * kSectors + sector_about(kUp, d)] = state.throughput.g;
-  });
-  const auto balance = sample_moments(1, count, effort.seed_of("guided, metal"), [&](Rng& rng, double* out) {
-    Scatter scatter;
-    out[0] = metal.scattered(&guide, rng, scatter).throughput.g;
-    out[0] += 1.0 - scatter.weight.g;
-  });
-  const auto by_side = [&](const DirectionGuide* by, const char* name) {
-    return sample_moments(2, count, effort.seed_of(name), [&](Rng& rng, double* out) {
-      Scatter scatter;
-      const PathState state = glass.scattered(by, rng, scatter);
-      out[state.ray.direction.z > 0.0f ? 0 : 1] = state.throughput.g;
-    });
-  };
-  const auto guided = by_side(&guide, "guided, glass"), plain = by_side(nullptr, "not guided, glass");
-  return {check_weights("diffuse sheet, power by direction", above,
-                        std::vector<double>(kGuideCells, kReflectance / static_cast<double>(kGuideCells))),
-          check_mean("rough metal, power that goes on and is absorbed", balance[0], 1.0),
-          check_same("rough glass, reflected power", guided[0], plain[0]),
-          check_same("rough glass, transmitted power", guided[1], plain[1])};
+  std::vector<Check> checks;
+  for (const auto& [name, material] :
+       {std::pair<const char*, Material>("diffuse sheet", Lambertian{Rgb(0.8f, 0.5f, 0.3f)}),
+        {"Phong", Phong{Rgb(0.4f, 0.3f, 0.2f), Rgb(0.3f, 0.4f, 0.5f), 20.0f}},
+        {"rough metal", RoughConductor{Rgb(0.2f, 0.9f, 1.2f), Rgb(3.9f, 2.4f, 2.2f), 0.4f}},
+        {"rough glass", RoughDielectric{1.5f, 0.4f}},
+        {"mirror", Mirror{Rgb(0.9f)}}}) {
+    const Scene scene = sheet(material);
+    for (const float side : {1.0f, -1.0f}) {
+      const Ray ray{Vec3(0.2f, -0.1f, side), glm::normalize(Vec3(-0.4f, 0.3f, -side))};
+      const Encounter met = scene.geometry.encounter(ray, kInfinity);
+      assert(met);
+      const std::string full = fmt::format("{} from {}", name, side > 0.0f ? "above" : "below");
+      append(checks, compare(full, guide, effort, [&](const DirectionGuide* by, Rng& rng) {
+               PathState state{ray, kVacuum, kPower};
+               Scatter scatter;
+               const bool alive = by ? scatter_at_surface(*by, scene, met.hits[0], state, rng, scatter)
+                                     : scatter_at_surface(scene, met.hits[0], state, rng, scatter);
+               return Outcome{alive ? state.throughput * scatter.flux_scale : Rgb(0.0f),
+                              kPower * (Rgb(1.0f) - scatter.weight * scatter.flux_scale), state.ray.direction};
+             }));
+    }
+  }
+  return checks;
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ inline const Box kLitBox{{-2.5f, -3.5f, -1.0f}, {3.5f, 1.5f, 3.0f}};
 
 inline QuadLight test_quad() { return {{-0.5f, 1.2f, -0.6f}, {1.0f, 0.1f, 0.0f}, {0.3f, 0.2f, 1.1f}, kColour}; }
 inline DiscLight test_disc() { return {{-0.4f, 1.3f, 0.2f}, kAxis, 0.6f, kColour}; }
-/// A tetrahedron of four unequal faces.
+/// A tetrahedron of four unequal faces, and a triangle without area among them.
 inline TriangleMesh test_tetrahedron() {
   return {{{0.0f, 1.0f, 0.0f}, {1.2f, 1.1f, 0.2f}, {0.3f, 2.0f, 0.1f}, {0.2f, 1.2f, 0.9f}},
-          {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};  // each without the vertex of its number
+          {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}, {0, 1, 1}}};  // each face without the vertex of its number
 }
 inline SphereLight test_sphere() { return {{0.2f, 1.3f, 0.1f}, 0.7f, kColour}; }
 

@@ -166,24 +166,33 @@ Check check_metal() {
 
 std::vector<Check> check_rough_materials(const Effort& effort) {
   const Rgb eta(0.4f), k(2.5f);
-  const std::pair<const char*, Material> materials[] = {
-      {"Phong, broad", Phong{Rgb(0.3f), Rgb(0.6f), 5.0f}},
-      {"Phong, narrow", Phong{Rgb(0.2f), Rgb(0.5f), 2000.0f}},
-      {"metal, roughness 0.05", RoughConductor{eta, k, 0.05f}},
-      {"metal, roughness 0.6", RoughConductor{eta, k, 0.6f}},
-      {"rough glass, roughness 0.05", RoughDielectric{1.5f, 0.05f}},
-      {"rough glass, roughness 0.6", RoughDielectric{1.5f, 0.6f}},
+  const std::vector<double> common{0.3, 1.2}, extreme{0.0, 1.45};  // angles of incidence
+  const std::tuple<const char*, Material, std::vector<double>> materials[] = {
+      {"Phong, broad", Phong{Rgb(0.3f), Rgb(0.6f), 5.0f}, common},
+      {"Phong, narrow", Phong{Rgb(0.2f), Rgb(0.5f), 2000.0f}, common},
+      {"metal, roughness 0.05", RoughConductor{eta, k, 0.05f}, common},
+      {"metal, roughness 0.6", RoughConductor{eta, k, 0.6f}, common},
+      {"rough glass, roughness 0.05", RoughDielectric{1.5f, 0.05f}, common},
+      {"rough glass, roughness 0.6", RoughDielectric{1.5f, 0.6f}, common},
+      // Along the normal the horizon, where this lobe ends at its height, would lie between the quadrature's places.
+      {"Phong, exponent 0", Phong{Rgb(0.0f), Rgb(0.6f), 0.0f}, common},
+      {"Phong, exponent 1e6", Phong{Rgb(0.0f), Rgb(0.9f), 1e6f}, extreme},
+      {"metal, roughness 0.001", RoughConductor{eta, k, 0.001f}, extreme},
+      {"metal, roughness 1", RoughConductor{eta, k, 1.0f}, extreme},
+      {"rough glass, roughness 0.01", RoughDielectric{1.5f, 0.01f}, extreme},
+      {"rough glass, roughness 1, ior 1.2", RoughDielectric{1.2f, 1.0f}, extreme},
+      {"rough glass, roughness 0.1, ior 1.01", RoughDielectric{1.01f, 0.1f}, extreme},
+      {"rough glass, roughness 0.5, ior 0.6", RoughDielectric{0.6f, 0.5f}, extreme},
   };
   std::vector<Check> checks = check_rough_albedos();
   checks.push_back(check_metal());
-  for (const auto& [what, main_lobes] : materials) {
+  for (const auto& [what, main_lobes, angles] : materials) {
     Material material = main_lobes;
     const std::shared_ptr<const FacetLoss> loss = facet_loss_of(material);
     set_facet_loss(material, loss.get());
     for (const bool from_outside : {true, false})
-      for (const double angle : {0.3, 1.2}) {
-        const std::string name =
-            fmt::format("{}, {:.1f} rad from {}", what, angle, from_outside ? "outside" : "inside");
+      for (const double angle : angles) {
+        const std::string name = fmt::format("{}, {} rad from {}", what, angle, from_outside ? "outside" : "inside");
         const RoughIncidence in{material, kNormal, arriving(angle, from_outside)};
         append(checks, check_lobes(name, in, effort.count(50'000, 500'000), effort));
       }

@@ -67,10 +67,11 @@ struct TextbookPixel {
   }
 };
 
-/// Radii of pixels' own, and the mean of passes, by what each pass has found.
-std::vector<Check> check_pixels(const Effort& effort) {
+/// Radii of pixels' own, and the mean of passes, by what so many samples of each pixel have found in each pass.
+std::vector<Check> check_pixels(int samples, const Effort& effort) {
   const Scene scene = bare_floor();
-  RenderSettings settings = pass_settings(effort.seed_of("pixels"));
+  RenderSettings settings = pass_settings(effort.seed_of(fmt::format("pixels, {}", samples)));
+  settings.samples_per_pixel = samples;
   settings.until.passes = static_cast<int>(effort.count(12, 100));
   settings.photons_emitted = 2000;
   settings.radii = RadiusSchedule::per_pixel;
@@ -81,7 +82,7 @@ std::vector<Check> check_pixels(const Effort& effort) {
   const double power = light_power(scene.lights[0], scene.bounds).g;  // of every photon
   const auto run = [&](const RenderResult& so_far, const PassProgress& progress) {
     Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kGoOn, progress});
-    for (size_t i = 0; i < textbook.size(); ++i) textbook[i].add(static_cast<double>(pass.found[i]), power);
+    for (size_t i = 0; i < textbook.size(); ++i) textbook[i].add(static_cast<double>(pass.found[i]), power / samples);
     return pass;
   };
   result = run_passes(settings.until, {run, tile_count(scene.camera)}, std::move(result), {kGoOn});
@@ -95,8 +96,10 @@ std::vector<Check> check_pixels(const Effort& effort) {
         std::max(radius_off, std::abs(disc_radius(result.discs[i], settings.surface.radius.metres()) / radius - 1.0));
     radiance_off = std::max(radiance_off, std::abs(mean.pixels[i].g - radiance) / (radiance + 1e-3));
   }
-  return {check_bound("R, relative, at the most", radius_off, 0.0, 1e-5),
-          check_bound("tau / (pi R^2), relative, at the most", radiance_off, 0.0, 1e-4)};
+  const std::string at_most =
+      fmt::format(", relative, at the most{}", samples == 1 ? "" : fmt::format(", of {} samples", samples));
+  return {check_bound("R" + at_most, radius_off, 0.0, 1e-5),
+          check_bound("tau / (pi R^2)" + at_most, radiance_off, 0.0, 1e-4)};
 }
 
 /// Two films of other seeds differ by as much as the variances they state; over their pixels, for many pairs.
@@ -135,7 +138,12 @@ std::vector<Check> check_variance(const Effort& effort) {
 
 std::vector<Experiment> pass_experiments() {
   return {{4, "radii of a render's passes", check_radii},
-          {4, "radii of pixels by the photons they find", check_pixels},
+          {4, "radii of pixels by the photons they find",
+           [](const Effort& effort) {
+             std::vector<Check> checks = check_pixels(1, effort);
+             append(checks, check_pixels(3, effort));
+             return checks;
+           }},
           {4, "the variance a film states", check_variance}};
 }
 

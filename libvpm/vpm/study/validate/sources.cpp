@@ -89,7 +89,8 @@ std::vector<Check> spheres(const Effort& effort) {
 std::vector<Check> airlights(const Effort& effort) {
   static constexpr Airlight kAirlights[] = {{0.5, 0.9, 0.5, 1.0, 3.0, 0.0, 10.0},
                                             {0.3, 0.8, 0.9, 1e-6, 2.0, 0.0, 4.0},
-                                            {1.0, 1.0, -0.3, 1.0, 0.5, 0.0, HUGE_VAL}};
+                                            {1.0, 1.0, -0.3, 1.0, 0.5, 0.0, HUGE_VAL},
+                                            {1.0, 0.9, 0.7, 0.01, 0.5, 0.0, HUGE_VAL}};
   std::vector<Check> checks;
   for (const Airlight& a : kAirlights) {
     const exact::AirlightSolution s =

@@ -1,10 +1,13 @@
-// What may not depend on the world's size, handedness or orientation, nor on the number of photons: flows and fluence
-// in a scene with everything, against the same scene changed.
+// What may not depend on the world's size, handedness or orientation, nor on the number of photons: flows, fluence and
+// what a camera sees of a scene with everything, against the same scene changed.
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "vpm/base/progress.h"
 #include "vpm/estimate/volume_estimate.h"
+#include "vpm/image/metrics.h"
 #include "vpm/medium/make_grid.h"
+#include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"
@@ -61,18 +64,25 @@ Scene changed_scene(const Change& change) {
             Dielectric{1.5f});
   scene.lights.push_back(
       SpotLight{change.point({-1.5, 1.8, 0.4}), change.direction({1.2, -1.6, -0.2}), 0.97f, 0.9f, Rgb(3.0f)});
+  scene.camera = make_camera(change.point({0.8, 1.0, 3.5}), change.point({0.1, -0.3, 0.0}),
+                             change.direction({0.0, 1.0, 0.0}), 40.0f, {4, 4});
   scene.geometry.commit();
   finish(scene);
   return scene;
 }
 
-enum Quantity : size_t { in_fog, on_floor, away, here, quantities };
+enum Quantity : size_t { in_fog, on_floor, away, here, seen, quantities };
 
-/// Absorbed in the fog, absorbed by the floor, escaped (W), and fluence at a point times the scale's square (W).
+/// Absorbed in the fog, absorbed by the floor, escaped (W); fluence at a point (W) and radiance of the film (W/sr)
+/// times the scale's square.
 std::vector<Moments> measure(const Change& change, const Effort& effort) {
   const Scene scene = changed_scene(change);
   const auto strategy = make_distance_strategy({});
   const GatherSettings gather{GatherMode::radius, static_cast<float>(0.5 * change.scale), 0, KernelKind::epanechnikov};
+  RenderSettings settings;
+  settings.photons_emitted = change.photons;
+  settings.radii = RadiusSchedule::constant;
+  settings.volume.radius = settings.surface.radius = gather.radius;
   return sample_moments(
       quantities, effort.count(1'000, 24'000), effort.seed_of("change: " + change.name), [&](Rng& rng, double* out) {
         PhotonLists photons = small_pass(scene, *strategy, rng, change.photons);
@@ -84,6 +94,9 @@ std::vector<Moments> measure(const Change& change, const Effort& effort) {
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, ledger.emitted_count);
         out[here] =
             fluence(scene.media[0].majorant(), change.point({-0.3, 0.3, 0.2}), map).g * change.scale * change.scale;
+        RenderSettings own = settings;
+        own.seed = rng.bits();
+        out[seen] = channel_means(render_photon_pass(scene, own, 0, kGoOn).image).g * change.scale * change.scale;
       });
 }
 
@@ -98,7 +111,7 @@ std::vector<Check> check_changes(const Effort& effort) {
         Change{.name = "twice the photons", .photons = 200}}) {
     const auto found = measure(change, effort);
     static constexpr std::array<const char*, quantities> kNames{"absorbed in fog", "absorbed by the floor", "escaped",
-                                                                "fluence"};
+                                                                "fluence", "radiance seen"};
     for (size_t q = 0; q < quantities; ++q)
       checks.push_back(check_same(fmt::format("{}, {}", change.name, kNames[q]), found[q], base[q]));
   }

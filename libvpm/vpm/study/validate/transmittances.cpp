@@ -17,33 +17,37 @@ namespace {
 
 constexpr float kStep = 2.0f;  // of the biased estimators, voxels
 
-/// A medium, and how many estimates a quick run makes in it.
+/// A medium, the part of the test's ray through it, and how many estimates a quick run makes there.
 struct Subject {
   std::string name;
   Medium medium;
+  Interval stretch = test_stretch();
   uint64_t quick = 10'000;
 };
 
-/// Every kind of field in three channels; and one through which so little light passes, in all channels, that tracking
-/// goes on by roulette.
+/// Every kind of field in three channels; one whose grid the ray enters and leaves; and one through which so little
+/// light passes, in all channels, that tracking goes on by roulette.
 std::vector<Subject> subjects() {
   const Rgb sigma_t(0.3f, 0.6f, 1.2f);  // 1/m
   std::vector<Subject> all{{"homogeneous", make_medium(nullptr, sigma_t)}};
-  for (const TestField& field : test_fields()) all.push_back({field.name, make_medium(field.grid, sigma_t)});
-  all.push_back({"opaque", make_medium(test_fields().back().grid, Rgb(6.0f)), 100'000});
+  const std::vector<TestField> fields = test_fields();
+  for (const TestField& field : fields) all.push_back({field.name, make_medium(field.grid, sigma_t)});
+  all.push_back({"sparse grid from border to border", make_medium(fields[3].grid, sigma_t), {0.0f, 3.0f}, 100'000});
+  all.push_back({"opaque", make_medium(fields[5].grid, Rgb(7.0f, 6.5f, 6.0f)), test_stretch(), 100'000});
   return all;
 }
 
-/// The steps of a march over the stretch.
+/// The steps of a march over the part of the stretch where there is a medium.
 struct Steps {
   const Medium& medium;
   Ray ray = test_ray();
-  Interval stretch = test_stretch();
+  Interval stretch;
   int count;
   double length;  // m
 
-  Steps(const Medium& medium_, double step)
-      : medium(medium_),
+  Steps(const Subject& subject, double step)
+      : medium(subject.medium),
+        stretch(medium.clip(ray, subject.stretch)),
         count(medium.homogeneous() ? 1 : static_cast<int>(std::ceil(stretch.length() / (step * medium.voxel_size())))),
         length(stretch.length() / static_cast<double>(count)) {}
   /// The density integral that the density at a share of step number i stands for, m.
@@ -80,10 +84,10 @@ double mean_of_jackknife(const Steps& steps, double sigma_t) {
 }
 
 /// The exact mean of an estimator that is biased, its bias included.
-std::optional<double> biased_mean(std::string_view estimator, const Medium& medium, int channel) {
-  const Steps steps(medium, kStep);
-  if (estimator == "ray-march") return mean_of_march(steps, medium.sigma_t[channel]);
-  if (estimator == "jackknife") return mean_of_jackknife(steps, medium.sigma_t[channel]);
+std::optional<double> biased_mean(std::string_view estimator, const Subject& subject, int channel) {
+  const Steps steps(subject, kStep);
+  if (estimator == "ray-march") return mean_of_march(steps, subject.medium.sigma_t[channel]);
+  if (estimator == "jackknife") return mean_of_jackknife(steps, subject.medium.sigma_t[channel]);
   return std::nullopt;
 }
 
@@ -99,23 +103,24 @@ Check check_estimates(const std::string& name, const Moments& samples, std::opti
 }
 
 /// Means of the transmittance: the exact one, and where the estimator is biased the mean that it must have then.
-std::vector<Check> estimates_by(const EstimatorInfo& info, const Effort& effort) {
+std::vector<Check> estimates_by(const EstimatorInfo& info, float comb, const Effort& effort) {
   const Ray ray = test_ray();
-  const Interval stretch = test_stretch();
-  const auto estimator = make_transmittance_estimator({.estimator = std::string(info.name), .step = kStep});
+  const auto estimator =
+      make_transmittance_estimator({.estimator = std::string(info.name), .step = kStep, .samples = comb});
   std::vector<Check> checks;
   for (const Subject& subject : subjects()) {
     const Medium& medium = subject.medium;
-    const double integral = looked_up_integral(medium, ray, stretch.t0, stretch.t1);
-    const std::string name = fmt::format("{}, {}", subject.name, info.name);
+    const double integral = looked_up_integral(medium, ray, subject.stretch.t0, subject.stretch.t1);
+    const std::string name =
+        fmt::format("{}, {}{}", subject.name, info.name, comb == 1.0f ? "" : ", combs twice as dense");
     const auto samples =
         sample_moments(3, effort.count(subject.quick, 1'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-          const Rgb value = estimator->estimate(medium, ray, stretch, rng).value;
+          const Rgb value = estimator->estimate(medium, ray, subject.stretch, rng).value;
           for (int c = 0; c < 3; ++c) out[c] = value[c];
         });
     for (int c = 0; c < (medium.grey() ? 1 : 3); ++c) {
       const double exact = std::exp(-medium.sigma_t[c] * integral);
-      const std::optional<double> mean = info.unbiased ? exact : biased_mean(info.name, medium, c);
+      const std::optional<double> mean = info.unbiased ? exact : biased_mean(info.name, subject, c);
       Check check = check_estimates(name + (medium.grey() ? "" : kOfChannel[c]), samples[c], mean, info.unbiased);
       if (mean && !info.unbiased) check.note = fmt::format("with its bias, {:+.2g}", *mean - exact);
       checks.push_back(std::move(check));
@@ -146,8 +151,11 @@ std::vector<Check> check_march(const Effort& effort) {
 std::vector<Experiment> transmittance_experiments() {
   std::vector<Experiment> all{{0, "marches of eye rays", check_march}};
   for (const EstimatorInfo& info : transmittance_estimators())
-    all.push_back({0, fmt::format("transmittance, {}", info.name),
-                   [&info](const Effort& effort) { return estimates_by(info, effort); }});
+    all.push_back({0, fmt::format("transmittance, {}", info.name), [&info](const Effort& effort) {
+                     std::vector<Check> checks = estimates_by(info, 1.0f, effort);
+                     if (info.name == "unbiased-ray-march") append(checks, estimates_by(info, 2.0f, effort));
+                     return checks;
+                   }});
   return all;
 }
 
