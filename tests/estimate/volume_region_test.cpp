@@ -47,32 +47,32 @@ Scene walled(Wall wall) {
   return finished(std::move(scene));
 }
 
-constexpr uint32_t kPhotons = 400;
+constexpr uint32_t kVolumePhotons = 400;
 
 /// Photons uniform over the box, of 1 W in all.
 std::vector<Photon> even_photons(const Vec3& lo, const Vec3& hi, Rng& rng) {
-  std::vector<Photon> photons(kPhotons);
+  std::vector<Photon> photons(kVolumePhotons);
   for (Photon& p : photons)
     p = {lo + Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * (hi - lo), PackedDirection(Vec3(0, 0, 1)), Rgb(1.0f)};
   return photons;
 }
 
-struct Estimates {
+struct VolumeEstimates {
   Moments plain, corrected;
   GatherCounters counters;
 };
 
-/// Estimates of the density of photons, 1/m^3, at a point, over the density that they have in the box.
-Estimates estimate(const Scene& scene, const Vec3& point, const GatherSettings& gather, const Box& box, uint64_t trials,
-                   uint64_t use) {
+/// VolumeEstimates of the density of photons, 1/m^3, at a point, over the density that they have in the box.
+VolumeEstimates estimate(const Scene& scene, const Vec3& point, const GatherSettings& gather, const Box& box,
+                         uint64_t trials, uint64_t use) {
   const auto& [lo, hi] = box;
-  Estimates found;
+  VolumeEstimates found;
   const VolumeRegion region(scene, 0, point, gather.kernel);
   const Vec3 extent = hi - lo;
   const float density = 1.0f / (extent.x * extent.y * extent.z);
   for (uint64_t trial = 0; trial < trials; ++trial) {
     Rng rng(7, rng_stream(RngUse::test, use), trial);
-    const PhotonMap map = make_photon_map(even_photons(lo, hi, rng), gather, kPhotons);
+    const PhotonMap map = make_photon_map(even_photons(lo, hi, rng), gather, kVolumePhotons);
     found.plain.add(fluence(Rgb(density), point, map).r);
     Neighbours near;
     found.corrected.add(fluence(Rgb(density), point, BoundedMap{map, region, GatherWork{found.counters, near}}).r);
@@ -170,10 +170,10 @@ TEST(VolumeRegion, LightDoesNotLeakThroughThinWalls) {
     for (const GatherSettings& gather : {by_radius, nearest}) {
       const Scene scene = walled(wall);
       const Vec3 lo(0.0f, -1.0f, -1.0f), hi(1.0f);  // lit is the side x > 0
-      const Estimates lit = estimate(scene, Vec3(0.05f, 0.1f, 0.0f), gather, {lo, hi}, 1000, use++);
+      const VolumeEstimates lit = estimate(scene, Vec3(0.05f, 0.1f, 0.0f), gather, {lo, hi}, 1000, use++);
       expect_mean(lit.corrected, 1.0, 1e-6, "lit side");
       EXPECT_LT(lit.plain.mean(), 0.9);
-      const Estimates dark = estimate(scene, Vec3(-0.05f, 0.1f, 0.0f), gather, {lo, hi}, 20, use++);
+      const VolumeEstimates dark = estimate(scene, Vec3(-0.05f, 0.1f, 0.0f), gather, {lo, hi}, 20, use++);
       EXPECT_EQ(dark.corrected.mean(), 0.0);
       EXPECT_GT(dark.plain.mean(), 0.2);
     }
@@ -198,10 +198,10 @@ TEST(VolumeRegion, TheMapEqualsTheBruteForceTwin) {
         }
       std::sort(distances.begin(), distances.end());
       const float radius = mode == GatherMode::radius ? 0.5f : std::min(0.5f, distances[11]);
-      const float twin = fluence(Rgb(1.0f), point, seen, gather, uint64_t{kPhotons}).r /
+      const float twin = fluence(Rgb(1.0f), point, seen, gather, uint64_t{kVolumePhotons}).r /
                          static_cast<float>(region.share(radius).inside);
       GatherCounters counters;
-      const PhotonMap map = make_photon_map(photons, gather, kPhotons);
+      const PhotonMap map = make_photon_map(photons, gather, kVolumePhotons);
       Neighbours near;
       EXPECT_NEAR(fluence(Rgb(1.0f), point, BoundedMap{map, region, GatherWork{counters, near}}).r / twin, 1.0, 1e-4)
           << kernel.name;

@@ -13,8 +13,6 @@
 
 namespace vpm {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-
 /// Fixed radii for both maps.
 inline RenderSettings settings_of(uint64_t photons, float radius) {
   RenderSettings settings;

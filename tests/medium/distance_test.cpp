@@ -10,8 +10,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each single comparison
-
 constexpr int kBins = 24;
 
 /// What a flight deposits: per bin of distance, then leaving.

@@ -11,7 +11,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each single comparison
 constexpr uint64_t kFlights = 20000;
 
 Flight fly(const DistanceStrategy& strategy, const Medium& medium, uint64_t number) {

@@ -9,7 +9,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;
 const Box kBox{Vec3(-1.0f), Vec3(1.0f)};
 const float kOneCell = static_cast<float>(DirectionCells::kCount) / (4.0f * kPi);  // 1/sr, of a single cell
 

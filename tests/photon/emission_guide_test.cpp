@@ -8,7 +8,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;
 constexpr uint64_t kScouts = 40'000, kStream = 77;
 
 /// Scores in a small box of three of the dimensions: 0.1 x 0.1 x 0.2 of them.

@@ -9,12 +9,13 @@
 namespace vpm {
 namespace {
 
-const Box kBox{Vec3(-1.0f, -2.0f, 0.0f), Vec3(3.0f, 0.0f, 1.0f)};  // 4 x 2 x 1 m: cubes of 1/2 m are 8 x 4 x 2
+const Box kImportanceBox{Vec3(-1.0f, -2.0f, 0.0f),
+                         Vec3(3.0f, 0.0f, 1.0f)};  // 4 x 2 x 1 m: cubes of 1/2 m are 8 x 4 x 2
 
-Vec3 centre(int x, int y, int z) { return kBox.lo + 0.5f * (Vec3(x, y, z) + 0.5f); }
+Vec3 centre(int x, int y, int z) { return kImportanceBox.lo + 0.5f * (Vec3(x, y, z) + 0.5f); }
 
 TEST(ImportanceMap, TracksLeaveTheirLengthInEachCube) {
-  ImportanceMap map(kBox, 8);
+  ImportanceMap map(kImportanceBox, 8);
   map.add_track({centre(1, 2, 0), Vec3(1.0f, 0.0f, 0.0f)}, 1.0f, 3.0f);
   EXPECT_FLOAT_EQ(map.at(centre(1, 2, 0)), 3.0f * 0.5f);  // a quarter of a metre of half a metre
   EXPECT_FLOAT_EQ(map.at(centre(2, 2, 0)), 3.0f);
@@ -24,7 +25,7 @@ TEST(ImportanceMap, TracksLeaveTheirLengthInEachCube) {
 }
 
 TEST(ImportanceMap, SlantedTracksLeaveAllTheirLengthInside) {
-  ImportanceMap map(kBox, 8);
+  ImportanceMap map(kImportanceBox, 8);
   const Vec3 from(-3.0f, -2.5f, 0.3f), to(4.0f, 1.0f, 0.6f);  // in by x at -1, out by y at 0
   map.add_track({from, glm::normalize(to - from)}, glm::distance(from, to), 1.0f);
   double sum = 0.0;
@@ -36,7 +37,7 @@ TEST(ImportanceMap, SlantedTracksLeaveAllTheirLengthInside) {
 }
 
 TEST(ImportanceMap, TellsWhereImportanceRises) {
-  ImportanceMap map(kBox, 8);
+  ImportanceMap map(kImportanceBox, 8);
   map.add_track({centre(5, 1, 1), Vec3(0.0f, 1.0f, 0.0f)}, 0.1f, 10.0f);  // 2 in that cube alone
   const Ray along{centre(1, 1, 1), Vec3(1.0f, 0.0f, 0.0f)};
   const float rise = map.first_above(along, 1.0f);
@@ -48,13 +49,13 @@ TEST(ImportanceMap, TellsWhereImportanceRises) {
 }
 
 TEST(ImportanceMap, IsPositiveEverywhereOnceFinished) {
-  ImportanceMap map(kBox, 8);
+  ImportanceMap map(kImportanceBox, 8);
   map.add_track({centre(5, 1, 1), Vec3(0.0f, 1.0f, 0.0f)}, 0.1f, 10.0f);
   map.finish();
   EXPECT_GT(map.at(centre(0, 0, 0)), 0.0f);
   EXPECT_GT(map.at(centre(5, 1, 1)), map.at(centre(6, 1, 1)));
   EXPECT_GT(map.at(centre(6, 1, 1)), 100.0f * map.at(centre(0, 0, 0)));
-  ImportanceMap dark(kBox, 8);
+  ImportanceMap dark(kImportanceBox, 8);
   dark.finish();
   EXPECT_GT(dark.at(centre(0, 0, 0)), 0.0f);
 }

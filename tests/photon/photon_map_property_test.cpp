@@ -45,12 +45,13 @@ RC_GTEST_PROP(PackedDirectionProperty, IsUnitAndOffByAtMostItsBound, ()) {
   RC_ASSERT(glm::distance(PackedDirection(back).unpack(), back) < 1e-6f);  // once packed it stays
 }
 
-enum class Layout { spread, plane, line, points, scales };
+enum class RandomLayout { spread, plane, line, points, scales };
 
 /// Photons of whole powers, so that sums in any order are exact. Where coordinates coincide so do powers, or the k
 /// nearest would depend on the choice among equals.
 std::vector<Photon> any_photons() {
-  const auto layout = *rc::gen::element(Layout::spread, Layout::plane, Layout::line, Layout::points, Layout::scales);
+  const auto layout = *rc::gen::element(RandomLayout::spread, RandomLayout::plane, RandomLayout::line,
+                                        RandomLayout::points, RandomLayout::scales);
   const Vec3 offset = *rc::gen::element(Vec3(0.0f), Vec3(-100.0f, 3.0f, 1e4f), Vec3(1e6f));
   const int count = *rc::gen::inRange(0, 300);
   const auto seed = *rc::gen::arbitrary<uint64_t>();
@@ -58,10 +59,10 @@ std::vector<Photon> any_photons() {
   for (size_t i = 0; i < photons.size(); ++i) {
     Rng rng(seed, rng_stream(RngUse::test, 0), i);
     Vec3 p(rng.uniform(), rng.uniform(), rng.uniform());
-    if (layout == Layout::plane) p.y = 0.5f;
-    if (layout == Layout::line) p.x = p.y = 0.5f;
-    if (layout == Layout::points) p = glm::floor(2.0f * p);
-    if (layout == Layout::scales) p *= std::pow(10.0f, -6.0f * rng.uniform());
+    if (layout == RandomLayout::plane) p.y = 0.5f;
+    if (layout == RandomLayout::line) p.x = p.y = 0.5f;
+    if (layout == RandomLayout::points) p = glm::floor(2.0f * p);
+    if (layout == RandomLayout::scales) p *= std::pow(10.0f, -6.0f * rng.uniform());
     photons[i] = {offset + p, PackedDirection(Vec3(0, -1, 0)), Rgb(1.0f, 2.0f, 4.0f)};
   }
   return photons;

@@ -14,8 +14,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-
 /// A spot from above that grazes the box's side, so that photons enter by several faces.
 const Light kSpot =
     SpotLight{Vec3(-1.5f, 2.5f, 0.4f), glm::normalize(Vec3(0.5f, -1.0f, -0.1f)), 0.97f, 0.9f, Rgb(4.0f, 2.0f, 1.0f)};

@@ -14,7 +14,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
 constexpr float kReflectance = 0.5f;
 
 /// A diffuse hollow cube of 2 m with a light of 1 W in the middle, seen from inside.

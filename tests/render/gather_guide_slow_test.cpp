@@ -15,8 +15,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-
 void expect_same(const Moments& guided, const Moments& plain, double most, const std::string& what) {
   const Check check = check_same("", guided, plain);
   EXPECT_LT(check.error, most * plain.mean()) << what;

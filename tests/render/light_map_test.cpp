@@ -17,15 +17,14 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each test
-constexpr float kReflectance = 0.5f;
+constexpr float kTexelReflectance = 0.5f;
 
 /// The quad of 2 m by 2 m about the origin with its normal along +y: u runs along x, v against z.
 TriangleMesh floor_mesh() { return quad_mesh(Vec3d(-1, 0, 1), Vec3d(2, 0, 0), Vec3d(0, 0, -2)); }
 
 Scene lit(const TriangleMesh& mesh, const Light& light) {
   Scene scene;
-  add_shape(scene, mesh, Lambertian{Rgb(kReflectance)});
+  add_shape(scene, mesh, Lambertian{Rgb(kTexelReflectance)});
   scene.lights.push_back(light);
   scene.geometry.commit();
   finish(scene);
@@ -119,7 +118,7 @@ TEST(LightMap, LightIsAttenuatedOnItsWay) {
   scene.media.push_back(fog);
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-2.0), Vec3d(2.0)), Boundary{}, &media);
-  const uint32_t floor = add_shape(scene, floor_mesh(), Lambertian{Rgb(kReflectance)});
+  const uint32_t floor = add_shape(scene, floor_mesh(), Lambertian{Rgb(kTexelReflectance)});
   scene.lights.push_back(PointLight{Vec3(light), Rgb(1.0f)});
   scene.geometry.commit();
   finish(scene);
@@ -137,7 +136,8 @@ Scene cube_of_quads() {
       Vec3d corner(-1.0), u(0.0), v(0.0);
       corner[axis] = side;
       u[(axis + 1) % 3] = v[(axis + 2) % 3] = 2.0;
-      add_shape(scene, side < 0.0 ? quad_mesh(corner, u, v) : quad_mesh(corner, v, u), Lambertian{Rgb(kReflectance)});
+      add_shape(scene, side < 0.0 ? quad_mesh(corner, u, v) : quad_mesh(corner, v, u),
+                Lambertian{Rgb(kTexelReflectance)});
     }
   scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(0.25f / kPi)});
   scene.geometry.commit();
@@ -162,7 +162,7 @@ TEST(SlowLightMap, ReceivesThePowerOfTheLedger) {
     const Pass done = light_map_pass(scene, settings, layout, pass, kGoOn);
     const Ledger& ledger = done.statistics.ledger;
     const double absorbed = ledger.absorbed_on_surfaces.g / static_cast<double>(ledger.emitted_count);
-    difference.add(received_power(layout, done.image).g - absorbed / (1.0 - kReflectance));
+    difference.add(received_power(layout, done.image).g - absorbed / (1.0 - kTexelReflectance));
   }
   EXPECT_LT(std::sqrt(difference.variance_of_mean()), 0.005);  // of some 4 W
   expect_mean(difference, 0.0, kFalseAlarms);

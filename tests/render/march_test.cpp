@@ -10,7 +10,6 @@ namespace vpm {
 namespace {
 
 const Ray kRay{Vec3(-2.0f, 0.1f, -0.2f), glm::normalize(Vec3(1.0f, 0.05f, 0.1f))};
-constexpr double kFalseAlarms = 1e-6;
 
 Medium noise_medium(const Rgb& sigma_t) {
   const GridFrame frame = centred_frame(10, 0.1);

@@ -11,8 +11,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-
 /// Samples of the radiance along a ray from outside all shapes, red channel.
 Moments samples(const Scene& scene, const Ray& ray, int count) {
   const PathContext context = make_path_context(scene, {});

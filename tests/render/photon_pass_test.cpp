@@ -14,8 +14,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-
 /// The mean over a render's pixels, pass by pass.
 Moments pass_means(const Scene& scene, const RenderSettings& settings, int passes) {
   Moments means;

@@ -16,8 +16,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-
 /// One pixel of the textbook.
 struct Textbook {
   double radius, photons = 0.0, flux = 0.0;  // R, m; N; tau, W

@@ -13,8 +13,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-
 /// A square of half edge 1.5 m in y = 0 that faces +y, its vertices' normals tilted at random by up to about 35
 /// degrees.
 TriangleMesh bumpy_plate() {

@@ -19,7 +19,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
 const Rgb kChromatic(0.5f, 1.5f, 4.0f);
 
 std::shared_ptr<const TransmittanceEstimator> exact_transmittance() { return make_transmittance_estimator({}); }

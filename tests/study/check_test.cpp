@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "support/normal.h"
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/tails.h"
@@ -17,7 +18,6 @@ namespace vpm {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kFalseAlarms = 1e-6;  // of each single comparison
 
 Rng test_rng(uint64_t index) { return {7, rng_stream(RngUse::test, 0), index}; }
 
@@ -25,11 +25,6 @@ Moments moments_of(std::initializer_list<double> values) {
   Moments m;
   for (const double x : values) m.add(x);
   return m;
-}
-
-/// A standard normal number.
-double normal(Rng& rng) {
-  return std::sqrt(-2.0 * std::log1p(-rng.uniform_double())) * std::cos(2.0 * kPiD * rng.uniform_double());
 }
 
 /// p-values of right code must be uniform: chi-square over ten equal bins.

@@ -13,6 +13,9 @@
 
 namespace vpm {
 
+/// The rate of those that compare once, and whose test needs no other.
+inline constexpr double kFalseAlarms = 1e-6;
+
 /// z-test: the mean of the samples is `expected`.
 inline void expect_mean(const Moments& samples, double expected, double false_alarm_rate, const char* what = "") {
   const double error = std::sqrt(samples.variance_of_mean());

@@ -5,13 +5,12 @@
 
 #include <algorithm>
 
+#include "surface/random_shapes.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
 
 namespace vpm {
 namespace {
-
-Vec3 in_cube(Rng& rng) { return 2.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.0f; }
 
 TEST(Distance, ToATriangleIsTheLeastToItsPoints) {
   constexpr int kSteps = 300;

@@ -14,11 +14,11 @@
 namespace vpm {
 namespace {
 
-const Vec3 kNormal = glm::normalize(Vec3(0.3f, 0.8f, -0.5f));
+const Vec3 kRoughNormal = glm::normalize(Vec3(0.3f, 0.8f, -0.5f));
 
 /// A direction of travel towards that side of the surface.
 Vec3 arriving(double angle, bool from_outside = true) {
-  return -direction_about(from_outside ? kNormal : -kNormal, static_cast<float>(1.0 - std::cos(angle)), 1.0f);
+  return -direction_about(from_outside ? kRoughNormal : -kRoughNormal, static_cast<float>(1.0 - std::cos(angle)), 1.0f);
 }
 
 /// The reflectance in complex numbers.
@@ -77,7 +77,7 @@ TEST(Microfacets, CoverTheSurface) {
 }
 
 double albedo(const Material& material, double angle) {
-  const LobeCells::Integrals all = LobeCells({material, kNormal, arriving(angle)}).integrate();
+  const LobeCells::Integrals all = LobeCells({material, kRoughNormal, arriving(angle)}).integrate();
   return all.near + all.far;
 }
 
@@ -129,7 +129,7 @@ TEST(SlowFacetLoss, ReturnsFromGlass) {
       for (const bool from_outside : {true, false})
         for (const double angle : {0.0, 1.4}) {
           const LobeCells::Integrals all =
-              LobeCells({glass.material(), kNormal, arriving(angle, from_outside)}).integrate();
+              LobeCells({glass.material(), kRoughNormal, arriving(angle, from_outside)}).integrate();
           EXPECT_NEAR(all.near + all.far, 1.0, 1e-3) << ior << ", " << roughness << " at " << angle;
         }
     }
@@ -140,8 +140,8 @@ TEST(FacetLoss, IsTintedByFurtherReflections) {
   const RoughConductor gold{Rgb(0.16f, 0.42f, 1.38f), Rgb(3.6f, 2.5f, 1.9f), 1.0f};
   const Lossless lossless(gold);
   const Vec3 travel = arriving(0.5), back = -arriving(0.9);
-  const Rgb once = scatter_value(gold, kNormal, travel, back).value;
-  const Rgb more = scatter_value(lossless.material(), kNormal, travel, back).value - once;
+  const Rgb once = scatter_value(gold, kRoughNormal, travel, back).value;
+  const Rgb more = scatter_value(lossless.material(), kRoughNormal, travel, back).value - once;
   EXPECT_GT(more.b, 0.0f);
   EXPECT_GT(more.r / more.b, 1.2f * once.r / once.b);
   EXPECT_LT(albedo(lossless.material(), 0.5), reflectance(1.0, gold.eta.g, gold.k.g));
@@ -156,7 +156,8 @@ TEST(RoughConductor, IsSmoothInTheLimit) {
 TEST(RoughDielectric, IsSmoothInTheLimit) {
   for (const float ior : {1.5f, 1.0f / 1.5f})
     for (const double angle : {0.0, 0.5, 1.2}) {
-      const LobeCells::Integrals all = LobeCells({RoughDielectric{ior, 0.001f}, kNormal, arriving(angle)}).integrate();
+      const LobeCells::Integrals all =
+          LobeCells({RoughDielectric{ior, 0.001f}, kRoughNormal, arriving(angle)}).integrate();
       const double reflected = fresnel_dielectric(static_cast<float>(std::cos(angle)), ior);
       EXPECT_NEAR(all.near, reflected, 2e-3) << ior << " at " << angle;
       EXPECT_NEAR(all.far, 1.0 - reflected, 2e-3) << ior << " at " << angle;
@@ -179,9 +180,9 @@ TEST(RoughMaterials, WeighByValueOverDensity) {
                             Material(RoughDielectric{1.5f, 0.3f})})
     for (int i = 0; i < 2000; ++i) {
       const Vec3 travel = uniform_sphere(rng.uniform2());
-      const Scatter s = sample_scatter(m, kNormal, travel, rng.uniform(), rng.uniform2());
+      const Scatter s = sample_scatter(m, kRoughNormal, travel, rng.uniform(), rng.uniform2());
       if (is_black(s.weight)) continue;
-      const ScatterValue v = scatter_value(m, kNormal, travel, s.direction);
+      const ScatterValue v = scatter_value(m, kRoughNormal, travel, s.direction);
       EXPECT_EQ(v.pdf, s.pdf);
       EXPECT_LE(glm::length(v.value - s.weight * v.pdf), 1e-6f * glm::length(v.value));
       EXPECT_EQ(v.radiance_scale, s.radiance_scale);

@@ -13,8 +13,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kFalseAlarms = 1e-6;  // of each comparison
-
 /// A triangle in the plane z = 0 that faces +z.
 TriangleMesh facing_up() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}; }
 

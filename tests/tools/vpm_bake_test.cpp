@@ -8,7 +8,7 @@ namespace vpm {
 namespace {
 
 /// A floor with a light over the end of both its edges, and shapes that no light map can be of.
-constexpr const char* kScene = R"(
+constexpr const char* kBakedScene = R"(
 [camera]
 position = [0, 1, 3]
 target = [0, 0, 0]
@@ -61,15 +61,9 @@ passes = 2
 emitted = 10_000
 )";
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr uint64_t kAddressSpace = 0;  // the sanitizer reserves terabytes
-#else
-constexpr uint64_t kAddressSpace = uint64_t{1} << 30;  // bytes
-#endif
-
 class VpmBake : public VpmBinary {
  protected:
-  VpmBake() { write("scene.toml", kScene); }
+  VpmBake() { write("scene.toml", kBakedScene); }
   void refuses(const std::string& mesh, const std::vector<std::string>& words,
                const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments{"bake", "scene.toml", "--mesh", mesh, "-o", "a.exr", "--resolution", "8"};
@@ -132,7 +126,7 @@ TEST_F(VpmBake, LeavesThePictureOfTheSceneAlone) {
 TEST_F(VpmBake, NeverReplacesAFileThatTheSceneIsReadFrom) {
   write_exr(path("tiles.exr"), Image(2, 2), {}, {});
   write("tiled.toml",
-        std::string(kScene) +
+        std::string(kBakedScene) +
             "[[shapes]]\nname = 'tiled'\ntype = 'quad'\ncorner = [-1, 5, 1]\nedge_u = [2, 0, 0]\n"
             "edge_v = [0, 0, -2]\nmaterial = { type = 'mirror', reflectance = { texture = 'tiles.exr' } }\n");
   const std::string tiles = read("tiles.exr");
@@ -144,7 +138,7 @@ TEST_F(VpmBake, TexelsThatNothingCoversAreTold) {
   write(
       "part.obj",
       "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 0.5 0\nvt 0.5 0.5\nvt 0 0.5\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
-  write("part.toml", std::string(kScene) +
+  write("part.toml", std::string(kBakedScene) +
                          "[[shapes]]\nname = 'part'\ntype = 'mesh'\npath = 'part.obj'\nmaterial = 'white'\n"
                          "transform = [{ translate = [0, 0.01, 0] }]\n");
   vpm_succeeds({"bake", "part.toml", "--mesh", "part", "-o", "a.exr", "--resolution", "16"});
@@ -175,7 +169,7 @@ TEST_F(VpmBake, RefusesCoordinatesThatAreNoMap) {
   const auto with_mesh = [&](const std::string& coordinates) {
     write("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\n" + coordinates + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
     write("scene.toml",
-          std::string(kScene) + "[[shapes]]\nname = 'bad'\ntype = 'mesh'\npath = 'bad.obj'\nmaterial = 'white'\n");
+          std::string(kBakedScene) + "[[shapes]]\nname = 'bad'\ntype = 'mesh'\npath = 'bad.obj'\nmaterial = 'white'\n");
   };
   with_mesh("vt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n");
   refuses("bad", {"--mesh bad: a corner of triangle 0 has the texture coordinates (2, 0)", "[0, 1]"});
@@ -188,7 +182,7 @@ TEST_F(VpmBake, RefusesManyOverlapsBeforeTheyFillTheMemory) {
   for (int i = 0; i < 1000; ++i) mesh += "f 1/1 2/2 3/3\n";
   write("bad.obj", mesh);
   write("scene.toml",
-        std::string(kScene) + "[[shapes]]\nname = 'bad'\ntype = 'mesh'\npath = 'bad.obj'\nmaterial = 'white'\n");
+        std::string(kBakedScene) + "[[shapes]]\nname = 'bad'\ntype = 'mesh'\npath = 'bad.obj'\nmaterial = 'white'\n");
   vpm_refuses({"bake", "scene.toml", "--mesh", "bad", "--resolution", "1024"},
               {"overlap in texture coordinates near ("}, kAddressSpace);
 }

@@ -15,6 +15,14 @@
 
 namespace vpm {
 
+/// Bytes of address space for runs that must make do with little, the program's own included; 0: any number, as the
+/// address sanitizer reserves terabytes.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr uint64_t kAddressSpace = 0;
+#else
+inline constexpr uint64_t kAddressSpace = uint64_t{1} << 30;
+#endif
+
 class VpmBinary : public ::testing::Test {
  protected:
   VpmBinary() {

@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const std::string kScene = ball_of_fog(6, 4);
+const std::string kBallOfFog = ball_of_fog(6, 4);
 
 /// One ray for each pixel against four: in passes the second is four times as efficient, whatever the scene.
 constexpr const char* kKnownRatio = R"(
@@ -44,7 +44,7 @@ class VpmCompare : public VpmBinary {
 };
 
 TEST_F(VpmCompare, RecoversARatioKnownByConstruction) {
-  write("fog.toml", kScene);
+  write("fog.toml", kBallOfFog);
   write("known.toml", kKnownRatio);
   const ProcessResult result = vpm_succeeds({"compare", "known.toml", "-o", "out"});
   EXPECT_NE(result.out.find("4 is "), std::string::npos) << result.out;
@@ -70,7 +70,7 @@ TEST_F(VpmCompare, RecoversARatioKnownByConstruction) {
 }
 
 TEST_F(VpmCompare, GoesOnWhereItWasInterruptedAndRepeatsNothing) {
-  write("fog.toml", kScene);
+  write("fog.toml", kBallOfFog);
   write("two.toml", R"(
 title = "Two radii"
 unit = "photons"
@@ -110,7 +110,8 @@ file = "fog.toml"
 }
 
 TEST_F(VpmCompare, TakesExactPicturesForReferences) {
-  const std::string even_light = kScene.substr(0, kScene.find("[[lights]]")) + "[[lights]]\ntype = \"environment\"\n";
+  const std::string even_light =
+      kBallOfFog.substr(0, kBallOfFog.find("[[lights]]")) + "[[lights]]\ntype = \"environment\"\n";
   write("fog.toml", even_light + "radiance = 2\n[photons]\nemitted = 2000\n");
   write("exact.toml", R"(
 title = "Paths against the exact solution"
@@ -138,7 +139,7 @@ reference = "exact"
 }
 
 TEST_F(VpmCompare, BiasesBesideReferencesInDoubtAreNotJudged) {
-  write("fog.toml", kScene);
+  write("fog.toml", kBallOfFog);
   vpm_succeeds({"render", "fog.toml", "-o", "photons.exr", "--passes", "2"});
   vpm_succeeds({"render", "fog.toml", "-o", "paths.exr", "--passes", "2", "--set", "render.integrator=path"});
   vpm_succeeds({"render", "fog.toml", "-o", "one.exr", "--passes", "1", "--set", "render.integrator=path"});
@@ -163,7 +164,7 @@ TEST_F(VpmCompare, BiasesBesideReferencesInDoubtAreNotJudged) {
 }
 
 TEST_F(VpmCompare, RefusesBeforeItRenders) {
-  write("fog.toml", kScene);
+  write("fog.toml", kBallOfFog);
   const std::string head = "title = \"t\"\nbudgets = [1]\n[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";
   write("unknown.toml", head + "[product]\nvolume.radios = [1, 2]\n");
   vpm_refuses({"compare", "unknown.toml", "-o", "out"}, {"scene 'fog'", "--set volume.radios=1", "unknown key"});

@@ -16,13 +16,6 @@ namespace {
 
 constexpr int kWidth = 32, kHeight = 24;
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr uint64_t kAddressSpace =
-    0;  // the sanitizer reserves terabytes; the peak of resident memory is looked at either way
-#else
-constexpr uint64_t kAddressSpace = uint64_t{1} << 30;  // bytes, the program's own included
-#endif
-
 /// A scene that shows something of width `size` at `centre` in black space, lit by a light from the upper right.
 /// `medium` has the keys of its fog.
 std::string view_of(const Vec3d& centre, double size, const std::string& medium) {

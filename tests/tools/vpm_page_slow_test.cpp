@@ -20,14 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kWidth = 12, kHeight = 8;
+constexpr int kPageWidth = 12, kPageHeight = 8;
 constexpr int kScreenWidth = 1000, kScreenHeight = 2500;  // pixels
 
 /// Colours that a reader's system prefers, as Chromium numbers them.
 enum class Scheme { dark, light };
 
-const std::string kScene =
-    "# </script><script>fail('a scene\\'s text is no script')</script>\n" + ball_of_fog(kWidth, kHeight);
+const std::string kPageScene =
+    "# </script><script>fail('a scene\\'s text is no script')</script>\n" + ball_of_fog(kPageWidth, kPageHeight);
 
 /// Two scenes and two methods, one of them biased beside the other. What texts mean in HTML, and the names of places in
 /// the template, mean nothing here.
@@ -52,7 +52,7 @@ reference = "known.exr"
 /// A picture whose every value is another. It is so bright that the method with the least variance has not the least
 /// error.
 Image known_picture() {
-  Image image(kWidth, kHeight);
+  Image image(kPageWidth, kPageHeight);
   for (size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = Rgb(0.001f, 0.0013f, 0.0017f) * (60.0f + static_cast<float>(i));
   return image;
@@ -101,7 +101,7 @@ int count_of(const std::string& text, const std::string& what) {
 class VpmPage : public VpmBinary {
  protected:
   VpmPage() {
-    write("fog.toml", kScene);
+    write("fog.toml", kPageScene);
     write("experiment.toml", kExperiment);
     write_exr(path("known.exr"), known_picture(), {}, {});
     vpm_succeeds({"compare", "experiment.toml", "-o", "out"});

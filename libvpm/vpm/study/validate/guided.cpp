@@ -11,13 +11,12 @@
 #include "vpm/study/validate/groups.h"
 
 namespace vpm {
-
 namespace {
 
 const Vec3 kUp(0.0f, 0.0f, 1.0f);
-constexpr size_t kGuideRings = 4,
-                 kGuideCells = kGuideRings * kSectors;  // of directions, of equal solid angle about the z axis
-const Rgb kPower(1.0f, 0.6f, 0.3f);                     // W, that comes
+constexpr size_t kGuideRings = 4;  // of directions, of equal solid angle about the z axis
+constexpr size_t kGuideCells = kGuideRings * kSectors;
+const Rgb kArrivingPower(1.0f, 0.6f, 0.3f);  // W
 
 /// One cube that knows of some light along all directions and of much along a few.
 DirectionGuide lopsided() {
@@ -35,7 +34,7 @@ struct Outcome {
   Vec3 direction{0.0f};
 };
 
-/// scatter(guide, rng) makes an event of kPower: by the guide as without one (a null pointer).
+/// scatter(guide, rng) makes an event of kArrivingPower: by the guide as without one (a null pointer).
 template <class ScatterOnce>
 std::vector<Check> compare(const std::string& name, const DirectionGuide& guide, const Effort& effort,
                            const ScatterOnce& scatter) {
@@ -47,7 +46,7 @@ std::vector<Check> compare(const std::string& name, const DirectionGuide& guide,
       const double power = sum_channels(after.power);
       out[cell_of(0.5 * away_from(kUp, after.direction), kGuideRings) * kSectors + sector_about(kUp, after.direction)] =
           power;
-      out[kGuideCells] = power + sum_channels(after.absorbed - kPower);
+      out[kGuideCells] = power + sum_channels(after.absorbed - kArrivingPower);
     });
   };
   // So many without a guide that their errors hardly count, which are not quite independent from cell to cell.
@@ -74,9 +73,9 @@ std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort
                                     {"Henyey-Greenstein, g = 0.6", HenyeyGreenstein{0.6f}}}) {
     fog.phase = phase;
     append(checks, compare(name, guide, effort, [&](const DirectionGuide* by, Rng& rng) {
-             PathState state{ray, 0, kPower};
+             PathState state{ray, 0, kArrivingPower};
              const bool alive = by ? scatter_in_medium(*by, fog, state, rng) : scatter_in_medium(fog, state, rng);
-             return Outcome{alive ? state.throughput : Rgb(0.0f), kPower * (Rgb(1.0f) - fog.albedo()),
+             return Outcome{alive ? state.throughput : Rgb(0.0f), kArrivingPower * (Rgb(1.0f) - fog.albedo()),
                             state.ray.direction};
            }));
   }
@@ -109,12 +108,12 @@ std::vector<Check> check_surfaces(const DirectionGuide& guide, const Effort& eff
       assert(met);
       const std::string full = fmt::format("{} from {}", name, side > 0.0f ? "above" : "below");
       append(checks, compare(full, guide, effort, [&](const DirectionGuide* by, Rng& rng) {
-               PathState state{ray, kVacuum, kPower};
+               PathState state{ray, kVacuum, kArrivingPower};
                Scatter scatter;
                const bool alive = by ? scatter_at_surface(*by, scene, met.hits[0], state, rng, scatter)
                                      : scatter_at_surface(scene, met.hits[0], state, rng, scatter);
                return Outcome{alive ? state.throughput * scatter.flux_scale : Rgb(0.0f),
-                              kPower * (Rgb(1.0f) - scatter.weight * scatter.flux_scale), state.ray.direction};
+                              kArrivingPower * (Rgb(1.0f) - scatter.weight * scatter.flux_scale), state.ray.direction};
              }));
     }
   }
