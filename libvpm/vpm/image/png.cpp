@@ -48,9 +48,9 @@ struct OpenPng {
 
 /// The four bytes of each pixel: red, green, blue, opacity.
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path, int& width, int& height) {
-  constexpr double kMostBytes = 0x1p30;
+  constexpr double kMostPixelBytes = 0x1p30;
   OpenPng open(path);
-  if (double{sizeof(Rgb)} * open.png.width * open.png.height > kMostBytes)
+  if (double{sizeof(Rgb)} * open.png.width * open.png.height > kMostPixelBytes)
     throw InputError("'" + path.string() + "' takes more than 1 GiB in memory");
   if (open.png.format & PNG_FORMAT_FLAG_LINEAR)
     throw InputError("'" + path.string() + "' has 16 bits a channel; write it with 8, or as an .exr");
