@@ -7,6 +7,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/vpmDependencies.cmake)
 unset(CMAKE_FIND_PACKAGE_NAME)
 unset(vpm_FIND_REQUIRED)
 
+find_package(Boost 1.74 REQUIRED)  # only headers, those of Boost.Math
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)  # only its headers
 find_package(tomlplusplus CONFIG REQUIRED)  # only its headers: input/toml_reader.cpp says why
 if(NOT PROJECT_IS_TOP_LEVEL)

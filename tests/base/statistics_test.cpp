@@ -8,7 +8,6 @@
 
 #include "vpm/base/line_fit.h"
 #include "vpm/base/rng.h"
-#include "vpm/base/tails.h"
 
 namespace vpm {
 namespace {

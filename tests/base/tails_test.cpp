@@ -10,8 +10,7 @@
 namespace vpm {
 namespace {
 
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN(),
-                 kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 TEST(NormalTail, KnownValues) {
   EXPECT_EQ(normal_tail(0.0), 1.0);
@@ -54,7 +53,7 @@ TEST(Chi2Tail, KnownValues) {
 
 TEST(Chi2Tail, Ends) {
   EXPECT_EQ(chi2_tail(0.0, 7.0), 1.0);
-  EXPECT_EQ(chi2_tail(kInfinity, 7.0), 0.0);
+  EXPECT_EQ(chi2_tail(HUGE_VAL, 7.0), 0.0);
   EXPECT_EQ(chi2_tail(1e6, 7.0), 0.0);
   EXPECT_TRUE(std::isnan(chi2_tail(kNotANumber, 7.0)));
 }
@@ -80,7 +79,7 @@ TEST(StudentTail, BecomesNormal) {
     EXPECT_NEAR(student_tail(t, dof) / normal_tail(z), 1.0, 1e-8 * z * z * z * z * z) << z;
   }
   EXPECT_NEAR(student_tail(2.0, 1e12) / normal_tail(2.0), 1.0, 1e-10);
-  EXPECT_DOUBLE_EQ(student_tail(2.0, kInfinity), normal_tail(2.0));
+  EXPECT_DOUBLE_EQ(student_tail(2.0, HUGE_VAL), normal_tail(2.0));
   EXPECT_TRUE(std::isnan(student_tail(kNotANumber, 7.0)));
 }
 

@@ -62,7 +62,7 @@ struct VolumeEstimates {
   GatherCounters counters;
 };
 
-/// VolumeEstimates of the density of photons, 1/m^3, at a point, over the density that they have in the box.
+/// Estimates of the density of photons, 1/m^3, at a point, over the density that they have in the box.
 VolumeEstimates estimate(const Scene& scene, const Vec3& point, const GatherSettings& gather, const Box& box,
                          uint64_t trials, uint64_t use) {
   const auto& [lo, hi] = box;

@@ -84,7 +84,7 @@ TEST(BoundariesExtremes, NestedAndTouchingGlassIsInvisibleInUniformLight) {
     finish(scene);
     RenderSettings settings = settings_of(10, 0.1f);
     settings.max_events = 100;  // light may circle for ever in a hollow ball: cut there, and counted
-    const Pass pass = render_photon_pass(scene, settings, 0, kGoOn);
+    const Pass pass = render_photon_pass(scene, settings, 0, kNeverStopped);
     uint64_t dark = 0;
     for (const Rgb& pixel : pass.image.pixels) {
       dark += pixel == Rgb(0.0f);

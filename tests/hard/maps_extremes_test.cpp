@@ -56,7 +56,7 @@ TEST(MapsExtremes, KNearestWhereAllKCoincideWithTheQueryIsNoNumberAndCounted) {
   RenderSettings settings = settings_of(100'000, 4.0f);  // most miss: the sphere around the scene is rounded up, too
   settings.surface_direct = DirectLight::photons;
   settings.surface.mode = GatherMode::nearest;
-  const Pass pass = render_photon_pass(scene, settings, 0, kGoOn);
+  const Pass pass = render_photon_pass(scene, settings, 0, kNeverStopped);
   for (const Rgb& pixel : pass.image.pixels) EXPECT_TRUE(is_finite(pixel));
   EXPECT_GT(pass.statistics.eye.non_finite, 0u);
   settings.surface.mode = GatherMode::radius;

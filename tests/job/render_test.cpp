@@ -30,7 +30,7 @@ RenderJob lit_floor() {
   return make_job(assemble(std::move(parts)), settings);
 }
 
-RenderResult render_until(const RenderJob& job, const StopRule& until, const std::atomic<bool>& stop = kGoOn) {
+RenderResult render_until(const RenderJob& job, const StopRule& until, const std::atomic<bool>& stop = kNeverStopped) {
   RenderSettings settings = job.settings;
   settings.until = until;
   return render(job.scene, settings, nothing_rendered(job.scene.camera), {stop});
@@ -108,7 +108,7 @@ TEST(RenderJob, TellsItsErrorsAfterEachPass) {
     EXPECT_EQ(read_exr_channels(path).planes.contains("variance.R"), told > 1);
     EXPECT_FALSE(render_report(job, path, so_far).empty());
   };
-  render(job.scene, settings, nothing_rendered(job.scene.camera), {kGoOn, ProgressMode::never, finished});
+  render(job.scene, settings, nothing_rendered(job.scene.camera), {kNeverStopped, ProgressMode::never, finished});
   EXPECT_EQ(told, kLeastPasses + 1);
 }
 

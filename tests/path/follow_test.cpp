@@ -35,7 +35,7 @@ Scene glass_in_fog() {
 
 /// What a visitor is shown and asked, in its order.
 struct Recorder {
-  int most = kAnyNumberOfEvents;   // events after which it ends the path
+  int most = kNoEventLimit;        // events after which it ends the path
   float flight = kInfinity;        // m, its limit
   float kept = 1.0f;               // of the power, by what it does in see()
   std::vector<EventKind> kinds{};  // of the events seen

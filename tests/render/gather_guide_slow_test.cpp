@@ -7,7 +7,6 @@
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface/gather_guide.h"
 #include "vpm/medium/make_grid.h"
-#include "vpm/photon/photon_lists.h"
 #include "vpm/photon/records.h"
 #include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
@@ -127,7 +126,7 @@ Moments gathered(const Scene& scene, bool guided, const Ray& ray, int samples, E
   if (!guided) settings.gather_by = GatherBy::material;
   RenderStatistics statistics;
   const Estimators estimators = plan_estimators(scene, settings, 0);
-  prepare_pass(scene, settings, estimators, {.stop = kGoOn}, statistics);
+  prepare_pass(scene, settings, estimators, {.stop = kNeverStopped}, statistics);
   const Hit hit = *scene.geometry.intersect(ray);
   const Material material = material_at(scene, hit);
   const SurfaceView view{hit, material, ray.direction, kVacuum};

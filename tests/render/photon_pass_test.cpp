@@ -18,7 +18,7 @@ namespace {
 Moments pass_means(const Scene& scene, const RenderSettings& settings, int passes) {
   Moments means;
   for (int pass = 0; pass < passes; ++pass) {
-    const Image image = render_photon_pass(scene, settings, pass, kGoOn).image;
+    const Image image = render_photon_pass(scene, settings, pass, kNeverStopped).image;
     double sum = 0.0;
     for (const Rgb& p : image.pixels) sum += sum_channels(p) / 3.0;
     means.add(sum / static_cast<double>(image.pixels.size()));
@@ -124,7 +124,7 @@ TEST(PhotonPass, FogDimsBeforeAndBehindThePhotons) {
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays, DirectLight::equiangular})
     for (auto [name, settings] : volume_estimates(settings_of(1000, 0.05f))) {
       settings.volume_direct = direct;
-      const Image image = render_photon_pass(scene, settings, 0, kGoOn).image;
+      const Image image = render_photon_pass(scene, settings, 0, kNeverStopped).image;
       for (const Rgb& pixel : image.pixels)
         for (int c = 0; c < 3; ++c) {
           // 4 m to the panel, up to 0.1 % more at the corners.
@@ -193,7 +193,8 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
   finish(scene);
   RenderSettings settings = settings_of(1000, 0.05f);
   const double exact = 0.5 / kPiD * 1.0 / std::sqrt(1.05);
-  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kGoOn).image.pixels) EXPECT_NEAR(pixel.r, exact, 1e-4);
+  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kNeverStopped).image.pixels)
+    EXPECT_NEAR(pixel.r, exact, 1e-4);
 }
 
 TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
@@ -207,8 +208,8 @@ TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
     std::vector<WalkCounters> walks;
     for (int pass = 0; pass < 3; ++pass) {
       const bool photons = integrator == Integrator::photon;
-      const RenderStatistics s = photons ? render_photon_pass(scene, settings, pass, kGoOn).statistics
-                                         : render_path_pass(scene, settings, pass, kGoOn).statistics;
+      const RenderStatistics s = photons ? render_photon_pass(scene, settings, pass, kNeverStopped).statistics
+                                         : render_path_pass(scene, settings, pass, kNeverStopped).statistics;
       walks.push_back(photons ? s.ledger.walk : s.eye.walk);
     }
     const auto share_of_violations = [&](size_t pass) {
@@ -230,7 +231,7 @@ TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
   EXPECT_FALSE(plan_estimators(no_surface, {}, 0).surface);
   EXPECT_FALSE(casts_shadow_rays(scattering_of(no_surface), {}));
   const auto statistics = [](const Scene& scene) {
-    return render_photon_pass(scene, settings_of(100, 0.1f), 0, kGoOn).statistics;
+    return render_photon_pass(scene, settings_of(100, 0.1f), 0, kNeverStopped).statistics;
   };
   EXPECT_EQ(statistics(no_medium).last_volume_radius, 0.0f);
   EXPECT_EQ(statistics(no_medium).last_surface_radius, 0.1f);

@@ -129,7 +129,7 @@ RenderSettings per_pixel(uint64_t photons) {
 }
 
 RenderResult render_all(const Scene& scene, const RenderSettings& settings) {
-  return render(scene, settings, nothing_rendered(scene.camera), {kGoOn});
+  return render(scene, settings, nothing_rendered(scene.camera), {kNeverStopped});
 }
 
 TEST(RadiiOfPixels, ShrinkTheLaterTheFewerPhotonsArrive) {

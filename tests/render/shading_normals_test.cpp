@@ -165,8 +165,8 @@ TEST(ShadingNormals, ADiffusePlateIsAsBrightAsItsShadingCosine) {
     const bool by_photons = direct == DirectLight::photons;
     Moments mean;
     for (int pass = 0; pass < (by_photons ? 12 : 2); ++pass) {
-      const Pass rendered = integrator == Integrator::path ? render_path_pass(scene, settings, pass, kGoOn)
-                                                           : render_photon_pass(scene, settings, pass, kGoOn);
+      const Pass rendered = integrator == Integrator::path ? render_path_pass(scene, settings, pass, kNeverStopped)
+                                                           : render_photon_pass(scene, settings, pass, kNeverStopped);
       double sum = 0.0;
       for (const Rgb& pixel : rendered.image.pixels) sum += pixel.g;
       mean.add(sum / static_cast<double>(rendered.image.pixels.size()));

@@ -83,7 +83,6 @@ TEST(SlowExactPicture, BlackFogOnlyAttenuates) {
 }
 
 TEST(SlowExactPicture, IsWhatThePathTracerSees) {
-  constexpr double kFalseAlarmsOfPixels = 1e-6;  // of each pixel and channel
   const Scene scene = finished(ball_of(fog(Rgb(0.5f, 1.0f, 2.0f), Rgb(0.5f, 0.9f, 0.99f))));
   const Image image = exact_picture(scene);
   const PathContext context = make_path_context(scene, {});
@@ -96,7 +95,7 @@ TEST(SlowExactPicture, IsWhatThePathTracerSees) {
     });
     const Rgb& exact = image.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     for (int c = 0; c < 3; ++c) {
-      const double noise = normal_quantile(kFalseAlarmsOfPixels) * std::sqrt(radiance[c].variance_of_mean());
+      const double noise = normal_quantile(kFalseAlarms) * std::sqrt(radiance[c].variance_of_mean());
       EXPECT_NEAR(radiance[c].mean(), exact[c], noise + 1e-5 * kSky[c]) << pixel.x << ", " << pixel.y;
       EXPECT_LT(noise, 0.05 * kSky[c]);
     }

@@ -4,7 +4,7 @@
 #include "support/normal.h"
 #include "support/statistics.h"
 #include "vpm/base/tails.h"
-#include "vpm/study/compare/summary.h"
+#include "vpm/study/compare/resampling.h"
 
 namespace vpm {
 namespace {

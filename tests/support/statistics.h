@@ -13,7 +13,7 @@
 
 namespace vpm {
 
-/// The rate of those that compare once, and whose test needs no other.
+/// The false-alarm rate of a single comparison, unless a test states its own.
 inline constexpr double kFalseAlarms = 1e-6;
 
 /// z-test: the mean of the samples is `expected`.

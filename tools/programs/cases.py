@@ -222,9 +222,10 @@ def unused_words(cases):
     """
     given = {change for case in cases for flag, change in zip(case.arguments, case.arguments[1:]) if flag == "--set"}
     given = {word for change in given for word in [change, change.partition("=")[0]]}
-    page = (SCENES / "README.md").read_text().partition("a test compares. -->")[2].partition("<!-- The end of the table. -->")[0]
+    page = (SCENES / "README.md").read_text()
+    table = re.search(r"a test compares\. -->(.*)<!-- The end of the table\. -->", page, re.DOTALL)[1]
     sections, unused = [], []
-    for cells in (re.split(r"(?<!\\)\|", line)[1:-1] for line in page.splitlines() if line.startswith("|")):
+    for cells in (re.split(r"(?<!\\)\|", line)[1:-1] for line in table.splitlines() if line.startswith("|")):
         if len(cells) != 5:
             continue
         sections = re.findall(r"`\[(\w+)\]`", cells[0]) or sections
@@ -234,4 +235,6 @@ def unused_words(cases):
         for word in re.findall(r'`"([\w-]+)"`', cells[3]):
             if not any(change.startswith(tuple(f"{section}." for section in sections)) and change.endswith(f"={word}") for change in given):
                 unused.append(f'"{word}" of {cells[1].strip()}')
+    if not sections:
+        raise ValueError("no row of the table of scenes/README.md was read")
     return [name for name in unused if name not in TIMED]

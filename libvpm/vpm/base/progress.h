@@ -9,8 +9,8 @@
 
 namespace vpm {
 
-/// The stop of work that nobody stops.
-inline const std::atomic<bool> kGoOn{false};
+/// A stop flag that is never set.
+inline const std::atomic<bool> kNeverStopped{false};
 
 /// When progress is shown: automatic = where stderr is a terminal.
 enum class ProgressMode { automatic, always, never };

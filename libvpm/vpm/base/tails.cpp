@@ -1,4 +1,4 @@
-// By Boost.Math.
+// Tails and quantiles, computed by Boost.Math.
 #include "vpm/base/tails.h"
 
 #include <boost/math/distributions/students_t.hpp>

@@ -139,7 +139,7 @@ Ledger flights_of(const Scene& scene, const RenderSettings& settings) {
   trace.emitted = settings.photons_emitted;
   trace.stored = settings.photons_stored;
   trace.max_events = settings.max_events;
-  trace.stop = &kGoOn;
+  trace.stop = &kNeverStopped;
   const bool maps_density =
       settings.integrator == Integrator::photon && settings.volume_form == VolumeForm::density_at_query;
   const auto strategy = make_distance_strategy(settings.distance, {.density = maps_density});
@@ -155,7 +155,7 @@ struct PilotPass {
 PilotPass trace(const Scene& scene, const RenderSettings& settings) {
   RenderStatistics statistics;
   Estimators estimators = plan_estimators(scene, settings, 0);
-  trace_pass(scene, settings, estimators, {.stop = kGoOn}, statistics);
+  trace_pass(scene, settings, estimators, {.stop = kNeverStopped}, statistics);
   return {std::move(estimators), statistics.ledger};
 }
 
@@ -220,7 +220,7 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings) {
   const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
   RenderStatistics s;
   const Estimators estimators = plan_estimators(scene, pilot, 0);
-  prepare_pass(scene, pilot, estimators, {.stop = kGoOn}, s);
+  prepare_pass(scene, pilot, estimators, {.stop = kNeverStopped}, s);
   const EyeContext context{scene, estimators, pilot.max_events};
   std::array<EyeCounters, size_t{kBlocks} * kBlocks> counters;
   const auto start = std::chrono::steady_clock::now();

@@ -27,7 +27,7 @@ struct RenderResult {
 
 /// How a render is watched and stopped.
 struct RunControl {
-  const std::atomic<bool>& stop = kGoOn;  // once set, the pass under way is dropped; those finished are kept
+  const std::atomic<bool>& stop = kNeverStopped;  // once set, the pass under way is dropped; those finished are kept
   ProgressMode progress = ProgressMode::never;
   std::function<void(const RenderResult&)> finished = {};  // is told of each further pass
 };

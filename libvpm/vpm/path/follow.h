@@ -1,4 +1,4 @@
-// The loop of the only random walk: it follows a path from event to event and shows each event to a visitor.
+// The loop of the random walk: it follows a path from event to event and shows each event to a visitor.
 //
 // A visitor is any object with these members. They are looked up at compile time:
 //
@@ -28,14 +28,14 @@
 namespace vpm {
 
 /// The limit of events for paths that end by themselves.
-inline constexpr int kAnyNumberOfEvents = std::numeric_limits<int>::max();
+inline constexpr int kNoEventLimit = std::numeric_limits<int>::max();
 
 /// What a walk needs, and the counters that it adds to.
 struct Walk {
   const Scene& scene;
   const DistanceStrategy& strategy;
   WalkCounters& counters;
-  int max_events = kAnyNumberOfEvents;  // of one path
+  int max_events = kNoEventLimit;  // of one path
 };
 
 /// Follows a path until the visitor ends it, it is absorbed, it escapes, its throughput is 0, or it has met as many

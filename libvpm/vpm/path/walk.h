@@ -1,4 +1,4 @@
-// The only random walk: how every path meets shapes, changes media, flies to events and goes on from them.
+// The events of the random walk: how every path meets shapes, changes media, flies to events and goes on from them.
 #pragma once
 
 #include <cstdint>

@@ -12,14 +12,15 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kSums = ExactSums::kCount;  // values
-constexpr size_t kBlockChunk = 32;           // blocks, of parallel work
+constexpr size_t kBlockValues = ExactSums::kCount;
+constexpr size_t kBlockChunk = 32;  // blocks, of parallel work
 
 /// Calls work(block, first, end) for each block of an image's values, on all threads.
 void for_blocks(size_t values, const std::function<void(size_t block, size_t first, size_t end)>& work) {
-  const size_t blocks = chunk_count(values, kSums);
+  const size_t blocks = chunk_count(values, kBlockValues);
   parallel_for_chunks(blocks, kBlockChunk, [&](size_t begin, size_t end, size_t) {
-    for (size_t block = begin; block < end; ++block) work(block, block * kSums, std::min(values, (block + 1) * kSums));
+    for (size_t block = begin; block < end; ++block)
+      work(block, block * kBlockValues, std::min(values, (block + 1) * kBlockValues));
   });
 }
 
@@ -45,7 +46,7 @@ struct BlockTotals {
 
   ExactSums::Values means(int n) const {
     ExactSums::Values means;
-    for (size_t i = 0; i < kSums; ++i) means[i] = sum(i).value() / n;
+    for (size_t i = 0; i < kBlockValues; ++i) means[i] = sum(i).value() / n;
     return means;
   }
   /// Of the means of n passes.
@@ -53,7 +54,7 @@ struct BlockTotals {
     const ExactSums::Totals squares = of_squares.totals();
     const double count = n, scale = count * count * (count - 1.0);
     ExactSums::Values variances;
-    for (size_t i = 0; i < kSums; ++i) variances[i] = scaled_covariance(n, squares[i], sum(i), sum(i)) / scale;
+    for (size_t i = 0; i < kBlockValues; ++i) variances[i] = scaled_covariance(n, squares[i], sum(i), sum(i)) / scale;
     return variances;
   }
 };
@@ -70,7 +71,7 @@ struct BiasLine {
     ExactSums::Values biases{};
     if (spread == 0.0) return biases;
     const ExactSums::Totals products = of_products.totals();
-    for (size_t i = 0; i < kSums; ++i)
+    for (size_t i = 0; i < kBlockValues; ++i)
       biases[i] = scaled_covariance(passes, products[i], values[i], squares) * (mean / spread);
     return biases;
   }
@@ -100,7 +101,7 @@ void merge_all(std::vector<ExactSums>& sums, const std::vector<ExactSums>& other
 }  // namespace
 
 size_t Film::blocks(int width, int height) {
-  return chunk_count(3 * static_cast<size_t>(width) * static_cast<size_t>(height), kSums);
+  return chunk_count(3 * static_cast<size_t>(width) * static_cast<size_t>(height), kBlockValues);
 }
 
 Film::Film(int width, int height) : width_(width), height_(height) {
@@ -120,7 +121,7 @@ void Film::add(int pass, const Image& image, float relative_square) {
     // Products of floats are exact in double precision.
     ExactSums::Values values{}, squares, products;
     for (size_t i = first; i < end; ++i) values[i - first] = value_at(image, i);
-    for (size_t i = 0; i < kSums; ++i) {
+    for (size_t i = 0; i < kBlockValues; ++i) {
       squares[i] = values[i] * values[i];
       products[i] = values[i] * double{relative_square};
     }
@@ -185,7 +186,7 @@ FilmErrors Film::errors() const {
     const ExactSums::Values of_a = lines[0].biases(a.products[block], totals.values[0]);
     const ExactSums::Values of_b = lines[1].biases(b.products[block], totals.values[1]);
     ExactSums::Values biases;
-    for (size_t i = 0; i < kSums; ++i) biases[i] = 0.5 * (of_a[i] + of_b[i]);
+    for (size_t i = 0; i < kBlockValues; ++i) biases[i] = 0.5 * (of_a[i] + of_b[i]);
     put(variances, errors.variance, first, end);
     put(biases, errors.bias, first, end);
     for (size_t i = 0; i < end - first; ++i) {

@@ -72,7 +72,7 @@ struct RenderSettings {
                                   // what the other photons bring
   RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode
   VolumeForm volume_form = VolumeForm::density_at_query;
-  float density_floor = 0.0f;  // density at the query: bounds photons' weights, see TraceSettings; in [0, 1]
+  float density_floor = 0.0f;  // density at the query: bounds photons' weights, see stored_power(); in [0, 1]
   DirectLight volume_direct = DirectLight::photons;  // single scattering
   int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
   DirectLight surface_direct = DirectLight::shadow_rays;

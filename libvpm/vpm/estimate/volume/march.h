@@ -1,9 +1,10 @@
 // Marching an eye ray through a medium. The step size may change cost and noise, but never brightness.
 //
 // The integral of Tr(t) density(t) f(t) over the ray is cut into steps. Each step takes ONE sample of f, at a point
-// drawn in proportion to density times transmittance, and weights it by the exact integral of Tr(t) density(t) over the
-// step. Density integrals come from the exact quartics of the cells, so the result is unbiased for any step. f = 1
-// gives (1 - Tr)/sigma_t with no noise at all.
+// drawn in proportion to density times the transmittance of the thickest channel, and weights it, in that channel, by
+// the exact integral of Tr(t) density(t) over the step. Density integrals come from the exact quartics of the cells, so
+// the result is unbiased for any step. For f = 1 it is (1 - Tr)/sigma_t without noise in the thickest channel, up to
+// where Russian roulette begins.
 #pragma once
 
 #include <algorithm>

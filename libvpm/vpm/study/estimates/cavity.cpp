@@ -12,7 +12,7 @@
 namespace vpm {
 namespace {
 
-constexpr int kCavityEvents = 10'000'000;
+constexpr int kMostCavityEvents = 10'000'000;
 
 Scene cavity_scene(const Cavity& cavity) {
   Scene scene;
@@ -39,7 +39,7 @@ Moments estimate_wall_hits(const Cavity& cavity, uint64_t photons, uint64_t seed
       if (event.kind == EventKind::surface) out[0] += at.throughput.r;
       return true;
     };
-    follow({scene, *strategy, counters, kCavityEvents}, {emission.ray, kVacuum, emission.power}, rng,
+    follow({scene, *strategy, counters, kMostCavityEvents}, {emission.ray, kVacuum, emission.power}, rng,
            PhotonVisitor{see});
   })[0];
 }
@@ -83,7 +83,7 @@ double direct_wall_irradiance(const Cavity& sphere, const Vec3& outward) {
 Moments estimate_cavity_radiance(const Cavity& cavity, const Vec3* outward, uint64_t samples, uint64_t seed) {
   const Scene scene = cavity_scene(cavity);
   RenderSettings settings;
-  settings.max_events = kCavityEvents;
+  settings.max_events = kMostCavityEvents;
   const PathContext context = make_path_context(scene, settings);
   const Vec3 eye = static_cast<float>(cavity.size) * Vec3(0.1f, 0.2f, -0.3f);
   return sample_moments(1, samples, seed, [&](Rng& rng, double* out) {

@@ -15,7 +15,7 @@
 namespace vpm {
 namespace {
 
-constexpr int kPointSourceEvents = 100'000'000;
+constexpr int kMostPointSourceEvents = 100'000'000;
 constexpr double kSigmaT = 2.0;  // 1/m; not 1, so that it cannot be forgotten
 /// A length given as optical thickness, m.
 float metres(double optical) { return static_cast<float>(optical / kSigmaT); }
@@ -113,7 +113,7 @@ std::vector<Moments> estimate_collisions_within(const PointSource& source, const
         if (r < radii[i]) out[i] += at.throughput.r;
       return true;
     };
-    follow({scene, *strategy, counters, kPointSourceEvents}, {emission.ray, 0, emission.power}, rng,
+    follow({scene, *strategy, counters, kMostPointSourceEvents}, {emission.ray, 0, emission.power}, rng,
            PhotonVisitor{see});
   });
 }
@@ -131,7 +131,7 @@ std::vector<MapFluence> estimate_map_fluence(const PointSource& source, const st
     trace.seed = effort.seed;
     trace.pass = static_cast<uint64_t>(batch);
     trace.emitted = effort.photons;
-    trace.max_events = kPointSourceEvents;
+    trace.max_events = kMostPointSourceEvents;
     trace.direct_collisions = !collided_only;
     const PhotonLists photons = list_photons(scene, *strategy, trace);
     parallel_for_chunks(distances.size(), 1, [&](size_t i, size_t, size_t) {

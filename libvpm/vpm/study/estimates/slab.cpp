@@ -9,7 +9,7 @@
 namespace vpm {
 namespace {
 
-constexpr int kSlabEvents = 10'000'000;  // of one photon
+constexpr int kMostSlabEvents = 10'000'000;  // of one photon
 
 /// Where each quantity of a photon stands in its list.
 struct Layout {
@@ -62,7 +62,7 @@ class PhotonTally {
     const double power = end_.state.throughput.r;
     double depth = -end_.state.ray.origin.y;
     const bool escaped = end_.event.kind == EventKind::escape;
-    if (end_.events == kSlabEvents || (escaped && depth > 0.0 && depth < thickness_)) {
+    if (end_.events == kMostSlabEvents || (escaped && depth > 0.0 && depth < thickness_)) {
       out_[at_.lost] += power;
       return;
     }
@@ -114,7 +114,8 @@ SlabEstimate estimate_slab(const Slab& slab, const DistanceStrategy& strategy, c
       tally.see(event, now);
       return true;
     };
-    follow({scene, strategy, counters, kSlabEvents}, {emission.ray, kVacuum, emission.power}, rng, PhotonVisitor{see});
+    follow({scene, strategy, counters, kMostSlabEvents}, {emission.ray, kVacuum, emission.power}, rng,
+           PhotonVisitor{see});
     tally.finish();
   });
   const auto part = [&](size_t begin, size_t end) {

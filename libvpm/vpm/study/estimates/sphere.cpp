@@ -10,7 +10,7 @@
 namespace vpm {
 namespace {
 
-constexpr int kSphereEvents = 10'000'000;
+constexpr int kMostSphereEvents = 10'000'000;
 
 /// The sphere with radius 1 m about the origin.
 Scene sphere_scene(const FoggySphere& sphere) {
@@ -46,7 +46,8 @@ SpherePhotons estimate_sphere_photons(const FoggySphere& sphere, uint64_t photon
       out[collisions] += event.kind == EventKind::collision;
       return true;
     };
-    follow({scene, *strategy, counters, kSphereEvents}, {emission.ray, kVacuum, Rgb(1.0f)}, rng, PhotonVisitor{see});
+    follow({scene, *strategy, counters, kMostSphereEvents}, {emission.ray, kVacuum, Rgb(1.0f)}, rng,
+           PhotonVisitor{see});
     out[escaped] = last.kind == EventKind::escape;
     out[absorbed] = last.kind == EventKind::collision;
     out[uncollided] = out[collisions] == 0.0;
@@ -58,7 +59,7 @@ SpherePaths estimate_sphere_paths(const FoggySphere& sphere, const std::vector<d
                                   const std::vector<double>& impacts, uint64_t samples, uint64_t seed) {
   const Scene scene = sphere_scene(sphere);
   RenderSettings settings;
-  settings.max_events = kSphereEvents;
+  settings.max_events = kMostSphereEvents;
   const PathContext context = make_path_context(scene, settings);
   const size_t n = radii.size();
   const std::vector<Moments> all = sample_moments(n + impacts.size(), samples, seed, [&](Rng& rng, double* out) {

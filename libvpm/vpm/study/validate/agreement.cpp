@@ -56,8 +56,8 @@ Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order
   std::vector<double> effective(means.size());
   parallel_for_chunks(means.size(), 1, [&](size_t i, size_t, size_t) {
     const int pass = static_cast<int>(i);
-    const Pass coarse = render_photon_pass(scene, settings, 2 * pass, kGoOn);
-    const Pass fine = render_photon_pass(scene, halved, 2 * pass + 1, kGoOn);
+    const Pass coarse = render_photon_pass(scene, settings, 2 * pass, kNeverStopped);
+    const Pass fine = render_photon_pass(scene, halved, 2 * pass + 1, kNeverStopped);
     means[i] = half * channel_means(fine.image) + (1.0 - half) * channel_means(coarse.image);
     const Ledger& ledger = fine.statistics.ledger;
     effective[i] = ledger.weights.sum > 0.0 ? ledger.weights.effective_sample_size() : kLeastSampleSize;

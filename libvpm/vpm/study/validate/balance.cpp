@@ -88,8 +88,8 @@ Scene scene_with_everything(const TestField& field) {
   return scene;
 }
 
-/// The photons' own ledger: of each photon, what became of its power less what it was, in the sum of channels; and over
-/// batches of photons in each channel, where these mix on their way, and what was emitted.
+/// The photons' own ledger. In the sum of channels that of each photon closes: what became of its power is what it was.
+/// In each channel those of batches close on average, because channels mix on the way; so does what was emitted.
 std::vector<Check> check_ledger(const Scene& scene, std::string_view strategy_name, const GuideSettings& guided,
                                 const Effort& effort) {
   const std::string name = fmt::format("ledger of a scene with everything, {}{}", strategy_name,

@@ -82,7 +82,7 @@ std::vector<Check> path_tracer(const Effort& effort) {
     std::vector<double> errors;
     for (const int count : n) {
       while (film.passes() < count)
-        film.add(film.passes(), render_path_pass(scene, settings, film.passes(), kGoOn).image);
+        film.add(film.passes(), render_path_pass(scene, settings, film.passes(), kNeverStopped).image);
       double sum = 0.0;
       for (const Rgb& pixel : film.mean().pixels) sum += (pixel.g - 1.0) * (pixel.g - 1.0) / 36.0;
       errors.push_back(sum);

@@ -1,7 +1,6 @@
 // Photons through convex bodies that absorb nothing, lit evenly: whatever the medium, they stay inside for 4 V/S on
 // average [Blanco2003], collide 4 integral(sigma_t dV)/S times, and leave as evenly as they came.
 #include <fmt/format.h>
-#include <array>
 
 #include "vpm/path/follow.h"
 #include "vpm/study/careful_settings.h"

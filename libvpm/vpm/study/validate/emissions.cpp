@@ -53,8 +53,9 @@ EmissionLaw point_law() {
           equal_cells(kRings * kSectors)};
 }
 
-EmissionLaw spot_law() {
-  const SpotLight light{{0.0f, 1.5f, 0.0f}, kAxis, 0.95f, 0.7f, kColour};
+/// Without a rim where `cos_outer` is the inner cosine, too.
+EmissionLaw spot_law(const std::string& name, float cos_outer) {
+  const SpotLight light{{0.0f, 1.5f, 0.0f}, kAxis, 0.95f, cos_outer, kColour};
   const double inner = 1.0 - double{light.cos_inner}, rim = double{light.cos_inner} - light.cos_outer;
   // Over the rim the intensity is 3 x^2 - 2 x^3 in x, the part of the way from the outer cosine to the inner one.
   const auto integral = [](double x) { return x * x * x - 0.5 * x * x * x * x; };
@@ -69,7 +70,7 @@ EmissionLaw spot_law() {
     const double share = rim * (integral(x) - integral(next)) / all / kSectors;
     shares.insert(shares.end(), kSectors, {share, share, share});
   }
-  return {"spot", light, 2.0 * kPiD * all * Rgbd(kColour),
+  return {name, light, 2.0 * kPiD * all * Rgbd(kColour),
           [=](const Ray& ray) {
             const double away = away_from(kAxis, ray.direction);
             const size_t ring =
@@ -283,8 +284,9 @@ std::vector<Check> check_emission(const EmissionLaw& law, const Effort& effort) 
 std::vector<Experiment> emission_experiments() {
   return {{0, "light emitted", [](const Effort& effort) {
              std::vector<Check> checks;
-             for (const EmissionLaw& law : {point_law(), spot_law(), beam_law(), quad_law(), disc_law(), sphere_law(),
-                                            mesh_law(), directional_law(), constant_law(), map_law()})
+             for (const EmissionLaw& law :
+                  {point_law(), spot_law("spot", 0.7f), spot_law("spot without a rim", 0.95f), beam_law(), quad_law(),
+                   disc_law(), sphere_law(), mesh_law(), directional_law(), constant_law(), map_law()})
                append(checks, check_emission(law, effort));
              return checks;
            }}};

@@ -1,7 +1,6 @@
 // Free flights: every distance strategy against the exact law of distances, in all fields, in grey and in colour.
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "vpm/medium/distance/strategy.h"

@@ -2,7 +2,6 @@
 // scatters. By paths from the eye, and by photons through the volume map: fluence 4 pi, and phase-weighted sums that
 // give the radiance 1 back.
 #include <fmt/format.h>
-#include <array>
 
 #include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
@@ -116,8 +115,9 @@ std::vector<Check> check_inside_glass(const Effort& effort) {
     for (const Rgb& pixel : image.pixels) sum += pixel.g;
     return check_bound(std::move(name), sum / 256.0, double{kIor} * kIor, 1e-4);
   };
-  return {check("inside a ball of glass, by paths", render_path_pass(scene, settings, 0, kGoOn).image),
-          check("inside a ball of glass, by rays that gather", render_photon_pass(scene, settings, 0, kGoOn).image)};
+  return {check("inside a ball of glass, by paths", render_path_pass(scene, settings, 0, kNeverStopped).image),
+          check("inside a ball of glass, by rays that gather",
+                render_photon_pass(scene, settings, 0, kNeverStopped).image)};
 }
 
 std::vector<Check> check_radiances(const Effort& effort) {
@@ -264,7 +264,7 @@ std::vector<Check> check_picture(const std::string& name, const Medium& medium, 
   Moments means;
   uint64_t least_shares = 0;
   for (int pass = 0; pass < static_cast<int>(effort.count(24, 400)); ++pass) {
-    const Pass found = render_photon_pass(scene, settings, pass, kGoOn);
+    const Pass found = render_photon_pass(scene, settings, pass, kNeverStopped);
     means.add(channel_means(found.image).g);
     least_shares += found.statistics.eye.gather.least_shares;
   }

@@ -51,7 +51,7 @@ std::vector<Check> check_counts(const Effort& effort) {
       const std::string name = fmt::format("{}, {}", grey ? "grey" : "colour", info.name);
       const auto samples =
           sample_moments(3, effort.count(20'000, 5'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-            walk(scene, *strategy, kAnyNumberOfEvents, rng, [&](const PathState& now) {
+            walk(scene, *strategy, kNoEventLimit, rng, [&](const PathState& now) {
               for (int c = 0; c < 3; ++c) out[c] += now.throughput[c];
             });
           });
@@ -130,7 +130,7 @@ std::vector<Check> check_absorption(const Effort& effort) {
     const std::string name = fmt::format("g = {:.2g}, absorbed at mean r^2", g);
     const auto samples =
         sample_moments(1, effort.count(40'000, 5'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-          walk(scene, *strategy, kAnyNumberOfEvents, rng, [&](const PathState& now) {
+          walk(scene, *strategy, kNoEventLimit, rng, [&](const PathState& now) {
             out[0] = glm::dot(Vec3d(now.ray.origin), Vec3d(now.ray.origin));  // the last one stays
           });
         });

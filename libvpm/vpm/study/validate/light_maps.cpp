@@ -44,7 +44,7 @@ Irradiance by_light_map(const Scene& scene, const RenderSettings& settings, uint
   const UvLayout layout = lay_out_light_map(scene, kFloor, kResolution);
   std::vector<Rgbd> means(passes);
   parallel_for_chunks(passes, 1, [&](size_t pass, size_t, size_t) {
-    means[pass] = mean_of_inner(light_map_pass(scene, settings, layout, static_cast<int>(pass), kGoOn).image);
+    means[pass] = mean_of_inner(light_map_pass(scene, settings, layout, static_cast<int>(pass), kNeverStopped).image);
   });
   Irradiance irradiance(3);
   for (const Rgbd& mean : means)

@@ -29,7 +29,7 @@ std::vector<Check> check_radii(const Effort& effort) {
   RenderSettings settings = pass_settings(effort.seed_of("radii"));
   std::vector<Check> checks;
   for (const int pass : {0, 1, 30}) {
-    const RenderStatistics found = render_photon_pass(scene, settings, pass, kGoOn).statistics;
+    const RenderStatistics found = render_photon_pass(scene, settings, pass, kNeverStopped).statistics;
     const auto check = [&](const char* name, float radius, float first, double d) {
       double measure = 1.0;
       for (int i = 1; i <= pass; ++i) measure *= (i + 4.0 / (d + 4.0)) / (i + 1.0);
@@ -40,11 +40,11 @@ std::vector<Check> check_radii(const Effort& effort) {
     check("surface radius", found.last_surface_radius, settings.surface.radius.metres(), 2.0);
     RenderSettings beams = settings;
     beams.volume.mode = GatherMode::beam;
-    check("radius around rays", render_photon_pass(scene, beams, pass, kGoOn).statistics.last_volume_radius,
+    check("radius around rays", render_photon_pass(scene, beams, pass, kNeverStopped).statistics.last_volume_radius,
           settings.volume.radius.metres(), 2.0);
   }
   settings.radii = RadiusSchedule::constant;
-  const RenderStatistics found = render_photon_pass(scene, settings, 30, kGoOn).statistics;
+  const RenderStatistics found = render_photon_pass(scene, settings, 30, kNeverStopped).statistics;
   checks.push_back(
       check_bound("volume radius that stays", found.last_volume_radius, settings.volume.radius.metres(), 0.0));
   checks.push_back(
@@ -81,25 +81,30 @@ std::vector<Check> check_pixels(int samples, const Effort& effort) {
   std::vector<TextbookPixel> textbook(result.film.mean().pixels.size(), {settings.surface.radius.metres()});
   const double power = light_power(scene.lights[0], scene.bounds).g;  // of every photon
   const auto run = [&](const RenderResult& so_far, const PassProgress& progress) {
-    Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kGoOn, progress});
+    Pass pass =
+        render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kNeverStopped, progress});
     for (size_t i = 0; i < textbook.size(); ++i) textbook[i].add(static_cast<double>(pass.found[i]), power / samples);
     return pass;
   };
-  result = run_passes(settings.until, {run, tile_count(scene.camera)}, std::move(result), {kGoOn});
+  result = run_passes(settings.until, {run, tile_count(scene.camera)}, std::move(result), {kNeverStopped});
   const double per_flux = 0.5 / kPiD / (kPiD * settings.until.passes * static_cast<double>(settings.photons_emitted));
   const Image mean = result.film.mean();
   double radius_off = 0.0, radiance_off = 0.0;
+  size_t lit = 0;
   for (size_t i = 0; i < textbook.size(); ++i) {
     const auto [radius, photons, flux] = textbook[i];
     const double radiance = per_flux * flux / (radius * radius);
     radius_off =
         std::max(radius_off, std::abs(disc_radius(result.discs[i], settings.surface.radius.metres()) / radius - 1.0));
+    lit += flux > 0.0 && mean.pixels[i].g > 0.0f;
     radiance_off = std::max(radiance_off, std::abs(mean.pixels[i].g - radiance) / (radiance + 1e-3));
   }
   const std::string at_most =
       fmt::format(", relative, at the most{}", samples == 1 ? "" : fmt::format(", of {} samples", samples));
   return {check_bound("R" + at_most, radius_off, 0.0, 1e-5),
-          check_bound("tau / (pi R^2)" + at_most, radiance_off, 0.0, 1e-4)};
+          check_bound("tau / (pi R^2)" + at_most, radiance_off, 0.0, 1e-4),
+          check_bound("pixels without light, of " + fmt::format("{} samples", samples),
+                      static_cast<double>(textbook.size() - lit), 0.0, 0.5 * static_cast<double>(textbook.size()))};
 }
 
 /// Two films of other seeds differ by as much as the variances they state; over their pixels, for many pairs.
@@ -112,7 +117,7 @@ std::vector<Check> check_variance(const Effort& effort) {
       RenderSettings settings = pass_settings(effort.seed_of(fmt::format("film {} {}", which, i)));
       settings.until.passes = 4;
       settings.radii = RadiusSchedule::constant;  // passes of one distribution
-      return render(scene, settings, nothing_rendered(scene.camera), {kGoOn}).film;
+      return render(scene, settings, nothing_rendered(scene.camera), {kNeverStopped}).film;
     };
     const Film a = film("a"), b = film("b");
     const Image mean_a = a.mean(), mean_b = b.mean(), variance_a = a.variance_of_mean(),

@@ -47,7 +47,7 @@ Moments radiance(const Scene& scene, RenderSettings settings, size_t passes, con
   const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
   std::vector<double> means(passes);
   parallel_for_chunks(passes, 1, [&](size_t i, size_t, size_t) {
-    const Image image = render_pass(scene, settings, static_cast<int>(i), kGoOn, {}).image;
+    const Image image = render_pass(scene, settings, static_cast<int>(i), kNeverStopped, {}).image;
     for (const Rgb& pixel : image.pixels) means[i] += pixel.g / static_cast<double>(image.pixels.size());
   });
   Moments all;

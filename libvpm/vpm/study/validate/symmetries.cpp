@@ -96,7 +96,8 @@ std::vector<Moments> measure(const Change& change, const Effort& effort) {
             fluence(scene.media[0].majorant(), change.point({-0.3, 0.3, 0.2}), map).g * change.scale * change.scale;
         RenderSettings own = settings;
         own.seed = rng.bits();
-        out[seen] = channel_means(render_photon_pass(scene, own, 0, kGoOn).image).g * change.scale * change.scale;
+        out[seen] =
+            channel_means(render_photon_pass(scene, own, 0, kNeverStopped).image).g * change.scale * change.scale;
       });
 }
 
