@@ -68,7 +68,7 @@ TEST_F(VpmAutomatic, AResumedRenderKeepsItsChoices) {
   vpm_succeeds(whole);
   EXPECT_TRUE(read_exr(path("a.exr")).pixels == read_exr(path("whole.exr")).pixels);
   vpm_refuses({"render", "open.toml", "-o", "a.exr", "--resume"}, {"it is of another render"});
-  vpm_succeeds({"render", "open.toml", "-o", "a.exr", "--checkpoint"});
+  vpm_succeeds({"render", "open.toml", "-o", "a.exr", "--checkpoint", "--overwrite"});
   vpm_refuses({"render", "open.toml", "--auto", "-o", "a.exr", "--resume"}, {"it is of another render"});
 }
 

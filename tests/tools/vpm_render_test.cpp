@@ -232,8 +232,8 @@ TEST_F(VpmRender, BadCommandLinesAreRefused) {
   vpm_refuses({"render", "scene.toml", "--progress", "perhaps"}, {"--progress"});
   vpm_refuses({"render", "scene.toml", "--bogus"}, {"--bogus"});
   vpm_refuses({"render"}, {"scene"});
-  vpm_refuses({"paint", "scene.toml"}, {"subcommand"});
-  vpm_refuses({}, {"subcommand"});
+  vpm_refuses({"paint", "scene.toml"}, {"there is no command 'paint'", "vpm help"});
+  vpm_refuses({}, {"SUBCOMMAND"});
 }
 
 TEST_F(VpmRender, ErrorsInScenesTellTheirPlace) {
@@ -289,8 +289,19 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
 
 TEST_F(VpmBinary, TellsItsVersionAndItsGrids) {
   expect_words(vpm_succeeds({"--version"}).out, {"vpm 0."});
-  expect_words(vpm_succeeds({"--help"}).out, {"render", "info", "error", "media"});
+  for (const char* ask : {"--help", "help"})
+    expect_words(vpm_succeeds({ask}).out, {"render", "info", "error", "media", "Example: vpm render"});
+  expect_words(vpm_succeeds({"help", "render"}).out, {"--passes", "--checkpoint", "--overwrite"});
+  vpm_refuses({}, {"Example: vpm render"});
+  vpm_refuses({"render", "smoke.vdb"}, {"smoke.vdb: this is a grid", ".toml", "vpm info smoke.vdb"});
   expect_words(vpm_succeeds({"media"}).out, {"smoke", "cloud", "constant", "ramp", "gaussian"});
+}
+
+TEST_F(VpmBinary, FailsWhereItsOutputCannotBeWritten) {
+  Process process({"/bin/sh", "-c", std::string(VPM_BINARY) + " media > /dev/full"}, {20.0, 0, folder_.string()});
+  const ProcessResult result = process.wait();
+  EXPECT_EQ(result.status, 1);
+  expect_words(result.err, {"standard output", "No space left"});
 }
 
 TEST_F(VpmBinary, MakesTheSameGridEachTime) {

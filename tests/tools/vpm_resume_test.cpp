@@ -1,6 +1,7 @@
 // Renders that end early, go on later, or stop by themselves: what is kept, and that it is the same as of one run.
 #include <signal.h>
 
+#include <fmt/format.h>
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -24,7 +25,7 @@ ProcessResult interrupt(Process& process, int signal, const std::string& sign) {
 }
 
 TEST_F(VpmRender, AnInterruptedRenderKeepsItsFinishedPasses) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     Process process(command({"render", "scene.toml", "-o", "a.exr", "--time", "50", "--progress", "always"}),
                     {60.0, 0, folder_.string()});
     // Of a render by time the time left is told once a pass is finished.
@@ -32,6 +33,7 @@ TEST_F(VpmRender, AnInterruptedRenderKeepsItsFinishedPasses) {
     EXPECT_EQ(result.status, 130) << result.err;
     const int passes = report("a.json")["passes"];
     EXPECT_GE(passes, 1);
+    EXPECT_NE(result.err.find(fmt::format("interrupted after {} pass", passes)), std::string::npos) << result.err;
     EXPECT_EQ(read_exr_channels(path("a.exr")).metadata.at("vpm.passes"), std::to_string(passes));
     vpm_succeeds({"render", "scene.toml", "-o", "whole.exr", "--passes", std::to_string(passes)});
     EXPECT_TRUE(read("a.exr") == read("whole.exr"));
@@ -53,7 +55,51 @@ TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
   }
 }
 
+TEST_F(VpmRender, UnderNohupTheEndOfTheTerminalIsNoInterruption) {
+  Process process(
+      {"/bin/sh", "-c",
+       std::string("trap '' HUP; exec ") + VPM_BINARY + " render scene.toml -o a.exr --passes 40 --progress always"},
+      {60.0, 0, folder_.string()});
+  EXPECT_EQ(interrupt(process, SIGHUP, " left").status, 0);
+  EXPECT_EQ(report("a.json")["passes"], 40);
+}
+
+TEST_F(VpmRender, AnInterruptedRenderOfSoManyPassesTellsHowManyAreDone) {
+  Process process(command({"render", "scene.toml", "-o", "a.exr", "--passes", "100000", "--progress", "always"}),
+                  {60.0, 0, folder_.string()});
+  EXPECT_TRUE(process.wait_for_error_output(" left"));
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const ProcessResult result = interrupt(process, SIGINT, " left");
+  EXPECT_NE(result.err.find(" of 100000 passes"), std::string::npos) << result.err;
+}
+
 // --- Checkpoints
+
+TEST_F(VpmRender, ACheckpointIsReplacedWhereThatIsAskedFor) {
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "2", "--checkpoint"});
+  const std::string before = read("a.checkpoint");
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--passes", "3", "--checkpoint"},
+              {"a.checkpoint", "--resume", "--overwrite"});
+  EXPECT_TRUE(read("a.checkpoint") == before);
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "3", "--checkpoint", "--overwrite"});
+  EXPECT_FALSE(read("a.checkpoint") == before);
+}
+
+TEST_F(VpmRender, TwoRunsDoNotWriteOneCheckpoint) {
+  Process first(
+      command({"render", "scene.toml", "-o", "a.exr", "--time", "50", "--checkpoint", "--progress", "always"}),
+      {60.0, 0, folder_.string()});
+  EXPECT_TRUE(first.wait_for_error_output(" left"));
+  for (int i = 0; i < 1000 && !std::filesystem::exists(path("a.checkpoint")); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const ProcessResult second = vpm({"render", "scene.toml", "-o", "a.exr", "--time", "0.1", "--resume"});
+  EXPECT_EQ(second.status, 2);
+  EXPECT_NE(second.err.find("a.checkpoint.lock' is locked: another run"), std::string::npos) << second.err;
+  first.signal(SIGKILL);
+  first.wait();
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--time", "0.1", "--resume"});
+  EXPECT_FALSE(std::filesystem::exists(path("a.checkpoint.lock")));
+}
 
 TEST_F(VpmRender, KilledAtAnyMomentItResumesToTheSameBits) {
   const std::vector<std::string> passes{"--passes", "40", "--set", "photons.emitted=3_000"};

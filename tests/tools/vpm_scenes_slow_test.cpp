@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
     Strategies, VpmEveryStrategy,
     ::testing::Values(Strategy{"regular", {}}, Strategy{"ray-march", {}}, Strategy{"ray-march-adaptive", {}},
                       Strategy{"delta", {}}, Strategy{"delta-local", {}},
-                      Strategy{"progressive-null", {}, "look-ups found more density than a majorant"},
+                      Strategy{"progressive-null", {}, "densities were larger than the majorant"},
                       Strategy{"decomposition", {}},
                       Strategy{"local-extinction",
                                {"media.smoke.sigma_t=10", "distance.extinction_floor=2", "photons.emitted=200_000"}},

@@ -26,6 +26,7 @@ struct RenderOptions : PassOptions {
   std::string reference;        // .exr: the truth, against which errors are logged; empty: none
   bool automatic = false;       // choose settings that the scene leaves out
   bool checkpoint = false;      // keep one next to the image after each pass
+  bool overwrite = false;       // begin anew where there is one
   bool resume = false;          // go on from that
 };
 /// Renders a scene to an EXR file, with a PNG preview and a JSON report next to it. 130 when interrupted: the finished

@@ -1,9 +1,12 @@
 // The command line of vpm: options into structs, errors into exit status 2.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <new>
 
@@ -82,8 +85,13 @@ void add_render(CLI::App& app, RenderOptions& options) {
                       "EXR image of the truth: log error against time to a CSV file next to the image");
   command->add_flag("--auto", options.automatic,
                     "Choose what the scene leaves out of radii, photons and distance strategy, and tell why");
-  command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint next to the image after each pass");
-  command->add_flag("--resume", options.resume, "Go on from that checkpoint, and keep it up to date");
+  CLI::Option* checkpoint =
+      command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint next to the image after each pass");
+  CLI::Option* overwrite =
+      command->add_flag("--overwrite", options.overwrite, "Let that checkpoint replace one that is there already");
+  overwrite->needs(checkpoint);
+  command->add_flag("--resume", options.resume, "Go on from that checkpoint, and keep it up to date")
+      ->excludes(overwrite);
 }
 
 void add_bake(CLI::App& app, BakeOptions& options) {
@@ -179,10 +187,29 @@ void add_exact(CLI::App& app, ExactOptions& options) {
   command->add_flag("--json", options.json, "Print JSON");
 }
 
+/// The arguments, where "help" and "help COMMAND" stand for what --help stands for.
+std::vector<char*> with_help_as_option(int argc, char** argv) {
+  static char option[] = "--help";
+  std::vector<char*> arguments(argv, argv + argc);
+  if (argc > 1 && std::strcmp(argv[1], "help") == 0) {
+    arguments.erase(arguments.begin() + 1);
+    arguments.push_back(option);
+  }
+  return arguments;
+}
+
+bool has_command(const CLI::App& app, const std::string& name) {
+  const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+  return std::any_of(all.begin(), all.end(), [&](const CLI::App* command) { return command->get_name() == name; });
+}
+
 int run(int argc, char** argv) {
   CLI::App app("vpm: volumetric photon mapping", "vpm");
   app.set_version_flag("--version", fmt::format("vpm {}", version()));
   app.require_subcommand(1);
+  app.footer(
+      "Example: vpm render scenes/smoke.toml --time 20 renders for 20 seconds to smoke.exr and smoke.png.\n"
+      "vpm help COMMAND tells the options of a command; scenes/README.md how scenes are written.");
   RenderOptions render;
   BakeOptions bake;
   CompareOptions compare;
@@ -201,8 +228,15 @@ int run(int argc, char** argv) {
   add_mesh(app, mesh);
   add_validate(app, validate);
   add_exact(app, exact);
+  if (argc == 1) {
+    fmt::print(stderr, "{}", app.help());
+    return kBadInput;
+  }
+  if (argv[1][0] != '-' && std::strcmp(argv[1], "help") != 0 && !has_command(app, argv[1]))
+    throw InputError(fmt::format("there is no command '{}'; vpm help lists them", argv[1]));
+  const std::vector<char*> arguments = with_help_as_option(argc, argv);
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::ParseError& refusal) {
     return app.exit(refusal) == 0 ? 0 : kBadInput;
   }
@@ -221,7 +255,9 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    if (std::fflush(stdout) == 0) return status;
+    fmt::print(stderr, "vpm: cannot write to standard output: {}\n", std::strerror(errno));
   } catch (const InputError& error) {
     fmt::print(stderr, "vpm: {}\n", error.what());
     return kBadInput;

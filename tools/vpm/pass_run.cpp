@@ -26,6 +26,7 @@ const std::atomic<bool>& stop_on_signals() {
   };
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);
+  if (std::signal(SIGHUP, request) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // by nohup: the terminal's end is no end
   return stop_requested;
 }
 

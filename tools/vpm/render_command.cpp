@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include "commands.h"
 #include "error_log.h"
 #include "pass_run.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
+#include "vpm/base/file_lock.h"
 #include "vpm/base/parallel.h"
 #include "vpm/image/png.h"
 #include "vpm/input/scene_file.h"
@@ -39,6 +41,23 @@ void choose_all(const RenderOptions& options, const Outputs& outputs, RenderJob&
     choose(job);
 }
 
+/// The lock on the checkpoint, where one is kept. Throws InputError where another run keeps it, and where a checkpoint
+/// would be lost.
+std::unique_ptr<FileLock> lock_checkpoint(const RenderOptions& options, const std::filesystem::path& checkpoint) {
+  if (!options.checkpoint && !options.resume) return nullptr;
+  auto lock = std::make_unique<FileLock>(checkpoint.string() + ".lock");
+  if (!options.resume && !options.overwrite && std::filesystem::exists(checkpoint))
+    throw InputError(
+        fmt::format("'{}' is there already: --resume goes on from it, --overwrite begins anew", checkpoint.string()));
+  return lock;
+}
+
+/// "interrupted after 7 of 100 passes"
+std::string interruption_text(const StopRule& until, int passes) {
+  if (until.counts_passes()) return fmt::format("interrupted after {} of {} passes", passes, until.passes);
+  return fmt::format("interrupted after {} {}", passes, passes == 1 ? "pass" : "passes");
+}
+
 std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outputs& outputs, const Film& film) {
   if (options.reference.empty()) return std::nullopt;
   if (std::error_code none; std::filesystem::equivalent(options.reference, outputs.exr, none))
@@ -58,6 +77,7 @@ int render_command(const RenderOptions& options) {
   const bool checkpoint = options.checkpoint || options.resume;
   const Camera& camera = job.scene.camera;
   check_outputs(outputs, static_cast<uint64_t>(camera.width) * camera.height, checkpoint, job);
+  const std::unique_ptr<FileLock> lock = lock_checkpoint(options, outputs.checkpoint);
   choose_all(options, outputs, job);
   const Identity identity = identity_of(job);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
@@ -79,7 +99,9 @@ int render_command(const RenderOptions& options) {
   const std::string error = error_text(job, result);
   fmt::print("{}: {} passes in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), result.film.passes(),
              result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
-  return stop ? kInterrupted : 0;
+  if (!stop) return 0;
+  fmt::print(stderr, "{}\n", interruption_text(job.settings.until, result.film.passes()));
+  return kInterrupted;
 }
 
 }  // namespace vpm::tools

@@ -35,10 +35,12 @@ struct Outcome {
 /// The experiments that are asked for. Throws InputError where there are none.
 std::vector<Experiment> asked_for(const ValidateOptions& options) {
   std::vector<Experiment> all = experiments(options.level.value_or(-1));
+  std::string names;
+  for (const Experiment& e : all) names += "\n  " + e.name;
   std::erase_if(all, [&](const Experiment& e) { return e.name.find(options.only) == std::string::npos; });
   if (all.empty())
     throw InputError(
-        fmt::format("--only: no experiment has '{}' in its name; vpm validate prints their names", options.only));
+        fmt::format("--only: no experiment has '{}' in its name; these are there:{}", options.only, names));
   return all;
 }
 

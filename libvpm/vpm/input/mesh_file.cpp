@@ -11,13 +11,14 @@
 namespace vpm {
 namespace {
 
-void check_indices(const std::string& path, const TriangleMesh& mesh) {
+/// `first`: the number that the file's format gives to the first vertex.
+void check_indices(const std::string& path, const TriangleMesh& mesh, uint64_t first) {
   for (const glm::uvec3& t : mesh.triangles) {
     const uint32_t largest = std::max({t.x, t.y, t.z});
     if (largest >= mesh.positions.size())
       fail_in_mesh(path, 0,
-                   "a face names vertex " + std::to_string(largest) + " (counted from 0), but there are only " +
-                       std::to_string(mesh.positions.size()));
+                   "a face names vertex " + std::to_string(largest + first) + (first == 0 ? " (counted from 0)" : "") +
+                       ", but there are only " + std::to_string(mesh.positions.size()));
   }
 }
 
@@ -38,7 +39,7 @@ LoadedMesh load_mesh(const std::string& path) {
   LoadedMesh loaded;
   loaded.mesh = extension == ".ply" ? parse_ply(path, text) : parse_obj(path, text);
   if (loaded.mesh.triangles.empty()) fail_in_mesh(path, 0, "the mesh has no faces");
-  check_indices(path, loaded.mesh);
+  check_indices(path, loaded.mesh, extension == ".obj" ? 1 : 0);
   loaded.degenerate_triangles = drop_flat_triangles(loaded.mesh);
   if (loaded.mesh.triangles.empty()) fail_in_mesh(path, 0, "no face of the mesh has an area");
   return loaded;

@@ -148,7 +148,7 @@ class ObjReader {
   const T& named(const std::vector<T>& list, uint32_t number, const std::string& kind) const {
     if (number >= list.size())
       fail_in_mesh(name_, 0,
-                   "a face names " + kind + " " + std::to_string(number) + " (counted from 0), but there are only " +
+                   "a face names " + kind + " " + std::to_string(uint64_t{number} + 1) + ", but there are only " +
                        std::to_string(list.size()));
     return list[number];
   }

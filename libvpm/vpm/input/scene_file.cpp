@@ -3,6 +3,7 @@
 #include "vpm/input/scene_file.h"
 
 #include <fmt/format.h>
+#include <filesystem>
 #include <fstream>
 
 #include "vpm/base/error.h"
@@ -199,6 +200,11 @@ void assemble_plan(ScenePlan& plan, RenderJob& job) {
 }  // namespace
 
 RenderJob load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out) {
+  if (std::filesystem::path(path).extension() == ".vdb")
+    throw InputError(fmt::format(
+        "{}: this is a grid, not a scene: a scene file (.toml) names it in a medium, as scenes/smoke.toml does; "
+        "vpm info {} tells what it holds",
+        path, path));
   Document document = read_toml(path);
   for (const std::string& option : options) apply_override(document, option);
   std::vector<std::string> overrides = options;

@@ -20,7 +20,7 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
   if (photons && shown.media && s.volume_photons == 0)
     warnings.emplace_back("the volume photon map is empty: no photon scattered in a medium");
   if (photons && shown.surfaces && s.surface_photons == 0)
-    warnings.emplace_back("the surface photon map is empty: no photon to store met a rough surface");
+    warnings.emplace_back("the surface photon map is empty: no photon to store met a diffuse or rough surface");
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");
@@ -32,11 +32,13 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
   walk.merge(s.eye.walk);
   warn(walk.majorant_violations,
        strategy_info(settings.distance.strategy).positive
-           ? "look-ups found more density than a majorant, which cut it: passes are biased until majorants have grown"
-           : "look-ups found more density than a majorant: weights grow there and change their signs");
+           ? "densities were larger than the majorant and were cut to it: early passes are too thin, until majorants "
+             "have grown"
+           : "densities were larger than the majorant: weights grow there and change their signs");
   if (walk.medium_mismatches > 100 + walk.crossings / 1'000'000)
     warn(walk.medium_mismatches,
-         "boundaries were met from a medium that is not the one before them: check that media do not overlap");
+         "rays met a boundary from another medium than the one that the boundary has on that side: check that media do "
+         "not overlap");
   return warnings;
 }
 

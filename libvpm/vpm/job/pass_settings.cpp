@@ -7,7 +7,7 @@ namespace {
 using S = RenderSettings;
 using G = GuideSettings;
 
-constexpr uint64_t kMostRays = 1'000'000;
+constexpr uint64_t kMostSamples = 1'000'000;
 
 std::vector<Setting> declare_render() {
   return {
@@ -38,7 +38,7 @@ std::vector<Setting> declare_render() {
        .of_passes = true},
       {.key = "render.samples_per_pixel",
        .member = at<&S::samples_per_pixel>(),
-       .domain = Integers{1, kMostRays},
+       .domain = Integers{1, kMostSamples},
        .meaning = "camera rays per pixel and pass"},
       {.key = "render.max_events",
        .member = at<&S::max_events>(),
