@@ -82,7 +82,8 @@ std::vector<Setting> declare_volume() {
        .domain = words_of<DirectLight>(),
        .meaning = "light that scatters once: from `\"photons\"`, by `\"shadow-rays\"` from every step of the march, or "
                   "`\"equiangular\"`, by shadow rays from a few distances of each stretch of an eye ray, drawn both "
-                  "towards the light and by what reaches the eye. Photons carry what scatters more often"},
+                  "towards the light and by what reaches the eye. Light that scatters more than once always comes from "
+                  "the photon map"},
       {.key = "volume.direct_samples",
        .member = at<&S::direct_samples>(),
        .domain = Integers{1, kMostRays},
