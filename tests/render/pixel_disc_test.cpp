@@ -12,6 +12,7 @@
 #include "vpm/base/progress.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/job/render.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {
@@ -170,6 +171,20 @@ TEST(SlowRadiiOfPixels, AreRightInTheMeanWhileTheyShrink) {
   }
   expect_mean(radiance, 0.5 / kPiD * 2.0, kFalseAlarms, "radiance of a floor in even light");
   EXPECT_LT(area.mean(), 0.45);
+}
+
+TEST(RadiiOfPixels, OfARenderAreThoseOfItsPassesOneAfterAnother) {
+  const Scene scene = lit_floor(PointLight{Vec3(-0.5f, 0.3f, 0.2f), Rgb(1.0f)});
+  const RenderSettings settings = per_pixel(3000);
+  const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
+    return render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kNeverStopped, shown});
+  };
+  const Image passes =
+      run_passes(settings.until, {run, tile_count(scene.camera)}, nothing_rendered(scene.camera), {kNeverStopped})
+          .film.mean();
+  const Image whole = render_all(scene, settings).film.mean();
+  ASSERT_EQ(passes.pixels.size(), whole.pixels.size());
+  EXPECT_TRUE(std::memcmp(passes.pixels.data(), whole.pixels.data(), whole.pixels.size() * sizeof(Rgb)) == 0);
 }
 
 TEST(RadiiOfPixels, AreTheSameForAnyNumberOfThreads) {

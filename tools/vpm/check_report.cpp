@@ -7,6 +7,7 @@
 #include "json.h"
 
 namespace vpm::tools {
+
 const char* verdict_word(Verdict verdict) {
   switch (verdict) {
     case Verdict::pass:

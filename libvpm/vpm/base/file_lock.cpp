@@ -16,8 +16,7 @@ namespace {
 
 /// Whether the path still leads to the open file: whoever held the lock before may have removed it.
 bool is_at(const std::filesystem::path& path, int file) {
-  struct stat opened {
-  }, found{};
+  struct stat opened, found;
   return fstat(file, &opened) == 0 && stat(path.c_str(), &found) == 0 && opened.st_dev == found.st_dev &&
          opened.st_ino == found.st_ino;
 }

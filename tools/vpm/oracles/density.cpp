@@ -146,7 +146,7 @@ CaseResult run_radius(const OracleCase& c, const Effort& effort) {
   const int d = read_dimension(c, 2);
   const uint64_t n = c.count("N");
   const double h = c.number_in("h", 1e-6, 0.5);
-  const double photons = effort.full ? 5e9 : 1.2e7;
+  const double photons = effort.full ? 5e9 : 2.5e7;
   const auto maps = static_cast<uint64_t>(std::clamp(photons / static_cast<double>(n), 500.0, 1e6));
   const DensityFacts facts = estimate_radius_density(d, n, h, maps, effort.seed_of(c.place()));
   CaseResult result;
@@ -173,7 +173,7 @@ CaseResult run_bias(const OracleCase& c, const Effort& effort) {
     result.checks.push_back(check_bound(fmt::format("cosine_multiplier[{}] of the profile", i),
                                         sums.cosine[i] / sums.profile, multipliers[i], 1e-6));
   if (d == 1) return result;  // maps have two or three dimensions
-  const auto found = estimate_kernel_bias(d, *kernel, h, effort.count(100, 5000), effort.seed_of(c.place()));
+  const auto found = estimate_kernel_bias(d, *kernel, h, effort.count(200, 5000), effort.seed_of(c.place()));
   const std::array<double, kBiasDensities> exact{1.0 + c.number("linear_density_bias"),
                                                  1.0 + c.number("quadratic_bias"), 1.0 + multipliers[0],
                                                  1.0 + multipliers[1], 1.0 + multipliers[2]};

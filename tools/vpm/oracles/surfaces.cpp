@@ -93,7 +93,7 @@ CaseResult run_irradiance(const OracleCase& c, const Effort& effort) {
     return result;
   }
   const double exact = c.number("E");
-  const uint64_t seed = effort.seed_of(c.place()), samples = effort.count(50'000, 10'000'000);
+  const uint64_t seed = effort.seed_of(c.place()), samples = effort.count(100'000, 10'000'000);
   if (light->drawn) {
     const Moments found = estimate_mean_irradiance(light->draw, Vec3(receiver), samples, seed);
     result.checks.push_back(check_mean("E", found, exact, 1e-6 * exact));

@@ -137,7 +137,7 @@ std::vector<double> model_errors(const Field& field, double photons, const std::
   return errors;
 }
 
-constexpr uint64_t kPhotonsOfPass = 1000;  // in a pass
+constexpr uint64_t kPhotonsOfPass = 1000;
 
 std::vector<Check> density_estimation(const Field& field, const std::string& name, const Effort& effort) {
   const std::vector<int> n = pass_counts(4, static_cast<int>(effort.count(128, 1024)));

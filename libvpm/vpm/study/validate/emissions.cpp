@@ -53,7 +53,7 @@ EmissionLaw point_law() {
           equal_cells(kRings * kSectors)};
 }
 
-/// Without a rim where `cos_outer` is the inner cosine, too.
+/// Without a rim where `cos_outer` is the inner cosine, too: photons outside its cone then make the last ring too full.
 EmissionLaw spot_law(const std::string& name, float cos_outer) {
   const SpotLight light{{0.0f, 1.5f, 0.0f}, kAxis, 0.95f, cos_outer, kColour};
   const double inner = 1.0 - double{light.cos_inner}, rim = double{light.cos_inner} - light.cos_outer;
@@ -73,8 +73,8 @@ EmissionLaw spot_law(const std::string& name, float cos_outer) {
   return {name, light, 2.0 * kPiD * all * Rgbd(kColour),
           [=](const Ray& ray) {
             const double away = away_from(kAxis, ray.direction);
-            const size_t ring =
-                away < inner ? cell_of(away / inner, kRings) : kRings + cell_of((away - inner) / rim, kRings);
+            const size_t ring = away < inner || rim == 0.0 ? cell_of(away / inner, kRings)
+                                                           : kRings + cell_of((away - inner) / rim, kRings);
             return ring * kSectors + sector_about(kAxis, ray.direction);
           },
           shares};

@@ -102,7 +102,7 @@ std::vector<Check> check_pixels(int samples, const Effort& effort) {
   const std::string at_most =
       fmt::format(", relative, at the most{}", samples == 1 ? "" : fmt::format(", of {} samples", samples));
   return {check_bound("R" + at_most, radius_off, 0.0, 1e-5),
-          check_bound("tau / (pi R^2)" + at_most, radiance_off, 0.0, 1e-4),
+          check_bound("tau / (pi R^2)" + at_most, radiance_off, 0.0, 1e-5),
           check_bound("pixels without light, of " + fmt::format("{} samples", samples),
                       static_cast<double>(textbook.size() - lit), 0.0, 0.5 * static_cast<double>(textbook.size()))};
 }
