@@ -54,7 +54,7 @@ std::optional<Rgb> brute_force(const std::vector<CachePoint>& cache_points, cons
   }
   if (!nearest) return std::nullopt;
   const Hit at = hit_of(*nearest);
-  return shaded_irradiance(at, at.normal, map);
+  return shaded_irradiance(at, at.normal, map).value;
 }
 
 std::optional<Rgb> seen(const IrradianceCache& points, const Hit& hit, const Vec3& towards_eye) {

@@ -64,10 +64,10 @@ Estimates estimate(const Scene& scene, const Hit& hit, const GatherSettings& gat
       p = {landing.position, PackedDirection(landing.travel), Rgb(1.0f)};
     }
     const PhotonMap map = make_photon_map(photons, gather, kPhotons);
-    found.plain.add(surface_irradiance(hit.position, kUp, map).r);
+    found.plain.add(surface_irradiance(hit.position, kUp, map).value.r);
     Neighbours near;
     found.corrected.add(
-        surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{found.counters, near}}).r);
+        surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{found.counters, near}}).value.r);
   }
   return found;
 }
@@ -269,13 +269,14 @@ TEST(SurfaceRegion, TheMapEqualsTheBruteForceTwin) {
       std::sort(distances.begin(), distances.end());
       const float radius = mode == GatherMode::radius ? 0.3f : std::min(0.3f, distances[11]);
       const SurfaceRegion region(scene, hit, kUp, gather);
-      const float twin = surface_irradiance(hit.position, kUp, seen, gather, uint64_t{kPhotons}).r /
+      const float twin = surface_irradiance(hit.position, kUp, seen, gather, uint64_t{kPhotons}).value.r /
                          static_cast<float>(region.share(radius).inside);
       GatherCounters counters;
       const PhotonMap map = make_photon_map(photons, gather, kPhotons);
       Neighbours near;
-      EXPECT_NEAR(surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{counters, near}}).r / twin,
-                  1.0, 1e-4)
+      EXPECT_NEAR(
+          surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{counters, near}}).value.r / twin,
+          1.0, 1e-4)
           << kernel.name;
     }
 }

@@ -13,10 +13,11 @@ constexpr GatherMode kModes[] = {GatherMode::radius, GatherMode::nearest};
 
 /// The plain density of photons: the sum of K_r over them.
 Rgb density_at(const Vec3& point, const PhotonMap& map) {
-  return kernel_sum<3>(map, point, AnyPhoton{}, [](auto&&, const Rgb& p) { return p; });
+  return kernel_sum<3>(map, point, AnyPhoton{}, [](auto&&, const Rgb& p) { return p; }).value;
 }
 Rgb density_at(const Vec3& point, const std::vector<Photon>& photons, const GatherSettings& settings) {
-  return kernel_sum<3>(photons, settings, uint64_t{1}, point, AnyPhoton{}, [](auto&&, const Rgb& p) { return p; });
+  return kernel_sum<3>(photons, settings, uint64_t{1}, point, AnyPhoton{}, [](auto&&, const Rgb& p) { return p; })
+      .value;
 }
 
 TEST(MapsExtremes, ThousandsAtOnePointWeighAsMuchAsTheirSum) {

@@ -31,7 +31,7 @@ class Checkpoint : public ::testing::Test {
       Image image(3, 2);
       for (size_t i = 0; i < image.pixels.size(); ++i)
         image.pixels[i] = Rgb(0.1f, 0.2f, 0.7f) * static_cast<float>(i + 1) / static_cast<float>(pass + 3);
-      result.film.add(pass, image, 1.0f / static_cast<float>(pass + 1));
+      result.film.add(pass, image, image);
     }
     result.statistics.passes = 3;
     result.statistics.ledger.imbalance.add(0.25);
@@ -125,7 +125,7 @@ TEST_F(Checkpoint, TakesTheRoomThatIsTold) {
     Rng rng(5, static_cast<uint64_t>(pass), 0);
     for (Rgb& pixel : image.pixels)
       for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(std::pow(10.0, 4.0 * rng.uniform_double() - 2.0));
-    result.film.add(pass, image, 1.0f / static_cast<float>(pass + 1));
+    result.film.add(pass, image, image);
   }
   write_checkpoint(path_, kRender, result);
   const auto told = static_cast<double>(checkpoint_bytes(job)), taken = static_cast<double>(fs::file_size(path_));
@@ -137,7 +137,7 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
   refuses(kRender, "it is no checkpoint");
-  std::ofstream(path_) << "vpm checkpoint of a render\nformat 2\nidentity 2\nrender.seed=1\n";
+  std::ofstream(path_) << "vpm checkpoint of a render\nformat 3\nidentity 2\nrender.seed=1\n";
   refuses(kRender, "it is damaged or not whole");
   write_checkpoint(path_, kRender, some_result());
   const uintmax_t size = fs::file_size(path_);
@@ -174,11 +174,11 @@ std::string bytes_of(T number) {
 TEST_F(Checkpoint, OfAnotherFormatIsRefused) {
   write_checkpoint(path_, kRender, some_result());
   const std::string content = bytes();
-  put(with(content, "format 2\n", "format 3\n"));
-  refuses(kRender, "it is written by another format of checkpoints, 3; this program reads 2");
+  put(with(content, "format 3\n", "format 4\n"));
+  refuses(kRender, "it is written by another format of checkpoints, 4; this program reads 3");
   EXPECT_THROW(checkpoint_identity(path_), InputError);
-  put(with(content, "format 2\n", ""));  // as they were before they told it
-  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 2");
+  put(with(content, "format 3\n", ""));  // as they were before they told it
+  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 3");
 }
 
 TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
@@ -199,7 +199,7 @@ TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
   const std::string width = "film.width i32 1 4\n", passes = "film.passes range 1 8\n";
   refuses_with(width + bytes_of(3), width + bytes_of(-3), "its film has -3 x 2 pixels");
   refuses_with(width + bytes_of(3), width + bytes_of(0x7fffffff), "its film has 2147483647 x 2 pixels");
-  refuses_with(width + bytes_of(3), width + bytes_of(30), "its field 'film.squares' holds no sums of that many pixels");
+  refuses_with(width + bytes_of(3), width + bytes_of(30), "its field 'film.values' holds no sums of that many pixels");
   refuses_with(width + bytes_of(3), width + bytes_of(4), "its field 'discs' has 6 numbers for 8 pixels");
   refuses_with(passes + bytes_of(0), passes + bytes_of(3), "its field 'film.passes' holds no ranges in rising order");
   refuses_with(passes + bytes_of(0), passes + bytes_of(-1), "its field 'film.passes' holds no ranges in rising order");
@@ -228,7 +228,7 @@ TEST_F(Checkpoint, OfMoreSumsThanPixelsIsRefused) {
   Image image(30, 2);  // of two blocks of sums, where 3 x 2 pixels have one
   for (Rgb& pixel : image.pixels) pixel = Rgb(1.0f);
   RenderResult result{Film(30, 2), {}, 1.5, {}};
-  result.film.add(0, image, 1.0f);
+  result.film.add(0, image);
   write_checkpoint(path_, kRender, result);
   const std::string width = "film.width i32 1 4\n";
   std::string content = with(bytes(), width + bytes_of(30), width + bytes_of(3));
@@ -236,7 +236,7 @@ TEST_F(Checkpoint, OfMoreSumsThanPixelsIsRefused) {
   Fnv1a hash;
   hash.add(std::string_view(content));
   put(content + hash.digits());
-  refuses(kRender, "its field 'film.squares' holds no sums of that many pixels");
+  refuses(kRender, "its field 'film.values' holds no sums of that many pixels");
 }
 
 /// What is refused, and why, of the fuzz target's seeds; all others are accepted.
@@ -253,7 +253,7 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
   };
   constexpr const char* kOld = "format_1";  // a whole file, written before files told their format
   put(seed(folder / kOld));
-  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 2; render again");
+  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 3; render again");
   int accepted = 0;
   size_t refused = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -274,7 +274,7 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
 
 TEST_F(Checkpoint, OfPassesThatAreNotTheFirstGoesOnWithThoseThatAreMissing) {
   RenderResult before{Film(3, 2), {}, 1.5, {}};
-  for (const int pass : {0, 1, 4}) before.film.add(pass, Image(3, 2), 1.0f);
+  for (const int pass : {0, 1, 4}) before.film.add(pass, Image(3, 2));
   write_checkpoint(path_, kRender, before);
   const RenderResult after = read_checkpoint(path_, kRender);
   EXPECT_EQ(after.film.sums(), before.film.sums());

@@ -47,15 +47,19 @@ TEST(PhotonBatch, SumsValuesTimesWeights) {
   std::iota(numbers.begin(), numbers.end(), 0u);
   const std::vector<float> distances2(numbers.size(), 0.25f);
   const PhotonBatch batch(all.table, numbers.data(), distances2.data(), numbers.size());
-  const Rgbd sum = sum_photons(
-      batch, [](size_t i) { return Rgb(1.0f, 2.0f, static_cast<float>(i)); },
+  const KernelPair<Rgbd> sum = sum_photons(
+      batch, [](size_t i) { return KernelPair<Rgb>(Rgb(1.0f, 2.0f, static_cast<float>(i)), Rgb(-3.0f)); },
       [](const Vec3& travel, const Rgb& power) { return power * (2.0f + travel.x); });
-  Rgbd expected(0.0);
+  KernelPair<Rgbd> expected;
   for (const uint32_t i : numbers) {
     const PhotonTable::Payload& one = all.table.payload(i);
-    expected += Rgbd(one.power.unpack()) * (2.0 + one.travel.unpack().x) * Rgbd(1.0, 2.0, i);
+    const Rgbd value = Rgbd(one.power.unpack()) * (2.0 + one.travel.unpack().x);
+    expected += {value * Rgbd(1.0, 2.0, i), value * -3.0};
   }
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], expected[c], 3e-6 * expected[c]);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(sum.value[c], expected.value[c], 3e-6 * expected.value[c]);
+    EXPECT_NEAR(sum.correction[c], expected.correction[c], -3e-6 * expected.correction[c]);
+  }
 }
 
 TEST(NearPhotons, HandsOnWhatIsNearInItsOrderAndDropsWhatIsNotAccepted) {

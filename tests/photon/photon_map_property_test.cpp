@@ -17,13 +17,13 @@ rc::Gen<KernelKind> any_kernel() {
 RC_GTEST_PROP(KernelProperty, IsNormalisedFallsAndEndsAtItsRadius, ()) {
   const KernelKind kind = *any_kernel();
   const auto r = static_cast<float>(*magnitude(1e-9, 1e9));
-  with_kernel(kind, [&](auto profile) {
+  with_kernel<3>(kind, [&](auto profile) {
     constexpr int kSteps = 2000;
     double disc = 0.0, ball = 0.0;
-    float last = profile(0.0f);
+    float last = profile(0.0f).value;
     for (int i = 0; i < kSteps; ++i) {
       const double t = (i + 0.5) / kSteps;  // the distance over the radius
-      const float value = profile(static_cast<float>(t * t));
+      const float value = profile(static_cast<float>(t * t)).value;
       RC_ASSERT(value >= 0.0f && value <= last);
       last = value;
       disc += value * 2.0 * kPiD * t / kSteps;
@@ -32,7 +32,7 @@ RC_GTEST_PROP(KernelProperty, IsNormalisedFallsAndEndsAtItsRadius, ()) {
     const double area = double(r) * r, volume = area * r;
     RC_ASSERT(std::abs(disc * area * kernel_norm<2>(kind, r) - 1.0) < 1e-5);
     RC_ASSERT(std::abs(ball * volume * kernel_norm<3>(kind, r) - 1.0) < 1e-5);
-    RC_ASSERT(kind == KernelKind::constant || profile(1.0f) == 0.0f);
+    RC_ASSERT(kind == KernelKind::constant || profile(1.0f).value == 0.0f);
     return 0;
   });
 }
@@ -92,10 +92,11 @@ RC_GTEST_PROP(MapProperty, EqualsTheBruteForceTwinForAnyPhotons, ()) {
   for (const Photon& p : photons) RC_ASSERT(map.bounds().contains(p.position));
   for (int i = 0; i < 10; ++i) {
     const Vec3 at = any_query(photons, settings.radius), up(0, 1, 0);
-    RC_ASSERT(same(volume_sum(Isotropic{}, at, up, map),
-                   volume_sum(Isotropic{}, at, up, photons, settings, uint64_t{1}),
+    RC_ASSERT(same(volume_sum(Isotropic{}, at, up, map).value,
+                   volume_sum(Isotropic{}, at, up, photons, settings, uint64_t{1}).value,
                    kernel_norm<3>(settings.kernel, settings.radius)));
-    RC_ASSERT(same(surface_irradiance(at, up, map), surface_irradiance(at, up, photons, settings, uint64_t{1}),
+    RC_ASSERT(same(surface_irradiance(at, up, map).value,
+                   surface_irradiance(at, up, photons, settings, uint64_t{1}).value,
                    kernel_norm<2>(settings.kernel, settings.radius)));
   }
 }
@@ -110,8 +111,9 @@ RC_GTEST_PROP(MapProperty, AnswersRadiiItWasNotMadeForAndCounts, ()) {
     const Vec3 at = any_query(photons, own.radius), up(0, 1, 0);
     GatherCounters counters;
     Neighbours near;
-    RC_ASSERT(same(surface_irradiance(at, up, CountedMap{map, GatherWork{counters, near}, own}),
-                   surface_irradiance(at, up, photons, own, uint64_t{1}), kernel_norm<2>(made.kernel, own.radius)));
+    RC_ASSERT(same(surface_irradiance(at, up, CountedMap{map, GatherWork{counters, near}, own}).value,
+                   surface_irradiance(at, up, photons, own, uint64_t{1}).value,
+                   kernel_norm<2>(made.kernel, own.radius)));
     const Arrives arrives{up, plane_thickness(own)};
     const auto counts = [&](const Photon& p) {
       const Vec3 offset = p.position - at;
@@ -131,7 +133,8 @@ RC_GTEST_PROP(MapProperty, DoesNotDependOnTheOrderOfPhotonsOrTheirScale, ()) {
   std::reverse(photons.begin(), photons.end());
   for (Photon& p : photons) p.power *= 8.0f;
   const PhotonMap turned = make_photon_map(photons, settings, 8);
-  const Rgb a = volume_sum(Isotropic{}, at, Vec3(0, 0, 1), map), b = volume_sum(Isotropic{}, at, Vec3(0, 0, 1), turned);
+  const Rgb a = volume_sum(Isotropic{}, at, Vec3(0, 0, 1), map).value,
+            b = volume_sum(Isotropic{}, at, Vec3(0, 0, 1), turned).value;
   RC_ASSERT(same(a, b, kernel_norm<3>(settings.kernel, settings.radius)));
 }
 

@@ -67,14 +67,15 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
             Rng rng(4, rng_stream(RngUse::test, 10), i);
             const Vec3 at = all[static_cast<size_t>(rng.uniform() * 5000)].position +
                             0.3f * radius * uniform_sphere(rng.uniform2());
-            expect_near(volume_sum(phase, at, towards, map),
-                        volume_sum(phase, at, towards, all, settings, uint64_t{1000}), "volume");
-            expect_near(surface_irradiance(at, Vec3(0, 1, 0), map),
-                        surface_irradiance(at, Vec3(0, 1, 0), all, settings, uint64_t{1000}), "surface");
+            expect_near(volume_sum(phase, at, towards, map).value,
+                        volume_sum(phase, at, towards, all, settings, uint64_t{1000}).value, "volume");
+            expect_near(surface_irradiance(at, Vec3(0, 1, 0), map).value,
+                        surface_irradiance(at, Vec3(0, 1, 0), all, settings, uint64_t{1000}).value, "surface");
             for (const Material& rough : {Material(Phong{}), Material(RoughDielectric{1.5f, 0.5f})})
-              expect_near(scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, map),
-                          scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, all, settings, uint64_t{1000}),
-                          "rough surface");
+              expect_near(
+                  scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, map).value,
+                  scattered_radiance(rough, hit_at(at, Vec3(0, 1, 0)), towards, all, settings, uint64_t{1000}).value,
+                  "rough surface");
           }
         }
   }
@@ -100,30 +101,30 @@ TEST(PhotonMap, OnePhotonCountsAsTheEstimatesSay) {
   const PhotonMap beside = map(Vec3(0.03f, 0.0f, 0.0f), travel);
   // Forward scattering: most goes on along the photon's direction of travel.
   const HenyeyGreenstein phase{0.6f};
-  EXPECT_NEAR(volume_sum(phase, at, travel, beside).r / (phase.value(1.0f) * ball), 1.0f, 1e-3f);
-  EXPECT_NEAR(volume_sum(phase, at, -travel, beside).r / (phase.value(-1.0f) * ball), 1.0f, 1e-3f);
+  EXPECT_NEAR(volume_sum(phase, at, travel, beside).value.r / (phase.value(1.0f) * ball), 1.0f, 1e-3f);
+  EXPECT_NEAR(volume_sum(phase, at, -travel, beside).value.r / (phase.value(-1.0f) * ball), 1.0f, 1e-3f);
   expect_near(fluence(Rgb(0.5f, 1.0f, 2.0f), at, beside), Rgb(2.0f, 1.0f, 0.5f) * ball, "fluence");
   // Surfaces: photons that arrive at the normal's side, near the plane.
-  expect_near(surface_irradiance(at, up, beside), Rgb(disc), "from before");
-  expect_near(surface_irradiance(at, -up, beside), Rgb(0.0f), "from behind");
+  expect_near(surface_irradiance(at, up, beside).value, Rgb(disc), "from before");
+  expect_near(surface_irradiance(at, -up, beside).value, Rgb(0.0f), "from behind");
   // Towards the eye goes the BSDF's share: from the eye's side, and from the other one through rough glass alone.
   const Vec3 eye = glm::normalize(Vec3(0.1f, 0.8f, 0.5f)), stored = PackedDirection(travel).unpack();
   const PackedDirection rising(glm::normalize(Vec3(0.0f, 0.8f, 0.3f)));
   const PhotonMap behind = map(Vec3(0.03f, 0.0f, 0.0f), rising.unpack());
   const Material diffuse = Lambertian{Rgb(0.5f)}, glass = RoughDielectric{1.5f, 0.5f}, metal = RoughConductor{};
   for (const Material& m : {diffuse, glass, metal})
-    expect_near(scattered_radiance(m, hit_at(at, up), eye, beside),
+    expect_near(scattered_radiance(m, hit_at(at, up), eye, beside).value,
                 scatter_value(m, up, stored, eye).value / eye.y * disc, "scattered");
   for (const Material& m : {diffuse, metal})
-    expect_near(scattered_radiance(m, hit_at(at, -up), eye, behind), Rgb(0.0f), "behind");
-  const Rgb passed = scattered_radiance(glass, hit_at(at, up), eye, behind);
+    expect_near(scattered_radiance(m, hit_at(at, -up), eye, behind).value, Rgb(0.0f), "behind");
+  const Rgb passed = scattered_radiance(glass, hit_at(at, up), eye, behind).value;
   expect_near(passed, scatter_value(glass, up, rising.unpack(), eye).value / eye.y * disc, "through glass");
   EXPECT_GT(passed.r, 0.0f);
   const float low = 0.01f, high = 0.02f;
-  expect_near(surface_irradiance(at, up, map(Vec3(std::sqrt(9e-4f - low * low), low, 0.0f), travel)), Rgb(disc),
+  expect_near(surface_irradiance(at, up, map(Vec3(std::sqrt(9e-4f - low * low), low, 0.0f), travel)).value, Rgb(disc),
               "near the plane");
-  expect_near(surface_irradiance(at, up, map(Vec3(std::sqrt(9e-4f - high * high), high, 0.0f), travel)), Rgb(0.0f),
-              "off the plane");
+  expect_near(surface_irradiance(at, up, map(Vec3(std::sqrt(9e-4f - high * high), high, 0.0f), travel)).value,
+              Rgb(0.0f), "off the plane");
 }
 
 // Where k photons lie within a small radius, looking for them in a large one finds the same, before a wall and above
@@ -141,7 +142,7 @@ TEST(PhotonMap, TheNearestOnASurfaceAreTheSameForAnyLargestRadius) {
   }
   const auto irradiance = [&](const Vec3& at, float largest_radius) {
     const GatherSettings settings{GatherMode::nearest, largest_radius, 50, KernelKind::epanechnikov};
-    return surface_irradiance(at, Vec3(0, 1, 0), make_photon_map(corner, settings, kSide * kSide));
+    return surface_irradiance(at, Vec3(0, 1, 0), make_photon_map(corner, settings, kSide * kSide)).value;
   };
   for (const float off_the_wall : {0.01f, 0.03f, 0.5f}) {
     const Vec3 at(off_the_wall, 0.0f, 0.5f);
@@ -156,8 +157,8 @@ TEST(PhotonMap, SmallAndEmptyMapsAnswer) {
       const GatherSettings settings{mode, 0.9f, 40, KernelKind::constant};
       const PhotonMap map = make_photon_map(all, settings, 10);
       EXPECT_EQ(map.size(), count);
-      expect_near(volume_sum(Isotropic{}, Vec3(0.5f), Vec3(0, 0, 1), map),
-                  volume_sum(Isotropic{}, Vec3(0.5f), Vec3(0, 0, 1), all, settings, uint64_t{10}), "few photons");
+      expect_near(volume_sum(Isotropic{}, Vec3(0.5f), Vec3(0, 0, 1), map).value,
+                  volume_sum(Isotropic{}, Vec3(0.5f), Vec3(0, 0, 1), all, settings, uint64_t{10}).value, "few photons");
     }
 }
 
@@ -167,7 +168,7 @@ TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
   const auto count = [&](const PhotonMap& map) {
     GatherCounters counters;
     Neighbours near;
-    volume_sum(Isotropic{}, at, Vec3(0, 0, 1), CountedMap{map, GatherWork{counters, near}});
+    volume_sum(Isotropic{}, at, Vec3(0, 0, 1), CountedMap{map, GatherWork{counters, near}}).value;
     return counters;
   };
   const GatherSettings by_radius{GatherMode::radius, 0.2f, 0, KernelKind::constant};
@@ -188,11 +189,11 @@ TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
 TEST(Kernel, KnowsItsIntegralUpToAnyRadius) {
   constexpr int kSteps = 10000;
   for (const auto& [kind, kernel_name, disc_norm, ball_norm] : kKernels)
-    with_kernel(kind, [kind = kind, name = kernel_name](auto profile) {
+    with_kernel<3>(kind, [kind = kind, name = kernel_name](auto profile) {
       double disc = 0.0, ball = 0.0;
       for (int i = 0; i < kSteps; ++i) {
         const double t = (i + 0.5) / kSteps;
-        const double value = profile(static_cast<float>(t * t)) / kSteps;
+        const double value = profile(static_cast<float>(t * t)).value / kSteps;
         disc += value * 2.0 * kPiD * t * kernel_norm_2d(kind, 1.0f);
         ball += value * 4.0 * kPiD * t * t * kernel_norm_3d(kind, 1.0f);
         const double end = (i + 1.0) / kSteps;
@@ -203,6 +204,60 @@ TEST(Kernel, KnowsItsIntegralUpToAnyRadius) {
       EXPECT_EQ(kernel_within_3d(kind, 1.0), 1.0);
       return 0;
     });
+}
+
+/// The kernel and its correction together integrate to 1 and have no second moment.
+template <int Dimension>
+void check_correction(KernelKind kind, const char* name) {
+  constexpr int kSteps = 20000;
+  with_kernel<Dimension>(kind, [&](auto profile) {
+    KernelPair<double> within;
+    double second_moment = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double t = (i + 0.5) / kSteps, end = (i + 1.0) / kSteps;
+      const double shell =
+          (Dimension == 2 ? 2.0 * t : 4.0 * t * t) * kPiD / kSteps * kernel_norm<Dimension>(kind, 1.0f);
+      const KernelPair<float> weight = profile(static_cast<float>(t * t));
+      within += {weight.value * shell, weight.correction * shell};
+      second_moment += (weight.value + weight.correction) * t * t * shell;
+      const KernelPair<double> told = kernel_within(kind, Dimension, end);
+      EXPECT_NEAR(told.value, within.value, 2e-4) << name << " " << end;
+      EXPECT_NEAR(told.correction, within.correction, 3e-4) << name << " " << end;
+    }
+    EXPECT_NEAR(within.correction, 0.0, 1e-4) << name;
+    EXPECT_NEAR(second_moment, 0.0, 1e-4) << name;
+    return 0;
+  });
+}
+
+TEST(Kernel, ItsCorrectionTakesTheSecondMomentAway) {
+  for (const KernelInfo& kernel : kKernels) {
+    check_correction<2>(kernel.kind, kernel.name);
+    check_correction<3>(kernel.kind, kernel.name);
+  }
+}
+
+/// The correction of a sum is -(r/2) d/dr of it: compared with the difference of sums of the same photons.
+TEST(PhotonMap, TheCorrectionOfASumIsItsSlopeOverTheRadius) {
+  std::vector<Photon> photons;
+  Rng rng(11, 0, 0);
+  for (int i = 0; i < 4000; ++i)
+    photons.push_back({Vec3(rng.uniform(), rng.uniform(), rng.uniform()),
+                       PackedDirection(uniform_sphere(rng.uniform2())), Rgb(0.5f + rng.uniform(), 1.0f, 2.0f)});
+  const auto value = [](const Vec3&, const Rgb& power) { return power; };
+  const auto sum = [&](KernelKind kernel, double radius) {
+    const GatherSettings settings{GatherMode::radius, static_cast<float>(radius), 0, kernel};
+    return kernel_sum<3>(make_photon_map(photons, settings, 1), Vec3(0.5f), AnyPhoton{}, value);
+  };
+  for (const KernelKind kernel :
+       {KernelKind::cone, KernelKind::epanechnikov, KernelKind::biweight, KernelKind::triweight}) {
+    constexpr double kRadius = 0.3, kStep = 1e-3;
+    const KernelEstimate at = sum(kernel, kRadius);
+    const Rgb slope =
+        (sum(kernel, kRadius + kStep).value - sum(kernel, kRadius - kStep).value) / static_cast<float>(2 * kStep);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(at.correction[c], -0.5 * kRadius * slope[c], 0.003 * at.value[c]) << static_cast<int>(kernel);
+  }
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(PixelDisc, TheMeanOfPassesIsTheTextbooksRadiance) {
       own.radius = disc_radius(disc, kFirst);
       GatherCounters counters;
       Neighbours neighbours;
-      sum += surface_irradiance(at, up, CountedMap{map, GatherWork{counters, neighbours}, own}).g;
+      sum += surface_irradiance(at, up, CountedMap{map, GatherWork{counters, neighbours}, own}).value.g;
       shrink(disc, counters.used);
 
       double near = 0.0, power = 0.0;

@@ -13,7 +13,7 @@ class Finds final : public VolumeEstimator {
  public:
   explicit Finds(const ScatteredLight& light) : light_(light) {}
   ScatteredLight finds() const override { return light_; }
-  Rgb along(const EyeSegment&, EyeWork&) const override { return Rgb(0.0f); }
+  KernelEstimate along(const EyeSegment&, EyeWork&) const override { return {}; }
 
  private:
   ScatteredLight light_;

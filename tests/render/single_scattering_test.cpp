@@ -33,7 +33,7 @@ Rgb found_along(const VolumeEstimator& estimator, const Scene& scene, const Stre
                 EyeCounters& counters) {
   EyeScratch scratch;
   EyeWork work{rng, counters, scratch};
-  return estimator.along(EyeSegment(scene, s.ray, s.interval, 0, s.throughput), work);
+  return estimator.along(EyeSegment(scene, s.ray, s.interval, 0, s.throughput), work).value;
 }
 
 /// The radiance of each channel over many estimates.
@@ -212,7 +212,7 @@ TEST(SingleScattering, IsDimmedByTheMediaBefore) {
       EyeScratch scratch;
       EyeCounters counters;
       EyeWork work{rng, counters, scratch};
-      const Rgb radiance = eye_radiance(context, {Vec3(0.1f, 0.2f, -3.0f), Vec3(0, 0, 1)}, work);
+      const Rgb radiance = eye_radiance(context, {Vec3(0.1f, 0.2f, -3.0f), Vec3(0, 0, 1)}, work).value;
       for (int c = 0; c < 3; ++c) out[c] = radiance[c];
     });
   };

@@ -15,14 +15,14 @@ double share_before_walls(KernelKind kernel, const Vec3& walls) {
   constexpr int kCells = Dimension == 2 ? 600 : 120;  // along an edge
   constexpr float kCell = 2.0f / kCells;
   const auto middle = [&](int i) { return (static_cast<float>(i) + 0.5f) * kCell - 1.0f; };
-  return with_kernel(kernel, [&](auto profile) {
+  return with_kernel<Dimension>(kernel, [&](auto profile) {
     double sum = 0.0;
     for (int z = 0; z < (Dimension == 2 ? 1 : kCells); ++z)
       for (int y = 0; y < kCells; ++y)
         for (int x = 0; x < kCells; ++x) {
           const Vec3 p(middle(x), middle(y), Dimension == 2 ? 0.0f : middle(z));
           const bool before = p.x <= walls.x && p.y <= walls.y && (Dimension == 2 || p.z <= walls.z);
-          if (before && glm::dot(p, p) < 1.0f) sum += profile(glm::dot(p, p));
+          if (before && glm::dot(p, p) < 1.0f) sum += profile(glm::dot(p, p)).value;
         }
     return sum * std::pow(double{kCell}, Dimension) * kernel_norm<Dimension>(kernel, 1.0f);
   });

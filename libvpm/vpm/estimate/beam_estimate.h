@@ -51,12 +51,12 @@ auto each_distance(AtDistance&& at_distance) {
 /// The bias that is left is that of the kernel across the ray, of order r^2, and that of discs that stick out of the
 /// medium.
 template <class Along>
-Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along&& along, const BeamMap& map,
-             GatherCounters& counters) {
+KernelEstimate beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along&& along, const BeamMap& map,
+                        GatherCounters& counters) {
   const KernelKind kernel = map.settings.kernel;
   count(counters.searches);
   const auto sum = [&](const auto& p, auto profile) {
-    Rgbd sum_of_photons(0.0);
+    KernelPair<Rgbd> sum_of_photons;
     uint32_t used = 0;
     const auto visit = [&](const PhotonsNearRay& near) {
       const PhotonBatch& batch = near.batch;
@@ -64,7 +64,9 @@ Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along
       along(std::span(near.distance, batch.size()), passed);
       const auto weight = [&](size_t i) {
         const float inverse = 1.0f / (near.radius[i] * near.radius[i]);
-        return Rgb(passed.r[i], passed.g[i], passed.b[i]) * (profile(batch.distance2(i) * inverse) * inverse);
+        const KernelPair<float> spread = profile(batch.distance2(i) * inverse) * inverse;
+        const Rgb kept(passed.r[i], passed.g[i], passed.b[i]);
+        return KernelPair<Rgb>(kept * spread.value, kept * spread.correction);
       };
       const auto scattered = [&](const Vec3& travel, const Rgb& power) {
         return power * p.value(travel, -ray.direction);
@@ -74,30 +76,31 @@ Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along
     };
     count(counters.visited, map.photons.visit_near_ray(ray, interval, visit));
     counters.used += used;
-    return Rgb(sum_of_photons);
+    return normed(sum_of_photons, kernel_norm_2d(kernel, 1.0f));
   };
-  return kernel_norm_2d(kernel, 1.0f) *
-         std::visit([&](const auto& p) { return with_kernel(kernel, [&](auto profile) { return sum(p, profile); }); },
-                    phase);
+  return std::visit(
+      [&](const auto& p) { return with_kernel<2>(kernel, [&](auto profile) { return sum(p, profile); }); }, phase);
 }
 
 /// The brute-force twin: looks at every photon of a plain list.
 template <class Along>
-Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along&& along, const PhotonList& list) {
+KernelEstimate beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along&& along,
+                        const PhotonList& list) {
   const float radius = list.settings.radius;
-  Rgbd sum(0.0);
+  KernelPair<Rgbd> sum;
   for (const Photon& photon : list.photons) {
     const Vec3d offset = Vec3d(photon.position) - Vec3d(ray.origin);
     const double t = glm::dot(offset, Vec3d(ray.direction));
     const Vec3d across = offset - t * Vec3d(ray.direction);
     const double q = glm::dot(across, across) / (double{radius} * radius);
     if (!(q < 1.0 && t >= interval.t0 && t < interval.t1)) continue;
-    const float weight =
-        phase_value(phase, photon.travel.unpack(), -ray.direction) *
-        with_kernel(list.settings.kernel, [&](auto profile) { return profile(static_cast<float>(q)); });
-    sum += Rgbd(photon.power * (weight * along(static_cast<float>(t))));
+    const KernelPair<float> weight =
+        with_kernel<2>(list.settings.kernel, [&](auto profile) { return profile(static_cast<float>(q)); });
+    const Rgbd seen(photon.power *
+                    (phase_value(phase, photon.travel.unpack(), -ray.direction) * along(static_cast<float>(t))));
+    sum += {seen * double{weight.value}, seen * double{weight.correction}};
   }
-  return Rgb(sum * double{kernel_norm_2d(list.settings.kernel, radius)} / static_cast<double>(list.emitted));
+  return normed(sum, kernel_norm_2d(list.settings.kernel, radius) / static_cast<float>(list.emitted));
 }
 
 }  // namespace vpm

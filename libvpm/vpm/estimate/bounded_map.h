@@ -32,29 +32,32 @@ const GatherSettings& settings_of(const BoundedMap<Region>& bounded) {
   return bounded.map.settings;
 }
 
-/// Divides the sum over the part of a kernel that lies in a region by the share of the kernel there.
-inline Rgb over_share(const Rgb& sum, const RegionShare& share, GatherCounters& counters) {
+/// Divides the sum over the part of a kernel that lies in a region by the share of the kernel there. The correction is
+/// that of the quotient: what the sum's and the share's corrections make of it.
+inline KernelEstimate over_share(const KernelEstimate& sum, const RegionShare& share, GatherCounters& counters) {
   count(counters.corrected);
   if (share.inside < kLeastShare) ++counters.least_shares;
-  return sum / static_cast<float>(std::max(share.inside, kLeastShare));
+  const auto divisor = static_cast<float>(std::max(share.inside, kLeastShare));
+  const Rgb value = sum.value / divisor;
+  return {value, (sum.correction - value * static_cast<float>(share.correction)) / divisor};
 }
 
 /// The sum within a fixed radius. `accept` selects photons; `within` selects those of them that the region holds.
 template <int Dimension, class Region, class Accept, class Within, class Value>
-Rgb bounded_sum(const Region& region, const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept,
-                Within&& within, Value&& value) {
+KernelEstimate bounded_sum(const Region& region, const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept,
+                           Within&& within, Value&& value) {
   const RegionShare share = region.share(map.settings.radius);
   if (share.inside == 1.0) return kernel_sum<Dimension>(map, point, accept, value);
-  const Rgb sum = share.others ? kernel_sum<Dimension>(map, point, within, value)
-                               : kernel_sum<Dimension>(map, point, accept, value);
+  const KernelEstimate sum = share.others ? kernel_sum<Dimension>(map, point, within, value)
+                                          : kernel_sum<Dimension>(map, point, accept, value);
   return over_share(sum, share, map.work.counters);
 }
 
 /// The sum over the k nearest photons of the region. Without the k-th, they are k - 1 photons spread uniformly over the
 /// part of the region in the ball that reaches to the k-th. The estimate is therefore unbiased at borders, too.
 template <int Dimension, class Region, class Accept, class Within, class Value>
-Rgb bounded_sum(const Region& region, const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept,
-                Within&& within, Value&& value) {
+KernelEstimate bounded_sum(const Region& region, const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept,
+                           Within&& within, Value&& value) {
   const Neighbours& all = nearest(map, point, accept);
   const RegionShare share = region.share(std::sqrt(all.limit()));
   if (share.inside == 1.0) return neighbour_sum<Dimension>(map, all, value);
@@ -66,8 +69,8 @@ Rgb bounded_sum(const Region& region, const Gathering<NearestMap>& map, const Ve
 
 /// The sum over the region's photons, divided by the region's share of the kernel.
 template <int Dimension, class Region, class Accept, class Value>
-Rgb kernel_sum(const BoundedMap<Region>& bounded, const Vec3& point, Accept&& accept, Value&& value) {
-  if (bounded.map.size() == 0) return Rgb(0.0f);
+KernelEstimate kernel_sum(const BoundedMap<Region>& bounded, const Vec3& point, Accept&& accept, Value&& value) {
+  if (bounded.map.size() == 0) return {};
   const auto within = [&](const PackedDirection& travel, const Vec3& offset) {
     return accept(travel, offset) && bounded.region.holds(offset);
   };

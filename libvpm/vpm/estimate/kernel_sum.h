@@ -1,8 +1,8 @@
 // The sum that all density estimates share: photons around a point, weighted by a kernel, from a map or a plain list.
 //
-// Each photon contributes value(travel, power) K_r. Volumes and surfaces differ in `value`, in which photons count, and
-// in the dimension of the kernel. Sums are kept in doubles: in floats, thousands of similar photons would be rounded
-// the same way, and the error would be visible.
+// Each photon contributes value(travel, power) K_r, and the same times the correction of the kernel. Volumes and
+// surfaces differ in `value`, in which photons count, and in the dimension of the kernel. Sums are kept in doubles: in
+// floats, thousands of similar photons would be rounded the same way, and the error would be visible.
 #pragma once
 
 #include <algorithm>
@@ -29,22 +29,33 @@ float kernel_norm(KernelKind kind, float r) {
   return Dimension == 2 ? kernel_norm_2d(kind, r) : kernel_norm_3d(kind, r);
 }
 
-/// Calls f with the kernel's profile, a function of (distance / radius)^2, as a type the inner loop can inline.
-template <class F>
+/// The weights of a kernel and of its correction, without their common norm, as a function of (distance / radius)^2.
+template <KernelKind K, int Dimension>
+struct KernelProfile {
+  KernelPair<float> operator()(float q) const { return {kernel_profile<K>(q), kernel_correction<K, Dimension>(q)}; }
+};
+
+/// Calls f with the kernel's KernelProfile, a type the inner loop can inline.
+template <int Dimension, class F>
 auto with_kernel(KernelKind kind, F&& f) {
   switch (kind) {
     case KernelKind::constant:
-      return f([](float q) { return kernel_profile<KernelKind::constant>(q); });
+      return f(KernelProfile<KernelKind::constant, Dimension>());
     case KernelKind::cone:
-      return f([](float q) { return kernel_profile<KernelKind::cone>(q); });
+      return f(KernelProfile<KernelKind::cone, Dimension>());
     case KernelKind::epanechnikov:
-      return f([](float q) { return kernel_profile<KernelKind::epanechnikov>(q); });
+      return f(KernelProfile<KernelKind::epanechnikov, Dimension>());
     case KernelKind::biweight:
-      return f([](float q) { return kernel_profile<KernelKind::biweight>(q); });
+      return f(KernelProfile<KernelKind::biweight, Dimension>());
     case KernelKind::triweight:
       break;
   }
-  return f([](float q) { return kernel_profile<KernelKind::triweight>(q); });
+  return f(KernelProfile<KernelKind::triweight, Dimension>());
+}
+
+/// A sum in doubles as an estimate, times the kernel's norm.
+inline KernelEstimate normed(const KernelPair<Rgbd>& sum, float norm) {
+  return KernelEstimate(Rgb(sum.value), Rgb(sum.correction)) * Rgb(norm);
 }
 
 /// A map of one kind, with the settings of the gather, its counters and its memory.
@@ -64,11 +75,11 @@ struct AnyPhoton {
 
 /// The sum over the photons within the radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
+KernelEstimate kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
   const float r = map.settings.radius;
   const float inverse = 1.0f / (r * r);
-  return with_kernel(map.settings.kernel, [&](auto profile) {
-    Rgbd sum(0.0);
+  return with_kernel<Dimension>(map.settings.kernel, [&](auto profile) {
+    KernelPair<Rgbd> sum;
     const auto visit = [&](NearPhotons& near) {
       if constexpr (!std::is_same_v<std::decay_t<Accept>, AnyPhoton>) near.keep(map.index.photons(), point, accept);
       map.work.counters.used += near.size();
@@ -79,7 +90,7 @@ Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& acce
     };
     count(map.work.counters.searches);
     count(map.work.counters.visited, map.index.visit_near(point, r, visit));
-    return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, r);
+    return normed(sum, kernel_norm<Dimension>(map.settings.kernel, r));
   });
 }
 
@@ -98,12 +109,12 @@ const Neighbours& nearest(const Gathering<NearestMap>& map, const Vec3& point, A
 /// photons over the ball that reaches to it give an unbiased estimate. (Kernels that vanish at the radius leave it out
 /// by themselves.) Where fewer than k photons lie within the largest radius, all of them count, over that radius.
 template <int Dimension, class Value>
-Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
+KernelEstimate neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
   const size_t first = neighbours.full() ? 1 : 0;  // the farthest
   map.work.counters.used += neighbours.size() - first;
-  return with_kernel(map.settings.kernel, [&](auto profile) {
-    Rgbd sum(0.0);
+  return with_kernel<Dimension>(map.settings.kernel, [&](auto profile) {
+    KernelPair<Rgbd> sum;
     for (size_t begin = first; begin < neighbours.size(); begin += PhotonBatch::kMost) {
       const size_t number = std::min(PhotonBatch::kMost, neighbours.size() - begin);
       const PhotonBatch batch(map.index.photons(), neighbours.photons() + begin, neighbours.distances2() + begin,
@@ -111,18 +122,18 @@ Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours
       sum += sum_photons(
           batch, [&](size_t i) { return profile(batch.distance2(i) / r2); }, value);
     }
-    return Rgb(sum) * kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2));
+    return normed(sum, kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2)));
   });
 }
 
 /// The sum over the k nearest photons that `accept` takes.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
+KernelEstimate kernel_sum(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
   return neighbour_sum<Dimension>(map, nearest(map, point, accept), value);
 }
 
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const CountedMap& counted, const Vec3& point, Accept&& accept, Value&& value) {
+KernelEstimate kernel_sum(const CountedMap& counted, const Vec3& point, Accept&& accept, Value&& value) {
   assert(counted.settings.mode == counted.map.settings.mode);
   const auto sum = [&](const auto& index) {
     return kernel_sum<Dimension>(Gathering{index, counted.settings, counted.work}, point, accept, value);
@@ -131,7 +142,7 @@ Rgb kernel_sum(const CountedMap& counted, const Vec3& point, Accept&& accept, Va
 }
 
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const PhotonMap& map, const Vec3& point, Accept&& accept, Value&& value) {
+KernelEstimate kernel_sum(const PhotonMap& map, const Vec3& point, Accept&& accept, Value&& value) {
   GatherCounters uncounted;
   Neighbours neighbours;
   return kernel_sum<Dimension>(CountedMap{map, {uncounted, neighbours}}, point, accept, value);
@@ -148,8 +159,8 @@ float kernel_radius(const CountedMap& counted, const Vec3& point, Accept&& accep
 
 /// The brute-force twin of both sums: looks at every photon of a plain list. Powers are divided by `emitted` here.
 template <int Dimension, class Accept, class Value>
-Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& settings, uint64_t emitted, const Vec3& point,
-               Accept&& accept, Value&& value) {
+KernelEstimate kernel_sum(const std::vector<Photon>& photons, const GatherSettings& settings, uint64_t emitted,
+                          const Vec3& point, Accept&& accept, Value&& value) {
   std::vector<std::pair<float, const Photon*>> near;
   for (const Photon& p : photons) {
     const Vec3 offset = p.position - point;
@@ -163,10 +174,14 @@ Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& setting
     r2 = near.back().first;
     near.pop_back();
   }
-  return with_kernel(settings.kernel, [&](auto profile) {
-    Rgbd sum(0.0);
-    for (const auto& [d2, p] : near) sum += Rgbd(value(p->travel.unpack(), p->power) * profile(d2 / r2));
-    return Rgb(sum) * kernel_norm<Dimension>(settings.kernel, std::sqrt(r2)) / static_cast<float>(emitted);
+  return with_kernel<Dimension>(settings.kernel, [&](auto profile) {
+    KernelPair<Rgbd> sum;
+    for (const auto& [d2, p] : near) {
+      const Rgb v = value(p->travel.unpack(), p->power);
+      const KernelPair<float> weight = profile(d2 / r2);
+      sum += {Rgbd(v * weight.value), Rgbd(v * weight.correction)};
+    }
+    return normed(sum, kernel_norm<Dimension>(settings.kernel, std::sqrt(r2)) / static_cast<float>(emitted));
   });
 }
 

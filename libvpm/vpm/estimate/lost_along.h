@@ -1,16 +1,18 @@
 // How much of a kernel lies outside a region, along a line from the kernel's centre.
 #pragma once
 
+#include "vpm/photon/kernel_pair.h"
+
 namespace vpm {
 
-/// The fraction of the kernel's weight along a line from the point that lies where inside(t) is false, t in m.
-/// within(t) is the kernel's integral up to the distance t. The point itself counts as inside. inside() is tested at
-/// three distances. Where two neighbouring tests differ, the place of the change is found to a hundredth of `reach`. If
-/// inside() changes and changes back between two of them, that is missed.
+/// The fraction of the weight of the kernel, and of its correction, along a line from the point that lies where
+/// inside(t) is false, t in m. within(t) is the integral of both up to the distance t. The point itself counts as
+/// inside. inside() is tested at three distances. Where two neighbouring tests differ, the place of the change is found
+/// to a hundredth of `reach`. If inside() changes and changes back between two of them, that is missed.
 template <class Within, class Inside>
-double lost_along(float reach, Within&& within, Inside&& inside) {
+KernelPair<double> lost_along(float reach, Within&& within, Inside&& inside) {
   constexpr int kLooks = 3, kBisections = 5;
-  double lost = 0.0;
+  KernelPair<double> lost;
   float begin = 0.0f;
   bool is_inside = true;
   for (int look = 1; look <= kLooks; ++look) {

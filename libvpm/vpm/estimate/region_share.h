@@ -5,8 +5,9 @@ namespace vpm {
 
 /// The part of a kernel that a region covers.
 struct RegionShare {
-  double inside = 1.0;  // the kernel's integral over the region; exactly 1 where no part of the kernel lies outside
-  bool others = false;  // may photons within the kernel's reach lie outside the region?
+  double inside = 1.0;      // the kernel's integral over the region; exactly 1 where no part of the kernel lies outside
+  bool others = false;      // may photons within the kernel's reach lie outside the region?
+  double correction = 0.0;  // the integral of the kernel's correction over the region
 };
 
 /// Where RegionShare::inside is below this, the sum is divided by this instead: an eighth of the share at the corner of

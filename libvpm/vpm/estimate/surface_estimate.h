@@ -37,14 +37,14 @@ struct Arrives {
 /// The sum of value(travel, power) K_r, K_r over discs, of the photons that arrive on the side of a surface that
 /// `normal` (unit) points to. `Photons` are a map or a view of one, or a plain list for the brute-force twin.
 template <class Value, class... Photons>
-Rgb surface_sum(const Vec3& point, const Vec3& normal, Value&& value, const Photons&... photons) {
+KernelEstimate surface_sum(const Vec3& point, const Vec3& normal, Value&& value, const Photons&... photons) {
   return kernel_sum<2>(photons..., point, Arrives{normal, plane_thickness(settings_of(photons...))}, value);
 }
 
 /// Irradiance, W/m^2, on the side that `normal` (unit) points to: sum_p Phi_p K_r. A Lambertian surface of that
 /// reflectance sends out reflectance/pi times it.
 template <class... Photons>
-Rgb surface_irradiance(const Vec3& point, const Vec3& normal, const Photons&... photons) {
+KernelEstimate surface_irradiance(const Vec3& point, const Vec3& normal, const Photons&... photons) {
   return surface_sum(
       point, normal, [](const Vec3&, const Rgb& power) { return power; }, photons...);
 }
@@ -52,7 +52,7 @@ Rgb surface_irradiance(const Vec3& point, const Vec3& normal, const Photons&... 
 /// The same with the cosines to the shading normal of a hit: what a Lambertian surface there reflects. `normal` is the
 /// geometric normal of the hit, on the side that is asked for.
 template <class... Photons>
-Rgb shaded_irradiance(const Hit& hit, const Vec3& normal, const Photons&... photons) {
+KernelEstimate shaded_irradiance(const Hit& hit, const Vec3& normal, const Photons&... photons) {
   if (single_normal(hit)) return surface_irradiance(hit.position, normal, photons...);
   const auto shaded = [&](const Vec3& travel, const Rgb& power) {
     return power * shading_irradiance_scale(hit, travel);
@@ -65,9 +65,10 @@ Rgb shaded_irradiance(const Hit& hit, const Vec3& normal, const Photons&... phot
 /// far side, where the material scatters light through. f is for flux on its way to the eye, so refraction scales
 /// nothing here.
 template <class... Photons>
-Rgb scattered_radiance(const Material& material, const Hit& hit, const Vec3& towards_eye, const Photons&... photons) {
+KernelEstimate scattered_radiance(const Material& material, const Hit& hit, const Vec3& towards_eye,
+                                  const Photons&... photons) {
   const float geometric = glm::dot(hit.normal, towards_eye), shading = glm::dot(hit.shading_normal, towards_eye);
-  if (!(geometric * shading > 0.0f)) return Rgb(0.0f);  // seen edge on, or from different sides of the two normals
+  if (!(geometric * shading > 0.0f)) return {};  // seen edge on, or from different sides of the two normals
   const Vec3 eye_side = geometric > 0.0f ? hit.normal : -hit.normal;
   if (const Rgb* diffuse = diffuse_reflectance(material))
     return *diffuse / kPi * shaded_irradiance(hit, eye_side, photons...);
@@ -75,7 +76,7 @@ Rgb scattered_radiance(const Material& material, const Hit& hit, const Vec3& tow
   const auto scattered = [&](const Vec3& travel, const Rgb& power) {
     return scatter_value(material, hit, travel, towards_eye).value * power * shading_irradiance_scale(hit, travel);
   };
-  return kernel_sum<2>(photons..., hit.position, arrives, scattered) / std::abs(shading);
+  return kernel_sum<2>(photons..., hit.position, arrives, scattered) * Rgb(1.0f / std::abs(shading));
 }
 
 /// The radius of the disc, m, that scattered_radiance() gathers over.

@@ -49,14 +49,14 @@ float SurfaceRegion::lift(float distance) const { return std::min(kLift * distan
 RegionShare SurfaceRegion::share(float radius) const {
   Vec3 s, t;
   make_frame(near_.normal, s, t);
-  const auto within = [&](float way) { return kernel_within_2d(kernel_, double{way} / radius); };
-  double lost = 0.0;
+  const auto within = [&](float way) { return kernel_within(kernel_, 2, double{way} / radius); };
+  KernelPair<double> lost;
   for (int i = 0; i < kLines; ++i) {
     const Vec3 direction = kLine[i].x * s + kLine[i].y * t;
     lost += lost_along(radius, within, [&](float way) { return covers(way * direction); });
-    if (i + 1 == kFirstLines && lost == 0.0) return {};
+    if (i + 1 == kFirstLines && lost.value == 0.0) return {};
   }
-  return {1.0 - lost / kLines, true};
+  return {1.0 - lost.value / kLines, true, -lost.correction / kLines};
 }
 
 /// Does a place of a surface at this offset, or a photon there, belong to the region? Looks down to it, and along the

@@ -15,7 +15,7 @@ namespace vpm {
 ///   density at the query:   j = albedo density(x) sum        (Phi_p is that power over the density at x_p)
 /// Both densities are relative to the medium's largest.
 template <class... Photons>
-Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const Photons&... photons) {
+KernelEstimate volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const Photons&... photons) {
   return std::visit(
       [&](const auto& p) {
         const auto value = [&](const Vec3& travel, const Rgb& power) { return power * p.value(travel, towards); };
@@ -28,7 +28,8 @@ Rgb volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const
 /// medium's, because the densities of these photons are relative to its largest density.
 template <class... Photons>
 Rgb fluence(const Rgb& majorant, const Vec3& point, const Photons&... photons) {
-  return kernel_sum<3>(photons..., point, AnyPhoton{}, [](const Vec3&, const Rgb& power) { return power; }) / majorant;
+  const auto power_of = [](const Vec3&, const Rgb& power) { return power; };
+  return kernel_sum<3>(photons..., point, AnyPhoton{}, power_of).value / majorant;
 }
 
 }  // namespace vpm

@@ -35,19 +35,20 @@ RegionShare VolumeRegion::share(float radius) const {
 
 RegionShare VolumeRegion::share_along(const std::vector<Vec3>& half_sphere, float radius, bool filled) const {
   const Medium& medium = scene_.media[medium_];
-  const auto within = [&](float t) { return kernel_within_3d(kernel_, double{t} / radius); };
-  double lost = 0.0;
+  const auto within = [&](float t) { return kernel_within(kernel_, 3, double{t} / radius); };
+  KernelPair<double> lost;
   bool others = false;
   for (const Vec3& half : half_sphere)
     for (const Vec3& direction : {half, -half}) {
       const Ray ray{point_, direction};
       const std::optional<Hit> border = scene_.geometry.intersect(ray, radius);
       const float reach = border ? border->t : radius;
-      if (border) lost += 1.0 - within(reach);
+      if (border) lost += KernelPair<double>(1.0) - within(reach);
       if (!filled) lost += lost_along(reach, within, [&](float t) { return medium.density(ray.at(t)) > 0.0f; });
       others = others || (border && comes_again(*border, direction, radius - reach));
     }
-  return {1.0 - lost / (2.0 * static_cast<double>(half_sphere.size())), others};
+  const double lines = 2.0 * static_cast<double>(half_sphere.size());
+  return {1.0 - lost.value / lines, others, -lost.correction / lines};
 }
 
 bool VolumeRegion::holds(const Vec3& offset) const {

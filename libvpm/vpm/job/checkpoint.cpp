@@ -130,19 +130,17 @@ std::vector<ExactSums> take_sums(NamedFields& fields, const std::string& name, s
   return sums;
 }
 
-std::string half_name(size_t half) { return half == 0 ? "film.even_passes." : "film.odd_passes."; }
+std::string corrections_name(size_t group) { return fmt::format("film.corrections.{}", group); }
 
 void append_film(std::string& bytes, const Film& film) {
   append_field(bytes, "film.width", film.width());
   append_field(bytes, "film.height", film.height());
   const FilmSums& sums = film.sums();
   append_field(bytes, "film.passes", std::span<const PassRange>(sums.passes.ranges()));
-  for (size_t h = 0; h < 2; ++h) {
-    append_sums(bytes, half_name(h) + "squares_of_radii", {&sums.halves[h].squares, 1});
-    append_sums(bytes, half_name(h) + "values", sums.halves[h].values);
-    append_sums(bytes, half_name(h) + "products", sums.halves[h].products);
-  }
+  append_sums(bytes, "film.values", sums.values);
   append_sums(bytes, "film.squares", sums.squares);
+  for (size_t g = 0; g < Film::kGroups; ++g) append_sums(bytes, corrections_name(g), sums.corrections[g]);
+  append_sums(bytes, "film.channel_means", {&sums.channel_means, 1});
 }
 
 Film take_film(NamedFields& fields) {
@@ -152,11 +150,12 @@ Film take_film(NamedFields& fields) {
   const std::vector<PassRange> passes = fields.take_all<PassRange>("film.passes");
   if (!PassSet::is_valid(passes)) throw FieldError("its field 'film.passes' holds no ranges in rising order");
   const size_t blocks = Film::blocks(width, height);
-  FilmSums sums{PassSet(passes), {}, take_sums(fields, "film.squares", blocks)};
-  for (size_t h = 0; h < 2; ++h)
-    sums.halves[h] = {take_sums(fields, half_name(h) + "squares_of_radii", 1).front(),
-                      take_sums(fields, half_name(h) + "values", blocks),
-                      take_sums(fields, half_name(h) + "products", blocks)};
+  FilmSums sums;
+  sums.passes = PassSet(passes);
+  sums.values = take_sums(fields, "film.values", blocks);
+  sums.squares = take_sums(fields, "film.squares", blocks);
+  for (size_t g = 0; g < Film::kGroups; ++g) sums.corrections[g] = take_sums(fields, corrections_name(g), blocks);
+  sums.channel_means = take_sums(fields, "film.channel_means", 1).front();
   return Film(width, height, std::move(sums));
 }
 

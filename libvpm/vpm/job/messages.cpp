@@ -42,6 +42,21 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
   return warnings;
 }
 
+/// "0.0048 +- 0.0004", the standard error to one digit and the value to the same place.
+std::string text_of(const Estimated& estimated) {
+  const double error = estimated.standard_error;
+  if (!(error > 0.0) || std::isinf(error)) return fmt::format("{:.2g} +- {:.1g}", estimated.value, error);
+  const int place = std::max(0, -static_cast<int>(std::floor(std::log10(error))));
+  if (place > 6) return fmt::format("{:.2g} +- {:.1g}", estimated.value, error);
+  return fmt::format("{:.{}f} +- {:.{}f}", estimated.value, place, error, place);
+}
+
+std::string bias_text(const StatedError& stated, bool gathers) {
+  if (!gathers) return "no bias";
+  if (!stated.bias_seen) return fmt::format("bias: none seen, below {:.1g}", stated.highest_squared_bias);
+  return fmt::format("of which bias {}, below {:.2g}", text_of(stated.squared_bias), stated.highest_squared_bias);
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const RenderJob& job, const RenderResult& result) {
@@ -53,15 +68,12 @@ std::vector<std::string> warnings_of_light_map(const RenderJob& job, const Rende
 }
 
 std::string error_text(const RenderJob& job, const RenderResult& result) {
-  if (result.film.passes() < kLeastPasses) return "";
-  const FilmErrors errors = errors_of(result).value();
+  const std::optional<StatedError> stated = stated_error_of(result);
+  if (!stated) return "";
   const std::vector<std::string> unseen = maps_of_unseen_bias(job.scene, job.settings);
-  return fmt::format(
-      "estimated relative MSE {:.2g} (variance {:.2g}, {}{})", estimated_error(result), errors.variance_part,
-      result.film.shows_bias() ? fmt::format("squared bias {:.2g}", errors.bias_part) : "no bias to be seen",
-      unseen.empty()
-          ? ""
-          : fmt::format("; not seen: that of [{}], whose radii are not those of passes", fmt::join(unseen, "], [")));
+  return fmt::format("relative MSE {} ({}{})", text_of(stated->total),
+                     bias_text(*stated, gathers(job.scene, job.settings)),
+                     unseen.empty() ? "" : fmt::format("; that of [{}] cannot be seen", fmt::join(unseen, "], [")));
 }
 
 }  // namespace vpm

@@ -172,7 +172,7 @@ void render_block(const EyeContext& context, uint64_t seed, size_t block, EyeCou
                     pixel_of(camera.height, block / kBlocks, i / kBlockEdge));
     Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
     EyeWork work{rng, counters, scratch};
-    eye_radiance(context, camera.ray(film), work);
+    eye_radiance(context, camera.ray(film), work).value;
   }
 }
 

@@ -22,7 +22,7 @@ double share_done(const StopRule& until, const RenderResult& result) {
   if (result.film.passes() == 0) return 0.0;
   double share = 0.0;
   if (until.seconds > 0.0) share = result.seconds / until.seconds;
-  if (until.error > 0.0) share = std::max(share, until.error / estimated_error(result));
+  if (until.error > 0.0) share = std::max(share, until.error / highest_error(result));
   return share;
 }
 
@@ -43,7 +43,7 @@ void check_size(const RenderResult& result, const Camera& camera) {
 
 /// Adds the next pass.
 void add(RenderResult& result, const Pass& pass) {
-  result.film.add(result.film.next_pass(), pass.image, pass.relative_square);
+  result.film.add(result.film.next_pass(), pass.image, pass.correction);
   result.errors.reset();
   result.discs.resize(pass.found.size());
   for (size_t i = 0; i < pass.found.size(); ++i) shrink(result.discs[i], pass.found[i]);
@@ -59,10 +59,14 @@ std::optional<FilmErrors> errors_of(const RenderResult& result) {
   return result.film.errors();
 }
 
-double estimated_error(const RenderResult& result) {
-  if (result.film.passes() < kLeastPasses) return std::numeric_limits<double>::infinity();
-  const auto sum = [](const FilmErrors& errors) { return errors.variance_part + std::max(0.0, errors.bias_part); };
-  return result.errors ? sum(*result.errors) : sum(result.film.errors());
+std::optional<StatedError> stated_error_of(const RenderResult& result) {
+  if (result.film.passes() < kLeastPasses) return std::nullopt;
+  return stated_error(result.errors ? *result.errors : result.film.errors());
+}
+
+double highest_error(const RenderResult& result) {
+  const std::optional<StatedError> stated = stated_error_of(result);
+  return stated ? stated->highest : std::numeric_limits<double>::infinity();
 }
 
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,

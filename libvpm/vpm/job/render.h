@@ -7,6 +7,7 @@
 
 #include "vpm/base/progress.h"
 #include "vpm/estimate/statistics.h"
+#include "vpm/job/stated_error.h"
 #include "vpm/render/film.h"
 #include "vpm/render/pass.h"
 #include "vpm/render/pixel_disc.h"
@@ -53,9 +54,11 @@ RenderResult nothing_rendered(const Camera& camera);
 /// The errors of the film, read off it where the result does not hold them; nothing below two passes.
 std::optional<FilmErrors> errors_of(const RenderResult& result);
 
-/// The relative MSE that passes so far are estimated to have: variance and squared bias (where noise makes the latter's
-/// estimate negative: none) by errors_of(). Infinite below kLeastPasses passes, which say too little.
-double estimated_error(const RenderResult& result);
+/// What errors_of() tell of the relative MSE; nothing below kLeastPasses passes, which say too little.
+std::optional<StatedError> stated_error_of(const RenderResult& result);
+/// StatedError::highest, infinite where nothing is stated: a render that asks for an error goes on until it is no more
+/// than that.
+double highest_error(const RenderResult& result);
 inline constexpr int kLeastPasses = 8;
 
 }  // namespace vpm

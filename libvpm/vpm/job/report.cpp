@@ -106,16 +106,25 @@ Json texels(Json eye) {
   return section(std::move(texels), eye);
 }
 
+Json json_of(const Estimated& estimated) {
+  return {{"value", estimated.value}, {"standard_error", estimated.standard_error}};
+}
+
 /// How far the image is estimated to be from the truth.
 Json errors(const RenderJob& job, const RenderResult& result) {
-  const Film& film = result.film;
-  if (film.passes() < kLeastPasses) return nullptr;
-  const FilmErrors e = errors_of(result).value();
-  return {{"quantity", "relative MSE: mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2)"},
-          {"estimated", estimated_error(result)},
-          {"variance", e.variance_part},
-          {"squared_bias", film.shows_bias() ? Json(e.bias_part) : Json()},
-          {"bias_not_seen_of", maps_of_unseen_bias(job.scene, job.settings)}};
+  const std::optional<StatedError> stated = stated_error_of(result);
+  if (!stated) return nullptr;
+  Json all = json_of(stated->total);
+  all["quantity"] = "relative MSE: mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2)";
+  all["below_with_confidence_of_80_percent"] = stated->highest;
+  all["variance"] = json_of(stated->variance);
+  if (gathers(job.scene, job.settings)) {
+    all["squared_bias"] = json_of(stated->squared_bias);
+    all["squared_bias"]["seen"] = stated->bias_seen;
+    all["squared_bias"]["below_with_confidence_of_80_percent"] = stated->highest_squared_bias;
+  }
+  all["bias_not_seen_of"] = maps_of_unseen_bias(job.scene, job.settings);
+  return all;
 }
 
 /// Of the discs of pixels, for the next pass; null where pixels have none.

@@ -1,10 +1,12 @@
 // Density estimation kernels in two and three dimensions, normalised over the unit ball.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "vpm/base/vec.h"
+#include "vpm/photon/kernel_pair.h"
 
 namespace vpm {
 
@@ -34,6 +36,39 @@ float kernel_profile(float q) {
   if constexpr (K == KernelKind::epanechnikov) return 1.0f - q;
   if constexpr (K == KernelKind::biweight) return (1.0f - q) * (1.0f - q);
   if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (1.0f - q);
+}
+
+/// The same, of a kernel known at run time.
+inline double profile_of(KernelKind kind, double q) {
+  const double rest = 1.0 - q;
+  switch (kind) {
+    case KernelKind::constant:
+      return 1.0;
+    case KernelKind::cone:
+      return 1.0 - std::sqrt(q);
+    case KernelKind::epanechnikov:
+      return rest;
+    case KernelKind::biweight:
+      return rest * rest;
+    case KernelKind::triweight:
+      break;
+  }
+  return rest * rest * rest;
+}
+
+/// What a kernel sum changes by where its kernel shrinks: -(r/2) d/dr of the kernel in `Dimension` dimensions, over its
+/// normalisation, as the kernels' profiles are. It integrates to 0, and the sum of both has no second moment: so a bias
+/// that goes as r^2 is minus what this weight gives on average, and one that goes as r twice that. A constant kernel
+/// has no derivative at its edge; for it, the difference from the kernel of radius r/sqrt(2) has the same two
+/// properties.
+template <KernelKind K, int Dimension>
+float kernel_correction(float q) {
+  constexpr float d = Dimension;
+  if constexpr (K == KernelKind::constant) return q < 0.5f ? 2.0f * std::exp2(d / 2.0f) - 2.0f : -2.0f;
+  if constexpr (K == KernelKind::cone) return d / 2.0f - (d + 1.0f) / 2.0f * std::sqrt(q);
+  if constexpr (K == KernelKind::epanechnikov) return d / 2.0f * (1.0f - q) - q;
+  if constexpr (K == KernelKind::biweight) return (1.0f - q) * (d / 2.0f * (1.0f - q) - 2.0f * q);
+  if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (d / 2.0f * (1.0f - q) - 3.0f * q);
 }
 
 /// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m^2 or 1/m^3.
@@ -72,6 +107,15 @@ inline double kernel_within_3d(KernelKind kind, double t) {
       break;
   }
   return cube * (105.0 + q * (q * (135.0 - 35.0 * q) - 189.0)) / 16.0;
+}
+
+/// The integral of the normalised kernel over the disc (dimension 2) or ball (3) of `t` <= 1 times its radius, and that
+/// of its correction: t/2 times the derivative of the first.
+inline KernelPair<double> kernel_within(KernelKind kind, int dimension, double t) {
+  const auto within = [&](double s) { return dimension == 2 ? kernel_within_2d(kind, s) : kernel_within_3d(kind, s); };
+  if (kind == KernelKind::constant) return {within(t), 2.0 * (within(std::min(1.0, std::sqrt(2.0) * t)) - within(t))};
+  const double measure = dimension == 2 ? kernel_info(kind).disc * t * t : 2.0 * kernel_info(kind).ball * t * t * t;
+  return {within(t), measure * profile_of(kind, t * t)};
 }
 
 }  // namespace vpm

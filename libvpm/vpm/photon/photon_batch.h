@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "vpm/base/below.h"
+#include "vpm/photon/kernel_pair.h"
 #include "vpm/photon/photon_table.h"
 
 namespace vpm {
@@ -87,22 +88,35 @@ void NearPhotons::keep(const PhotonTable& table, const Vec3& point, Accept&& acc
   size_ = keep_up_to(distances2_, photons_, size_, std::numeric_limits<float>::max());
 }
 
-/// The sum of value(travel, power) * weight(number in the batch). A weight is a float or an Rgb. Each lane is summed in
-/// floats, over at most kMost / kBlock values.
-template <class Weight, class Value>
-Rgbd sum_photons(const PhotonBatch& batch, Weight&& weight, Value&& value) {
+/// Sums over the photons of a batch, lane by lane: in floats, over at most kMost / kBlock values.
+struct LaneSums {
   float r[kBlock] = {0.0f}, g[kBlock] = {0.0f}, b[kBlock] = {0.0f};
+
+  void add(size_t lane, const Rgb& v) {
+    r[lane] += v.r;
+    g[lane] += v.g;
+    b[lane] += v.b;
+  }
+  Rgbd total() const {
+    Rgbd sum(0.0);
+    for (size_t lane = 0; lane < kBlock; ++lane) sum += Rgbd(r[lane], g[lane], b[lane]);
+    return sum;
+  }
+};
+
+/// The sum of value(travel, power) * weight(number in the batch). Weights are pairs of floats or of Rgb.
+template <class Weight, class Value>
+KernelPair<Rgbd> sum_photons(const PhotonBatch& batch, Weight&& weight, Value&& value) {
+  LaneSums values, corrections;
   for (size_t block = 0; block < batch.size(); block += kBlock)
     for (size_t lane = 0; lane < kBlock; ++lane) {
       const size_t i = block + lane;
-      const Rgb v = value(batch.travel(i), batch.power(i)) * weight(i);
-      r[lane] += v.r;
-      g[lane] += v.g;
-      b[lane] += v.b;
+      const Rgb v = value(batch.travel(i), batch.power(i));
+      const auto w = weight(i);
+      values.add(lane, v * w.value);
+      corrections.add(lane, v * w.correction);
     }
-  Rgbd sum(0.0);
-  for (size_t lane = 0; lane < kBlock; ++lane) sum += Rgbd(r[lane], g[lane], b[lane]);
-  return sum;
+  return {values.total(), corrections.total()};
 }
 
 }  // namespace vpm

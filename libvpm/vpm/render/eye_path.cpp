@@ -12,7 +12,7 @@ class EyePath {
   EyePath(const EyeContext& context, const Ray& ray, EyeWork& work)
       : c_(context), work_(work), ray_(ray), medium_(medium_of_ray(context.scene, context.scene.camera_medium, ray)) {}
 
-  Rgb follow() {
+  KernelEstimate follow() {
     for (int events = 0; events < c_.max_events;) {
       const Encounter met = meet(c_.scene, ray_, kInfinity, medium_, work_.counters.walk);
       cross({0.0f, met ? met.hits[0].t : kInfinity});
@@ -74,12 +74,12 @@ class EyePath {
   Ray ray_;
   MediumId medium_;
   Rgb throughput_{1.0f};
-  Rgb radiance_{0.0f};
+  KernelEstimate radiance_;
 };
 
 }  // namespace
 
-Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, EyeWork& work) {
+KernelEstimate eye_radiance(const EyeContext& context, const Ray& camera_ray, EyeWork& work) {
   return EyePath(context, camera_ray, work).follow();
 }
 

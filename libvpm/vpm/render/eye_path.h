@@ -15,6 +15,6 @@ struct EyeContext {
 /// Follows a camera ray through boundaries and specular surfaces. Each segment adds what its medium scatters towards
 /// the eye, as the estimators of volumes find it. The first non-specular surface adds what the estimator of surfaces
 /// finds, and ends the path. Returns radiance, W/(m^2 sr).
-Rgb eye_radiance(const EyeContext& context, const Ray& camera_ray, EyeWork& work);
+KernelEstimate eye_radiance(const EyeContext& context, const Ray& camera_ray, EyeWork& work);
 
 }  // namespace vpm

@@ -1,12 +1,14 @@
-// Sums of passes, and lines through them.
+// Sums of passes, and what they tell of errors.
 #include "vpm/render/film.h"
 
 #include <fmt/format.h>
 #include <cassert>
 #include <functional>
+#include <limits>
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/statistics.h"
 #include "vpm/image/metrics.h"
 
 namespace vpm {
@@ -27,68 +29,34 @@ void for_blocks(size_t values, const std::function<void(size_t block, size_t fir
 float& value_at(Image& image, size_t i) { return image.pixels[i / 3][static_cast<int>(i % 3)]; }
 float value_at(const Image& image, size_t i) { return image.pixels[i / 3][static_cast<int>(i % 3)]; }
 
+/// The values of an image from `first` to before `end`, then zeros.
+ExactSums::Values values_of(const Image& image, size_t first, size_t end) {
+  ExactSums::Values values{};
+  for (size_t i = first; i < end; ++i) values[i - first] = value_at(image, i);
+  return values;
+}
+
 void put(const ExactSums::Values& values, Image& image, size_t first, size_t end) {
   for (size_t i = first; i < end; ++i) value_at(image, i) = static_cast<float>(values[i - first]);
 }
 
-/// n sum(x y) - sum(x) sum(y): n^2 times the covariance of n pairs.
-double scaled_covariance(int n, const TwoDoubles& xy, const TwoDoubles& x, const TwoDoubles& y) {
-  return (TwoDoubles{static_cast<double>(n)} * xy - x * y).value();
+ExactSums::Values over(const ExactSums::Totals& sums, int n) {
+  ExactSums::Values values;
+  for (size_t i = 0; i < kBlockValues; ++i) values[i] = sums[i].value() / n;
+  return values;
 }
 
-/// What the passes of a block tell.
-struct BlockTotals {
-  std::array<ExactSums::Totals, 2> values;  // of the halves
+/// The variance of the mean of n numbers, from their sum and that of their squares.
+double variance_of_mean_of(int n, const TwoDoubles& sum, const TwoDoubles& squares) {
+  const double count = n, scale = count * count * (count - 1.0);
+  return (TwoDoubles{count} * squares - sum * sum).value() / scale;
+}
 
-  BlockTotals(const FilmSums& sums, size_t block)
-      : values{sums.halves[0].values[block].totals(), sums.halves[1].values[block].totals()} {}
-  TwoDoubles sum(size_t i) const { return values[0][i] + values[1][i]; }
-
-  ExactSums::Values means(int n) const {
-    ExactSums::Values means;
-    for (size_t i = 0; i < kBlockValues; ++i) means[i] = sum(i).value() / n;
-    return means;
-  }
-  /// Of the means of n passes.
-  ExactSums::Values variances(int n, const ExactSums& of_squares) const {
-    const ExactSums::Totals squares = of_squares.totals();
-    const double count = n, scale = count * count * (count - 1.0);
-    ExactSums::Values variances;
-    for (size_t i = 0; i < kBlockValues; ++i) variances[i] = scaled_covariance(n, squares[i], sum(i), sum(i)) / scale;
-    return variances;
-  }
-};
-
-/// What tells the bias of the whole mean from a half's passes: the slope of values over relative squares, times the
-/// mean of these over all passes.
-struct BiasLine {
-  int passes = 0;
-  TwoDoubles squares;   // sum
-  double spread = 0.0;  // passes^2 times the variance of squares; 0: there is no slope, and no bias shows
-  double mean = 0.0;
-
-  ExactSums::Values biases(const ExactSums& of_products, const ExactSums::Totals& values) const {
-    ExactSums::Values biases{};
-    if (spread == 0.0) return biases;
-    const ExactSums::Totals products = of_products.totals();
-    for (size_t i = 0; i < kBlockValues; ++i)
-      biases[i] = scaled_covariance(passes, products[i], values[i], squares) * (mean / spread);
-    return biases;
-  }
-};
-
-std::array<BiasLine, 2> bias_lines(const FilmSums& sums) {
-  std::array<BiasLine, 2> lines;
-  TwoDoubles all;
-  for (int h = 0; h < 2; ++h) {
-    const ExactSums::Totals squares = sums.halves[h].squares.totals();
-    const int n = sums.passes.count_of(h);
-    lines[h] = {n, squares[0], scaled_covariance(n, squares[1], squares[0], squares[0])};
-    all = all + squares[0];
-  }
-  for (BiasLine& line : lines) line.mean = all.value() / std::max(1, sums.passes.count());
-  if (lines[0].spread == 0.0 || lines[1].spread == 0.0) lines[0].spread = lines[1].spread = 0.0;
-  return lines;
+ExactSums::Values variances(int n, const ExactSums& of_values, const ExactSums& of_squares) {
+  const ExactSums::Totals sums = of_values.totals(), squares = of_squares.totals();
+  ExactSums::Values variances;
+  for (size_t i = 0; i < kBlockValues; ++i) variances[i] = variance_of_mean_of(n, sums[i], squares[i]);
+  return variances;
 }
 
 void merge_all(std::vector<ExactSums>& sums, const std::vector<ExactSums>& others) {
@@ -98,6 +66,85 @@ void merge_all(std::vector<ExactSums>& sums, const std::vector<ExactSums>& other
   });
 }
 
+// --- What errors are divided by
+
+/// The mean of the pixels around one; that pixel where it has no neighbour.
+Rgbd mean_of_neighbours(const Image& image, int x, int y) {
+  Rgbd sum(0.0);
+  int count = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(image.height - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(image.width - 1, x + 1); ++u) {
+      if (u == x && v == y) continue;
+      sum += Rgbd(image.at(u, v));
+      ++count;
+    }
+  return count > 0 ? sum / static_cast<double>(count) : Rgbd(image.at(x, y));
+}
+
+/// What squares of errors of a pixel are divided by, as FilmErrors says; 0 in a channel that is black everywhere.
+std::vector<Rgbd> relative_scales(const Image& means) {
+  const Rgbd channels = channel_means(means);
+  std::vector<Rgbd> scales;
+  scales.reserve(means.pixels.size());
+  for (int y = 0; y < means.height; ++y)
+    for (int x = 0; x < means.width; ++x) {
+      const Rgbd own(means.at(x, y)), around = mean_of_neighbours(means, x, y);
+      scales.push_back(glm::min(own * own, around * around) + 0.01 * channels * channels);
+    }
+  return scales;
+}
+
+double mean_over_channels(const Rgbd& squares, const Rgbd& scale) {
+  double sum = 0.0;
+  for (int c = 0; c < 3; ++c)
+    if (scale[c] > 0.0) sum += squares[c] / scale[c];
+  return sum / 3.0;
+}
+
+/// The mean over pixels, and its standard error, were pixels independent.
+Estimated variance_part_of(const Image& variances, const std::vector<Rgbd>& scales) {
+  Moments parts;
+  for (size_t i = 0; i < scales.size(); ++i) parts.add(mean_over_channels(Rgbd(variances.pixels[i]), scales[i]));
+  return {parts.mean(), scales.size() > 1 ? std::sqrt(parts.variance_of_mean()) : parts.mean()};
+}
+
+// --- Bias
+
+using GroupMeans = std::array<Image, FilmSums::kGroups>;
+
+/// The relative mean product of two groups' corrections.
+double relative_product(const Image& a, const Image& b, const std::vector<Rgbd>& scales) {
+  Sum sum;
+  for (size_t i = 0; i < scales.size(); ++i)
+    sum.add(mean_over_channels(Rgbd(a.pixels[i]) * Rgbd(b.pixels[i]), scales[i]));
+  return sum.value() / static_cast<double>(scales.size());
+}
+
+/// The mean of the products of all pairs of groups, and its jackknife over groups: from the means of the pairs without
+/// each [Tukey1958].
+Estimated mean_product(const std::vector<const Image*>& groups, const std::vector<Rgbd>& scales) {
+  const size_t n = groups.size();
+  if (n < 2) return {0.0, std::numeric_limits<double>::infinity()};
+  double all = 0.0;
+  std::vector<double> with(n, 0.0);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = 0; j < i; ++j) {
+      const double product = relative_product(*groups[i], *groups[j], scales);
+      all += product;
+      with[i] += product;
+      with[j] += product;
+    }
+  const auto count = static_cast<double>(n);
+  const double pairs = count * (count - 1.0) / 2.0;
+  if (n < 3) return {all / pairs, std::numeric_limits<double>::infinity()};
+  Moments without;
+  for (const double of_group : with) without.add((all - of_group) / (pairs - (count - 1.0)));
+  const double spread = without.variance() * (count - 1.0);  // the sum of squared deviations
+  return {all / pairs, std::sqrt((count - 1.0) / count * spread)};
+}
+
+bool is_zero(const ExactSums& sums) { return sums.words().empty(); }
+
 }  // namespace
 
 size_t Film::blocks(int width, int height) {
@@ -106,30 +153,28 @@ size_t Film::blocks(int width, int height) {
 
 Film::Film(int width, int height) : width_(width), height_(height) {
   const size_t count = blocks(width, height);
+  sums_.values.resize(count);
   sums_.squares.resize(count);
-  for (FilmSums::Half& half : sums_.halves)
-    for (std::vector<ExactSums>* sums : {&half.values, &half.products}) sums->resize(count);
+  for (std::vector<ExactSums>& group : sums_.corrections) group.resize(count);
 }
 
 Film::Film(int width, int height, FilmSums sums) : width_(width), height_(height), sums_(std::move(sums)) {}
 
-void Film::add(int pass, const Image& image, float relative_square) {
+void Film::add(int pass, const Image& image, const Image& correction) {
   assert(image.width == width_ && image.height == height_ && pass >= 0);
+  assert(correction.pixels.empty() || correction.pixels.size() == image.pixels.size());
   assert(!sums_.passes.overlaps({pass, pass + 1}));
-  FilmSums::Half& half = sums_.halves[pass % 2];
+  std::vector<ExactSums>& corrections = sums_.corrections[pass % kGroups];
   for_blocks(3 * image.pixels.size(), [&](size_t block, size_t first, size_t end) {
-    // Products of floats are exact in double precision.
-    ExactSums::Values values{}, squares, products;
-    for (size_t i = first; i < end; ++i) values[i - first] = value_at(image, i);
-    for (size_t i = 0; i < kBlockValues; ++i) {
-      squares[i] = values[i] * values[i];
-      products[i] = values[i] * double{relative_square};
-    }
-    half.values[block].add(values);
-    half.products[block].add(products);
+    const ExactSums::Values values = values_of(image, first, end);
+    ExactSums::Values squares;
+    for (size_t i = 0; i < kBlockValues; ++i) squares[i] = values[i] * values[i];  // of floats: exact in doubles
+    sums_.values[block].add(values);
     sums_.squares[block].add(squares);
+    if (!correction.pixels.empty()) corrections[block].add(values_of(correction, first, end));
   });
-  half.squares.add({relative_square, double{relative_square} * relative_square});
+  const Rgbd means = channel_means(image), squares = means * means;
+  sums_.channel_means.add({means.r, means.g, means.b, squares.r, squares.g, squares.b});
   sums_.passes.add({pass, pass + 1});
 }
 
@@ -140,21 +185,17 @@ void Film::merge(const Film& other) {
       throw InputError(fmt::format("films of the same passes do not add up: both have some of {} to {}", range.first,
                                    range.end - 1));
   for (const PassRange& range : other.sums_.passes.ranges()) sums_.passes.add(range);
+  merge_all(sums_.values, other.sums_.values);
   merge_all(sums_.squares, other.sums_.squares);
-  for (size_t h = 0; h < 2; ++h) {
-    FilmSums::Half& half = sums_.halves[h];
-    const FilmSums::Half& others = other.sums_.halves[h];
-    half.squares.merge(others.squares);
-    merge_all(half.values, others.values);
-    merge_all(half.products, others.products);
-  }
+  for (size_t g = 0; g < kGroups; ++g) merge_all(sums_.corrections[g], other.sums_.corrections[g]);
+  sums_.channel_means.merge(other.sums_.channel_means);
 }
 
 Image Film::mean() const {
   Image image(width_, height_);
   const int n = std::max(1, passes());
   for_blocks(3 * image.pixels.size(), [&](size_t block, size_t first, size_t end) {
-    put(BlockTotals(sums_, block).means(n), image, first, end);
+    put(over(sums_.values[block].totals(), n), image, first, end);
   });
   return image;
 }
@@ -163,43 +204,42 @@ Image Film::variance_of_mean() const {
   assert(passes() > 1);
   Image image(width_, height_);
   for_blocks(3 * image.pixels.size(), [&](size_t block, size_t first, size_t end) {
-    put(BlockTotals(sums_, block).variances(passes(), sums_.squares[block]), image, first, end);
+    put(variances(passes(), sums_.values[block], sums_.squares[block]), image, first, end);
   });
   return image;
 }
 
-bool Film::shows_bias() const { return bias_lines(sums_)[0].spread > 0.0; }
+bool Film::shows_bias() const {
+  for (const std::vector<ExactSums>& group : sums_.corrections)
+    if (!std::all_of(group.begin(), group.end(), is_zero)) return true;
+  return false;
+}
 
 FilmErrors Film::errors() const {
   assert(passes() > 1);
-  FilmErrors errors{Image(width_, height_), Image(width_, height_)};
-  const int n = passes();
-  const auto& [a, b] = sums_.halves;
-  const std::array<BiasLine, 2> lines = bias_lines(sums_);
-  const Image means = mean();
-  const Rgbd channels = channel_means(means);
-  const size_t values = 3 * means.pixels.size();
-  std::vector<std::array<double, 2>> parts(sums_.squares.size());  // of blocks: due to variance, due to bias
-  for_blocks(values, [&](size_t block, size_t first, size_t end) {
-    const BlockTotals totals(sums_, block);
-    const ExactSums::Values of_mean = totals.means(n), variances = totals.variances(n, sums_.squares[block]);
-    const ExactSums::Values of_a = lines[0].biases(a.products[block], totals.values[0]);
-    const ExactSums::Values of_b = lines[1].biases(b.products[block], totals.values[1]);
-    ExactSums::Values biases;
-    for (size_t i = 0; i < kBlockValues; ++i) biases[i] = 0.5 * (of_a[i] + of_b[i]);
-    put(variances, errors.variance, first, end);
-    put(biases, errors.bias, first, end);
-    for (size_t i = 0; i < end - first; ++i) {
-      const double scale = relative_scale(of_mean[i], channels[static_cast<int>((first + i) % 3)]);
-      if (scale == 0.0) continue;  // a black channel is exact
-      parts[block][0] += variances[i] / scale;
-      parts[block][1] += of_a[i] * of_b[i] / scale;
-    }
-  });
-  for (const auto& [variance, bias] : parts) {
-    errors.variance_part += variance / static_cast<double>(values);
-    errors.bias_part += bias / static_cast<double>(values);
+  FilmErrors errors;
+  errors.variance = variance_of_mean();
+  errors.bias = Image(width_, height_);
+  const std::vector<Rgbd> scales = relative_scales(mean());
+  errors.variance_part = variance_part_of(errors.variance, scales);
+  const ExactSums::Totals means = sums_.channel_means.totals();
+  for (int c = 0; c < 3; ++c)
+    errors.variance_of_channel_means[c] = variance_of_mean_of(passes(), means[c], means[c + 3]);
+  if (!shows_bias()) return errors;
+  GroupMeans groups;
+  std::vector<const Image*> filled;
+  for (int g = 0; g < kGroups; ++g) {
+    const int n = sums_.passes.count_of(g, kGroups);
+    if (n == 0) continue;
+    groups[g] = Image(width_, height_);
+    for_blocks(3 * scales.size(), [&](size_t block, size_t first, size_t end) {
+      put(over(sums_.corrections[g][block].totals(), n), groups[g], first, end);
+    });
+    const float share = static_cast<float>(n) / static_cast<float>(passes());
+    for (size_t i = 0; i < scales.size(); ++i) errors.bias.pixels[i] -= share * groups[g].pixels[i];
+    filled.push_back(&groups[g]);
   }
+  errors.bias_part = mean_product(filled, scales);
   return errors;
 }
 

@@ -1,5 +1,5 @@
-// The film: the mean of passes, pixel by pixel, and what the differences between passes tell of its error. The result
-// does not depend on the order of the passes, nor on how films of some of them were merged.
+// The film: the mean of passes, pixel by pixel, and what passes tell of its error. The result does not depend on the
+// order of the passes, nor on how films of some of them were merged.
 #pragma once
 
 #include <array>
@@ -11,47 +11,50 @@
 
 namespace vpm {
 
-/// Estimates of the variance and of the bias of a film's mean. A pass of radius r has a bias of b r^2 where the
-/// photons' density is smooth [Silverman1986, sec. 3.3]. Passes of different radii show it as the slope of a line
-/// through them.
-struct FilmErrors {
-  Image variance;              // of the mean, from the differences between passes
-  Image bias;                  // of the mean; an unbiased estimate, but full of noise
-  double variance_part = 0.0;  // relative MSE due to variance: the mean over pixels and channels of
-                               // variance / (mean^2 + 0.01 (mean over pixels)^2), as relative_mse()
-  double bias_part = 0.0;      // the same due to bias; an unbiased estimate, which may come out below 0
+/// An estimate and its standard error, itself estimated.
+struct Estimated {
+  double value = 0.0, standard_error = 0.0;
+
+  bool operator==(const Estimated&) const = default;
 };
 
-/// What a film sums, by blocks of ExactSums::kCount values: three to a pixel, rows from the top.
-struct FilmSums {
-  /// The sums of the even passes, or of the odd ones. The noise of the two halves is independent, so the product of
-  /// their slopes estimates the squared bias without any noise on average.
-  struct Half {
-    ExactSums squares;                // of radii, relative: [0] their sum, [1] that of their squares
-    std::vector<ExactSums> values;    // W/(m^2 sr)
-    std::vector<ExactSums> products;  // of values and relative squares of radii
+/// Estimates of the variance and of the bias of a film's mean. Relative parts are those in relative_mse(): means over
+/// pixels and channels, over R^2 + 0.01 (mean R)^2. A pixel's own value is too noisy to stand for R where its error is
+/// large, as a sample that makes the error makes it seem small, too: so R is the smaller of the pixel's value and the
+/// mean of its neighbours.
+struct FilmErrors {
+  Image variance;           // of the mean, from the differences between passes
+  Image bias;               // of the mean, were it to go as r^2: an unbiased estimate, but full of noise
+  Estimated variance_part;  // relative MSE due to variance
+  /// Relative MSE due to bias, were it to go as r^2 everywhere; four times as much were it to go as r. Estimated by
+  /// products of corrections of different passes, whose noise is independent: without bias, so that it may come out
+  /// below 0. Its standard error is that of a jackknife over Film::kGroups groups of passes.
+  Estimated bias_part;
+  Rgbd variance_of_channel_means{0.0};  // of the mean over pixels, whatever the correlation between pixels
+};
 
-    bool operator==(const Half&) const = default;
-  };
+/// What a film sums. Images are cut into blocks of ExactSums::kCount values: three to a pixel, rows from the top.
+struct FilmSums {
+  static constexpr int kGroups = 4;
   PassSet passes;
-  std::array<Half, 2> halves;
-  std::vector<ExactSums> squares;  // of values, of all passes
+  std::vector<ExactSums> values;   // W/(m^2 sr), of all passes
+  std::vector<ExactSums> squares;  // of values
+  /// Of the corrections of passes number g, g + kGroups, g + 2 kGroups, ... The noise of groups is independent.
+  std::array<std::vector<ExactSums>, kGroups> corrections;
+  ExactSums channel_means;  // of passes: [0] to [2] sums of red, green, blue, [3] to [5] of their squares
 
   bool operator==(const FilmSums&) const = default;
 };
 
 /// Sums passes without rounding error. The film of a set of passes is the same to the last bit, in whatever order they
-/// are added, and however films of some of them are merged. Only two things are rounded: what passes give, floats, and
-/// what is read off the sums. The relative error of a mean is that of a double. So is that of a variance, though it is
-/// a difference of nearly equal sums; it is about n 2^-54 for n passes that differ only in the last bits of their
-/// floats.
-///
-/// A pixel takes 190 bytes where a block of 42 pixels has nearly one brightness, 260 where the passes of each block
-/// span 4 decades, 280 where they span 10 and 340 where they span 20 (512 x 512 pixels after 64 passes: 49, 67, 74 and
-/// 89 MB).
+/// are added, and however films of some of them are merged. Only two things are rounded: what passes give, floats and
+/// the means of their channels, and what is read off the sums. The relative error of a mean is that of a double. So is
+/// that of a variance, though it is a difference of nearly equal sums; it is about n 2^-54 for n passes that differ
+/// only in the last bits of their floats.
 class Film {
  public:
-  static constexpr size_t kBytesOfPixel = 300;  // for estimates of sizes
+  static constexpr size_t kBytesOfPixel = 350;  // for estimates of sizes
+  static constexpr int kGroups = FilmSums::kGroups;
 
   Film(int width, int height);
   /// Of sums of a film of that size.
@@ -59,10 +62,10 @@ class Film {
   /// How many blocks a film of that size has.
   static size_t blocks(int width, int height);
 
-  /// Adds pass number `pass` >= 0, which the film does not have yet. Its image has the film's size and finite pixels.
-  /// The squared radii of its kernels are `relative_square` times those of the first pass (0: the pass has no kernel).
-  /// Throws std::domain_error where a pixel is not finite; the film must not be used then.
-  void add(int pass, const Image& image, float relative_square = 0.0f);
+  /// Adds pass number `pass` >= 0, which the film does not have yet. Its image has the film's size and finite pixels;
+  /// so has its correction (see Pass), or it is empty: the pass has no kernel. Throws std::domain_error where a pixel
+  /// is not finite; the film must not be used then.
+  void add(int pass, const Image& image, const Image& correction = {});
   /// Adds the passes of another film of the same size. Throws InputError where both films have a pass of the same
   /// number.
   void merge(const Film& other);
@@ -76,9 +79,10 @@ class Film {
   Image mean() const;
   /// The variance of that mean, estimated from the passes' differences. Needs two passes.
   Image variance_of_mean() const;
-  /// Do the radii differ within each half, so that a bias shows?
+  /// Is a correction of the passes not 0, so that they have kernels?
   bool shows_bias() const;
-  /// Needs two passes. Where no bias shows, it is 0.
+  /// Needs two passes. Parts of bias are 0 where no bias shows, and their standard error is infinite where fewer than
+  /// three groups have passes.
   FilmErrors errors() const;
 
  private:

@@ -16,8 +16,8 @@ struct TileWork {
   EyeScratch scratch;
 };
 
-Rgb render_pixel(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
-                 const glm::ivec2& pixel, TileWork& tile) {
+KernelEstimate render_pixel(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
+                            const glm::ivec2& pixel, TileWork& tile) {
   const Camera& camera = scene.camera;
   const int samples = settings.samples_per_pixel;
   const size_t number = static_cast<size_t>(pixel.y) * camera.width + pixel.x;
@@ -39,7 +39,7 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
                   const std::atomic<bool>& stop, const PassProgress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const Camera& camera = scene.camera;
-  Pass result{.image = Image(camera.width, camera.height), .found = {}, .statistics = {}};
+  Pass result(camera.width, camera.height);
   result.statistics.passes = 1;
   const int tiles_x = static_cast<int>(chunk_count(static_cast<size_t>(camera.width), kTile));
   const uint64_t tiles = tile_count(camera);
@@ -51,7 +51,7 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
     TileWork work{counters[tile], {}};
     for (int y = y0; y < std::min(y0 + kTile, camera.height); ++y)
       for (int x = x0; x < std::min(x0 + kTile, camera.width); ++x)
-        result.image.at(x, y) = render_pixel(scene, settings, pass, radiance, {x, y}, work);
+        result.set(x, y, render_pixel(scene, settings, pass, radiance, {x, y}, work));
     bar.advance();
     if (progress.tiles) progress.tiles->advance();
   });

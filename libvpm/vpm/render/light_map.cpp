@@ -30,12 +30,12 @@ struct TexelContext {
 
 /// Irradiance, W/m^2, on the side of the outward normal: pi times the radiance of a white Lambertian surface in the
 /// place of the real one.
-Rgb irradiance(const TexelContext& context, const Hit& point, EyeWork& work) {
+KernelEstimate irradiance(const TexelContext& context, const Hit& point, EyeWork& work) {
   Hit flat = point;
   flat.shading_normal = flat.normal;
   const Material white = Lambertian{Rgb(1.0f)};
   const SurfaceView view{flat, white, -flat.normal, medium_outside(context.scene, flat)};
-  return kPi * context.estimator.sent(view, work);
+  return context.estimator.sent(view, work) * Rgb(kPi);
 }
 
 /// What a chunk of texels works with.
@@ -45,8 +45,8 @@ struct TexelWork {
   std::vector<UvPiece> pieces;
 };
 
-Rgb bake_texel(const TexelContext& context, size_t texel, TexelWork& chunk) {
-  if (!context.layout.covers(texel)) return Rgb(0.0f);
+KernelEstimate bake_texel(const TexelContext& context, size_t texel, TexelWork& chunk) {
+  if (!context.layout.covers(texel)) return {};
   find_pieces(context.layout, texel, chunk.pieces);
   const int samples = context.settings.samples_per_pixel;
   return mean_of_samples(samples, chunk.counters, [&](int s) {
@@ -70,10 +70,8 @@ UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution) {
 Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int pass,
                     const std::atomic<bool>& stop, const PassProgress& progress) {
   assert(settings.integrator == Integrator::photon && settings.radii != RadiusSchedule::per_pixel);
-  Pass result{.image = Image(layout.resolution, layout.resolution), .found = {}, .statistics = {}};
-  result.statistics.passes = 1;
+  Pass result(layout.resolution, layout.resolution);
   const Estimators estimators = plan_surface_estimators(scene, settings, pass);
-  result.relative_square = relative_square(estimators.maps(), pass);
   prepare_pass(scene, settings, estimators, {pass, stop, progress}, result.statistics);
   const TexelContext context{scene, settings, layout, *estimators.surface, pass};
   const auto start = std::chrono::steady_clock::now();
@@ -83,7 +81,11 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
   parallel_for_chunks(layout.texels(), kTexelChunk, [&](size_t begin, size_t end, size_t chunk) {
     if (stop) return;
     TexelWork work{counters[chunk], {}, {}};
-    for (size_t texel = begin; texel < end; ++texel) result.image.pixels[texel] = bake_texel(context, texel, work);
+    for (size_t texel = begin; texel < end; ++texel) {
+      const auto column = static_cast<int>(texel % layout.resolution),
+                 row = static_cast<int>(texel / layout.resolution);
+      result.set(column, row, bake_texel(context, texel, work));
+    }
     bar.advance();
     if (progress.tiles) progress.tiles->advance();
   });

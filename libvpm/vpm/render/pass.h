@@ -7,14 +7,22 @@
 #include "vpm/base/progress.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/image/image.h"
+#include "vpm/photon/kernel_pair.h"
 
 namespace vpm {
 
 struct Pass {
-  Image image;                   // radiance, W/(m^2 sr)
-  float relative_square = 0.0f;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
-  std::vector<uint64_t> found;   // photons in each pixel's disc, over its samples, where pixels have discs of their own
+  Image image;                  // radiance, W/(m^2 sr)
+  Image correction;             // what would take away a bias of its kernels that goes as r^2 (KernelPair)
+  std::vector<uint64_t> found;  // photons in each pixel's disc, over its samples, where pixels have discs of their own
   RenderStatistics statistics;
+
+  /// Black.
+  Pass(int width, int height) : image(width, height), correction(width, height) { statistics.passes = 1; }
+  void set(int x, int y, const KernelEstimate& pixel) {
+    image.at(x, y) = pixel.value;
+    correction.at(x, y) = pixel.correction;
+  }
 };
 
 /// Where a pass tells how far it is. Either may be missing.

@@ -31,10 +31,10 @@ class PassSet {
   }
 
   const std::vector<PassRange>& ranges() const { return ranges_; }
-  int count() const { return count_of(0) + count_of(1); }
-  /// Those that are even (parity 0) or odd (1).
-  int count_of(int parity) const {
-    const auto below = [&](int end) { return parity == 0 ? end - end / 2 : end / 2; };
+  int count() const { return count_of(0, 1); }
+  /// Those that leave the rest `rest` when divided by `divisor` > rest.
+  int count_of(int rest, int divisor) const {
+    const auto below = [&](int end) { return end / divisor + (end % divisor > rest); };
     int count = 0;
     for (const PassRange& range : ranges_) count += below(range.end) - below(range.first);
     return count;

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <stdexcept>
 
-#include "vpm/estimate/radius_schedule.h"
 #include "vpm/estimate/surface/final_gather.h"
 #include "vpm/estimate/surface/pixel_radii.h"
 #include "vpm/estimate/surface/progressive.h"
@@ -137,20 +136,15 @@ bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& setti
          (scattering.surfaces && settings.surface_direct != DirectLight::photons);
 }
 
-float relative_square(const std::vector<MapInfo>& maps, int pass) {
-  for (const MapInfo& map : maps) {
-    if (!map.shrinks) continue;
-    const float radius = radius_of_pass(1.0f, map.dimension, pass);
-    return radius * radius;
-  }
-  return maps.empty() ? 0.0f : 1.0f;
+bool gathers(const Scene& scene, const RenderSettings& settings) {
+  return !plan_estimators(scene, settings, 0).maps().empty();
 }
 
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings) {
   const Estimators planned = plan_estimators(scene, settings, 0);
   std::vector<std::string> sections;
   for (const MapInfo& map : planned.maps())
-    if (!map.shrinks) sections.emplace_back(map.section);
+    if (!map.shows_bias) sections.emplace_back(map.section);
   return sections;
 }
 

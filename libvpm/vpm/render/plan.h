@@ -46,11 +46,10 @@ void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators
 /// Does such a render cast shadow rays? The path tracer always does.
 bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings);
 
-/// The squared radius of the pass's kernels, relative to the first pass. It is that of the first map whose radii depend
-/// on the pass number: all of these shrink at nearly the same rate. 1 where there is no such map, 0 without maps.
-float relative_square(const std::vector<MapInfo>& maps, int pass);
-/// The sections of the scene file whose maps are used, but do not shrink with the pass number: the bias of their
-/// kernels cannot be seen.
+/// Does such a render gather by kernels, so that it may be biased?
+bool gathers(const Scene& scene, const RenderSettings& settings);
+/// The sections of the scene file whose maps are used, but do not tell the correction of their kernels: their bias
+/// cannot be seen.
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace vpm

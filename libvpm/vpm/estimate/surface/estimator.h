@@ -19,7 +19,7 @@ struct SurfaceView {
 class SurfaceEstimator : public Estimator {
  public:
   /// Estimates the radiance that leaves the surface in the direction -`travel`, W/(m^2 sr), without its own emission.
-  virtual Rgb sent(const SurfaceView& view, EyeWork& work) const = 0;
+  virtual KernelEstimate sent(const SurfaceView& view, EyeWork& work) const = 0;
   /// The number of photons found in the disc of each pixel, over its samples; empty where pixels have no discs of their
   /// own.
   virtual std::vector<uint64_t> take_found() { return {}; }

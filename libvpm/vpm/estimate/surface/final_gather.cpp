@@ -21,10 +21,9 @@ FinalGather::FinalGather(const Scene& scene, const FinalGatherSettings& settings
 }
 
 std::vector<MapInfo> FinalGather::maps() const {
-  const SurfaceMapSettings& caustics = settings_.caustics;
-  return {ends_.info(),
-          {"caustics", 2, shrinks(caustics.gather, caustics.pass), nullptr, &caustic_photons_.photons,
-           settings_.caustics_emitted}};
+  MapInfo ends = ends_.info();
+  ends.shows_bias = !settings_.precomputed;
+  return {ends, {"caustics", 2, true, nullptr, &caustic_photons_.photons, settings_.caustics_emitted}};
 }
 
 Recorders FinalGather::recorders() {
@@ -66,22 +65,22 @@ void FinalGather::build(uint64_t emitted, RenderStatistics& statistics) {
   }
 }
 
-Rgb FinalGather::sent(const SurfaceView& view, EyeWork& work) const {
-  const Rgb blurred = gathered(view, work);
+KernelEstimate FinalGather::sent(const SurfaceView& view, EyeWork& work) const {
+  const KernelEstimate blurred = gathered(view, work);
   return blurred + not_gathered(view, work);
 }
 
 /// What rays do not gather, because few of them would find it: the light of lights, straight or by way of mirrors,
 /// glass and media.
-Rgb FinalGather::not_gathered(const SurfaceView& view, EyeWork& work) const {
+KernelEstimate FinalGather::not_gathered(const SurfaceView& view, EyeWork& work) const {
   const Rgb direct = direct_ ? direct_->sent(view, work) : Rgb(0.0f);
-  return direct + gather_from(caustics_, scene_, view, work);
+  return gather_from(caustics_, scene_, view, work) + direct;
 }
 
 /// The light that rough surfaces scattered last, by rays.
-Rgb FinalGather::gathered(const SurfaceView& view, EyeWork& work) const {
+KernelEstimate FinalGather::gathered(const SurfaceView& view, EyeWork& work) const {
   const GatherGuide guide = make_guide(view, work);
-  Rgb sum(0.0f);
+  KernelEstimate sum;
   for (int i = 0; i < settings_.rays; ++i) {
     const Scatter scatter = guide.sample(work.rng);
     if (is_black(scatter.weight)) continue;
@@ -91,7 +90,7 @@ Rgb FinalGather::gathered(const SurfaceView& view, EyeWork& work) const {
     const Ray ray{leave_surface(view.hit, scatter.direction), scatter.direction};
     sum += scatter.weight * scatter.radiance_scale * met_along({ray, medium, Rgb(1.0f)}, work);
   }
-  return sum / static_cast<float>(settings_.rays);
+  return sum * Rgb(1.0f / static_cast<float>(settings_.rays));
 }
 
 GatherGuide FinalGather::make_guide(const SurfaceView& view, EyeWork& work) const {
@@ -105,8 +104,8 @@ GatherGuide FinalGather::make_guide(const SurfaceView& view, EyeWork& work) cons
 ///
 /// At the end of a ray that is too short for the map the path goes on as a path tracer's would, with one ray at a
 /// time and the same roulette, until a ray is long enough.
-Rgb FinalGather::met_along(PathState path, EyeWork& work) const {
-  Rgb result(0.0f);
+KernelEstimate FinalGather::met_along(PathState path, EyeWork& work) const {
+  KernelEstimate result;
   float length = 0.0f;  // of the present ray so far, m
   for (int events = 0; events < settings_.max_events;) {
     if (length == 0.0f) count(work.counters.gather_rays);
@@ -142,7 +141,7 @@ Rgb FinalGather::met_along(PathState path, EyeWork& work) const {
 
 /// What a gathering ray sees of all light where it ends: from the points where it was computed beforehand, or, where
 /// none is near, and of surfaces that are not diffuse, from the map.
-Rgb FinalGather::at_end(const SurfaceView& view, EyeWork& work) const {
+KernelEstimate FinalGather::at_end(const SurfaceView& view, EyeWork& work) const {
   const Rgb* diffuse = diffuse_reflectance(view.material);
   if (!cache_points_ || !diffuse) return ends_.gather(view, work);
   const std::optional<Rgb> irradiance = irradiance_.irradiance(view.hit, -view.travel, work.gather());

@@ -44,14 +44,14 @@ class FinalGather final : public SurfaceEstimator {
   Recorders recorders() override;
   void trace_more(const TracedPass& pass) override;
   void build(uint64_t emitted, RenderStatistics& statistics) override;
-  Rgb sent(const SurfaceView& view, EyeWork& work) const override;
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override;
 
  private:
-  Rgb not_gathered(const SurfaceView& view, EyeWork& work) const;
-  Rgb gathered(const SurfaceView& view, EyeWork& work) const;
+  KernelEstimate not_gathered(const SurfaceView& view, EyeWork& work) const;
+  KernelEstimate gathered(const SurfaceView& view, EyeWork& work) const;
   GatherGuide make_guide(const SurfaceView& view, EyeWork& work) const;
-  Rgb met_along(PathState path, EyeWork& work) const;
-  Rgb at_end(const SurfaceView& view, EyeWork& work) const;
+  KernelEstimate met_along(PathState path, EyeWork& work) const;
+  KernelEstimate at_end(const SurfaceView& view, EyeWork& work) const;
   bool is_too_short(float length, const SurfaceView& view, EyeWork& work) const;
 
   const Scene& scene_;

@@ -14,7 +14,7 @@ Photon point_at(const CachePoint& point, const CountedMap& map) {
   hit.position = point.position;
   hit.normal = point.normal.unpack();
   hit.shading_normal = point.shading_normal.unpack();
-  return {point.position, PackedDirection(-hit.shading_normal), shaded_irradiance(hit, hit.normal, map)};
+  return {point.position, PackedDirection(-hit.shading_normal), shaded_irradiance(hit, hit.normal, map).value};
 }
 
 }  // namespace

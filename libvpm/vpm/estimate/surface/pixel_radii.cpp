@@ -18,29 +18,22 @@ PixelRadii::PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, s
   assert(settings.gather.mode == GatherMode::radius && settings.gather.boundary == BoundaryRule::none);
 }
 
-/// Its radii do not go by the number of the pass.
-std::vector<MapInfo> PixelRadii::maps() const {
-  MapInfo info = map_.info();
-  info.shrinks = false;
-  return {info};
-}
-
 void PixelRadii::build(uint64_t, RenderStatistics& statistics) {
   map_.build(statistics);
   statistics.last_surface_radius = *std::max_element(radii_.begin(), radii_.end());
 }
 
-Rgb PixelRadii::sent(const SurfaceView& view, EyeWork& work) const {
+KernelEstimate PixelRadii::sent(const SurfaceView& view, EyeWork& work) const {
   GatherCounters& counters = work.counters.gather;
   const Rgb direct = direct_ ? direct_->sent(view, work) : Rgb(0.0f);
   GatherSettings own = map_.map().settings;
   own.radius = radii_[work.pixel];
   count(work.counters.surface_queries);
   const uint64_t before = counters.used;
-  const Rgb radiance =
+  const KernelEstimate radiance =
       scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map_.map(), work.gather(), own});
   found_[work.pixel] += counters.used - before;
-  return direct + radiance;
+  return radiance + direct;
 }
 
 }  // namespace vpm

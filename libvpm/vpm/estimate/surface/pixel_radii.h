@@ -16,10 +16,10 @@ class PixelRadii final : public SurfaceEstimator {
   PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, std::vector<float> radii,
              std::optional<SurfaceShadowRays> direct);
 
-  std::vector<MapInfo> maps() const override;
+  std::vector<MapInfo> maps() const override { return {map_.info()}; }
   Recorders recorders() override { return {map_.recorder()}; }
   void build(uint64_t emitted, RenderStatistics& statistics) override;
-  Rgb sent(const SurfaceView& view, EyeWork& work) const override;
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override;
   std::vector<uint64_t> take_found() override { return std::move(found_); }
 
  private:

@@ -14,9 +14,9 @@ class Progressive final : public SurfaceEstimator {
   std::vector<MapInfo> maps() const override { return {map_.info()}; }
   Recorders recorders() override { return {map_.recorder()}; }
   void build(uint64_t, RenderStatistics& statistics) override { map_.build(statistics); }
-  Rgb sent(const SurfaceView& view, EyeWork& work) const override {
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override {
     const Rgb direct = direct_.sent(view, work);
-    return direct + map_.gather(view, work);
+    return map_.gather(view, work) + direct;
   }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace vpm {
 
-Rgb gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work) {
+KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work) {
   count(work.counters.surface_queries);
   if (map.settings.boundary == BoundaryRule::none)
     return scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map, work.gather()});

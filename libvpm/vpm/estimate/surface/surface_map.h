@@ -15,7 +15,7 @@ struct SurfaceMapSettings {
 
 /// The surface radiance estimate [Jarosz2008, eq. 7.5, corrected] at a hit, gathered as the settings of the map say,
 /// with or without the correction at borders.
-Rgb gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work);
+KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work);
 
 /// Records, sorts and gathers the photons on non-specular surfaces.
 class SurfaceMap {
@@ -26,12 +26,10 @@ class SurfaceMap {
       : scene_(scene), settings_(settings), hits_(scene, filter, use) {}
 
   /// The map whose settings are in the section [surface] of the scene file.
-  MapInfo info() const {
-    return {"surface", 2, shrinks(settings_.gather, settings_.pass), nullptr, &hits_.photons, hits_.emitted_count};
-  }
+  MapInfo info() const { return {"surface", 2, true, nullptr, &hits_.photons, hits_.emitted_count}; }
   PhotonRecorder* recorder() { return &hits_; }
   void build(RenderStatistics& statistics);
-  Rgb gather(const SurfaceView& view, EyeWork& work) const { return gather_from(map_, scene_, view, work); }
+  KernelEstimate gather(const SurfaceView& view, EyeWork& work) const { return gather_from(map_, scene_, view, work); }
   const PhotonMap& map() const { return map_; }
 
  private:

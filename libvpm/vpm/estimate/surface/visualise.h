@@ -12,7 +12,7 @@ class Visualise final : public SurfaceEstimator {
   std::vector<MapInfo> maps() const override { return {map_.info()}; }
   Recorders recorders() override { return {map_.recorder()}; }
   void build(uint64_t, RenderStatistics& statistics) override { map_.build(statistics); }
-  Rgb sent(const SurfaceView& view, EyeWork& work) const override { return map_.gather(view, work); }
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override { return map_.gather(view, work); }
 
  private:
   SurfaceMap map_;

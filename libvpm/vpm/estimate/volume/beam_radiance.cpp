@@ -47,9 +47,9 @@ void BeamRadiance::build(uint64_t emitted, RenderStatistics& statistics) {
   maps_.build(emitted, statistics, make);
 }
 
-Rgb BeamRadiance::along(const EyeSegment& segment, EyeWork& work) const {
+KernelEstimate BeamRadiance::along(const EyeSegment& segment, EyeWork& work) const {
   const bool at_query = maps_.settings().form == VolumeForm::density_at_query;
-  Rgb radiance(0.0f);
+  KernelEstimate radiance;
   for (size_t m = 0; m < maps_.size(); ++m) {
     const BeamMap& map = maps_[m];
     if (map.photons.size() == 0 || (at_query && &scene_.media[m] != segment.medium())) continue;
@@ -60,7 +60,8 @@ Rgb BeamRadiance::along(const EyeSegment& segment, EyeWork& work) const {
 }
 
 /// From the photons of one medium that are near an interval of the segment.
-Rgb BeamRadiance::gather(const EyeSegment& segment, const Interval& near, size_t number, EyeWork& work) const {
+KernelEstimate BeamRadiance::gather(const EyeSegment& segment, const Interval& near, size_t number,
+                                    EyeWork& work) const {
   const Medium& medium = scene_.media[number];
   const Medium* around = segment.medium();
   const VolumeForm form = maps_.settings().form;

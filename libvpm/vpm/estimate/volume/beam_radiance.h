@@ -18,10 +18,10 @@ class BeamRadiance final : public VolumeEstimator {
   std::vector<MapInfo> maps() const override { return maps_.maps(); }
   Recorders recorders() override { return maps_.recorders(); }
   void build(uint64_t emitted, RenderStatistics& statistics) override;
-  Rgb along(const EyeSegment& segment, EyeWork& work) const override;
+  KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
 
  private:
-  Rgb gather(const EyeSegment& segment, const Interval& near, size_t medium, EyeWork& work) const;
+  KernelEstimate gather(const EyeSegment& segment, const Interval& near, size_t medium, EyeWork& work) const;
 
   const Scene& scene_;
   VolumeMaps<BeamMap> maps_;

@@ -21,7 +21,7 @@ class VolumeEstimator : public Estimator {
   virtual ScatteredLight finds() const = 0;
   /// Estimates that light, scattered into the segment, as it is seen at the segment's start and times its throughput,
   /// W/(m^2 sr).
-  virtual Rgb along(const EyeSegment& segment, EyeWork& work) const = 0;
+  virtual KernelEstimate along(const EyeSegment& segment, EyeWork& work) const = 0;
 };
 
 }  // namespace vpm

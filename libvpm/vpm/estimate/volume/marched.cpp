@@ -14,7 +14,7 @@ class MarchedLight::March {
   March(const MarchedLight& light, const EyeSegment& segment, EyeWork& work)
       : light_(light), segment_(segment), work_(work), throughput_(segment.throughput) {}
 
-  Rgb whole() {
+  KernelEstimate whole() {
     std::array<float, 2 * kMostSources + 2> cuts{segment_.interval.t0, segment_.interval.t1};
     size_t number = 2;
     for (size_t i = 0; i < light_.sources_.size(); ++i) {
@@ -66,7 +66,7 @@ class MarchedLight::March {
   std::array<MarchedSource::Reach, kMostSources> reaches_;
   Rgb throughput_;
   double integral_ = 0.0;  // m, so far
-  Rgb radiance_{0.0f};
+  KernelEstimate radiance_;
 };
 
 MarchedLight::MarchedLight(std::vector<std::unique_ptr<MarchedSource>> sources, float max_optical_step)
@@ -101,8 +101,8 @@ void MarchedLight::build(uint64_t emitted, RenderStatistics& statistics) {
   for (const auto& source : sources_) source->build(emitted, statistics);
 }
 
-Rgb MarchedLight::along(const EyeSegment& segment, EyeWork& work) const {
-  if (!segment.medium() || !segment.medium()->scatters()) return Rgb(0.0f);
+KernelEstimate MarchedLight::along(const EyeSegment& segment, EyeWork& work) const {
+  if (!segment.medium() || !segment.medium()->scatters()) return {};
   return March(*this, segment, work).whole();
 }
 

@@ -21,7 +21,7 @@ class MarchedSource : public Estimator {
   virtual Reach reach(const EyeSegment& segment) const = 0;
   /// The source of radiance towards the eye at a point of the segment, divided by the relative density there (see
   /// relative_density()), W/(m^3 sr).
-  virtual Rgb at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const = 0;
+  virtual KernelEstimate at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const = 0;
 };
 
 /// Several sources, asked at the same points.
@@ -35,7 +35,7 @@ class MarchedLight final : public VolumeEstimator {
   std::vector<MapInfo> maps() const override;
   Recorders recorders() override;
   void build(uint64_t emitted, RenderStatistics& statistics) override;
-  Rgb along(const EyeSegment& segment, EyeWork& work) const override;
+  KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
 
  private:
   class March;

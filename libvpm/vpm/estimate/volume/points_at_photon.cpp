@@ -13,8 +13,8 @@ void PointsAtPhoton::build(uint64_t emitted, RenderStatistics& statistics) {
               });
 }
 
-Rgb PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) const {
-  Rgb radiance(0.0f);
+KernelEstimate PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) const {
+  KernelEstimate radiance;
   for (size_t m = 0; m < maps_.size(); ++m) {
     const PhotonMap& map = maps_[m];
     const Interval near = clip(segment.ray, segment.interval, map.bounds(), map.settings.radius);

@@ -17,7 +17,7 @@ class PointsAtPhoton final : public VolumeEstimator {
   std::vector<MapInfo> maps() const override { return maps_.maps(); }
   Recorders recorders() override { return maps_.recorders(); }
   void build(uint64_t emitted, RenderStatistics& statistics) override;
-  Rgb along(const EyeSegment& segment, EyeWork& work) const override;
+  KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
 
  private:
   const Scene& scene_;

@@ -21,7 +21,7 @@ MarchedSource::Reach PointsAtQuery::reach(const EyeSegment& segment) const {
   return {near, step_among(map, near)};
 }
 
-Rgb PointsAtQuery::at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const {
+KernelEstimate PointsAtQuery::at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const {
   const Medium& medium = *segment.medium();
   const PhotonMap& map = maps_[segment.number];
   const Vec3 towards_eye = -segment.ray.direction;

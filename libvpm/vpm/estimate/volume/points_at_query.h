@@ -18,7 +18,7 @@ class PointsAtQuery final : public MarchedSource {
   Recorders recorders() override { return maps_.recorders(); }
   void build(uint64_t emitted, RenderStatistics& statistics) override;
   Reach reach(const EyeSegment& segment) const override;
-  Rgb at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const override;
+  KernelEstimate at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const override;
 
  private:
   const Scene& scene_;

@@ -5,7 +5,7 @@
 
 namespace vpm {
 
-Rgb SingleEquiangular::along(const EyeSegment& segment, EyeWork& work) const {
+KernelEstimate SingleEquiangular::along(const EyeSegment& segment, EyeWork& work) const {
   if (!segment.medium()) return Rgb(0.0f);
   const Medium& medium = *segment.medium();
   const Interval interval = medium.clip(segment.ray, segment.interval);

@@ -17,7 +17,7 @@ class SingleEquiangular final : public VolumeEstimator {
       : light_(scene, std::move(transmittance)), pairs_(pairs) {}
 
   ScatteredLight finds() const override { return {.once = true}; }
-  Rgb along(const EyeSegment& segment, EyeWork& work) const override;
+  KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
 
  private:
   ScatteredOnce light_;

@@ -29,9 +29,7 @@ class VolumeMaps {
         collisions_(scene, settings.form, settings.density_floor, settings.once ? any_photon : indirect_photon) {}
 
   ScatteredLight finds() const { return {settings_.once, true}; }
-  std::vector<MapInfo> maps() const {
-    return {{"volume", dimension_, shrinks(settings_.gather, settings_.pass), &collisions_.photons}};
-  }
+  std::vector<MapInfo> maps() const { return {{"volume", dimension_, true, &collisions_.photons}}; }
   Recorders recorders() { return {&collisions_}; }
   const VolumeMapSettings& settings() const { return settings_; }
   const Map& operator[](size_t medium) const { return by_medium_[medium]; }

@@ -124,7 +124,7 @@ Moments estimate_airlight_by_eye_path(const Airlight& a, DirectLight direct, uin
     EyeCounters counters;
     EyeScratch scratch;
     EyeWork work{rng, counters, scratch};
-    out[0] = eye_radiance(context, from(-a.t_light), work).r;
+    out[0] = eye_radiance(context, from(-a.t_light), work).value.r;
   })[0];
 }
 

@@ -63,7 +63,7 @@ Moments estimate_wall_irradiance(const Cavity& sphere, bool reflected_only, uint
     double sum = 0.0;
     for (int i = 0; i < kPoints; ++i) {
       const Vec3 outward = uniform_sphere(rng.uniform2());
-      sum += surface_irradiance(static_cast<float>(sphere.size) * outward, -outward, map).r;
+      sum += surface_irradiance(static_cast<float>(sphere.size) * outward, -outward, map).value.r;
     }
     result.add(sum / kPoints);
   }

@@ -14,7 +14,8 @@ using Densities = std::array<double, kKernels.size()>;  // by kernel
 
 Rgb kernel_estimate(int dimension, const PhotonMap& map, const Vec3& point) {
   const auto power = [](const Vec3&, const Rgb& p) { return p; };
-  return dimension == 2 ? kernel_sum<2>(map, point, AnyPhoton{}, power) : kernel_sum<3>(map, point, AnyPhoton{}, power);
+  return dimension == 2 ? kernel_sum<2>(map, point, AnyPhoton{}, power).value
+                        : kernel_sum<3>(map, point, AnyPhoton{}, power).value;
 }
 
 /// Those of `count` uniform photons that lie within `reach` of the middle, along each axis.
@@ -119,10 +120,10 @@ KernelIntegrals integrate_kernel(int dimension, KernelKind kernel) {
     return dimension == 2 ? std::cyl_bessel_j(0.0, a) : std::sin(a) / a;
   };
   KernelIntegrals sums;
-  with_kernel(kernel, [&](auto profile) {
+  with_kernel<3>(kernel, [&](auto profile) {
     for (int i = 0; i < kSteps; ++i) {
       const double r = (i + 0.5) / kSteps, shell = unit * std::pow(r, dimension - 1) / kSteps;
-      const double value = profile(static_cast<float>(r * r));
+      const double value = profile(static_cast<float>(r * r)).value;
       sums.volume += shell;
       sums.profile += value * shell;
       sums.square += value * value * shell;

@@ -65,7 +65,7 @@ MappedIrradiance estimate_mapped_irradiance(const Light& light, const Vec3& rece
     const auto through = [&](double radius) {
       const GatherSettings gather{GatherMode::radius, static_cast<float>(radius), 0, KernelKind::epanechnikov};
       const PhotonMap map = make_photon_map(traced.surface, gather, traced.ledger.emitted_count);
-      return double{surface_irradiance(receiver, kUp, map).r};
+      return double{surface_irradiance(receiver, kUp, map).value.r};
     };
     result.unbiased.add((4.0 * through(0.5 * h) - through(h)) / 3.0);
     for (const Photon& p : traced.surface)

@@ -191,7 +191,7 @@ Check check_wall(float radius, float reflectance, const Effort& effort) {
         PhotonLists photons = small_pass(scene, *strategy, rng);
         const PhotonMap map = make_photon_map(std::move(photons.surface), gather, photons.ledger.emitted_count);
         const Vec3 outward = glm::normalize(Vec3(0.6f, -0.5f, 0.3f));
-        out[0] = surface_irradiance(radius * outward, -outward, map).g;
+        out[0] = surface_irradiance(radius * outward, -outward, map).value.g;
       });
   const double ratio = double{gather.radius} / radius, left_out = reflectance * kCapLoss * ratio * ratio;
   return check_mean(name, samples[0], (1.0 - left_out) / (1.0 - double{reflectance}) / (4.0 * kPiD * radius * radius));

@@ -201,7 +201,7 @@ Estimator estimator(bool flat, const Scene& scene, const Vec3& point, const Gath
   return [&scene, hit, settings](const PhotonMap& map, GatherCounters& counters) {
     const SurfaceRegion region(scene, hit, kUp, settings);
     Neighbours near;
-    return surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{counters, near}}).g;
+    return surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{counters, near}}).value.g;
   };
 }
 

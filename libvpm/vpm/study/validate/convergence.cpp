@@ -233,7 +233,7 @@ std::vector<Check> surface_photons(const Effort& effort) {
         make_photon_map(trace(scene, seed, pass).surface, {GatherMode::radius, radius}, kPhotonsOfPass);
     std::vector<double> estimates;
     for (const Vec3& axis : axes)
-      estimates.push_back(surface_irradiance(static_cast<float>(kFromFoot) * axis, Vec3(0, 1, 0), map).g);
+      estimates.push_back(surface_irradiance(static_cast<float>(kFromFoot) * axis, Vec3(0, 1, 0), map).value.g);
     return estimates;
   };
   return density_estimation(field, "surface", effort);

@@ -165,7 +165,7 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, std::strin
         PhotonLists photons = small_pass(body.scene, *strategy, rng, 100, form);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         out[0] = fluence(medium.majorant(), inside, map).g;
-        out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).g / medium.majorant().g;
+        out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).value.g / medium.majorant().g;
       });
   return {check_weighted_mean(name + ", fluence", samples[0], 4.0 * kPiD * body.radiance),
           check_weighted_mean(name + ", radiance scattered", samples[1], body.radiance)};
@@ -212,7 +212,7 @@ std::vector<Check> check_border_of_medium(const LitBody& body, const Vec3& point
         Neighbours near;
         const BoundedMap bounded{map, region, GatherWork{counters, near}};
         out[0] = fluence(medium.majorant(), point, bounded).g;
-        out[1] = volume_sum(medium.phase, point, uniform_sphere(rng.uniform2()), bounded).g / medium.majorant().g;
+        out[1] = volume_sum(medium.phase, point, uniform_sphere(rng.uniform2()), bounded).value.g / medium.majorant().g;
       });
   const double fluence = 4.0 * kPiD * body.radiance;
   return {check_within(body.name + ", fluence", samples[0], fluence, kShareError * fluence),
@@ -242,7 +242,8 @@ std::vector<Check> check_sheet(const Effort& effort) {
           GatherCounters counters;
           Neighbours near;
           out[0] =
-              scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, GatherWork{counters, near}}).g;
+              scattered_radiance(Lambertian{Rgb(1.0f)}, hit, up, BoundedMap{map, region, GatherWork{counters, near}})
+                  .value.g;
         });
     checks.push_back(region.share(gather.radius).inside < 1.0f ? check_within(name, samples[0], 1.0, kShareError)
                                                                : check_mean(name, samples[0], 1.0));
