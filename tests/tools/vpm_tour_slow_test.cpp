@@ -94,8 +94,8 @@ TEST_F(SlowVpmTour, RunsLineByLine) {
   size_t count = 0;
   for (const std::string& line : tour()) {
     const testing::ScopedTrace trace(__FILE__, __LINE__, line);
-    const auto why =
-        std::find_if(left_out.begin(), left_out.end(), [&](const auto& entry) { return line.starts_with(entry.first); });
+    const auto why = std::find_if(left_out.begin(), left_out.end(),
+                                  [&](const auto& entry) { return line.starts_with(entry.first); });
     if (why != left_out.end()) {
       std::printf(" skipped  %s\n          %s\n", line.c_str(), why->second.c_str());
       left_out.erase(why);
