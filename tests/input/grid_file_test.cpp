@@ -135,6 +135,26 @@ TEST_F(GridFile, FindsGridsByNameAndRepeatedOnesByNumber) {
   }
 }
 
+TEST_F(GridFile, OneGridNeedsNoName) {
+  const auto named = [](const std::string& name, float value) {
+    auto grid = FloatGrid::create(0.0f);
+    grid->setName(name);
+    grid->fill(CoordBBox(Coord(0), Coord(3)), value);
+    return grid;
+  };
+  write({named("fog", 1.0f)});
+  EXPECT_FLOAT_EQ(load_grid(request("")).grid->max_density(), 1.0f);
+  write({named("fog", 1.0f), named("density", 2.0f)});
+  EXPECT_FLOAT_EQ(load_grid(request("")).grid->max_density(), 2.0f);
+  write({named("fog", 1.0f), named("ash", 2.0f)});
+  const std::string message = refusal(request(""));
+  EXPECT_NE(
+      message.find("has no single grid named 'density': name another one with grid = \"...\"; the file holds: fog "
+                   "(float, class unknown), ash (float"),
+      std::string::npos)
+      << message;
+}
+
 TEST_F(GridFile, SharesTreesBetweenInstances) {
   auto first = random_grid<FloatGrid>(Coord(0), Coord(9));
   auto second = first->copy();

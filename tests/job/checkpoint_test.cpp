@@ -108,10 +108,11 @@ TEST_F(Checkpoint, BringsBackTheRadiiOfPixels) {
 
 TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
   write_checkpoint(path_, kRender, some_result());
-  refuses(
-      {{"render.seed", "2"}, {"scene", "fog"}},
-      "it is of another render; remove it, or render again what it is of\n  render.seed: 1 in the file, 2 asked for\n"
-      "  volume.radius: 0.25 in the file, nothing asked for\n  scene: nothing in the file, fog asked for");
+  refuses({{"render.seed", "2"}, {"scene", "fog"}},
+          "it is of another render; remove it, or render again what it is of\n  render.seed: 1 in the checkpoint, 2 "
+          "asked for\n  volume.radius: 0.25 in the checkpoint, nothing asked for\n"
+          "  scene: nothing in the checkpoint, fog asked for");
+  refuses({kRender[1], kRender[0]}, "\n  the same keys stand in another order");
 }
 
 /// Of a film whose passes span four decades in each block.

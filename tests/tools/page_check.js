@@ -61,6 +61,38 @@ function checkLegend(root, scene) {
   });
 }
 
+/** On logarithmic axes every power of ten has a label, and there are two labels at least; methods have whole names. */
+function checkAxes(root, scene) {
+  for (const canvas of root.querySelectorAll('.plot canvas, .interval-plots canvas'))
+    for (const scale of Object.values(Chart.getChart(canvas).scales).filter(({type}) => type === 'logarithmic')) {
+      const powers =
+          scale.ticks.filter(({value}) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-6);
+      expect(powers.every(tick => tick.label), `a decade of '${scale.options.title.text}' has no label`);
+      expect(
+          scale.ticks.filter(tick => tick.label).length > 1,
+          `'${scale.options.title.text}' from ${scale.min} to ${scale.max} has no two labels`);
+    }
+  for (const canvas of root.querySelectorAll('.interval-plots canvas')) {
+    const names = Chart.getChart(canvas).scales.y.ticks.map(({label}) => label.join(' '));
+    expect(names.join('|') === scene.methods.map(({name}) => name).join('|'), `methods ${names}`);
+  }
+}
+
+/** Long axes have labels between decades, dense ones none; no name is cut. */
+function checkLabels() {
+  const digits = (min, max, length) => labelledDigits({min, max}, length, 20).join('');
+  expect(digits(1e-4, 1e-2, 300) === '125' && digits(1e-8, 1, 300) === '1', 'digits of labels');
+  expect(digits(0.3, 0.9, 300) === '123456789' && digits(2.1, 6, 20) === '123456789', 'digits of short axes');
+  for (const name of ['photons, single scattering by shadow rays', 'a'.repeat(50)])
+    expect(linesOf(name).join('').replaceAll(' ', '') === name.replaceAll(' ', ''), `${name} is cut`);
+}
+
+/** Tables that are wider than their place have shadows that scroll, and covers that do not. */
+function checkScrolling(root) {
+  for (const box of root.querySelectorAll('.scroll'))
+    expect(getComputedStyle(box).backgroundAttachment === 'local, local, scroll, scroll', 'a table shows no shadows');
+}
+
 const columnOf = (table, index) => [...table.tBodies[0].rows].map(row => row.cells[index].textContent);
 
 /** A click sorts up, another one down. */
@@ -189,10 +221,13 @@ function check() {
   expect(
       document.documentElement.scrollWidth <= window.innerWidth,
       `${document.documentElement.scrollWidth} pixels on ${window.innerWidth}`);
+  checkLabels();
   results.scenes.forEach((scene, i) => {
     const root = find(`scene-${i}`);
     checkPlot(root, scene);
     checkLegend(root, scene);
+    checkAxes(root, scene);
+    checkScrolling(root);
     checkEqualCost(root, scene);
     checkVerdicts(root, scene);
     root.querySelectorAll('table.sortable').forEach(checkSorting);

@@ -69,7 +69,8 @@ TEST_F(VpmAutomatic, AResumedRenderKeepsItsChoices) {
   EXPECT_TRUE(read_exr(path("a.exr")).pixels == read_exr(path("whole.exr")).pixels);
   vpm_refuses({"render", "open.toml", "-o", "a.exr", "--resume"}, {"it is of another render"});
   vpm_succeeds({"render", "open.toml", "-o", "a.exr", "--checkpoint", "--overwrite"});
-  vpm_refuses({"render", "open.toml", "--auto", "-o", "a.exr", "--resume"}, {"it is of another render"});
+  vpm_refuses({"render", "open.toml", "--auto", "-o", "a.exr", "--resume"},
+              {"it is of another render", "left to be chosen: nothing in the checkpoint, "});
 }
 
 TEST_F(VpmAutomatic, OtherCommandsRefuseToChoose) {

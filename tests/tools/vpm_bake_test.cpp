@@ -187,6 +187,20 @@ TEST_F(VpmBake, RefusesManyOverlapsBeforeTheyFillTheMemory) {
               {"overlap in texture coordinates near ("}, kAddressSpace);
 }
 
+TEST_F(VpmBake, TellsAfterHowManyPassesItWasInterrupted) {
+  Process process(command({"bake", "scene.toml", "--mesh", "floor", "-o", "a.exr", "--resolution", "8", "--passes",
+                           "100000", "--progress", "always"}),
+                  {60.0, 0, folder_.string()});
+  EXPECT_TRUE(process.wait_for_error_output(" left"));
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  process.signal(SIGINT);
+  const ProcessResult result = process.wait();
+  EXPECT_EQ(result.status, 130);
+  const int passes = report("a.json")["passes"];
+  EXPECT_NE(result.err.find("interrupted after " + std::to_string(passes) + " of 100000 passes"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(VpmBake, RefusesSettingsOfOtherIntegrators) {
   refuses("floor", {"render.integrator is \"path\"", "--set render.integrator=photon"},
           {"--set", "render.integrator=path"});

@@ -149,6 +149,45 @@ TEST_F(VpmRender, TheReportCountsTheMemoryOfSkies) {
   EXPECT_EQ(report("a.json")["memory"]["lights"], kTexels * (3 * sizeof(float) + sizeof(double)) + sizeof(double));
 }
 
+TEST_F(VpmRender, NamesOfFilesNeedNotBeUtf8) {
+  const std::string name = "\xe9t\xe9";  // in Latin-1
+  std::filesystem::create_directory(path(name));
+  const auto in = [&](const char* extension) { return name + "/" + name + extension; };
+  vpm_succeeds({"media", "smoke", "--resolution", "16", "-o", in(".vdb")});
+  vpm_succeeds({"mesh", "ring", "--resolution", "8", "-o", in(".ply")});
+  std::filesystem::copy_file(std::string(VPM_SOURCE_DIR) + "/tests/input/textures/checker.png", path(in("0.png")));
+  write(in(".toml"), std::string(kScene) +
+                         "[materials.tiles]\ntype = 'mirror'\nreflectance = { texture = '' }\n[[shapes]]\n"
+                         "type = 'mesh'\npath = ''\nmaterial = 'tiles'\n[[lights]]\ntype = 'environment'\npath = ''\n");
+  vpm_succeeds({"render", "scene.toml", "-o", in("1.exr"), "--seed", "5"});
+  const std::vector<std::string> render{"render",      in(".toml"),
+                                        "-o",          in(".exr"),
+                                        "--reference", in("1.exr"),
+                                        "--set",       "media.smoke.path=" + in(".vdb"),
+                                        "--set",       "shapes.1.path=" + in(".ply"),
+                                        "--set",       "materials.tiles.reflectance.texture=" + in("0.png"),
+                                        "--set",       "lights.1.path=" + in("1.exr"),
+                                        "--passes"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = render;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  vpm_succeeds(with({"1", "--checkpoint"}));
+  vpm_succeeds(with({"2", "--resume"}));
+  // What is no UTF-8 stands in JSON as U+FFFD, in the picture as it is.
+  EXPECT_EQ(report(in(".json"))["image"], "\ufffdt\ufffd/\ufffdt\ufffd.exr");
+  EXPECT_EQ(read_exr_channels(path(in(".exr"))).metadata.at("vpm.scene"), name + ".toml");
+  for (const char* extension : {".png", ".checkpoint", ".errors.csv"})
+    EXPECT_TRUE(std::filesystem::exists(path(in(extension)))) << extension;
+  vpm_succeeds({"bake", in(".toml"), "--mesh", "ground", "-o", in("2.exr"), "--resolution", "4", "--set",
+                "media.smoke.path=" + in(".vdb"), "--set", "shapes.1.path=" + in(".ply"), "--set",
+                "materials.tiles.reflectance.texture=" + in("0.png"), "--set", "lights.1.path=" + in("1.exr"), "--set",
+                "shapes.0.name=ground"});
+  vpm_succeeds({"info", in(".vdb")});
+  vpm_succeeds({"error", in(".exr"), in("1.exr"), "-o", in("3.exr")});
+}
+
 // --- Refusals
 
 TEST_F(VpmRender, OutputsThatCannotBeWrittenAreRefusedBeforeRendering) {
@@ -267,10 +306,12 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
 }
 
 TEST_F(VpmRender, InfoTellsWhatFilesHold) {
-  expect_words(vpm_succeeds({"info", "scene.toml"}).out,
-               {"40 x 24 pixels", "medium smoke: grid", "sigma_t 30 1/m", "mean free path", "around everything: vacuum",
-                "light 0, lamp: spot, power 10 W", "runs volume photon map", "runs surface photon map",
-                "other stages: --all tells which and why", "coefficients differ between channels"});
+  expect_words(
+      vpm_succeeds({"info", "scene.toml"}).out,
+      {"renders 2 passes, in each 10000 photons\n", "radii of the first pass: 0.1 m in smoke, 0.1 m on surfaces",
+       "40 x 24 pixels", "medium smoke: grid", "sigma_t 30 1/m", "mean free path", "around everything: vacuum",
+       "light 0, lamp: spot, power 10 W", "runs volume photon map", "runs surface photon map",
+       "other stages: --all tells which and why", "coefficients differ between channels"});
   EXPECT_EQ(vpm_succeeds({"info", "scene.toml"}).out.find("skips shadow rays"), std::string::npos);
   expect_words(vpm_succeeds({"info", "scene.toml", "--all"}).out,
                {"runs volume photon map", "skips shadow rays in media"});
@@ -281,10 +322,101 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
   expect_words(vpm_succeeds({"info", "smoke.vdb"}).out,
                {"grid density: float, fog volume", "voxel size", "active voxels", "world box", "mean", "memory"});
   expect_words(vpm_succeeds({"info", "smoke.vdb", "--all"}).out, {"background 0", "index box", "translation"});
+  expect_words(vpm_succeeds({"info", "scene.toml", "--set", "render.seconds=20", "--set", "render.error=0.01", "--set",
+                             "photons.emitted=auto", "--set", "photons.stored=500"})
+                   .out,
+               {"renders passes until 20 s are over or the relative MSE is 0.01, in each",
+                "vpm render chooses photons.emitted, which are"});
+  expect_words(vpm_succeeds({"info", "scene.toml", "--set", "render.integrator=path"}).out,
+               {"renders 2 passes, in each 1 path a pixel"});
   vpm_refuses({"info", "missing.vdb"}, {"missing.vdb"});
   vpm_refuses({"info", "missing.toml"}, {"missing.toml"});
   vpm_refuses({"info", "smoke.bin"}, {"smoke.bin"});
   vpm_refuses({"info"}, {"file"});
+}
+
+TEST_F(VpmRender, InfoRefusesWhatRenderRefuses) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+      {{"volume.boundary=corrected", "volume.gather=beam"}, "use gather = \"radius\", or leave out 'boundary'"},
+      {{"photons.emitted=0"}, "make one of them positive"},
+      {{"transmittance.estimator=ratio", "surface.direct=photons"}, "write direct = \"shadow-rays\""},
+      {{"distance.strategy=homogeneous"}, "right in grids: "},
+      {{"volume.count=7"}, ""},
+      {{"media.smoke.grid=fog"}, "the file holds: density"},
+      {{"shapes.0.inside=smoke"}, ""}};
+  for (const auto& [settings, mend] : refused) {
+    std::vector<std::string> info{"info", "scene.toml"}, render{"render", "scene.toml"};
+    for (std::vector<std::string>* command : {&info, &render})
+      for (const std::string& setting : settings) {
+        command->push_back("--set");
+        command->push_back(setting);
+      }
+    const std::string why = vpm(render).err;
+    vpm_refuses(info, {why, mend});
+    vpm_refuses(render, {why, mend});
+  }
+}
+
+TEST_F(VpmRender, ThePreviewIsExposedAsAskedFor) {
+  const auto preview = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "scene.toml", "-o", "a.exr"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    vpm_succeeds(arguments);
+    return read_png(path("a.png"), PngValues::srgb);
+  };
+  const Image dark = preview({"--exposure", "-1"}), bright = preview({"--exposure", "1.5"});
+  const Image picture = read_exr(path("a.exr"));
+  size_t lit = 0;
+  for (size_t i = 0; i < picture.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      // Half a step of the curve, where it is steepest in linear values.
+      EXPECT_NEAR(bright.pixels[i][c], std::min(1.0f, std::exp2(1.5f) * picture.pixels[i][c]), 0.005f);
+      EXPECT_NEAR(dark.pixels[i][c], std::min(1.0f, 0.5f * picture.pixels[i][c]), 0.005f);
+      lit += bright.pixels[i][c] > 0.1f;
+    }
+  EXPECT_GT(lit, 10u);
+  EXPECT_FALSE(same_pixels(preview({}), bright));
+  for (const char* stops : {"nan", "inf", "-101", "1e3", "bright", "1 stop", ""})
+    vpm_refuses({"render", "scene.toml", "--exposure", stops}, {"--exposure"});
+  vpm_succeeds({"bake", "scene.toml", "--set", "shapes.0.name=floor", "--mesh", "floor", "--resolution", "8", "-o",
+                "b.exr", "--exposure", "-20"});
+  EXPECT_EQ(sum(read_png(path("b.png"), PngValues::srgb)), 0.0);
+}
+
+/// The warnings of a render of the scene with these settings.
+class VpmWarnings : public VpmRender {
+ protected:
+  std::string warnings(const std::vector<std::string>& settings) const {
+    std::vector<std::string> arguments{"render", "scene.toml", "-o", "a.exr"};
+    for (const std::string& setting : settings) {
+      arguments.push_back("--set");
+      arguments.push_back(setting);
+    }
+    return vpm_succeeds(arguments).err;
+  }
+};
+
+TEST_F(VpmWarnings, PhotonsThatNoGatherFindsAreToldOf) {
+  for (const char* gather : {"radius", "beam", "nearest"})
+    expect_words(warnings({"volume.radius=1e-9", "volume.gather=" + std::string(gather)}),
+                 {"photons in media: a larger volume.radius ("});
+  expect_words(warnings({"volume.radius=1e-9", "volume.form=density-at-photon"}), {"no gather found any of the "});
+  const std::string surfaces = warnings({"surface.radius=1e-9"});
+  expect_words(surfaces, {"photons on surfaces: a larger surface.radius ("});
+  EXPECT_EQ(surfaces.find("in media"), std::string::npos) << surfaces;
+}
+
+TEST_F(VpmWarnings, EmptyMapsAreToldOfWhereThePictureIsMadeOfThem) {
+  const std::vector<std::string> aside{"lights.lamp.target=[1, 9, 1]"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), aside.begin(), aside.end());
+    return warnings(more);
+  };
+  expect_words(with({"surface.direct=photons"}), {"the volume photon map is empty", "the surface photon map is empty"});
+  EXPECT_EQ(with({"volume.direct=shadow-rays"}), "");
+  EXPECT_EQ(with({"volume.direct=equiangular"}), "");
+  // The camera sees no surface.
+  EXPECT_EQ(with({"volume.direct=equiangular", "surface.direct=photons", "camera.target=[0, 9, 2.4]"}), "");
 }
 
 TEST_F(VpmBinary, TellsItsVersionAndItsGrids) {
@@ -294,7 +426,8 @@ TEST_F(VpmBinary, TellsItsVersionAndItsGrids) {
   expect_words(vpm_succeeds({"help", "render"}).out, {"--passes", "--checkpoint", "--overwrite"});
   vpm_refuses({}, {"Example: vpm render"});
   vpm_refuses({"render", "smoke.vdb"}, {"smoke.vdb: this is a grid", ".toml", "vpm info smoke.vdb"});
-  expect_words(vpm_succeeds({"media"}).out, {"smoke", "cloud", "constant", "ramp", "gaussian"});
+  expect_words(vpm_succeeds({"media"}).out,
+               {"smoke      0.7 x 1 x 0.7 m", "cloud      1000 x 600 x 800 m", "constant", "ramp", "gaussian"});
 }
 
 TEST_F(VpmBinary, FailsWhereItsOutputCannotBeWritten) {

@@ -130,11 +130,39 @@ TEST_F(VpmRender, ACheckpointTakesMorePassesButNoOtherScene) {
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "5", "--resume"});
   EXPECT_TRUE(read("a.exr") == read("whole.exr"));
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--seed", "9"},
-              {"another render", "render.seed: 1 in the file, 9 asked for"});
+              {"another render", "render.seed: 1 in the checkpoint, 9 asked for"});
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--set", "film.width=20"}, {"another render"});
   vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--resume"}, {"b.checkpoint", "there is no such file"});
   vpm_succeeds({"media", "smoke", "--resolution", "17", "-o", "smoke.vdb"});  // other bytes under the same name
-  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"}, {"another render"});
+  vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"},
+              {"another render", "file 1, smoke.vdb: bytes of hash "});
+}
+
+TEST_F(VpmRender, ACheckpointTellsInWhatAnotherSceneDiffers) {
+  const auto with = [&](const std::string& what, const std::string& other) {
+    std::string scene = kScene;
+    write("scene.toml", scene.replace(scene.find(what), what.size(), other));
+  };
+  const auto resumed = [&](int passes, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"render",   "scene.toml",          "-o", "a.exr", "--resume",
+                                       "--passes", std::to_string(passes)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  with("[volume]\nradius = 0.1", "");
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "1", "--checkpoint"});
+  vpm_refuses(resumed(2, {"--set", "volume.radius=0.2", "--set", "media.smoke.albedo=[0.9, 0.8, 0.6]", "--set",
+                          "lights.lamp.power=11"}),
+              {"is of another render; remove it, or render again what it is of\n"
+               "  media.smoke.albedo: [0.9, 0.8, 0.7] in the checkpoint, [0.9, 0.8, 0.6] asked for\n"
+               "  lights.lamp.power: 10 in the checkpoint, 11 asked for\n"
+               "  volume.radius: default in the checkpoint, 0.2 asked for\n"});
+  vpm_refuses(resumed(2, {"--set", "shapes.0.name=floor"}), {"shapes.floor.name: nothing in the checkpoint, floor"});
+  // Neither comments nor how many passes are asked for make another scene, wherever they stand.
+  with("[render]\npasses = 2\n[photons]\nemitted = 10_000\n[volume]\nradius = 0.1",
+       "# a comment\n[render]\npasses = 5\nseed = 1\n[photons]\nemitted = 10_000\n");
+  vpm_succeeds(resumed(2));
+  vpm_succeeds(resumed(3, {"--set", "render.passes=7", "--set", "volume.gather=radius"}));
 }
 
 TEST_F(VpmRender, RadiiOfPixelsResumeToTheSameBits) {
@@ -159,7 +187,7 @@ TEST_F(VpmRender, RadiiOfPixelsResumeToTheSameBits) {
   vpm_succeeds({"render", "scene.toml", "-o", "b.exr"});
   EXPECT_TRUE(report("b.json")["radii_of_pixels"].is_null());
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"},
-              {"another render", "render.radii: per-pixel in the file, per-pass asked for"});
+              {"another render", "render.radii: per-pixel in the checkpoint, per-pass asked for"});
 }
 
 // --- Errors

@@ -7,7 +7,6 @@
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/image/png.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/input/source.h"
 #include "vpm/job/bake.h"
@@ -45,8 +44,7 @@ UvLayout lay_out(const Scene& scene, const BakeOptions& options) {
 void write_outputs(const Outputs& outputs, const BakeOptions& options, const RenderJob& job, const UvLayout& layout,
                    const RenderResult& result) {
   write_light_map(outputs.exr, job, options.mesh, layout, result);
-  const Image map = light_map_of(layout, result);
-  write_png(outputs.png, map, auto_exposure(map));
+  write_preview(outputs, options, light_map_of(layout, result));
   write_text(outputs.json, light_map_report(job, outputs.exr.string(), options.mesh, layout, result));
 }
 
@@ -67,16 +65,13 @@ int bake_command(const BakeOptions& options) {
   if (layout.flat_triangles > 0)
     fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
                layout.flat_triangles);
-  if (result.film.passes() == 0) {
-    fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
-    return kInterrupted;
-  }
+  if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
   print_warnings(warnings_of_light_map(job, result));
   write_outputs(outputs, options, job, layout, result);
   fmt::print("{}: {} passes in {:.1f} s; {} of {} texels covered; preview {}, report {}\n", outputs.exr.string(),
              result.film.passes(), result.seconds, layout.covered_texels(), layout.texels(), outputs.png.string(),
              outputs.json.string());
-  return stop ? kInterrupted : 0;
+  return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;
 }
 
 }  // namespace vpm::tools

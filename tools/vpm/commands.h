@@ -17,6 +17,7 @@ struct PassOptions {
   int threads = 0;                     // 0: all
   std::optional<int> passes;
   std::optional<uint64_t> seed;
+  std::optional<float> exposure;  // of the preview, stops; none: auto_exposure()
   ProgressMode progress = ProgressMode::automatic;
 };
 

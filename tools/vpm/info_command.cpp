@@ -1,5 +1,6 @@
 // vpm info: what a file holds.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <filesystem>
 
 #include "commands.h"
@@ -48,7 +49,7 @@ void print_details(const GridSummary& g) {
   if (g.background) fmt::print("  background {:.6g}\n", *g.background);
 }
 
-void print_medium(const Medium& m, const Scene& scene, const RenderSettings& settings) {
+void print_medium(const Medium& m) {
   fmt::print("medium {}: {}\n  sigma_s {} 1/m, sigma_t {} 1/m, albedo {}\n", m.name,
              m.homogeneous() ? "homogeneous" : "grid", rgb(m.sigma_s), rgb(m.sigma_t), rgb(m.albedo()));
   if (m.grid) {
@@ -58,11 +59,46 @@ void print_medium(const Medium& m, const Scene& scene, const RenderSettings& set
                mebibytes(m.grid->memory_bytes()));
   }
   const double densest = m.grid ? m.grid->max_density() : 1.0;
-  fmt::print(
-      "  mean free path {:.6g} m at the mean density, {:.6g} m at the largest\n  gather radius of the first pass "
-      "{:.6g} m\n",
-      1.0 / (mean_channel(m.sigma_t) * m.mean_density()), 1.0 / (mean_channel(m.sigma_t) * densest),
-      first_radius(settings.volume, scene, m));
+  fmt::print("  mean free path {:.6g} m at the mean density, {:.6g} m at the largest\n",
+             1.0 / (mean_channel(m.sigma_t) * m.mean_density()), 1.0 / (mean_channel(m.sigma_t) * densest));
+}
+
+std::string until_text(const StopRule& until) {
+  if (until.counts_passes()) return fmt::format("{} {}", until.passes, until.passes == 1 ? "pass" : "passes");
+  const std::string time = fmt::format("{:.6g} s are over", until.seconds);
+  const std::string error = fmt::format("the relative MSE is {:.3g}", until.error);
+  return "passes until " + (until.error == 0.0 ? time : until.seconds == 0.0 ? error : time + " or " + error);
+}
+
+std::string photons_text(const RenderSettings& settings) {
+  const std::string stored = fmt::format("until a map holds {}", settings.photons_stored);
+  if (settings.photons_emitted == 0) return "photons " + stored;
+  return fmt::format("{} photons{}", settings.photons_emitted, settings.photons_stored > 0 ? " or " + stored : "");
+}
+
+/// "0.018 m in smoke, 0.05 m on surfaces": of what scatters.
+std::string radii_text(const Scene& scene, const RenderSettings& settings) {
+  std::vector<std::string> radii;
+  for (const Medium& m : scene.media)
+    if (m.scatters()) radii.push_back(fmt::format("{:.6g} m in {}", first_radius(settings.volume, scene, m), m.name));
+  if (scattering_of(scene).surfaces)
+    radii.push_back(fmt::format("{:.6g} m on surfaces", first_radius(settings.surface, scene)));
+  return radii.empty() ? "none: nothing stores photons" : fmt::format("{}", fmt::join(radii, ", "));
+}
+
+/// How much a render would do, and how finely.
+void print_effort(const RenderJob& job) {
+  const RenderSettings& settings = job.settings;
+  if (settings.integrator == Integrator::path) {
+    fmt::print("renders {}, in each {} {} a pixel\n", until_text(settings.until), settings.samples_per_pixel,
+               settings.samples_per_pixel == 1 ? "path" : "paths");
+    return;
+  }
+  fmt::print("renders {}, in each {}\ngather radii of the first pass: {}\n", until_text(settings.until),
+             photons_text(settings), radii_text(job.scene, settings));
+  if (job.automatic.any())
+    fmt::print("of these vpm render chooses {}, which are \"auto\"; defaults are told here\n",
+               fmt::join(job.automatic.keys, ", "));
 }
 
 std::string medium_text(const Scene& scene, MediumId medium) {
@@ -72,7 +108,6 @@ std::string medium_text(const Scene& scene, MediumId medium) {
 
 /// What a render would run; what it would skip, and why, where that is asked for.
 void print_stages(const RenderJob& job, bool all) {
-  if (job.automatic.any()) fmt::print("settings that are \"auto\" are chosen by vpm render; defaults are told here\n");
   size_t skipped = 0;
   for (const std::string& line : stage_lines(job.scene, job.settings, scattering_of(job.scene))) {
     const bool skips = line.starts_with("skips ");
@@ -87,9 +122,10 @@ void print_scene(const InfoOptions& options) {
   const Scene& scene = job.scene;
   const Box box = scene.geometry.bounds();
   fmt::print("scene {}, hash {}\n", options.file, job.hash);
+  print_effort(job);
   for (const std::string& note : job.notes) fmt::print("note: {}\n", note);
   print_stages(job, options.all);
-  for (const Medium& m : scene.media) print_medium(m, scene, job.settings);
+  for (const Medium& m : scene.media) print_medium(m);
   fmt::print("camera at {} m, {} x {} pixels, in {}\n", text(scene.camera.position), scene.camera.width,
              scene.camera.height, medium_text(scene, scene.camera_medium));
   if (box.empty())

@@ -22,6 +22,7 @@ using namespace vpm::tools;
 
 constexpr int kFailed = 1;  // not the input's fault: no memory, a library gave up
 constexpr int kBadInput = 2;
+constexpr float kMostStops = 100.0f;  // of an exposure: its gain and what it multiplies stay finite
 
 /// The whole of the text as a number, or `otherwise`.
 template <class Number>
@@ -40,6 +41,11 @@ std::string check_seed(const std::string& text) {
 std::string check_seconds(const std::string& text) {
   const double seconds = parse(text, 0.0);
   return seconds > 0.0 && std::isfinite(seconds) ? "" : fmt::format("{} is not a number of seconds above 0", text);
+}
+std::string check_stops(const std::string& text) {
+  const float stops = parse(text, std::numeric_limits<float>::infinity());
+  return std::abs(stops) <= kMostStops ? ""
+                                       : fmt::format("{} is no number from -{} to {}", text, kMostStops, kMostStops);
 }
 std::string check_error(const std::string& text) {
   const double error = parse(text, 0.0);
@@ -66,6 +72,11 @@ CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std
       ->allow_extra_args(false);
   command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
+  command
+      ->add_option("--exposure", options.exposure,
+                   "Stops by which the preview is exposed: values times 2^STOPS, clipped to [0, 1], then the sRGB "
+                   "curve; default: such that the 99th percentile of the luminance becomes 0.8")
+      ->check(check_stops);
   add_progress(command, options.progress);
   return command->add_option("--passes", options.passes, "Passes to average")->check(CLI::Range(1, 1'000'000'000));
 }

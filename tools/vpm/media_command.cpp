@@ -9,7 +9,8 @@ namespace vpm::tools {
 
 int media_command(const MediaOptions& options) {
   if (options.name.empty()) {
-    for (const ProceduralField& field : procedural_fields()) fmt::print("{:<10} {}\n", field.name, field.summary);
+    for (const auto& [name, summary, size, value] : procedural_fields())
+      fmt::print("{:<10} {:<18} {}\n", name, fmt::format("{:g} x {:g} x {:g} m", size.x, size.y, size.z), summary);
     return 0;
   }
   const std::string output = options.output.empty() ? options.name + ".vdb" : options.output;

@@ -7,6 +7,7 @@
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
+#include "vpm/image/png.h"
 #include "vpm/job/checkpoint.h"
 
 namespace vpm::tools {
@@ -38,6 +39,16 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
+int say_interrupted(const StopRule& until, int passes) {
+  if (passes == 0)
+    fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
+  else if (until.counts_passes())
+    fmt::print(stderr, "interrupted after {} of {} passes\n", passes, until.passes);
+  else
+    fmt::print(stderr, "interrupted after {} {}\n", passes, passes == 1 ? "pass" : "passes");
+  return kInterrupted;
+}
+
 Outputs output_paths(const PassOptions& options, const std::string& name) {
   const fs::path exr = options.output.empty() ? name + ".exr" : options.output;
   if (exr.extension() != ".exr")
@@ -62,6 +73,10 @@ void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, con
         throw InputError(fmt::format("cannot write '{}': the scene is read from '{}'; name another output with -o",
                                      path.string(), file));
   }
+}
+
+void write_preview(const Outputs& outputs, const PassOptions& options, const Image& picture) {
+  write_png(outputs.png, picture, options.exposure ? *options.exposure : auto_exposure(picture));
 }
 
 void apply_options(const PassOptions& options, RenderSettings& settings) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "vpm/image/image.h"
 #include "vpm/job/render_job.h"
 
 namespace vpm::tools {
@@ -28,6 +29,9 @@ Outputs output_paths(const PassOptions& options, const std::string& name);
 /// that the scene is read from.
 void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const RenderJob& job);
 
+/// Writes the PNG preview of a picture, exposed as the options say or else by auto_exposure().
+void write_preview(const Outputs& outputs, const PassOptions& options, const Image& picture);
+
 /// The seed and the number of passes.
 void apply_options(const PassOptions& options, RenderSettings& settings);
 
@@ -38,5 +42,7 @@ void refuse_automatic(const RenderJob& job, const std::string& command);
 void print_notes(const RenderJob& job);
 /// What went wrong without stopping the run; on stderr, too.
 void print_warnings(const std::vector<std::string>& warnings);
+/// After how many passes a run was interrupted; without any nothing is written. Returns the exit status.
+int say_interrupted(const StopRule& until, int passes);
 
 }  // namespace vpm::tools

@@ -11,7 +11,6 @@
 #include "vpm/base/error.h"
 #include "vpm/base/file_lock.h"
 #include "vpm/base/parallel.h"
-#include "vpm/image/png.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/job/checkpoint.h"
 #include "vpm/job/messages.h"
@@ -26,10 +25,10 @@ void apply_limits(const RenderOptions& options, StopRule& until) {
   if (options.error) until.error = *options.error;
 }
 
-void write_outputs(const Outputs& outputs, const RenderJob& job, const RenderResult& result) {
+void write_outputs(const RenderOptions& options, const Outputs& outputs, const RenderJob& job,
+                   const RenderResult& result) {
   write_picture(outputs.exr, job, result);
-  const Image mean = result.film.mean();
-  write_png(outputs.png, mean, auto_exposure(mean));
+  write_preview(outputs, options, result.film.mean());
   write_text(outputs.json, render_report(job, outputs.exr.string(), result));
 }
 
@@ -50,12 +49,6 @@ std::unique_ptr<FileLock> lock_checkpoint(const RenderOptions& options, const st
     throw InputError(
         fmt::format("'{}' is there already: --resume goes on from it, --overwrite begins anew", checkpoint.string()));
   return lock;
-}
-
-/// "interrupted after 7 of 100 passes"
-std::string interruption_text(const StopRule& until, int passes) {
-  if (until.counts_passes()) return fmt::format("interrupted after {} of {} passes", passes, until.passes);
-  return fmt::format("interrupted after {} {}", passes, passes == 1 ? "pass" : "passes");
 }
 
 std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outputs& outputs, const Film& film) {
@@ -89,19 +82,14 @@ int render_command(const RenderOptions& options) {
     if (log) log->add(so_far);
   };
   const RenderResult result = render(job.scene, job.settings, std::move(begun), {stop, options.progress, finished});
-  if (result.film.passes() == 0) {
-    fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
-    return kInterrupted;
-  }
+  if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
   print_warnings(warnings_of(job, result));
   if (log) log->finish(result);
-  write_outputs(outputs, job, result);
+  write_outputs(options, outputs, job, result);
   const std::string error = error_text(job, result);
   fmt::print("{}: {} passes in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), result.film.passes(),
              result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
-  if (!stop) return 0;
-  fmt::print(stderr, "{}\n", interruption_text(job.settings.until, result.film.passes()));
-  return kInterrupted;
+  return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;
 }
 
 }  // namespace vpm::tools

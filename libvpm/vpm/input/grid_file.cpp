@@ -339,11 +339,15 @@ LoadedGrid make_density(const DensitySource& source, Grid& grid) {
   return loaded;
 }
 
+constexpr const char* kUsualName = "density";  // of a density among several grids
+
 const VdbGridEntry& find_density(const VdbFile& file, const GridRequest& request) {
-  const VdbGridEntry* entry = file.layout.find(request.name);
+  const bool named = !request.name.empty(), one = file.layout.grids.size() == 1;
+  const std::string name = named ? request.name : kUsualName;
+  const VdbGridEntry* entry = !named && one ? &file.layout.grids.front() : file.layout.find(name);
   if (!entry)
-    throw InputError(
-        fmt::format("{}: has no single grid named '{}'; {}", request.path, request.name, file.layout.listing()));
+    throw InputError(fmt::format("{}: has no single grid named '{}'{}; {}", request.path, name,
+                                 named ? "" : ": name another one with grid = \"...\"", file.layout.listing()));
   if (!entry->scalar())
     file.refuse(entry->name, fmt::format("holds {} values; a density needs float or double", entry->value_type()));
   if (!entry->affine())

@@ -43,7 +43,7 @@ std::vector<GridSummary> list_grids(const std::string& path);
 
 struct GridRequest {
   std::string path;
-  std::string name = "density";
+  std::string name{};  // empty: "density", or the file's one grid
   Interpolation interpolation = Interpolation::trilinear;
   bool from_level_set = false;      // turn a level set into a fog volume: 1 inside, falling to 0 at the surface
   bool clamp_negative = false;      // read negative values as 0

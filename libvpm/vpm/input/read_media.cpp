@@ -60,7 +60,7 @@ void read_coefficients(TableReader& table, bool grid, Medium& medium) {
 GridRequest read_grid(TableReader& table) {
   GridRequest request;
   request.path = table.path("path");
-  request.name = table.string("grid", "density");
+  if (table.has("grid")) request.name = table.string("grid");
   request.interpolation = table.choice<Interpolation>(
       "interpolation", {{"trilinear", Interpolation::trilinear}, {"nearest", Interpolation::nearest}},
       Interpolation::trilinear);

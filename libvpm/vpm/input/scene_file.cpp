@@ -4,10 +4,9 @@
 
 #include <fmt/format.h>
 #include <filesystem>
-#include <fstream>
 
 #include "vpm/base/error.h"
-#include "vpm/base/fnv.h"
+#include "vpm/input/fingerprint.h"
 #include "vpm/input/sections.h"
 #include "vpm/job/setting.h"
 #include "vpm/scene/assemble.h"
@@ -27,28 +26,6 @@ struct ScenePlan {
   std::optional<MediumId> camera_medium;
   std::optional<TableReader> world_table, camera_table;
 };
-
-std::string hash_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  Fnv1a hash;
-  hash.add(file);
-  if (file.bad() || !file.eof()) throw InputError(path + ": cannot be read again for its hash");
-  return hash.digits();
-}
-
-/// Of the text, the options, and all bytes of the files.
-std::string hash_of(const std::string& text, const std::vector<std::string>& overrides,
-                    const std::vector<std::string>& files) {
-  Fnv1a hash;
-  const auto add = [&hash](const std::string& part) {
-    hash.add(part);
-    hash.add("\xff");  // no byte of UTF-8: keeps parts apart
-  };
-  add(text);
-  for (const std::string& option : overrides) add(option);
-  for (const std::string& file : files) add(hash_of_file(file));
-  return hash.digits();
-}
 
 Names keys_of(const TableReader* section) { return section ? section->keys() : Names{}; }
 
@@ -207,12 +184,8 @@ RenderJob load_scene(const std::string& path, const std::vector<std::string>& op
         path, path));
   Document document = read_toml(path);
   for (const std::string& option : options) apply_override(document, option);
-  std::vector<std::string> overrides = options;
   if (left_out == LeftOut::automatic)
-    for (const std::string& option : left_to_choose(document)) {
-      apply_override(document, option);
-      overrides.push_back(option);
-    }
+    for (const std::string& option : left_to_choose(document)) apply_override(document, option);
   RenderJob job;
   TableReader root(document.root, "the scene file", job.files);
   ScenePlan plan = read_plan(root, job);
@@ -221,7 +194,9 @@ RenderJob load_scene(const std::string& path, const std::vector<std::string>& op
   } catch (const PartError& error) {
     fail_at_part(error, root, plan);
   }
-  job.hash = hash_of(document.text, overrides, job.files);
+  Fingerprint fingerprint = fingerprint_of(document, job.files);
+  job.hash = std::move(fingerprint.hash);
+  job.contents = std::move(fingerprint.contents);
   job.source = path;
   job.overrides = options;
   return job;

@@ -23,17 +23,38 @@ const std::string* find(const Identity& identity, const std::string& name) {
 
 std::string value_or_nothing(const std::string* value) { return value ? *value : "nothing"; }
 
+/// Without what would end it in a checkpoint.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+std::string as_name(std::string text) {
+  std::replace(text.begin(), text.end(), '=', ' ');
+  return one_line(std::move(text));
+}
+
+/// A default that stands for no value of its own, as that of radii, is called so.
+std::string value_of(const Field& field) {
+  for (const Setting& setting : all_settings())
+    if (setting.key == field.key && field.value == setting.member.get({}) &&
+        !outside_of(setting.domain, field.value).empty())
+      return "default";
+  return text_of(field.value);
+}
+
 }  // namespace
 
 Identity identity_of(const RenderJob& job) {
-  std::string options = fmt::format("{}", fmt::join(job.overrides, " "));
-  std::replace(options.begin(), options.end(), '\n', ' ');
-  Identity identity{{"program", fmt::format("vpm {}", version())},
-                    {"scene", job.hash},
-                    {"options", options},
-                    {"film", fmt::format("{} x {}", job.scene.camera.width, job.scene.camera.height)},
-                    {"render.seed", std::to_string(job.settings.seed)}};
-  for (const Field& field : estimate_fields(job.settings)) identity.emplace_back(field.key, text_of(field.value));
+  Identity identity{{"program", fmt::format("vpm {}", version())}};
+  for (const auto& [name, value] : job.contents) identity.emplace_back(as_name(name), one_line(value));
+  if (job.contents.empty()) {
+    identity.emplace_back("scene", job.hash);
+    identity.emplace_back("film", fmt::format("{} x {}", job.scene.camera.width, job.scene.camera.height));
+  }
+  identity.emplace_back("render.seed", std::to_string(job.settings.seed));
+  for (const Field& field : estimate_fields(job.settings)) identity.emplace_back(field.key, value_of(field));
+  if (job.automatic.any())
+    identity.emplace_back("left to be chosen", fmt::format("{}", fmt::join(job.automatic.keys, ",")));
   std::vector<std::string> keys;
   for (const Choice& choice : job.choices) keys.push_back(choice.key);
   if (!keys.empty()) identity.emplace_back(kChosen, fmt::format("{}", fmt::join(keys, ",")));
@@ -54,7 +75,8 @@ std::vector<Choice> choices_of(const Identity& identity) {
 std::string differences(const Identity& in_file, const Identity& asked) {
   std::string lines;
   const auto tell = [&](const std::string& name, const std::string* there, const std::string* here) {
-    lines += fmt::format("\n  {}: {} in the file, {} asked for", name, value_or_nothing(there), value_or_nothing(here));
+    lines += fmt::format("\n  {}: {} in the checkpoint, {} asked for", name, value_or_nothing(there),
+                         value_or_nothing(here));
   };
   for (const auto& [name, value] : in_file) {
     const std::string* const other = find(asked, name);
@@ -62,7 +84,7 @@ std::string differences(const Identity& in_file, const Identity& asked) {
   }
   for (const auto& [name, value] : asked)
     if (!find(in_file, name)) tell(name, nullptr, &value);
-  return lines;
+  return lines.empty() && in_file != asked ? "\n  the same keys stand in another order" : lines;
 }
 
 }  // namespace vpm

@@ -9,8 +9,8 @@
 
 namespace vpm {
 
-/// Names and values, without line feeds: the program, the scene, the options that changed its file, the seed, every
-/// setting that decides what passes estimate, and, where the job leaves settings to be chosen, which of them were.
+/// Names and values, without line feeds: the program, what the scene holds, key by key, the seed, every setting that
+/// decides what passes estimate, and, where the job leaves settings to be chosen, which ones, and which of them were.
 using Identity = std::vector<std::pair<std::string, std::string>>;
 
 /// The identity of a job after choose(). Two scenes made in code are told apart by RenderJob::hash alone.
@@ -19,7 +19,7 @@ Identity identity_of(const RenderJob& job);
 /// The settings that were chosen when the render of this identity began.
 std::vector<Choice> choices_of(const Identity& identity);
 
-/// A line for each field in which they differ: "render.seed: 1 in the file, 9 asked for".
+/// A line for each field in which they differ: "render.seed: 1 in the checkpoint, 9 asked for".
 std::string differences(const Identity& in_file, const Identity& asked);
 
 }  // namespace vpm

@@ -9,6 +9,33 @@
 namespace vpm {
 namespace {
 
+/// Of maps without photons that the picture is made of. Where rays find the light that comes straight from lights,
+/// there may be no other.
+void warn_of_empty_maps(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& s,
+                        std::vector<std::string>& warnings) {
+  const bool gathers = settings.surface_indirect == IndirectLight::final_gather;
+  if (shown.media && s.volume_photons == 0 && settings.volume_direct == DirectLight::photons)
+    warnings.emplace_back("the volume photon map is empty: no photon scattered in a medium");
+  if (shown.surfaces && s.surface_photons == 0 && s.eye.surface_queries > 0 &&
+      (gathers || settings.surface_direct == DirectLight::photons))
+    warnings.emplace_back("the surface photon map is empty: no photon to store met a diffuse or rough surface");
+}
+
+/// Of maps whose photons no gather has found.
+void warn_of_unfound_photons(const RenderStatistics& s, std::vector<std::string>& warnings) {
+  const auto warn = [&](uint64_t stored, uint64_t queries, uint64_t used, const char* where, float radius,
+                        const char* section) {
+    if (stored > 0 && queries > 0 && used == 0)
+      warnings.push_back(fmt::format(
+          "no gather found any of the {} photons {}: a larger {}.radius ({:.2g} m in the last pass) or more "
+          "photons may help",
+          stored, where, section, radius));
+  };
+  warn(s.volume_photons, s.eye.volume_queries, s.eye.used_in_media, "in media", s.last_volume_radius, "volume");
+  warn(s.surface_photons, s.eye.surface_queries, s.eye.gather.used - s.eye.used_in_media, "on surfaces",
+       s.last_surface_radius, "surface");
+}
+
 /// `shown`: what of the scene's scattering the picture shows.
 std::vector<std::string> warnings_about(const Scattering& shown, const RenderSettings& settings,
                                         const RenderStatistics& s) {
@@ -16,11 +43,10 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
   const auto warn = [&](uint64_t count, const char* what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
   };
-  const bool photons = settings.integrator == Integrator::photon;
-  if (photons && shown.media && s.volume_photons == 0)
-    warnings.emplace_back("the volume photon map is empty: no photon scattered in a medium");
-  if (photons && shown.surfaces && s.surface_photons == 0)
-    warnings.emplace_back("the surface photon map is empty: no photon to store met a diffuse or rough surface");
+  if (settings.integrator == Integrator::photon) {
+    warn_of_empty_maps(shown, settings, s, warnings);
+    warn_of_unfound_photons(s, warnings);
+  }
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");

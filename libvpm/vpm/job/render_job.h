@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vpm/job/choice.h"
@@ -28,9 +29,12 @@ struct RenderJob {
   std::string source{};                  // the scene file; empty: made in code
   std::vector<std::string> overrides{};  // "key.path=value" options that changed that file
   std::vector<std::string> files{};      // that it names: grids, meshes, textures, environments
-  std::string hash{};                    // tells this scene from others: of the scene file, the options, and the bytes
-                                         // of those files, 16 hex digits; of scenes made in code what their maker says
-  uint64_t clamped_density_values = 0;   // negative densities set to 0 on the scene's request, over all grids
+  std::string hash{};                    // tells this scene and the settings of its file from others: of the scene
+                                         // file with its options, and of the bytes of those files, 16 hex digits; of
+                                         // scenes made in code what their maker says
+  std::vector<std::pair<std::string, std::string>> contents{};  // of the scene file, with its options: what is no
+                                                                // setting, by name; and hashes of those files
+  uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
 };
 
 /// The job of a scene made in code.

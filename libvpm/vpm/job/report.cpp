@@ -163,6 +163,9 @@ Json memory(const Scene& scene, const RenderResult& result) {
           {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
 }
 
+/// Names of files may hold bytes that are no UTF-8, as JSON must be.
+std::string whole(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 /// What the report of a render and of a light map have in common.
 Json report_of(const RenderJob& job, const std::string& image, const std::string& quantity, const Scattering& shown,
                const RenderResult& result) {
@@ -199,7 +202,7 @@ std::string render_report(const RenderJob& job, const std::string& image, const 
   report["error"] = errors(job, result);
   report["eye"] = counted(result.statistics)["eye"];
   report["radii_of_pixels"] = disc_radii(job, result.discs);
-  return report.dump(2) + "\n";
+  return whole(report);
 }
 
 std::string light_map_report(const RenderJob& job, const std::string& image, const std::string& mesh,
@@ -212,7 +215,7 @@ std::string light_map_report(const RenderJob& job, const std::string& image, con
                          {"area_of_mesh_m2", job.scene.geometry.area(layout.shape)},
                          {"triangles_without_texels", layout.flat_triangles},
                          {"power_received_W", rgb(received_power(layout, result.film.mean()))}};
-  return report.dump(2) + "\n";
+  return whole(report);
 }
 
 }  // namespace vpm

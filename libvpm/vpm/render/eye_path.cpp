@@ -39,7 +39,9 @@ class EyePath {
   /// Adds what media scatter towards the eye along the segment, and attenuates by it.
   void cross(const Interval& interval) {
     const EyeSegment segment(c_.scene, ray_, interval, medium_, throughput_);
+    const uint64_t used = work_.counters.gather.used;
     for (const auto& estimator : c_.estimators.volume) radiance_ += estimator->along(segment, work_);
+    work_.counters.used_in_media += work_.counters.gather.used - used;
     throughput_ *= segment.transmittance(work_);
   }
 

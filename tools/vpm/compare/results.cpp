@@ -248,7 +248,7 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
          "95 %: Student's t over repetitions; ratios: jackknife of their logarithm over pairs of repetitions"},
         {"p", "Student's t of the jackknife over pairs of repetitions; p_holm: corrected for all pairs of a scene"}}},
       {"scenes", std::move(all)}};
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string results_csv(const ComparisonPlan& plan, const std::vector<SceneResults>& scenes) {

@@ -162,7 +162,7 @@ std::string json_report(const std::vector<ListResult>& lists, const ValidateOpti
                     {"failed", all.failed},
                     {"not_determined", all.undetermined},
                     {"files", std::move(files)}};
-  return report.dump(2) + "\n";
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace

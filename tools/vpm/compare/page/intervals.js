@@ -16,8 +16,20 @@ const kIntervalPlots = [
   },
 ];
 
-const kLongestName = 22;
-const shortName = name => (name.length > kLongestName ? `${name.slice(0, kLongestName - 1)}…` : name);
+const kLongestLine = 22, kRowHeight = 26, kLineHeight = 14;  // letters; pixels
+
+/** A name in lines of at most kLongestLine letters, between words where it has any. */
+function linesOf(name) {
+  const lines = [''];
+  for (const word of name.match(new RegExp(`\\S{1,${kLongestLine}}`, 'g')) ?? []) {
+    const longer = `${last(lines)} ${word}`.trim();
+    if (longer.length <= kLongestLine)
+      lines[lines.length - 1] = longer;
+    else
+      lines.push(word);
+  }
+  return lines;
+}
 
 /** Where a logarithmic axis ends: values, and ends of intervals no further than a factor of 10 beyond all of them. */
 function ratioRange(nothing, points) {
@@ -56,7 +68,7 @@ const methodAxis = scene => ({
   afterBuildTicks: axis => {
     axis.ticks = scene.methods.map((_, i) => ({value: i}));
   },
-  ticks: {autoSkip: false, color: cssColour('--text'), callback: i => shortName(scene.methods[i].name)},
+  ticks: {autoSkip: false, color: cssColour('--text'), callback: i => linesOf(scene.methods[i].name)},
   grid: {color: cssColour('--faint'), borderColor: cssColour('--line')},
 });
 
@@ -110,7 +122,8 @@ class IntervalPlot {
     this.canvas = element(
         'canvas', {role: 'img', 'aria-label': `${kind.title} of each method; the table below holds the numbers`});
     const frame = element('div', {}, this.canvas);
-    frame.style.height = `${26 * scene.methods.length + 62}px`;
+    const lines = Math.max(...scene.methods.map(method => linesOf(method.name).length));
+    frame.style.height = `${(kRowHeight + kLineHeight * (lines - 1)) * scene.methods.length + 62}px`;
     holder.append(frame);
   }
 

@@ -153,14 +153,42 @@ const whiskers = {
   },
 };
 
-/** Powers of ten are labelled; on short axes also 2 and 5 times these, on very short ones all. */
-function tickText(value, {min, max}) {
-  const exponent = exponentOf(value), leading = value / 10 ** exponent, decades = Math.log10(max / min);
-  const shown = decades > 1.7 ? [1] : decades > 0.7 ? [1, 2, 5] : [1, 2, 3, 4, 5, 6, 7, 8, 9];
-  if (!shown.some(digit => Math.abs(leading - digit) < 1e-6)) return '';
-  const digit = Math.round(leading);
-  if (min > 0.005 && max < 50000) return plain(digit * 10 ** exponent);
+/** Which multiples of powers of ten may be labelled: of these, the first for which there is room. */
+const kLabelled = [[1, 2, 3, 4, 5, 6, 7, 8, 9], [1, 2, 5], [1]];
+
+/** Whether an axis of that range writes its numbers without powers of ten. */
+const isPlain = ({min, max}) => min > 0.005 && max < 50000;
+
+/** The multiples of powers of ten in a range that have these leading digits, from the least. */
+function multiplesIn({min, max}, digits) {
+  const multiples = [];
+  for (let exponent = exponentOf(min); 10 ** exponent <= max; ++exponent)
+    multiples.push(...digits.map(digit => digit * 10 ** exponent).filter(x => x >= min && x <= max));
+  return multiples;
+}
+
+/** The leading digits that are labelled on an axis `length` pixels long, where a label takes `room` of them. */
+function labelledDigits(range, length, room) {
+  const pixels = length / Math.log10(range.max / range.min);  // of a decade
+  const fits = digits =>
+      multiplesIn(range, digits).every((x, i, all) => i === 0 || pixels * Math.log10(x / all[i - 1]) >= room);
+  const finest = kLabelled.findIndex(fits);
+  const telling = kLabelled.findLastIndex(digits => multiplesIn(range, digits).length > 1);  // one label tells no scale
+  return kLabelled[Math.max(0, Math.min(finest, telling))];
+}
+
+/** Powers of ten are labelled, and what between them there is room for. */
+function tickText(value, range, digits) {
+  const exponent = exponentOf(value), leading = value / 10 ** exponent, digit = Math.round(leading);
+  if (Math.abs(leading - digit) > 1e-6 || !digits.includes(digit)) return '';
+  if (isPlain(range)) return plain(digit * 10 ** exponent);
   return (digit === 1 ? '' : `${digit}\u202f×\u202f`) + `10${superscript(exponent)}`;
+}
+
+/** Of a scale of Chart.js. */
+function textOfTick(scale, value, range) {
+  const room = !scale.isHorizontal() ? 20 : isPlain(range) ? 44 : 60;
+  return tickText(value, range, labelledDigits(range, scale.isHorizontal() ? scale.width : scale.height, room));
 }
 
 function logarithmicAxis(title, range) {
@@ -169,7 +197,12 @@ function logarithmicAxis(title, range) {
     type: 'logarithmic',
     ...range,
     title: {display: true, text: title, color: cssColour('--text')},
-    ticks: {color: cssColour('--text'), maxRotation: 0, autoSkip: false, callback: value => tickText(value, range)},
+    ticks: {
+      color: cssColour('--text'),
+      maxRotation: 0,
+      autoSkip: false,
+      callback(value) { return textOfTick(this, value, range); },
+    },
     grid: {
       color: line => cssColour(line.tick && isPower(line.tick.value) ? '--line' : '--faint'),
       tickColor: cssColour('--line'),

@@ -48,8 +48,8 @@ function sortableTable(caption, columns, rows, by = 0) {
   }
   sort(by);
   const table = element(
-      'table', {class: 'sortable'}, element('caption', {}, caption), element('thead', {}, element('tr', {}, ...heads)),
-      body);
+      'table', {class: 'sortable'}, element('caption', {}, element('span', {}, caption)),
+      element('thead', {}, element('tr', {}, ...heads)), body);
   return element('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption}, table);
 }
 

@@ -1,0 +1,21 @@
+// What tells one scene from another: the keys of its file with their values, and the bytes of the files that it names.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vpm/input/toml_node.h"
+
+namespace vpm {
+
+struct Fingerprint {
+  std::string hash;  // 16 hex digits: of all keys that change what a pass computes, and of the bytes of the files
+  std::vector<std::pair<std::string, std::string>> contents;  // what of that is no setting, by name
+};
+
+/// Of a document with its options applied. Comments and white space do not take part, nor do settings that only say
+/// which passes are rendered. `files` are those that it names. Throws InputError where one of them cannot be read.
+Fingerprint fingerprint_of(const Document& document, const std::vector<std::string>& files);
+
+}  // namespace vpm
