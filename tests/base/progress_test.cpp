@@ -19,6 +19,11 @@ TEST(ProgressLine, ShowsShareAndTimeLeft) {
   EXPECT_EQ(progress_line("maps", 1000, 1000, 1.0), "maps  [####################] 100 %  0 s left");
 }
 
+TEST(ProgressLine, TellsNoTimeWhileTooLittleIsDone) {
+  EXPECT_EQ(progress_line("render", 9, 100, 3.0, 10), "render  [#-------------------]   9 %");
+  EXPECT_EQ(progress_line("render", 10, 100, 3.0, 10), "render  [##------------------]  10 %  27 s left");
+}
+
 TEST(ProgressLine, SurvivesOddNumbers) {
   EXPECT_EQ(progress_line("more", 7, 5, 1.0), "more  [####################] 100 %  0 s left");
   EXPECT_EQ(progress_line("slow", 1, uint64_t{1} << 62, 1e30).substr(0, 30), "slow  [--------------------]  ");

@@ -75,6 +75,31 @@ TEST_F(VpmError, PrintsForPeople) {
   EXPECT_EQ(files(), (std::vector<std::string>{"image.exr", "reference.exr"}));
 }
 
+TEST_F(VpmError, TellsWhatOfTheErrorIsNoise) {
+  Image variance(3, 2);
+  for (Rgb& pixel : variance.pixels) pixel = Rgb(0.01f);
+  write_exr(path("noisy.exr"), image_, {{"variance", &variance}}, {{"vpm.varianceOfMeans", "4e-4 1e-4 9e-4"}});
+  Json report = json({"noisy.exr", "reference.exr"});
+  const double found = report.at("relative_mse").at("value"), noise = report.at("relative_mse").at("noise");
+  EXPECT_GT(noise, 0.0);
+  EXPECT_DOUBLE_EQ(report.at("relative_mse").at("less_noise"), found - noise);
+  EXPECT_TRUE(report.at("relative_mse").at("noise_of_reference").is_null());
+  EXPECT_EQ(report.at("means").at("standard_error_of_difference"), Json::array({0.02, 0.01, 0.03}));
+  EXPECT_FALSE(report.at("means").at("standard_error_knows_correlation"));
+  for (Rgb& pixel : variance.pixels) pixel = Rgb(0.04f);
+  write_exr(path("noisier.exr"), reference_, {{"variance", &variance}}, {{"vpm.varianceOfMeans", "0 0 0"}});
+  const std::string text = vpm_succeeds({"error", "noisy.exr", "noisier.exr"}).out;
+  EXPECT_NE(text.find("less noise"), std::string::npos) << text;
+  EXPECT_NE(text.find("the reference is noisier than the picture"), std::string::npos) << text;
+  EXPECT_TRUE(json({"noisy.exr", "noisier.exr"}).at("means").at("standard_error_knows_correlation"));
+}
+
+TEST_F(VpmError, BringsAPictureToTheSizeOfTheReference) {
+  write_exr(path("large.exr"), Image(6, 4), {}, {});
+  vpm_refuses({"error", "large.exr", "reference.exr"}, {"6 x 4", "3 x 2", "--set film.width=3", "--resample"});
+  EXPECT_EQ(json({"large.exr", "reference.exr", "--resample"}).at("width"), 3);
+}
+
 TEST_F(VpmError, WritesTheSignedDifference) {
   vpm_succeeds({"error", "image.exr", "reference.exr", "-o", "off.exr"});
   const Image off = read_exr(path("off.exr"));

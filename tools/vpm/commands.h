@@ -65,8 +65,9 @@ int info_command(const InfoOptions& options);
 struct ErrorOptions {
   std::vector<std::string> images;  // a picture and its reference; of a series the last is the reference
   bool series = false;
-  std::string output;  // .exr for the difference; empty: none. Not of a series
-  int worst = 5;       // pixels to list
+  std::string output;     // .exr for the difference; empty: none. Not of a series
+  bool resample = false;  // bring the picture to the size of the reference. Not of a series
+  int worst = 5;          // pixels to list
   bool json = false;
 };
 /// Prints how far pictures are from a reference; of a series also how fast that falls with passes.

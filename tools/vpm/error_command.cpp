@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -13,6 +14,8 @@
 #include "vpm/base/line_fit.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
+#include "vpm/image/noisy_difference.h"
+#include "vpm/job/picture.h"
 
 namespace vpm::tools {
 namespace {
@@ -29,11 +32,34 @@ struct Errors {
   double mse, relative_mse, relative_mse_of_pbrt;
 };
 
+/// The picture of a file with what it tells of its noise.
+NoisyImage read_picture(const std::string& path) {
+  const ExrChannels file = read_exr_channels(path);
+  NoisyImage picture{read_exr(path), {}, {}};
+  Image variance(file.width, file.height);
+  for (int c = 0; c < 3; ++c) {
+    const auto plane = file.planes.find(std::string("variance.") + "RGB"[c]);
+    if (plane == file.planes.end()) return picture;
+    for (size_t i = 0; i < variance.pixels.size(); ++i) variance.pixels[i][c] = plane->second[i];
+  }
+  if (non_finite_pixels(variance) > 0) return picture;
+  picture.variance = std::move(variance);
+  const auto means = file.metadata.find(kVarianceOfMeans);
+  Rgbd of_means;
+  if (means != file.metadata.end() &&
+      std::sscanf(means->second.c_str(), "%lf %lf %lf", &of_means.r, &of_means.g, &of_means.b) == 3)
+    picture.variance_of_channel_means = of_means;
+  return picture;
+}
+
 /// Throws InputError where the sizes differ.
 Errors errors_of(const Image& image, const std::string& path, const Image& reference, const std::string& to) {
   if (image.width != reference.width || image.height != reference.height)
-    throw InputError(fmt::format("{} has {} x {} pixels and {} has {} x {}: compare pictures of one size", path,
-                                 image.width, image.height, to, reference.width, reference.height));
+    throw InputError(fmt::format(
+        "{} has {} x {} pixels and {} has {} x {}: render one of them at the size of the other, with --set "
+        "film.width={} "
+        "--set film.height={}, or say --resample, which brings the picture to the size of the reference",
+        path, image.width, image.height, to, reference.width, reference.height, reference.width, reference.height));
   return {mse(image, reference), relative_mse(image, reference), relative_mse_of_pbrt(image, reference)};
 }
 
@@ -44,6 +70,8 @@ void warn_of_non_finite(const Image& image, const std::string& path) {
 }
 
 // --- Two pictures
+
+Json noise_json(const NoisyImage& picture, double noise) { return picture.variance ? number(noise) : Json(); }
 
 Image difference_of(const Image& image, const Image& reference) {
   Image difference(image.width, image.height);
@@ -61,7 +89,17 @@ void check_output(const ErrorOptions& options) {
       throw InputError(fmt::format("cannot write '{}': it is one of the pictures; name another file", options.output));
 }
 
-Json report_of_pair(const ErrorOptions& options, const Image& image, const Image& reference, const Errors& errors) {
+/// Two pictures of one size, and how far they are apart.
+struct Pair {
+  NoisyImage picture, reference;
+  Errors errors;
+  NoisyDifference difference;
+};
+
+Json report_of_pair(const ErrorOptions& options, const Pair& pair) {
+  const Image &image = pair.picture.image, &reference = pair.reference.image;
+  const Errors& errors = pair.errors;
+  const NoisyDifference& difference = pair.difference;
   const Rgbd of_image = channel_means(image), of_reference = channel_means(reference);
   Json worst = Json::array();
   for (const PixelError& pixel : worst_pixels(image, reference, static_cast<size_t>(options.worst)))
@@ -75,19 +113,47 @@ Json report_of_pair(const ErrorOptions& options, const Image& image, const Image
           {"width", image.width},
           {"height", image.height},
           {"mse", {{"value", number(errors.mse)}, {"is", kMse}}},
-          {"relative_mse", {{"value", number(errors.relative_mse)}, {"is", kRelativeMse}}},
+          {"relative_mse",
+           {{"value", number(errors.relative_mse)},
+            {"is", kRelativeMse},
+            {"less_noise", number(difference.less_noise)},
+            {"standard_error", number(difference.standard_error)},
+            {"noise", noise_json(pair.picture, difference.noise)},
+            {"noise_of_reference", noise_json(pair.reference, difference.noise_of_reference)}}},
           {"relative_mse_of_pbrt", {{"value", number(errors.relative_mse_of_pbrt)}, {"is", kRelativeMseOfPbrt}}},
           {"means",
-           {{"image", rgb(of_image)}, {"reference", rgb(of_reference)}, {"difference", rgb(of_image - of_reference)}}},
+           {{"image", rgb(of_image)},
+            {"reference", rgb(of_reference)},
+            {"difference", rgb(difference.of_channel_means)},
+            {"standard_error_of_difference", rgb(difference.standard_errors)},
+            {"standard_error_knows_correlation", difference.means_know_correlation}}},
           {"non_finite_pixels", {{"image", non_finite_pixels(image)}, {"reference", non_finite_pixels(reference)}}},
           {"worst_pixels", std::move(worst)}};
 }
 
-void print_pair(const ErrorOptions& options, const Image& image, const Image& reference, const Errors& errors) {
+/// What of the relative MSE is noise, as far as the pictures tell.
+void print_noise(const Pair& pair) {
+  const NoisyDifference& d = pair.difference;
+  if (!pair.picture.variance && !pair.reference.variance) {
+    fmt::print("{:<14} neither picture tells its noise (layers variance.*)\n", "");
+    return;
+  }
+  fmt::print("{:<14} {:.4g} +- {:.2g} less noise, of which {}, and {}\n", "", d.less_noise, d.standard_error,
+             pair.picture.variance ? fmt::format("I has {:.2g}", d.noise) : "I tells none",
+             pair.reference.variance ? fmt::format("R {:.2g}", d.noise_of_reference) : "R tells none");
+  if (pair.picture.variance && d.noise_of_reference > d.noise)
+    fmt::print("{:<14} the reference is noisier than the picture: render it longer\n", "");
+}
+
+void print_pair(const ErrorOptions& options, const Pair& pair) {
+  const Image &image = pair.picture.image, &reference = pair.reference.image;
+  const Errors& errors = pair.errors;
+  const NoisyDifference& difference = pair.difference;
   fmt::print("{} (I) against {} (R), {} x {} pixels\n", options.images[0], options.images[1], image.width,
              image.height);
   fmt::print("{:<14} {:<12.6g} {}\n", "MSE", errors.mse, kMse);
   fmt::print("{:<14} {:<12.6g} {}\n", "relMSE", errors.relative_mse, kRelativeMse);
+  print_noise(pair);
   fmt::print("{:<14} {:<12.6g} {}\n", "pbrt's MRSE", errors.relative_mse_of_pbrt, kRelativeMseOfPbrt);
   const Rgbd of_image = channel_means(image), of_reference = channel_means(reference);
   const auto print_means = [](const char* name, const Rgbd& c) {
@@ -96,8 +162,13 @@ void print_pair(const ErrorOptions& options, const Image& image, const Image& re
   fmt::print("{:<14} {:<12} {:<12} {:<12}\n", "means", "red", "green", "blue");
   print_means("  I", of_image);
   print_means("  R", of_reference);
-  print_means("  I - R", of_image - of_reference);
-  if (options.worst > 0) fmt::print("worst pixels (column and row from the top left): I, R, part in relMSE\n");
+  print_means("  I - R", difference.of_channel_means);
+  if (pair.picture.variance || pair.reference.variance) {
+    print_means("  +-", difference.standard_errors);
+    if (!difference.means_know_correlation) fmt::print("{:<14} were pixels independent of each other\n", "");
+  }
+  if (options.worst > 0)
+    fmt::print("worst pixels (column and row from the top left): I, R, (I - R)^2 / (R^2 + 0.01 mean(R)^2)\n");
   for (const PixelError& pixel : worst_pixels(image, reference, static_cast<size_t>(options.worst))) {
     const Rgb i = image.at(pixel.x, pixel.y), r = reference.at(pixel.x, pixel.y);
     fmt::print("  {:>5} {:>5}  ({:.4g}, {:.4g}, {:.4g})  ({:.4g}, {:.4g}, {:.4g})  {:.3g}\n", pixel.x, pixel.y, i.r,
@@ -107,8 +178,12 @@ void print_pair(const ErrorOptions& options, const Image& image, const Image& re
 
 int compare_pair(const ErrorOptions& options) {
   check_output(options);
-  const Image image = read_exr(options.images[0]), reference = read_exr(options.images[1]);
-  const Errors errors = errors_of(image, options.images[0], reference, options.images[1]);
+  Pair pair{read_picture(options.images[0]), read_picture(options.images[1]), {}, {}};
+  const Image& reference = pair.reference.image;
+  if (options.resample) pair.picture = resampled(pair.picture, reference.width, reference.height);
+  const Image& image = pair.picture.image;
+  pair.errors = errors_of(image, options.images[0], reference, options.images[1]);
+  pair.difference = noisy_difference(pair.picture, pair.reference);
   if (!options.output.empty())
     write_exr(options.output, difference_of(image, reference), {},
               {{"vpm.quantity", "difference, image - reference"},
@@ -117,9 +192,9 @@ int compare_pair(const ErrorOptions& options) {
   warn_of_non_finite(image, options.images[0]);
   warn_of_non_finite(reference, options.images[1]);
   if (options.json)
-    fmt::print("{}\n", report_of_pair(options, image, reference, errors).dump(2));
+    fmt::print("{}\n", report_of_pair(options, pair).dump(2, ' ', false, Json::error_handler_t::replace));
   else
-    print_pair(options, image, reference, errors);
+    print_pair(options, pair);
   return 0;
 }
 
@@ -204,7 +279,7 @@ void print_series_json(const std::vector<Member>& series, const std::string& to,
       {"formulas", {{"mse", kMse}, {"relative_mse", kRelativeMse}, {"relative_mse_of_pbrt", kRelativeMseOfPbrt}}},
       {"series", std::move(members)},
       {"over_passes", {{"mse", json_of(of_mse)}, {"relative_mse", json_of(of_relative)}}}};
-  fmt::print("{}\n", report.dump(2));
+  fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 int compare_series(const ErrorOptions& options) {

@@ -144,6 +144,7 @@ void add_error(CLI::App& app, ErrorOptions& options) {
       "--series", options.series, "A line for each picture, and how their errors fall with the passes they tell");
   command->add_option("-o,--output", options.output, "File for the difference, picture less reference (.exr)")
       ->excludes(series);
+  command->add_flag("--resample", options.resample, "Bring the picture to the size of the reference")->excludes(series);
   command->add_option("--worst", options.worst, "Pixels to list, those with the largest part in the relative MSE")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str()

@@ -42,16 +42,16 @@ bool progress_enabled(ProgressMode mode) {
   return mode == ProgressMode::always || (mode == ProgressMode::automatic && isatty(STDERR_FILENO) == 1);
 }
 
-std::string progress_line(const std::string& stage, uint64_t done, uint64_t total, double seconds) {
+std::string progress_line(const std::string& stage, uint64_t done, uint64_t total, double seconds, uint64_t least) {
   const std::string bar = bar_text(stage, done, total);
-  if (done == 0 || total == 0) return bar;
+  if (done < least || total == 0) return bar;
   const double fraction = fraction_done(done, total);
   return bar + "  " + duration_text(seconds * (1.0 - fraction) / fraction) + " left";
 }
 
-Progress::Progress(std::string stage, uint64_t total, bool enabled)
-    : stage_(std::move(stage)), total_(total), enabled_(enabled) {
-  if (enabled_) show(progress_line(stage_, 0, total_, 0.0), "");
+Progress::Progress(std::string stage, uint64_t total, bool enabled, uint64_t least)
+    : stage_(std::move(stage)), total_(total), enabled_(enabled), least_(least) {
+  if (enabled_) show(progress_line(stage_, 0, total_, 0.0, least_), "");
 }
 
 void Progress::show_if_due() {
@@ -60,7 +60,7 @@ void Progress::show_if_due() {
   if (printing_.test_and_set(std::memory_order_acquire)) return;  // another thread is at it
   if (now >= next_.load(std::memory_order_relaxed)) {
     next_.store(now + kPeriod, std::memory_order_relaxed);
-    show(progress_line(stage_, done(), total_, now), "");
+    show(progress_line(stage_, done(), total_, now, least_), "");
   }
   printing_.clear(std::memory_order_release);
 }
@@ -72,9 +72,10 @@ void Progress::finish() {
 }
 
 void Progress::show(const std::string& line, const char* end) {
-  const std::string blanks(shown_ > line.size() ? shown_ - line.size() : 0, ' ');  // wipe the rest of a longer line
-  shown_ = line.size();
-  std::fputs(("\r" + line + blanks + end).c_str(), stderr);
+  const std::string whole = note_.empty() ? line : line + "  " + note_;
+  const std::string blanks(shown_ > whole.size() ? shown_ - whole.size() : 0, ' ');  // wipe the rest of a longer line
+  shown_ = whole.size();
+  std::fputs(("\r" + whole + blanks + end).c_str(), stderr);
   std::fflush(stderr);
 }
 

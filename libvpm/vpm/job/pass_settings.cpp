@@ -29,7 +29,7 @@ std::vector<Setting> declare_render() {
       {.key = "render.error",
        .member = at<&S::until, &StopRule::error>(),
        .domain = Numbers{kNotNegative},
-       .meaning = "> 0: passes start until the estimated relative MSE is no more than that, instead",
+       .meaning = "> 0: passes start until the relative MSE is below that with a confidence of about 80 %, instead",
        .of_passes = true},
       {.key = "render.seed",
        .member = at<&S::seed>(),

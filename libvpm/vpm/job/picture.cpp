@@ -38,8 +38,13 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
   metadata.emplace_back(
       "vpm.quantity",
       "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as "
-      "the passes show it");
+      "its photons show it, were it to go as the squared radius; vpm.varianceOfMeans: variance of the mean over "
+      "pixels");
   const std::optional<FilmErrors> errors = errors_of(result);
+  if (errors) {
+    const Rgbd& means = errors->variance_of_channel_means;
+    metadata.emplace_back(kVarianceOfMeans, fmt::format("{:.9g} {:.9g} {:.9g}", means.r, means.g, means.b));
+  }
   std::vector<ExrLayer> layers;
   if (errors) layers.push_back({"variance", &errors->variance});
   if (errors && result.film.shows_bias()) layers.push_back({"bias", &errors->bias});

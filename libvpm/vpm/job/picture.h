@@ -11,6 +11,10 @@
 
 namespace vpm {
 
+/// The attribute of pictures that holds the variance of the mean over pixels, of red, green and blue, (W/(m^2 sr))^2.
+/// Pixels of photon maps are correlated: it cannot be told from the variances of pixels.
+inline constexpr const char* kVarianceOfMeans = "vpm.varianceOfMeans";
+
 /// Writes the mean of the passes, W/(m^2 sr), from two passes on with the variance of that mean (layer "variance") and,
 /// where radii shrink, the bias that the passes show (layer "bias"), and metadata under "vpm....". The file appears
 /// whole or not at all; throws InputError where it cannot be written.

@@ -31,6 +31,25 @@ void estimate_errors(RenderResult& result) {
   if (result.film.passes() > 1) result.errors = result.film.errors();
 }
 
+/// "7 of 16 passes, relative MSE below 0.02": what a terminal shows beside the bar. Errors are read off the film anew
+/// after each kLeastPasses passes, as that takes time.
+class ProgressNote {
+ public:
+  explicit ProgressNote(const StopRule& until) : until_(until) {}
+
+  std::string after(const RenderResult& result) {
+    const int passes = result.film.passes();
+    if (result.errors || passes % kLeastPasses == 0)
+      error_ = passes < kLeastPasses ? "" : fmt::format(", relative MSE below {:.2g}", highest_error(result));
+    return until_.counts_passes() ? fmt::format("{} of {} passes{}", passes, until_.passes, error_)
+                                  : fmt::format("{} {}{}", passes, passes == 1 ? "pass" : "passes", error_);
+  }
+
+ private:
+  const StopRule& until_;
+  std::string error_;
+};
+
 /// Passes of a picture of another size do not add up.
 void check_size(const RenderResult& result, const Camera& camera) {
   const Film& film = result.film;
@@ -90,7 +109,10 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
   const bool counted = until.counts_passes(), shown = progress_enabled(control.progress);
   const int missing = counted ? std::max(0, until.passes - result.film.passes()) : 0;
   const bool single = counted && missing == 1;
-  Progress bar("render", counted ? passes.work * static_cast<uint64_t>(missing) : 1000, shown && !single);
+  // A pass begins with its photons: what is done before its end does not tell how long it takes.
+  Progress bar("render", counted ? passes.work * static_cast<uint64_t>(missing) : 1000, shown && !single,
+               counted ? passes.work : 1);
+  ProgressNote note(until);
   const PassProgress pass_progress{shown && single, counted ? &bar : nullptr};
   if (until.error > 0.0) estimate_errors(result);  // of a render that goes on
   while (!control.stop && share_done(until, result) < 1.0) {
@@ -103,6 +125,7 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
       const auto reached = static_cast<uint64_t>(1000.0 * std::min(1.0, share_done(until, result)));
       bar.advance(reached - std::min(reached, bar.done()));  // estimates of the error may rise
     }
+    if (shown && !single) bar.note(note.after(result));
     if (control.finished) control.finished(result);
   }
   bar.finish();

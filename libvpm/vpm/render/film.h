@@ -28,7 +28,8 @@ struct FilmErrors {
   Estimated variance_part;  // relative MSE due to variance
   /// Relative MSE due to bias, were it to go as r^2 everywhere; four times as much were it to go as r. Estimated by
   /// products of corrections of different passes, whose noise is independent: without bias, so that it may come out
-  /// below 0. Its standard error is that of a jackknife over Film::kGroups groups of passes.
+  /// below 0. Its standard error is that of a jackknife over Film::kGroups groups of passes, which is rather too large
+  /// than too small [Efron1981].
   Estimated bias_part;
   Rgbd variance_of_channel_means{0.0};  // of the mean over pixels, whatever the correlation between pixels
 };
