@@ -33,6 +33,8 @@ using S = RenderSettings;
 const Contradiction kContradictions[] = {
     {"photons.emitted", [](S& s) { s.photons_emitted = 0; }},
     {"photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
+    {"importance.aim", [](S& s) { s.guide.aim = false; }},
+    {"importance.split", [](S& s) { s.guide.split = false; }},
     {"importance.scatter", [](S& s) { s.guide.scatter = true; }},
     {"distance.strategy", [](S& s) { s.distance.strategy = "homogeneous"; }},
     {"distance.strategy", [](S& s) { s.distance.strategy = "weighted"; }},
@@ -49,7 +51,9 @@ const Contradiction kContradictions[] = {
     {"volume.direct_samples", [](S& s) { s.direct_samples = 3; }},
     {"surface.direct", [](S& s) { s.surface_direct = DirectLight::equiangular; }},
     {"surface.gather", [](S& s) { s.surface.mode = GatherMode::beam; }},
+    {"surface.gather_rays", [](S& s) { s.gather_rays = 64; }},
     {"surface.gather_by", [](S& s) { s.gather_by = GatherBy::photons; }},
+    {"caustics.emitted", [](S& s) { s.caustics_emitted = 100; }},
     {"surface.irradiance", [](S& s) { s.end_irradiance = EndIrradiance::precomputed; }},
     {"surface.irradiance",
      [](S& s) {

@@ -109,15 +109,16 @@ def add_gathers(cases):
                "volume.gather=beam volume.count=10"],
               choices("volume.form", "density-at-query", "density-at-photon"), choices("volume.boundary", *boundary),
               choices("volume.direct", "photons", "shadow-rays", "equiangular"), radii]
-    light = [*choices("surface.method", "visualise", "progressive", "final-gather"),
-             "surface.direct=photons surface.indirect=final-gather",
+    light = [*choices("surface.method", "visualise", "progressive"),
+             "surface.method=final-gather surface.gather_rays=2",
+             "surface.direct=photons surface.indirect=final-gather surface.gather_rays=2",
              "surface.direct=shadow-rays surface.indirect=photons"]
     surface = [["surface.gather=radius", "surface.gather=nearest surface.count=20"],
                choices("surface.boundary", *boundary), light, choices("surface.gather_by", "material", "photons"),
                choices("surface.irradiance", "estimate", "precomputed"), radii]
     for scene, wide in WIDE.items():
         cases.combine("volume", scene, wide, *volume, emitted=1000, size=12)
-        cases.combine("surface", scene, f"{wide} surface.gather_rays=2", *surface, emitted=1000, size=12)
+        cases.combine("surface", scene, wide, *surface, emitted=1000, size=12)
 
 
 def add_importance(cases):

@@ -35,9 +35,17 @@ void check_photons(const RenderSettings& s) {
   refuse_if(s.photons_in_cube > 0 && s.radii == RadiusSchedule::per_pixel, "photons.in_cube",
             "where render.radii is \"per-pixel\" photons are counted, so that none may be merged",
             "write 0, or other radii");
-  refuse_if(s.guide.scatter && s.guide.importons == 0, "importance.scatter",
-            "nothing tells photons where to scatter: 'importons' of [importance] is 0",
-            "make 'importons' positive, or leave out 'scatter'");
+}
+
+/// Ways to use importance, where there is none.
+void check_importance(const RenderSettings& s) {
+  if (s.guide.importons > 0) return;
+  const std::string wrong = "nothing tells what photons are worth: 'importons' of [importance] is 0";
+  const std::string right = "make 'importons' positive, or leave out ";
+  const GuideSettings usual;
+  refuse_if(s.guide.aim != usual.aim, "importance.aim", wrong, right + "'aim'");
+  refuse_if(s.guide.split != usual.split, "importance.split", wrong, right + "'split'");
+  refuse_if(s.guide.scatter != usual.scatter, "importance.scatter", wrong, right + "'scatter'");
 }
 
 /// "did you mean ..." would mislead here: the name exists, but belongs to something else.
@@ -90,8 +98,10 @@ void check_final_gathering(const RenderSettings& s) {
   if (s.surface_indirect == IndirectLight::final_gather) return;
   const std::string wrong = "there are no rays to gather light: 'indirect' of [surface] is \"photons\"";
   const std::string right = "make 'method' \"final-gather\", or leave out ";
+  refuse_if(s.gather_rays != RenderSettings{}.gather_rays, "surface.gather_rays", wrong, right + "'gather_rays'");
   refuse_if(s.gather_by == GatherBy::photons, "surface.gather_by", wrong, right + "'gather_by'");
   refuse_if(precomputed, "surface.irradiance", wrong, right + "'irradiance'");
+  refuse_if(s.caustics_emitted > 0, "caustics.emitted", wrong, right + "'emitted'");
 }
 
 /// Radii of pixels' own are those of gathers by radius, straight from the map of single photons.
@@ -128,6 +138,7 @@ SceneFacts facts_of(const Scene& scene) {
 void validate(const RenderSettings& settings, const SceneFacts& facts) {
   check_declared(settings);
   check_photons(settings);
+  check_importance(settings);
   check_strategy(settings, facts);
   check_borders(settings);
   check_final_gathering(settings);
