@@ -90,14 +90,18 @@ bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng) {
   return true;
 }
 
+void leave_along(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state) {
+  if (scatter.transmitted)
+    state.medium = medium_beyond(scene.shapes[hit.shape], hit.normal, scatter.direction, state.medium);
+  state.ray = {leave_surface(hit, scatter.direction), scatter.direction};
+}
+
 bool go_on_from(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state, Rng& rng) {
   const Rgb after = state.throughput * scatter.weight;
   const float survival = std::min(1.0f, max_channel(glm::abs(after)) / max_channel(glm::abs(state.throughput)));
   if (!(rng.uniform() < survival)) return false;
   state.throughput = after / survival;
-  if (scatter.transmitted)
-    state.medium = medium_beyond(scene.shapes[hit.shape], hit.normal, scatter.direction, state.medium);
-  state.ray = {leave_surface(hit, scatter.direction), scatter.direction};
+  leave_along(scene, hit, scatter, state);
   return true;
 }
 

@@ -71,6 +71,9 @@ bool survive_roulette(double weight, PathState& state, Rng& rng);
 /// absorbed. Where the albedo is grey the throughput does not change [Jarosz2008, eq. 7.8].
 bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
 
+/// Moves a path off a surface along the direction of `scatter`, into the medium there. Leaves its throughput alone.
+void leave_along(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state);
+
 /// Continues a path from a surface as `scatter` says. Plays Russian roulette: the path survives with probability min(1,
 /// m after scattering / m before), with m the magnitude of the throughput's largest channel. The path goes on from just
 /// off the surface, in the medium there. False if it is absorbed. The throughput is multiplied neither by

@@ -1,81 +1,144 @@
 // Meets, crosses and scatters; what light is there to be seen is the estimators' matter.
 #include "vpm/render/eye_path.h"
 
+#include <array>
+#include <cassert>
+
 #include "vpm/path/walk.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
 namespace {
 
+/// Both sides of smooth glass are followed where the weaker one has at least this part of the path's start. The parts
+/// of all branches together are at most 1, so there are at most 256 of them.
+constexpr float kLeastBranch = 0x1p-8f;
+/// The most branches that wait at a time. The stronger side waits while the weaker one is followed, which has at most
+/// half of what there was: that happens eight times at the most.
+constexpr size_t kMostWaiting = 8;
+/// A side that gets a smaller fraction of the light than this asks the estimators only with a probability: that
+/// fraction over this one. They take nearly all of the time, and what they find varies little. Lamps, which make the
+/// noise, are seen by all branches.
+constexpr float kAlwaysAsks = 0.5f;
+
+/// A place on an eye path, from which it goes on.
+struct Branch {
+  PathState state;  // throughput without `radiance_scale`: of all branches together, it is at most that of the start
+  float radiance_scale = 1.0f;  // the product of Scatter::radiance_scale
+  float asks = 1.0f;            // the weight of what estimators find; 0: they are not asked
+  int events = 0;               // so far
+};
+
 class EyePath {
  public:
   EyePath(const EyeContext& context, const Ray& ray, EyeWork& work)
-      : c_(context), work_(work), ray_(ray), medium_(medium_of_ray(context.scene, context.scene.camera_medium, ray)) {}
+      : c_(context),
+        work_(work),
+        at_{.state = {ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)}} {}
 
   KernelEstimate follow() {
-    for (int events = 0; events < c_.max_events;) {
-      const Encounter met = meet(c_.scene, ray_, kInfinity, medium_, work_.counters.walk);
-      cross({0.0f, met ? met.hits[0].t : kInfinity});
-      if (is_black(throughput_)) return radiance_;
-      if (!met) {
-        see_environment();
-        return radiance_;
-      }
-      const Hit& hit = met.hits[0];
-      const Material material = material_at(c_.scene, hit);
-      see_emitter(hit);
-      if (is_boundary(material)) {  // no event
-        cross_boundaries(c_.scene, met, ray_, medium_, work_.counters.walk);
-        continue;
-      }
-      if (!meet_surface(hit, material)) return radiance_;
-      ++events;
+    follow_branch();
+    while (waiting_ > 0) {
+      at_ = branches_[--waiting_];
+      follow_branch();
     }
-    ++work_.counters.cut_paths;
     return radiance_;
   }
 
  private:
+  /// Goes on to the branch's end.
+  void follow_branch() {
+    Ray& ray = at_.state.ray;
+    while (at_.events < c_.max_events) {
+      const Encounter met = meet(c_.scene, ray, kInfinity, at_.state.medium, work_.counters.walk);
+      cross({0.0f, met ? met.hits[0].t : kInfinity});
+      if (is_black(at_.state.throughput)) return;
+      if (!met) return see_environment();
+      const Hit& hit = met.hits[0];
+      const Material material = material_at(c_.scene, hit);
+      see_emitter(hit);
+      if (is_boundary(material)) {  // no event
+        cross_boundaries(c_.scene, met, ray, at_.state.medium, work_.counters.walk);
+        continue;
+      }
+      if (is_rough(material)) return see_surface(hit, material);
+      ++at_.events;
+      if (!go_on(hit, material)) return;
+    }
+    ++work_.counters.cut_paths;
+  }
+
+  /// What radiance counts for that arrives at the present place.
+  Rgb seen() const { return at_.state.throughput * at_.radiance_scale; }
+
   /// Adds what media scatter towards the eye along the segment, and attenuates by it.
   void cross(const Interval& interval) {
-    const EyeSegment segment(c_.scene, ray_, interval, medium_, throughput_);
+    const EyeSegment segment(c_.scene, at_.state.ray, interval, at_.state.medium, seen());
     const uint64_t used = work_.counters.gather.used;
-    for (const auto& estimator : c_.estimators.volume) radiance_ += estimator->along(segment, work_);
+    if (at_.asks > 0.0f)
+      for (const auto& estimator : c_.estimators.volume) radiance_ += Rgb(at_.asks) * estimator->along(segment, work_);
     work_.counters.used_in_media += work_.counters.gather.used - used;
-    throughput_ *= segment.transmittance(work_);
+    at_.state.throughput *= segment.transmittance(work_);
   }
 
   void see_environment() {
-    for (const Light& light : c_.scene.lights) radiance_ += throughput_ * environment_radiance(light, ray_.direction);
+    for (const Light& light : c_.scene.lights)
+      radiance_ += seen() * environment_radiance(light, at_.state.ray.direction);
   }
 
   /// Adds what a surface emits towards the eye.
   void see_emitter(const Hit& hit) {
     const int light = c_.scene.shapes[hit.shape].light;
-    if (light >= 0) radiance_ += throughput_ * surface_radiance(c_.scene.lights[light], hit.normal, ray_.direction);
+    if (light >= 0) radiance_ += seen() * surface_radiance(c_.scene.lights[light], hit.normal, at_.state.ray.direction);
   }
 
-  /// Adds what a rough surface scatters towards the eye; goes on from others. Returns whether the path goes on.
-  bool meet_surface(const Hit& hit, const Material& material) {
-    if (is_rough(material)) {
-      const SurfaceView view{hit, material, ray_.direction, medium_};
-      if (c_.estimators.surface) radiance_ += throughput_ * c_.estimators.surface->sent(view, work_);
-      return false;
+  /// Adds what a rough surface scatters towards the eye.
+  void see_surface(const Hit& hit, const Material& material) {
+    const SurfaceView view{hit, material, at_.state.ray.direction, at_.state.medium};
+    if (c_.estimators.surface && at_.asks > 0.0f)
+      radiance_ += at_.asks * seen() * c_.estimators.surface->sent(view, work_);
+  }
+
+  /// Goes on from a specular surface: to both sides of smooth glass, where the weaker one is worth it, else to one side
+  /// that is drawn. Returns whether the path goes on.
+  bool go_on(const Hit& hit, const Material& material) {
+    const auto reflected = reflected_fraction(material, hit.shading_normal, at_.state.ray.direction);
+    if (reflected && max_channel(at_.state.throughput) * std::min(*reflected, 1.0f - *reflected) >= kLeastBranch) {
+      follow_both_sides(hit, material, *reflected);
+      return true;
     }
-    PathState state{ray_, medium_, throughput_};
     Scatter scatter;
-    if (!scatter_at_surface(c_.scene, hit, state, work_.rng, scatter)) return false;
-    ray_ = state.ray;
-    medium_ = state.medium;
-    throughput_ = state.throughput * scatter.radiance_scale;
+    if (!scatter_at_surface(c_.scene, hit, at_.state, work_.rng, scatter)) return false;
+    at_.radiance_scale *= scatter.radiance_scale;
     return true;
+  }
+
+  /// Goes on to the weaker side and leaves the stronger one for later.
+  void follow_both_sides(const Hit& hit, const Material& material, float reflected) {
+    const Vec3 travel = at_.state.ray.direction;
+    const Branch back = side(hit, sample_scatter(material, hit, travel, 0.0f, Vec2(0.0f)), reflected);
+    const Branch beyond = side(hit, sample_scatter(material, hit, travel, reflected, Vec2(0.0f)), 1.0f - reflected);
+    const bool mostly_beyond = reflected < 0.5f;
+    assert(waiting_ < kMostWaiting);
+    branches_[waiting_++] = mostly_beyond ? beyond : back;
+    at_ = mostly_beyond ? back : beyond;
+  }
+
+  Branch side(const Hit& hit, const Scatter& scatter, float fraction) {
+    Branch branch = at_;
+    branch.state.throughput *= scatter.weight * fraction;
+    branch.radiance_scale *= scatter.radiance_scale;
+    if (fraction < kAlwaysAsks)
+      branch.asks *= work_.rng.uniform() * kAlwaysAsks < fraction ? kAlwaysAsks / fraction : 0.0f;
+    leave_along(c_.scene, hit, scatter, branch.state);
+    return branch;
   }
 
   const EyeContext& c_;
   EyeWork& work_;
-  Ray ray_;
-  MediumId medium_;
-  Rgb throughput_{1.0f};
+  Branch at_;
+  std::array<Branch, kMostWaiting> branches_;  // the first `waiting_`
+  size_t waiting_ = 0;
   KernelEstimate radiance_;
 };
 

@@ -9,12 +9,13 @@ namespace vpm {
 struct EyeContext {
   const Scene& scene;
   const Estimators& estimators;
-  int max_events = 100'000;  // of one path; paths that are cut are counted
+  int max_events = 100'000;  // of a path, counted from the camera on each branch; branches that are cut are counted
 };
 
 /// Follows a camera ray through boundaries and specular surfaces. Each segment adds what its medium scatters towards
 /// the eye, as the estimators of volumes find it. The first non-specular surface adds what the estimator of surfaces
-/// finds, and ends the path. Returns radiance, W/(m^2 sr).
+/// finds, and ends the path. At smooth glass the path goes on to both sides, each weighed by its fraction of the light,
+/// until the weaker one is worth little; then one side is drawn. Returns radiance, W/(m^2 sr).
 KernelEstimate eye_radiance(const EyeContext& context, const Ray& camera_ray, EyeWork& work);
 
 }  // namespace vpm

@@ -12,6 +12,19 @@ namespace {
 
 Scatter passed(const Vec3& travel) { return {travel, Rgb(1.0f), true, 1.0f}; }
 
+/// The index on the far side over that on the near one.
+float relative_index(const Dielectric& m, const Incidence& in) { return in.from_outside ? m.ior : 1.0f / m.ior; }
+
+float reflected(const Dielectric& m, const Incidence& in) {
+  return fresnel_dielectric(in.cosine, relative_index(m, in));
+}
+
+/// R + (1 - R)^2 R (1 + R^2 + R^4 + ...) = 2 R / (1 + R) comes back of what each face reflects R of.
+float reflected(const ThinDielectric& m, const Incidence& in) {
+  const float by_face = fresnel_dielectric(in.cosine, m.ior);
+  return 2.0f * by_face / (1.0f + by_face);
+}
+
 }  // namespace
 
 Scatter sample(const Lambertian& m, const Vec3& normal, const Vec3& travel, float, const Vec2& u) {
@@ -33,18 +46,16 @@ Scatter sample(const Conductor& m, const Vec3& normal, const Vec3& travel, float
 Scatter sample(const Dielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2&) {
   if (m.ior == 1.0f) return passed(travel);
   const Incidence in(normal, travel);
-  const float eta = in.from_outside ? m.ior : 1.0f / m.ior;
-  if (u_choice < fresnel_dielectric(in.cosine, eta)) return {mirrored(in, travel), Rgb(1.0f), false, 1.0f};
+  if (u_choice < reflected(m, in)) return {mirrored(in, travel), Rgb(1.0f), false, 1.0f};
+  const float eta = relative_index(m, in);
   const float cos_t = cos_transmitted(in.cosine, eta);
   const Vec3 refracted = travel / eta + (in.cosine / eta - cos_t) * in.normal;
   return {on_side(refracted, -in.normal), Rgb(1.0f), true, 1.0f / (eta * eta)};
 }
 
-/// R + (1 - R)^2 R (1 + R^2 + R^4 + ...) = 2 R / (1 + R) comes back of what each face reflects R of.
 Scatter sample(const ThinDielectric& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2&) {
   const Incidence in(normal, travel);
-  const float reflected = fresnel_dielectric(in.cosine, m.ior);
-  if (u_choice < 2.0f * reflected / (1.0f + reflected)) return {mirrored(in, travel), Rgb(1.0f), false, 1.0f};
+  if (u_choice < reflected(m, in)) return {mirrored(in, travel), Rgb(1.0f), false, 1.0f};
   return passed(travel);
 }
 
@@ -105,6 +116,15 @@ bool is_grey(const Material& material) {
 Scatter sample_scatter(const Material& material, const Vec3& normal, const Vec3& travel, float u_choice,
                        const Vec2& u) {
   return std::visit([&](const auto& m) { return sample(m, normal, travel, u_choice, u); }, material);
+}
+
+std::optional<float> reflected_fraction(const Material& material, const Vec3& normal, const Vec3& travel) {
+  using Fraction = std::optional<float>;
+  const auto smooth = [&](const auto& m) { return Fraction(reflected(m, Incidence(normal, travel))); };
+  const auto other = [](const auto&) { return Fraction(); };
+  return std::visit(Overloads{[&](const Dielectric& m) { return smooth(m); },
+                              [&](const ThinDielectric& m) { return smooth(m); }, other},
+                    material);
 }
 
 ScatterValue scatter_value(const Material& material, const Vec3& normal, const Vec3& travel, const Vec3& direction) {

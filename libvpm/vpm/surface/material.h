@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <variant>
 
 #include "vpm/base/vec.h"
@@ -107,6 +108,10 @@ Rgb* reflectance_of(Material& material);
 /// outward) from either side. `u_choice` and `u` are uniform in [0, 1). Black weight: absorbed. A boundary, a
 /// thin dielectric, and a dielectric of ior 1 pass the direction unchanged to the last bit.
 Scatter sample_scatter(const Material& material, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u);
+
+/// The fraction of light that a smooth dielectric reflects, by Fresnel's equations; it lets the rest pass. With that
+/// probability sample_scatter() reflects: where `u_choice` is below it. Nothing for all other materials.
+std::optional<float> reflected_fraction(const Material& material, const Vec3& normal, const Vec3& travel);
 
 /// How much light a material scatters from `travel` into `direction` (both directions of travel, unit), and with which
 /// density sample_scatter() does so: for shadow rays, gathering and multiple importance sampling. Black for specular
