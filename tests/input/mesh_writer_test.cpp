@@ -52,7 +52,7 @@ TEST(MeshWriter, RefusesWhatItCannotMake) {
   const auto refusal = [&path](const char* name, int resolution) {
     return message_of([&] { write_procedural_mesh(name, resolution, path); });
   };
-  EXPECT_EQ(refusal("nothing", 16), "there is no mesh 'nothing' to make; there are: ring, waves");
+  EXPECT_EQ(refusal("nothing", 16), "there is no mesh 'nothing' to make; there are: ring, pole, waves");
   EXPECT_EQ(refusal("ring", 2), "resolution 2: must lie between 3 and 2048");
   EXPECT_EQ(refusal("ring", 2049), "resolution 2049: must lie between 3 and 2048");
   EXPECT_FALSE(std::filesystem::exists(path));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "support/scenes.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
@@ -45,6 +47,22 @@ TEST(Automatic, PhotonsCostWhatTheEyePassCosts) {
   EXPECT_EQ(choose_count({2e-6, 1e-4, 3.0}, 0.0).count, kLeastCount);
   EXPECT_EQ(choose_count({2e-6, 100.0, 4.0}, 0.0).count, 5'000'000u);  // of 4 records each
   EXPECT_NE(choose_count(cost, 6.4).reason, choose_count(cost, 1.0).reason);
+}
+
+TEST(Automatic, FewerPhotonsThanAnEighthLetAPassFit) {
+  const PassCost cost{2e-6, 0.8, 3.0};
+  EXPECT_EQ(choose_count(cost, 1.0).count, 50'000u);   // an eighth
+  EXPECT_EQ(choose_count(cost, 0.85).count, 25'000u);  // (0.85 - 0.8) s / 2 us
+  EXPECT_NE(choose_count(cost, 0.85).reason.find("a pass fits"), std::string::npos);
+  EXPECT_EQ(choose_count(cost, 0.5).count, 50'000u);  // no number lets it fit
+}
+
+TEST(Automatic, FewerPhotonsMakeAPassFitWhereTheyMakeItShorter) {
+  const auto wide = [](uint64_t photons) { return 1e-2 * std::sqrt(static_cast<double>(photons)); };
+  EXPECT_EQ(make_fit({160'000, ""}, 4.0, wide).count, 160'000u);                          // 4 s
+  EXPECT_EQ(make_fit({640'000, ""}, 4.0, wide).count, 80'000u);                           // 8 s, 2.8 s
+  EXPECT_EQ(make_fit({640'000, ""}, 0.1, wide).count, 1'300u);                            // as few as there may be
+  EXPECT_EQ(make_fit({640'000, ""}, 4.0, [](uint64_t) { return 8.0; }).count, 640'000u);  // radii that are given
 }
 
 TEST(Automatic, TheCheapestStrategyIsTheFirstOfEquals) {
@@ -200,6 +218,24 @@ TEST(Automatic, TheRadiusHoldsThePhotonsThatItPromises) {
   // The median over 512 places of densities told by 16 photons each: off by 2 % or so, and by 4 % as the median of a
   // gamma distribution is; a tenth is four standard deviations at least.
   EXPECT_NEAR(share * 400'000, kPhotonsWithin, 0.1 * kPhotonsWithin);
+}
+
+/// A timing in a hurry asks for fewer photons, and tells about the same of each; and paths have a pass to time, too.
+TEST(Automatic, TimesAPassInTheSecondsThatItIsGiven) {
+  const Scene scene = cloud_over_floor(false);
+  RenderSettings settings;
+  settings.photons_emitted = 100'000'000;
+  const auto start = std::chrono::steady_clock::now();
+  const PassCost cost = time_pass(scene, settings, 0.2);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(taken.count(), 2.0);  // of 0.2 s, where others work beside
+  EXPECT_GT(cost.photon, 0.0);
+  EXPECT_GT(cost.eye, 0.0);
+  EXPECT_NEAR(cost.stored_per_photon, time_pass(scene, settings, 0.4).stored_per_photon, 0.3 * cost.stored_per_photon);
+  settings.integrator = Integrator::path;
+  const PassCost paths = time_pass(scene, settings, 0.1);
+  EXPECT_EQ(paths.photon, 0.0);
+  EXPECT_GT(paths.eye, 0.0);
 }
 
 }  // namespace

@@ -186,6 +186,28 @@ TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
   EXPECT_EQ(count(make_photon_map(none, by_radius, 1)).visited, 0u);
 }
 
+/// Cells twice as wide are the worst: 64 radii cubed in the place of 27.
+TEST(PhotonMap, APhotonFarAwayDoesNotWidenTheCells) {
+  std::vector<Photon> all = photons(Layout::spread, 5000);
+  const GatherSettings settings{GatherMode::radius, 0.1f, 0, KernelKind::constant};
+  const auto visited = [&] {
+    const PhotonMap map = make_photon_map(all, settings, 1);
+    GatherCounters counters;
+    Neighbours near;
+    for (uint64_t i = 0; i < 200; ++i) {
+      Rng rng(4, rng_stream(RngUse::test, 13), i);
+      const Vec3 at(rng.uniform(), rng.uniform(), rng.uniform());
+      volume_sum(Isotropic{}, at, Vec3(0, 0, 1), CountedMap{map, GatherWork{counters, near}});
+    }
+    return static_cast<double>(counters.visited);
+  };
+  const double close = visited();
+  for (const float far : {1e2f, 1e4f}) {
+    all.push_back({Vec3(far, -far, 2.0f * far), PackedDirection(Vec3(0, 0, 1)), Rgb(1.0f)});
+    EXPECT_LT(visited(), 4.0 * close) << far << " m";
+  }
+}
+
 TEST(Kernel, KnowsItsIntegralUpToAnyRadius) {
   constexpr int kSteps = 10000;
   for (const auto& [kind, kernel_name, disc_norm, ball_norm] : kKernels)

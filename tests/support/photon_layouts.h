@@ -9,8 +9,9 @@
 
 namespace vpm {
 
-/// How photons lie: evenly, in a plane, most in a small part, most in one point, on a line.
-enum class Layout { spread, flat, clustered, coinciding, line };
+/// How photons lie: evenly, in a plane, most in a small part, most in one point, on a line; about one point, as in a
+/// medium without end: a half of them beyond 1 m, a tenth beyond 5 m, one of thousands kilometres away.
+enum class Layout { spread, flat, clustered, coinciding, line, endless };
 
 inline std::vector<Photon> photons(Layout layout, size_t count) {
   std::vector<Photon> result(count);
@@ -20,6 +21,7 @@ inline std::vector<Photon> photons(Layout layout, size_t count) {
     if (layout == Layout::flat) p.y = 0.25f;
     if (layout == Layout::clustered) p = (i & 7) ? 1e-3f * p + 0.4f : 100.0f * p;
     if (layout == Layout::coinciding && i % 2) p = Vec3(0.5f);
+    if (layout == Layout::endless) p = 0.5f * p.x / (1.0f - p.x) * uniform_sphere(Vec2(p.y, p.z)) + 0.5f;
     if (layout == Layout::line) p = Vec3(p.x * 50.0f, 1.0f, 2.0f);
     result[i] = {p, PackedDirection(uniform_sphere(rng.uniform2())), Rgb(rng.uniform(), rng.uniform(), rng.uniform())};
     // Photons at one distance must be alike, or a k-nearest answer would depend on which of them it takes.
@@ -28,7 +30,7 @@ inline std::vector<Photon> photons(Layout layout, size_t count) {
   return result;
 }
 
-inline constexpr Layout kLayouts[] = {Layout::spread, Layout::flat, Layout::clustered, Layout::coinciding,
-                                      Layout::line};
+inline constexpr Layout kLayouts[] = {Layout::spread,     Layout::flat, Layout::clustered,
+                                      Layout::coinciding, Layout::line, Layout::endless};
 
 }  // namespace vpm

@@ -94,6 +94,17 @@ TEST(ProceduralMeshes, RingIsTheTubeBetweenTwoRegularPrisms) {
   }
 }
 
+TEST(ProceduralMeshes, PoleIsAPrismAndTwoTruncatedPyramidsWithoutAPrism) {
+  constexpr int kSides = 48;
+  const double polygon = 0.5 * kSides * std::sin(2.0 * kPiD / kSides);  // area of a regular one in the unit circle
+  const auto pyramid = [](double below, double above, double height) {
+    return height / 3.0 * (below * below + below * above + above * above);
+  };
+  const double outside = pyramid(0.09, 0.09, 0.9) + pyramid(0.09, 0.055, 0.1) + pyramid(0.055, 0.04, 3.7);
+  const double expected = polygon * (outside - pyramid(0.03, 0.03, 4.7));
+  EXPECT_NEAR(volume(make("pole", kSides)), expected, 1e-5 * expected);
+}
+
 TEST(ProceduralMeshes, WavesHoldAsMuchAsStillWater) {
   for (const int n : {16, 100, 256})  // their sines cancel over whole periods, on the lattice too
     EXPECT_NEAR(volume(make("waves", n)), 4.0 * 4.0 * 1.55, 1e-6 * 4.0 * 4.0 * 1.55);

@@ -23,6 +23,7 @@ const std::vector<FileSource> kFiles{{"smoke", "media.smoke.path", "media", "smo
                                      {"cloud", "media.cloud.path", "media", "cloud"},
                                      {"ring_caustic", "shapes.ring.path", "mesh", "ring"},
                                      {"pool", "shapes.water.path", "mesh", "waves"},
+                                     {"street_lamp", "shapes.pole.path", "mesh", "pole"},
                                      {"smoke1", "media.smoke.path", "", "smoke1.vdb"},
                                      {"wdas_cloud", "media.cloud.path", "", "wdas_cloud_sixteenth.vdb"},
                                      {"usd_smoke", "media.smoke.path", "", "usd_smoke3.vdb"}};

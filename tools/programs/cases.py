@@ -15,7 +15,8 @@ Case = collections.namedtuple("Case", "group name arguments may_refuse")
 
 # What vpm makes for the scenes: the key that names it, and the file.
 MADE = {"smoke": ("media.smoke.path", "smoke.vdb"), "cloud": ("media.cloud.path", "cloud.vdb"),
-        "ring_caustic": ("shapes.ring.path", "ring.ply"), "pool": ("shapes.water.path", "waves.ply")}
+        "ring_caustic": ("shapes.ring.path", "ring.ply"), "pool": ("shapes.water.path", "waves.ply"),
+        "street_lamp": ("shapes.pole.path", "pole.ply")}
 
 # Radii so wide that maps of a thousand photons have some within them.
 WIDE = {"fog_room": "volume.radius=0.3 surface.radius=0.3",
@@ -33,6 +34,7 @@ def make_files(program, folder):
     for name in ("smoke", "cloud"):
         make("media", name, "--resolution", "32", "-o", f"{name}.vdb")
     make("mesh", "ring", "--resolution", "64", "-o", "ring.ply")
+    make("mesh", "pole", "--resolution", "16", "-o", "pole.ply")
     make("mesh", "waves", "--resolution", "32", "-o", "waves.ply")
     # A sky, and as its radiance is below 1 in spite of noise, a texture too.
     make("render", str(SCENES / "fog_ball.toml"), "-o", "sky.exr", "--passes", "1", "--progress", "never",

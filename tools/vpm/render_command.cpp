@@ -75,6 +75,8 @@ int render_command(const RenderOptions& options) {
   const Identity identity = identity_of(job);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
   std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film);
+  if (begun.film.passes() == 0) foresee(job);
+  begun.seconds += job.pilot_seconds;
   print_notes(job);
   const std::atomic<bool>& stop = stop_on_signals();
   const auto finished = [&](const RenderResult& so_far) {

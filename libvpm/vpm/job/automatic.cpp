@@ -20,6 +20,8 @@ namespace {
 constexpr double kLargestRadius = 0.05;  // of the scene's diagonal
 constexpr double kLeastRadius = 0.5;     // pixels
 constexpr double kLeastShare = 0.125;    // of what the eye pass costs, for photons
+constexpr double kTimingShare = 0.04;    // of the seconds of a render, for each of a few timings of a pass
+constexpr double kPassesShare = 0.75;    // of these seconds, that a pilot leaves to passes
 
 /// Of so many decimal digits: enough for a choice, and short to write down.
 double rounded(double value, int digits) {
@@ -28,14 +30,6 @@ double rounded(double value, int digits) {
 }
 
 float rounded_radius(double radius) { return static_cast<float>(rounded(radius, 3)); }
-
-/// The photons that a pass emits: the settings', or as many as fill the maps.
-double emitted_of(const RenderSettings& settings, const MapDensities& densities) {
-  const auto limit = static_cast<double>(settings.photons_emitted);
-  if (settings.photons_stored == 0) return limit;
-  const double full = static_cast<double>(settings.photons_stored) / densities.stored_per_photon;
-  return settings.photons_emitted == 0 ? full : std::min(limit, full);
-}
 
 /// A gather radius to be chosen.
 struct OpenRadius {
@@ -54,7 +48,7 @@ std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& 
       if (map.section == section) return true;
     return false;
   };
-  const double emitted = emitted_of(s, densities);
+  const double emitted = photons_of_pass(s, densities.stored_per_photon);
   const double aimed = s.caustics_emitted > 0 ? static_cast<double>(s.caustics_emitted) : emitted;
   std::vector<OpenRadius> open;
   if (automatic.has("volume.radius") && has("volume"))
@@ -105,14 +99,21 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
                       RenderSettings& settings) {
   constexpr uint64_t kFirst = 20'000;    // photons
   constexpr uint64_t kMost = 1'000'000;  // of a pilot that asks again with the number found
+  const double seconds = settings.until.seconds, limit = seconds > 0.0 ? kTimingShare * seconds : kInfinity;
   RenderSettings tried = settings;
-  tried.photons_emitted = kFirst;
-  ChosenCount chosen;
-  for (int round = 0; round < 2; ++round) {
+  const auto cost_of = [&](uint64_t photons) {
+    tried.photons_emitted = photons;
     choose_radii(scene, automatic, densities, tried);
-    chosen = choose_count(time_pass(scene, tried), settings.until.seconds);
-    tried.photons_emitted = std::min(chosen.count, kMost);
-  }
+    return time_pass(scene, tried, limit);
+  };
+  ChosenCount chosen{kFirst, ""};
+  for (int round = 0; round < 2; ++round)
+    chosen = choose_count(cost_of(std::min(chosen.count, kMost)), kPassesShare * seconds);
+  if (seconds > 0.0)
+    chosen = make_fit(chosen, kPassesShare * seconds, [&](uint64_t photons) {
+      const PassCost cost = cost_of(photons);
+      return cost.eye + static_cast<double>(photons) * cost.photon;
+    });
   settings.photons_emitted = chosen.count;
   return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
 }
@@ -136,15 +137,20 @@ ChosenCount choose_count(const PassCost& cost, double seconds) {
   const double balanced = cost.eye / cost.photon;
   double count = balanced;
   std::string reason = fmt::format("tracing and sorting them takes as long as the eye pass, {:.2g} s", cost.eye);
-  const double left = (seconds / kLeastPasses - cost.eye) / cost.photon;
-  if (seconds > 0.0 && left < balanced) {
-    count = std::max(left, kLeastShare * balanced);
+  const auto fit = [&](double passes) { return (seconds / passes - cost.eye) / cost.photon; };  // so many passes
+  const double least = kLeastShare * balanced;
+  if (seconds > 0.0 && fit(kLeastPasses) < balanced) {
+    count = std::max(fit(kLeastPasses), least);
     reason =
-        left > kLeastShare * balanced
+        count > least
             ? fmt::format("{} passes fit into {:g} s; the eye pass takes {:.2g} s", kLeastPasses, seconds, cost.eye)
             : fmt::format(
                   "an eighth of the time of the eye pass, {:.2g} s; {} passes of that alone do not fit into {:g} s",
                   cost.eye, kLeastPasses, seconds);
+    if (fit(1) < count && fit(1) >= kLeastCount) {
+      count = fit(1);
+      reason = fmt::format("a pass fits into {:g} s; the eye pass takes {:.2g} s of these", seconds, cost.eye);
+    }
   }
   if (count * cost.stored_per_photon > kMostStored) {
     count = kMostStored / cost.stored_per_photon;
@@ -152,6 +158,22 @@ ChosenCount choose_count(const PassCost& cost, double seconds) {
   }
   if (count < kLeastCount) return {kLeastCount, "the least; " + reason};
   return {static_cast<uint64_t>(rounded(count, 2)), reason};
+}
+
+ChosenCount make_fit(ChosenCount chosen, double seconds, const std::function<double(uint64_t)>& pass_seconds) {
+  constexpr double kFewer = 0.125, kGain = 0.8;
+  double taken = pass_seconds(chosen.count);
+  while (taken > seconds && kFewer * static_cast<double>(chosen.count) >= static_cast<double>(kLeastCount)) {
+    const auto fewer = static_cast<uint64_t>(rounded(kFewer * static_cast<double>(chosen.count), 2));
+    const double less = pass_seconds(fewer);
+    if (less > kGain * taken) break;
+    chosen = {fewer,
+              fmt::format("with more the radii would be smaller, and the eye pass longer: a pass takes {:.2g} s, "
+                          "and would take {:.2g} s with {}",
+                          less, taken, chosen.count)};
+    taken = less;
+  }
+  return chosen;
 }
 
 StrategyCost cheapest(std::span<const StrategyCost> costs) {

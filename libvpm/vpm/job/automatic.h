@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,10 +40,14 @@ struct ChosenCount {
   std::string reason;
 };
 /// As many photons as cost what the eye pass costs; fewer, down to an eighth, where kLeastPasses passes would not fit
-/// into `seconds` (0: no limit); and no more than fill maps of kMostStored.
+/// into `seconds` (0: no limit), and fewer yet where that lets one pass fit; and no more than fill maps of kMostStored.
 ChosenCount choose_count(const PassCost& cost, double seconds);
 inline constexpr uint64_t kLeastCount = 1000;
 inline constexpr double kMostStored = 2e7;
+
+/// Fewer photons where a pass takes longer than `seconds` and less with fewer, as radii that hold so many photons are
+/// wider then; an eighth of them, and again, until a pass fits or gains no more. `pass_seconds`(photons) times a pass.
+ChosenCount make_fit(ChosenCount chosen, double seconds, const std::function<double(uint64_t)>& pass_seconds);
 
 /// The cheapest; of equals the first.
 StrategyCost cheapest(std::span<const StrategyCost> costs);

@@ -23,7 +23,8 @@ std::vector<Setting> declare_render() {
       {.key = "render.seconds",
        .member = at<&S::until, &StopRule::seconds>(),
        .domain = Numbers{kNotNegative},
-       .meaning = "> 0: passes start until this time is over, instead",
+       .meaning = "> 0: passes start until this time, of which a pilot is part, is over, or one more would end at over "
+                  "1.3 times it and 1 s; instead",
        .unit = "s",
        .of_passes = true},
       {.key = "render.error",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
@@ -11,6 +12,7 @@
 #include "vpm/photon/nearest_map.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
+#include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
 
 namespace vpm {
@@ -100,11 +102,21 @@ std::vector<Probe> places_of(const Camera& camera, const std::vector<Photon>& ph
   return places;
 }
 
+/// The share of the usual photons that a pilot may trace: where a render has few seconds, a pilot is to take few of
+/// them.
+double share_of_photons(const RenderSettings& settings) {
+  constexpr double kUnhurried = 20.0;  // s
+  return settings.until.seconds > 0.0 ? std::clamp(settings.until.seconds / kUnhurried, 0.02, 1.0) : 1.0;
+}
+uint64_t in_a_hurry(uint64_t photons, const RenderSettings& settings) {
+  return static_cast<uint64_t>(static_cast<double>(photons) * share_of_photons(settings));
+}
+
 /// Of a seed of its own: what is chosen does not depend on the photons that the render will gather.
 RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
   settings.seed = ~settings.seed;
   settings.photons_emitted = photons;
-  settings.photons_stored = kStored;
+  settings.photons_stored = in_a_hurry(kStored, settings);
   settings.caustics_emitted = std::min(settings.caustics_emitted, photons);
   settings.radii = RadiusSchedule::constant;
   return settings;
@@ -159,20 +171,81 @@ PilotPass trace(const Scene& scene, const RenderSettings& settings) {
   return {std::move(estimators), statistics.ledger};
 }
 
-/// Renders the rays of one block of pixels of many, cut at the borders of small pictures.
-void render_block(const EyeContext& context, uint64_t seed, size_t block, EyeCounters& counters) {
-  const Camera& camera = context.scene.camera;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Renders the rays of one block of pixels of many, cut at the borders of small pictures; the first of them, and others
+/// until so many seconds are over.
+EyeCounters render_block(const Scene& scene, const RayRadiance& radiance, uint64_t seed, size_t block, double seconds) {
+  const Camera& camera = scene.camera;
+  EyeCounters counters;
   EyeScratch scratch;
   const auto pixel_of = [](int pixels, size_t part, int i) {
     const auto middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocks;
     return std::clamp(middle + static_cast<float>(i) - 0.5f * kBlockEdge + 0.5f, 0.0f, static_cast<float>(pixels));
   };
-  for (int i = 0; i < kBlockEdge * kBlockEdge; ++i) {
+  const Clock::time_point start = Clock::now();
+  for (int i = 0; i < kBlockEdge * kBlockEdge && (i == 0 || seconds_since(start) < seconds); ++i) {
     const Vec2 film(pixel_of(camera.width, block % kBlocks, i % kBlockEdge),
                     pixel_of(camera.height, block / kBlocks, i / kBlockEdge));
     Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
     EyeWork work{rng, counters, scratch};
-    eye_radiance(context, camera.ray(film), work).value;
+    radiance(camera.ray(film), work);
+    ++counters.rays;
+  }
+  return counters;
+}
+
+/// What an eye pass takes, told by rays of blocks of pixels all over the picture.
+struct EyeCost {
+  double seconds = 0.0;
+  double of_photons = 0.0;  // the share of them that goes with the number of photons
+};
+/// Takes about so many seconds.
+EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const RayRadiance& radiance, double seconds) {
+  constexpr size_t kAll = size_t{kBlocks} * kBlocks;
+  constexpr double kSearch = 25.0;  // photons that are as dear as a search without any (papers/performance.md)
+  std::array<EyeCounters, kAll> blocks;
+  const Clock::time_point start = Clock::now();
+  parallel_for_chunks(kAll, 1, [&](size_t block, size_t, size_t) {
+    blocks[block] = render_block(scene, radiance, settings.seed, block, seconds / kAll);
+  });
+  const double taken = seconds_since(start);
+  EyeCounters sum;
+  for (const EyeCounters& block : blocks) sum.merge(block);
+  const double all = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
+  const auto used = static_cast<double>(sum.gather.used), searches = static_cast<double>(sum.gather.searches);
+  return {taken * all / static_cast<double>(sum.rays), used / std::max(1.0, used + kSearch * searches)};
+}
+
+/// A pass made ready, and what that took.
+struct ReadyPass {
+  Estimators estimators;
+  RenderStatistics statistics;
+};
+ReadyPass make_ready(const Scene& scene, const RenderSettings& settings) {
+  ReadyPass ready{plan_estimators(scene, settings, 0), {}};
+  prepare_pass(scene, settings, ready.estimators, {.stop = kNeverStopped}, ready.statistics);
+  return ready;
+}
+
+/// Makes a pass ready with as many of its photons as that many seconds allow, a thousand at the least.
+ReadyPass make_ready_within(const Scene& scene, RenderSettings settings, double seconds) {
+  constexpr uint64_t kFewest = 1000;
+  const uint64_t wanted = settings.photons_emitted;
+  if (!std::isfinite(seconds)) return make_ready(scene, settings);
+  const Clock::time_point start = Clock::now();
+  for (uint64_t photons = kFewest;;) {
+    settings.photons_emitted = wanted == 0 ? photons : std::min(photons, wanted);
+    settings.caustics_emitted = std::min(settings.caustics_emitted, settings.photons_emitted);
+    ReadyPass ready = make_ready(scene, settings);
+    const RenderStatistics& s = ready.statistics;
+    const double taken = s.trace_seconds + s.build_seconds, left = seconds - seconds_since(start);
+    const bool stored_all = std::max(s.volume_photons, s.surface_photons) >= settings.photons_stored;
+    if (settings.photons_emitted == wanted || stored_all || left < 2.0 * taken) return ready;
+    photons = static_cast<uint64_t>(static_cast<double>(settings.photons_emitted) *
+                                    std::clamp(0.5 * left / std::max(taken, 1e-6), 2.0, 16.0));
   }
 }
 
@@ -182,7 +255,7 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
   std::vector<StrategyCost> costs;
   for (const StrategyInfo& info : distance_strategies()) {
     if (!info.heterogeneous || !info.unbiased || !info.bounded_weight || !info.positive) continue;
-    RenderSettings tried = pilot_settings(settings, kFlights);
+    RenderSettings tried = pilot_settings(settings, in_a_hurry(kFlights, settings));
     tried.distance.strategy = info.name;
     const Ledger ledger = flights_of(scene, tried);
     const double lookup = info.name == "regular" ? kCellCost : kLookupCost;
@@ -194,7 +267,7 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
 }
 
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
-  const RenderSettings pilot = pilot_settings(settings, kPhotons);
+  const RenderSettings pilot = pilot_settings(settings, in_a_hurry(kPhotons, settings));
   const PilotPass pass = trace(scene, pilot);
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Probes probes;
@@ -216,22 +289,33 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
   return densities;
 }
 
-PassCost time_pass(const Scene& scene, const RenderSettings& settings) {
+double photons_of_pass(const RenderSettings& settings, double stored_per_photon) {
+  const auto limit = static_cast<double>(settings.photons_emitted);
+  if (settings.photons_stored == 0 || stored_per_photon == 0.0) return limit;
+  const double full = static_cast<double>(settings.photons_stored) / stored_per_photon;
+  return settings.photons_emitted == 0 ? full : std::min(limit, full);
+}
+
+PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
   const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
-  RenderStatistics s;
-  const Estimators estimators = plan_estimators(scene, pilot, 0);
-  prepare_pass(scene, pilot, estimators, {.stop = kNeverStopped}, s);
-  const EyeContext context{scene, estimators, pilot.max_events};
-  std::array<EyeCounters, size_t{kBlocks} * kBlocks> counters;
-  const auto start = std::chrono::steady_clock::now();
-  parallel_for_chunks(counters.size(), 1,
-                      [&](size_t block, size_t, size_t) { render_block(context, pilot.seed, block, counters[block]); });
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const double rays = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
+  if (settings.integrator == Integrator::path) {
+    const PathContext context = make_path_context(scene, pilot);
+    const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) {
+      return path_radiance(context, ray, medium_of_ray(scene, scene.camera_medium, ray), work.rng, work.counters);
+    };
+    return {0.0, time_eye_pass(scene, pilot, radiance, seconds).seconds, 0.0};
+  }
+  const ReadyPass ready = make_ready_within(scene, pilot, 0.5 * seconds);
+  const RenderStatistics& s = ready.statistics;
+  const EyeContext context{scene, ready.estimators, pilot.max_events};
+  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); };
+  const EyeCost eye = time_eye_pass(scene, pilot, radiance, 0.5 * seconds);
+  if (s.ledger.emitted_count == 0) return {0.0, s.guide_seconds + eye.seconds, 0.0};
   const auto emitted = static_cast<double>(s.ledger.emitted_count);
-  const auto stored = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons);
+  const auto stored = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons) / emitted;
+  const double more = std::max(1.0, photons_of_pass(settings, stored) / emitted);
   return {(s.trace_seconds + s.build_seconds) / emitted,
-          seconds.count() * rays / static_cast<double>(counters.size() * kBlockEdge * kBlockEdge), stored / emitted};
+          s.guide_seconds + eye.seconds * (1.0 + eye.of_photons * (more - 1.0)), stored};
 }
 
 }  // namespace vpm

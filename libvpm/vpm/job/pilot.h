@@ -16,7 +16,7 @@ struct StrategyCost {
   double cost = 0.0;  // of flights of one photon, in look-ups of density
 };
 /// What flights cost under each strategy that is exact in the scene's media and keeps weights bounded: a pure function
-/// of scene and settings.
+/// of scene and settings, as map_densities(): where a time is asked for, fewer photons fly.
 std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSettings& settings);
 
 /// How dense photons lie where they are gathered.
@@ -35,13 +35,18 @@ struct MapDensities {
 /// Where the eye gathers, how near the photons are: a pure function of scene and settings.
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings);
 
+/// The photons that a pass emits: the settings', or as many as fill the maps, of which so many are stored each.
+double photons_of_pass(const RenderSettings& settings, double stored_per_photon);
+
 /// What a pass costs, s.
 struct PassCost {
-  double photon = 0.0;             // tracing and sorting, of one emitted photon; > 0
-  double eye = 0.0;                // the eye pass
+  double photon = 0.0;             // tracing and sorting, of one emitted photon; 0 where none is
+  double eye = 0.0;                // the eye pass, and what else does not go by the number of photons
   double stored_per_photon = 0.0;  // by all maps
 };
-/// Times the photons of a pass, a million stored ones at the most, and a sample of its rays.
-PassCost time_pass(const Scene& scene, const RenderSettings& settings);
+/// Times the photons of a pass, a million stored ones at the most, and a sample of its rays, a path tracer's, too.
+/// Takes about so many seconds at the most: then photons are fewer than the settings say, and the eye pass is told from
+/// how many it finds of these.
+PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds = kInfinity);
 
 }  // namespace vpm

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "vpm/base/error.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/validate.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -24,6 +25,11 @@ double share_done(const StopRule& until, const RenderResult& result) {
   if (until.seconds > 0.0) share = result.seconds / until.seconds;
   if (until.error > 0.0) share = std::max(share, until.error / highest_error(result));
   return share;
+}
+
+/// Would another pass, as long as the last one, end too late?
+bool too_late(const StopRule& until, const RenderResult& result, double last_pass) {
+  return until.seconds > 0.0 && result.film.passes() > 0 && result.seconds + last_pass > longest_time(until.seconds);
 }
 
 /// Reads the errors off the film, where there are any.
@@ -115,12 +121,14 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
   ProgressNote note(until);
   const PassProgress pass_progress{shown && single, counted ? &bar : nullptr};
   if (until.error > 0.0) estimate_errors(result);  // of a render that goes on
-  while (!control.stop && share_done(until, result) < 1.0) {
+  for (double last = 0.0; !control.stop && share_done(until, result) < 1.0 && !too_late(until, result, last);) {
     const Pass done = passes.make(result, pass_progress);
     if (control.stop) break;
     add(result, done);
     if (until.error > 0.0) estimate_errors(result);
-    result.seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
+    last = seconds - result.seconds;
+    result.seconds = seconds;
     if (!counted) {
       const auto reached = static_cast<uint64_t>(1000.0 * std::min(1.0, share_done(until, result)));
       bar.advance(reached - std::min(reached, bar.done()));  // estimates of the error may rise

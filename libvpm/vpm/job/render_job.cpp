@@ -2,13 +2,29 @@
 #include "vpm/job/render_job.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <chrono>
 
 #include "vpm/job/automatic.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/validate.h"
 
 namespace vpm {
 namespace {
+
+/// Adds the time of its life to that of the job's pilot.
+class Timer {
+ public:
+  explicit Timer(RenderJob& job) : job_(job) {}
+  ~Timer() { job_.pilot_seconds += seconds(); }
+  Timer(const Timer&) = delete;
+  Timer& operator=(const Timer&) = delete;
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  RenderJob& job_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 /// What was chosen, and how to have it again.
 void note_choices(RenderJob& job) {
@@ -34,10 +50,9 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
 void choose(RenderJob& job) {
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
-  const auto start = std::chrono::steady_clock::now();
+  const Timer timer(job);
   job.choices = choose_settings(job.scene, job.automatic, job.settings);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  job.notes.push_back(fmt::format("choosing settings took {:.2g} s", seconds.count()));
+  job.notes.push_back(fmt::format("choosing settings took {:.2g} s", timer.seconds()));
   note_choices(job);
 }
 
@@ -45,6 +60,16 @@ void choose_again(RenderJob& job, std::vector<Choice> choices) {
   job.choices = std::move(choices);
   for (const Choice& choice : job.choices) set_chosen(job.settings, choice.key, choice.value);
   note_choices(job);
+}
+
+void foresee(RenderJob& job) {
+  validate(job.settings, facts_of(job.scene));
+  const Timer timer(job);
+  check_memory(job.scene, job.settings, physical_memory());
+  const double seconds = job.settings.until.seconds;
+  if (seconds == 0.0) return;
+  const PassCost cost = time_pass(job.scene, job.settings, std::min(0.1 * seconds, 1.0));
+  if (std::string text = too_long_text(cost, job.settings); !text.empty()) job.notes.push_back(std::move(text));
 }
 
 }  // namespace vpm

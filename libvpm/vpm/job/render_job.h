@@ -34,6 +34,7 @@ struct RenderJob {
                                          // scenes made in code what their maker says
   std::vector<std::pair<std::string, std::string>> contents{};  // of the scene file, with its options: what is no
                                                                 // setting, by name; and hashes of those files
+  double pilot_seconds = 0.0;           // wall clock, of choose() and foresee(): part of a render's time
   uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
 };
 
@@ -45,5 +46,10 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings = {}
 void choose(RenderJob& job);
 /// The same with the choices of an earlier run, in the place of a pilot. Throws InputError as set_chosen().
 void choose_again(RenderJob& job, std::vector<Choice> choices);
+
+/// Looks ahead at the first pass. Notes in the job where it will not fit into the seconds of the stop rule, and what
+/// would; for that it times a few photons and rays, for a tenth of these seconds and at most a second. Throws
+/// InputError where the photons of a pass will not fit into the memory of the machine.
+void foresee(RenderJob& job);
 
 }  // namespace vpm

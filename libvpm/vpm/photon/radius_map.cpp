@@ -1,4 +1,4 @@
-// Building the grid of the fixed-radius map: a counting sort by cell.
+// Building the grid of the fixed-radius map: a counting sort by list.
 #include "vpm/photon/radius_map.h"
 
 #include <algorithm>
@@ -10,19 +10,22 @@
 namespace vpm {
 namespace {
 
+constexpr size_t kCellChunk = 1 << 14;  // photons one thread takes at once
+constexpr size_t kParts = 8;            // of the lists, that threads sort one by one
+constexpr double kMostWide = 2.0;       // radii, of a cell that shares its list
+constexpr double kMostAlong = 1 << 20;  // cells along an axis: floats tell them apart to a quarter
+
 /// Cells of edge `size` that cover `extent`, each at least 1.
 Vec3d cells_for(const Vec3& extent, double size) { return glm::floor(Vec3d(extent) / size) + 1.0; }
 
-constexpr size_t kCellChunk = 1 << 14;  // photons one thread takes at once
-constexpr size_t kParts = 8;            // of the cells, that threads sort one by one
-
 /// The edge of the cells: a radius, or more where that would make over a cell a photon.
-double cell_size(const Vec3& extent, float radius, size_t photons) {
-  const double most = static_cast<double>(photons);
-  double size = radius;
-  for (Vec3d n = cells_for(extent, size); n.x * n.y * n.z > most; n = cells_for(extent, size))
+double cell_size(const Vec3& extent, double radius, size_t photons) {
+  const double least = std::max(radius, max_channel(extent) / kMostAlong), most = static_cast<double>(photons);
+  double size = least;
+  for (Vec3d n = cells_for(extent, size); n.x * n.y * n.z > most && size < kMostWide * least;
+       n = cells_for(extent, size))
     size *= std::max(1.01, 0.9 * std::cbrt(n.x * n.y * n.z / most));
-  return size;
+  return std::min(size, kMostWide * least);
 }
 
 }  // namespace
@@ -32,33 +35,35 @@ RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float sca
   if (photons.empty()) return;
   bounds_ = bounds_of(photons);
   const double size = cell_size(bounds_.extent(), radius, photons.size());
+  const Vec3d cells = cells_for(bounds_.extent(), size);
   per_cell_ = static_cast<float>(1.0 / size);
-  count_ = Vec3i(cells_for(bounds_.extent(), size));
-  std::vector<uint32_t> cells(photons.size());  // of each photon
-  parallel_for_chunks(cells.size(), kCellChunk, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) {
-      const Vec3& p = photons[i].position;
-      cells[i] = (cell_along(2, p.z) * count_.y + cell_along(1, p.y)) * count_.x + cell_along(0, p.x);
-    }
+  slack_ = static_cast<float>(size * (1e-3 + 0x1p-22 * std::max({cells.x, cells.y, cells.z})));
+  last_ = Vec3(cells - 1.0);
+  lists_ = CellLists(cells, static_cast<double>(photons.size()));
+  const double window = std::min({lists_.window().x, lists_.window().y, lists_.window().z});
+  widest_ = lists_.window() == Vec3i(cells) ? kInfinity : static_cast<float>(0.5 * (window - 2.0) * size);
+  std::vector<uint32_t> lists(photons.size());  // of each photon
+  parallel_for_chunks(lists.size(), kCellChunk, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) lists[i] = static_cast<uint32_t>(lists_.list_of(cell_at(photons[i].position)));
   });
-  photons_ = PhotonTable(photons, sort_by_cell(cells), scale);
+  photons_ = PhotonTable(photons, sort_by_list(lists), scale);
 }
 
-std::vector<uint32_t> RadiusMap::sort_by_cell(const std::vector<uint32_t>& cells) {
-  const size_t count = static_cast<size_t>(count_.x) * count_.y * count_.z, part = (count + kParts - 1) / kParts;
-  // Every thread looks at all photons, and counts and sorts those of a part of the cells: no two write to one place,
-  // and the order is that of the photons in each cell, on however many threads.
+std::vector<uint32_t> RadiusMap::sort_by_list(const std::vector<uint32_t>& lists) {
+  const size_t count = lists_.number(), part = (count + kParts - 1) / kParts;
+  // Every thread looks at all photons, and counts and sorts those of a part of the lists: no two write to one place,
+  // and the order is that of the photons in each list, on however many threads.
   const auto for_each_part = [&](const auto& take) {
     parallel_for_chunks(count, part, [&](size_t begin, size_t end, size_t) {
-      for (uint32_t i = 0; i < cells.size(); ++i)
-        if (cells[i] - begin < end - begin) take(i, cells[i]);
+      for (uint32_t i = 0; i < lists.size(); ++i)
+        if (lists[i] - begin < end - begin) take(i, lists[i]);
     });
   };
   first_.assign(count + 1, 0);
-  for_each_part([&](uint32_t, uint32_t cell) { ++first_[cell + 1]; });
+  for_each_part([&](uint32_t, uint32_t list) { ++first_[list + 1]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  std::vector<uint32_t> order(cells.size()), next(first_.begin(), first_.end() - 1);
-  for_each_part([&](uint32_t i, uint32_t cell) { order[next[cell]++] = i; });
+  std::vector<uint32_t> order(lists.size()), next(first_.begin(), first_.end() - 1);
+  for_each_part([&](uint32_t i, uint32_t list) { order[next[list]++] = i; });
   return order;
 }
 

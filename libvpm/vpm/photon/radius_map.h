@@ -1,8 +1,10 @@
 // The photon map for fixed radii: photons sorted into a uniform grid, found by scanning short rows of cells.
 //
-// The grid's cells are a radius wide unless that would make more than a cell a photon. Queries of any other
-// radius are as right, and slower the less the cells fit it. Rows run along x, so that the photons of neighbouring
-// cells lie side by side and distances are computed in blocks.
+// The grid's cells are a radius wide. Where those would be more than there are photons, they are two radii wide at the
+// most, and cells far apart share a list of photons (cell_lists.h): so a few photons far away cost nothing, and a plane
+// of photons has cells as fine as a ball of them. Queries of any other radius are as right, and slower the less the
+// cells fit it. Rows run along x, so that the photons of neighbouring cells lie side by side and distances are computed
+// in blocks.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 
 #include "vpm/base/count.h"
 #include "vpm/base/vec.h"
+#include "vpm/photon/cell_lists.h"
 #include "vpm/photon/photon_batch.h"
 
 namespace vpm {
@@ -33,18 +36,56 @@ class RadiusMap {
   size_t memory_bytes() const;
 
  private:
+  /// Coordinates beyond the bounds count to the cells at the border.
   int cell_along(int axis, float x) const {
-    return std::clamp(static_cast<int>((x - bounds_.lo[axis]) * per_cell_), 0, count_[axis] - 1);
+    return static_cast<int>(std::clamp((x - bounds_.lo[axis]) * per_cell_, 0.0f, last_[axis]));
   }
-  /// Fills `first_` from the photons' cells; returns the photons' numbers in the order of their cells.
-  std::vector<uint32_t> sort_by_cell(const std::vector<uint32_t>& cells);
+  Vec3i cell_at(const Vec3& p) const { return {cell_along(0, p.x), cell_along(1, p.y), cell_along(2, p.z)}; }
+  /// Fills `first_` from the photons' lists; returns the photons' numbers in the order of their lists.
+  std::vector<uint32_t> sort_by_list(const std::vector<uint32_t>& lists);
+
+  /// Calls scan(first list, one past the last) for the rows of cells that the ball reaches.
+  template <class Scan>
+  void scan_rows(const Vec3& point, float radius, Scan&& scan) const;
 
   float per_cell_ = 0.0f;  // 1/m
+  float slack_ = 0.0f;     // m; photons may lie so far outside their cells, for rounding
+  float widest_ = 0.0f;    // m: within larger radii cells may share a list, which is to be scanned only once
   Box bounds_;
-  Vec3i count_{0};
-  std::vector<uint32_t> first_;  // of each cell, and one past the last
-  PhotonTable photons_;          // cell by cell
+  Vec3 last_{0.0f};  // number of the last cell along each axis
+  CellLists lists_;
+  std::vector<uint32_t> first_;  // of each list, and one past the last
+  PhotonTable photons_;          // list by list
 };
+
+template <class Scan>
+void RadiusMap::scan_rows(const Vec3& point, float radius, Scan&& scan) const {
+  const float cell = 1.0f / per_cell_;
+  const Vec3 offset = point - bounds_.lo;
+  // The nearest distance of the slab of cells to the point.
+  const auto gap = [&](int axis, int index) {
+    const float inside = offset[axis] - static_cast<float>(index) * cell;
+    return std::max(0.0f, std::max(-inside, inside - cell) - slack_);
+  };
+  const int z_last = cell_along(2, point.z + radius);
+  for (int z = cell_along(2, point.z - radius); z <= z_last; ++z) {
+    const float gap_z = gap(2, z);
+    const float rest_z = radius * radius - gap_z * gap_z;
+    if (rest_z < 0.0f) continue;
+    const float reach_y = std::sqrt(rest_z);
+    const int y_last = cell_along(1, point.y + reach_y);
+    for (int y = cell_along(1, point.y - reach_y); y <= y_last; ++y) {
+      const float gap_y = gap(1, y);
+      const float rest = rest_z - gap_y * gap_y;
+      if (rest < 0.0f) continue;
+      const float reach_x = std::sqrt(rest);
+      const int x = cell_along(0, point.x - reach_x), x_last = cell_along(0, point.x + reach_x);
+      size_t from = lists_.list_of({x, y, z}), to = from + static_cast<size_t>(x_last - x) + 1;
+      for (; to > lists_.number(); from = 0, to -= lists_.number()) scan(from, lists_.number());
+      scan(from, to);
+    }
+  }
+}
 
 template <class Visit>
 uint32_t RadiusMap::visit_near(const Vec3& point, float radius, Visit&& visit) const {
@@ -55,32 +96,14 @@ uint32_t RadiusMap::visit_near(const Vec3& point, float radius, Visit&& visit) c
   const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
     found.add(distances2, number, first, radius * radius, visit);
   };
-  const float cell = 1.0f / per_cell_;
-  const int z_end = cell_along(2, point.z + radius);
-  for (int z = cell_along(2, point.z - radius); z <= z_end; ++z) {
-    // The nearest distance of the slab of cells to the point, less a hair for rounding; border cells hold all that lies
-    // beyond.
-    const auto gap = [&](int axis, int index) {
-      const float lo = bounds_.lo[axis] + static_cast<float>(index) * cell;
-      return std::max(0.0f, std::max(lo - point[axis], point[axis] - (lo + cell)) - 1e-3f * cell);
-    };
-    const float gap_z = gap(2, z);
-    const float rest_z = radius * radius - gap_z * gap_z;
-    if (rest_z < 0.0f) continue;
-    const float reach_y = std::sqrt(rest_z);
-    const int y_end = cell_along(1, point.y + reach_y);
-    for (int y = cell_along(1, point.y - reach_y); y <= y_end; ++y) {
-      const float gap_y = gap(1, y);
-      const float rest = rest_z - gap_y * gap_y;
-      if (rest < 0.0f) continue;
-      const float reach_x = std::sqrt(rest);
-      const size_t row = (static_cast<size_t>(z) * count_.y + y) * count_.x;
-      const uint32_t begin = first_[row + cell_along(0, point.x - reach_x)];
-      const uint32_t end = first_[row + cell_along(0, point.x + reach_x) + 1];
-      photons_.for_each_block(begin, end, point, add);
-      count(visited, end - begin);
-    }
-  }
+  const auto scan = [&](size_t from, size_t to) {
+    photons_.for_each_block(first_[from], first_[to], point, add);
+    count(visited, first_[to] - first_[from]);
+  };
+  if (radius <= widest_)
+    scan_rows(point, radius, scan);
+  else
+    scan(0, lists_.number());
   found.take(visit);
   return visited;
 }

@@ -57,13 +57,26 @@ void add_turned(TriangleMesh& mesh, int resolution, const ProfilePoint& from, co
   });
 }
 
+/// Turns a closed profile, which begins and ends at the same point.
+TriangleMesh turned(std::span<const ProfilePoint> profile, int resolution) {
+  TriangleMesh mesh;
+  for (size_t i = 1; i < profile.size(); ++i) add_turned(mesh, resolution, profile[i - 1], profile[i]);
+  return mesh;
+}
+
 TriangleMesh ring(int resolution) {
   const ProfilePoint profile[] = {
       {kRingOuter, 0.0}, {kRingOuter, kRingHeight}, {kRingInner, kRingHeight}, {kRingInner, 0.0}, {kRingOuter, 0.0}};
-  TriangleMesh mesh;
-  for (int side = 0; side < 4; ++side) add_turned(mesh, resolution, profile[side], profile[side + 1]);
-  return mesh;
+  return turned(profile, resolution);
 }
+
+// Pole
+// ----------------------------------------------------------------------------------------------------
+
+constexpr ProfilePoint kPole[] = {{0.09, 0.0}, {0.09, 0.9}, {0.055, 1.0}, {0.04, 4.7},
+                                  {0.03, 4.7}, {0.03, 0.0}, {0.09, 0.0}};
+
+TriangleMesh pole(int resolution) { return turned(kPole, resolution); }
 
 // Waves
 // ----------------------------------------------------------------------------------------------------
@@ -132,6 +145,10 @@ TriangleMesh waves(int resolution) {
 constexpr ProceduralMesh kMeshes[] = {
     {"ring", "a band of outer radius 0.5 m, inner radius 0.47 m and height 0.25 m around the y axis, from y = 0 up",
      ring},
+    {"pole",
+     "the pole of a street lamp, a tube 4.7 m high around the y axis, from y = 0 up: 0.18 m wide up to 0.9 m, "
+     "then from 0.11 m to 0.08 m",
+     pole},
     {"waves", "water of 4 m x 4 m, its bottom at y = -1.55 m, its mean level at y = 0, with waves of up to 6 cm",
      waves},
 };

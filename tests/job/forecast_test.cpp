@@ -1,0 +1,100 @@
+// What is said before a first pass: that it takes longer than the time asked for, and that its photons do not fit.
+#include "vpm/job/forecast.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "support/scenes.h"
+#include "vpm/base/error.h"
+#include "vpm/job/render.h"
+#include "vpm/job/render_job.h"
+
+namespace vpm {
+namespace {
+
+RenderSettings within(double seconds, uint64_t photons) {
+  RenderSettings settings;
+  settings.until.seconds = seconds;
+  settings.photons_emitted = photons;
+  return settings;
+}
+
+TEST(Forecast, TellsAPassThatIsTooLongAndWhatFits) {
+  const PassCost cost{1e-5, 1.0, 2.0};
+  EXPECT_EQ(too_long_text(cost, within(5.0, 640'000)), "");  // 7.4 s; 7.5 s is the longest
+  EXPECT_EQ(too_long_text(cost, within(5.0, 2'000'000)),
+            "one pass takes about 21 s, longer than the 5 s asked for: about 4e+05 photons.emitted would fit");
+  EXPECT_EQ(too_long_text({1e-5, 9.0, 2.0}, within(5.0, 100'000)),
+            "one pass takes about 10 s, longer than the 5 s asked for: the eye's rays alone take 9 s; fewer pixels or "
+            "samples_per_pixel take less");
+  RenderSettings full = within(5.0, 0);
+  full.photons_stored = 4'000'000;  // 2 of each photon
+  EXPECT_NE(too_long_text(cost, full).find("about 21 s"), std::string::npos);
+  full.photons_emitted = 100'000;  // fills nothing
+  EXPECT_EQ(too_long_text(cost, full), "");
+}
+
+/// Fog around a point light, each of whose photons is stored about twice.
+RenderJob fog() {
+  AssembledScene parts;
+  Scene& scene = parts.scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(100.0f), 0.5f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
+  scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 0.0f, 4.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 40.0f, {8, 8});
+  scene.geometry.commit();
+  finish(scene);
+  return make_job(std::move(parts));
+}
+
+TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
+  const RenderJob job = fog();
+  RenderSettings settings;
+  settings.photons_emitted = 100'000'000;  // 2e8 stored, 12.8 GB
+  EXPECT_NO_THROW(check_memory(job.scene, settings, 15e9));
+  try {
+    check_memory(job.scene, settings, 8e9);
+    ADD_FAILURE() << "it fits";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"photons.emitted", "2e+08 photons", "13 GB", "8 GB", "photons.emitted = 3e+07"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+  settings.photons_stored = 50'000'000;  // tracing stops there
+  EXPECT_NO_THROW(check_memory(job.scene, settings, 8e9));
+  settings.photons_stored = 0;
+  settings.integrator = Integrator::path;
+  EXPECT_NO_THROW(check_memory(job.scene, settings, 1e6));
+}
+
+TEST(Forecast, LooksAheadOnlyWhereATimeIsAskedFor) {
+  RenderJob job = fog();
+  foresee(job);
+  EXPECT_TRUE(job.notes.empty());
+  job.settings = within(1e-3, 5'000'000);
+  foresee(job);
+  ASSERT_EQ(job.notes.size(), 1u);
+  EXPECT_EQ(job.notes[0].substr(0, 14), "one pass takes");
+  EXPECT_GT(job.pilot_seconds, 0.0);
+}
+
+/// Another pass would end at 3.8 s, and 3.6 s is the longest time for 2 s.
+TEST(Forecast, StartsNoPassThatWouldEndTooLate) {
+  int made = 0;
+  const PassMaker naps{[&](const RenderResult&, const PassProgress&) {
+                         std::this_thread::sleep_for(std::chrono::milliseconds(1900));
+                         ++made;
+                         return Pass{.image = Image(1, 1), .found = {}, .statistics = {}};
+                       },
+                       1};
+  run_passes({.seconds = 2.0}, naps, {Film(1, 1), {}, 0.0, {}}, {});
+  EXPECT_EQ(made, 1);
+  run_passes({.seconds = 2.0}, naps, {Film(1, 1), {}, 1.99, {}}, {});  // 1.99 s of a pilot: one pass at the least
+  EXPECT_EQ(made, 2);
+}
+
+}  // namespace
+}  // namespace vpm
