@@ -32,7 +32,7 @@ TEST(EyePath, SeesLampsOnBothSidesOfGlassWithoutNoise) {
     EyeScratch scratch;
     EyeCounters counters;
     EyeWork work{rng, counters, scratch};
-    const double seen = eye_radiance({scene, none}, {Vec3(0.1f, 0.2f, 2.0f), Vec3(0, 0, -1)}, work).r;
+    const double seen = eye_radiance({scene, none}, {Vec3(0.1f, 0.2f, 2.0f), Vec3(0, 0, -1)}, work).value.r;
     EXPECT_NEAR(seen, 100.0 * of_pane + 3.0 * (1.0 - of_pane), 1e-5);
   }
 }
@@ -41,7 +41,7 @@ TEST(EyePath, SeesLampsOnBothSidesOfGlassWithoutNoise) {
 class Asked final : public VolumeEstimator {
  public:
   ScatteredLight finds() const override { return {}; }
-  Rgb along(const EyeSegment&, EyeWork& work) const override {
+  KernelEstimate along(const EyeSegment&, EyeWork& work) const override {
     ++work.counters.volume_queries;
     return Rgb(0.0f);
   }

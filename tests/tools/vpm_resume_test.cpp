@@ -211,7 +211,7 @@ TEST_F(VpmRender, LogsErrorsAgainstAReference) {
     std::istringstream csv(read(file));
     std::string line;
     std::getline(csv, line);
-    EXPECT_EQ(line, "passes,seconds,mse,relative_mse,mean_ratio");
+    EXPECT_EQ(line, "passes,seconds,mse,relative_mse,mean_ratio,stated,standard_error,below");
     std::vector<std::vector<double>> rows;
     while (std::getline(csv, line)) {
       std::vector<double>& row = rows.emplace_back();
@@ -228,6 +228,9 @@ TEST_F(VpmRender, LogsErrorsAgainstAReference) {
   EXPECT_EQ(rows[11][0], 12.0);
   EXPECT_LT(rows[11][3], 0.0);
   EXPECT_EQ(rows[11][4], 1.0);
+  EXPECT_TRUE(std::isnan(rows[6][5]));
+  EXPECT_GT(rows[11][5], 0.0);
+  EXPECT_GT(rows[11][7], rows[11][5]);
   // A render that goes on keeps what it had told.
   const std::vector<std::string> begin{"render", "scene.toml", "-o", "c.exr", "--reference", "truth.exr"};
   const auto with = [&](const std::vector<std::string>& more) {

@@ -4,12 +4,19 @@
 #include <fmt/format.h>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 
 #include "compare/store.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 
 namespace vpm::tools {
+
+namespace {
+
+constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
 
 ErrorLog::ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film)
     : reference_(read_reference(reference)), csv_(std::move(csv)) {
@@ -44,8 +51,10 @@ void ErrorLog::finish(const RenderResult& result) {
 void ErrorLog::write(const RenderResult& so_far) {
   last_ = so_far.film.passes();
   const PictureErrors errors = picture_errors(so_far.film.mean(), reference_);
-  text_ += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.8g}\n", so_far.film.passes(), so_far.seconds, errors.mse,
-                       errors.relative_mse, errors.mean_ratio);
+  const std::optional<StatedError> stated = stated_error_of(so_far);
+  text_ += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.8g},{:.6g},{:.6g},{:.6g}\n", so_far.film.passes(), so_far.seconds,
+                       errors.mse, errors.relative_mse, errors.mean_ratio, stated ? stated->total.value : kNotStated,
+                       stated ? stated->total.standard_error : kNotStated, stated ? stated->highest : kNotStated);
   write_text(csv_, text_);
 }
 

@@ -10,7 +10,8 @@
 namespace vpm::tools {
 
 /// Writes a CSV file that a render keeps up to date: passes, seconds, MSE, relative MSE (both less the reference's own
-/// noise), and the mean over the reference's. A line for each tenth more passes, and one for the last.
+/// noise), the mean over the reference's, and what the render itself states: StatedError::total with its standard
+/// error, and ::highest; nan below kLeastPasses passes. A line for each tenth more passes, and one for the last.
 class ErrorLog {
  public:
   /// Throws InputError where the reference cannot be read or has another size than the film, and where the CSV file
@@ -27,7 +28,7 @@ class ErrorLog {
 
   Reference reference_;
   std::filesystem::path csv_;
-  std::string text_ = "passes,seconds,mse,relative_mse,mean_ratio\n";
+  std::string text_ = "passes,seconds,mse,relative_mse,mean_ratio,stated,standard_error,below\n";
   int last_ = 0;  // passes at the last line
 };
 

@@ -42,7 +42,7 @@ std::string checksum(std::string_view bytes) {
   throw InputError(fmt::format("cannot resume from '{}': {}", path.string(), why));
 }
 
-std::string text_of(const std::filesystem::path& path) {
+std::string content_of(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) refuse(path, "there is no such file; render with --checkpoint to have one after each pass");
   std::ostringstream text;
@@ -177,7 +177,7 @@ RenderResult take_result(NamedFields fields) {
 }  // namespace
 
 Identity checkpoint_identity(const std::filesystem::path& path) {
-  const std::string bytes = text_of(path);
+  const std::string bytes = content_of(path);
   return parts_of(path, bytes).identity;
 }
 
@@ -204,7 +204,7 @@ void write_checkpoint(const std::filesystem::path& path, const Identity& identit
 }
 
 RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& identity) {
-  const std::string bytes = text_of(path);
+  const std::string bytes = content_of(path);
   const auto [found, rest] = parts_of(path, bytes);
   if (found != identity)
     refuse(path, "it is of another render; remove it, or render again what it is of" + differences(found, identity));

@@ -69,7 +69,7 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
 }
 
 /// "0.0048 +- 0.0004", the standard error to one digit and the value to the same place.
-std::string text_of(const Estimated& estimated) {
+std::string measured_text(const Estimated& estimated) {
   const double error = estimated.standard_error;
   if (!(error > 0.0) || std::isinf(error)) return fmt::format("{:.2g} +- {:.1g}", estimated.value, error);
   const int place = std::max(0, -static_cast<int>(std::floor(std::log10(error))));
@@ -80,7 +80,7 @@ std::string text_of(const Estimated& estimated) {
 std::string bias_text(const StatedError& stated, bool gathers) {
   if (!gathers) return "no bias";
   if (!stated.bias_seen) return fmt::format("bias: none seen, below {:.1g}", stated.highest_squared_bias);
-  return fmt::format("of which bias {}, below {:.2g}", text_of(stated.squared_bias), stated.highest_squared_bias);
+  return fmt::format("of which bias {}, below {:.2g}", measured_text(stated.squared_bias), stated.highest_squared_bias);
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ std::string error_text(const RenderJob& job, const RenderResult& result) {
   const std::optional<StatedError> stated = stated_error_of(result);
   if (!stated) return "";
   const std::vector<std::string> unseen = maps_of_unseen_bias(job.scene, job.settings);
-  return fmt::format("relative MSE {} ({}{})", text_of(stated->total),
+  return fmt::format("relative MSE {} ({}{})", measured_text(stated->total),
                      bias_text(*stated, gathers(job.scene, job.settings)),
                      unseen.empty() ? "" : fmt::format("; that of [{}] cannot be seen", fmt::join(unseen, "], [")));
 }

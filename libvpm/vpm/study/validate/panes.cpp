@@ -16,7 +16,7 @@ constexpr float kPaneIor = 1.5f;
 class EvenGlow final : public VolumeEstimator {
  public:
   ScatteredLight finds() const override { return {}; }
-  Rgb along(const EyeSegment& segment, EyeWork&) const override {
+  KernelEstimate along(const EyeSegment& segment, EyeWork&) const override {
     return segment.ray.direction.z < 0.0f ? segment.throughput : Rgb(0.0f);
   }
 };
@@ -40,7 +40,7 @@ std::vector<Check> check_panes(const Effort& effort) {
         EyeScratch scratch;
         EyeCounters counters;
         EyeWork work{rng, counters, scratch};
-        out[0] = eye_radiance({scene, estimators}, {Vec3(0.1f, 0.2f, 1.0f), Vec3(0, 0, -1)}, work).g;
+        out[0] = eye_radiance({scene, estimators}, {Vec3(0.1f, 0.2f, 1.0f), Vec3(0, 0, -1)}, work).value.g;
       });
   const double face = fresnel_dielectric(1.0f, kPaneIor), r = 2.0 * face / (1.0 + face);
   return {check_mean("two panes", samples[0], 1.0 + (1.0 - r) * (2.0 - r) / (1.0 - r * r))};
