@@ -145,6 +145,31 @@ TEST(PhotonPass, OnlyTheDensityAtThePhotonSpreadsBeyondItsMedium) {
   }
 }
 
+TEST(PhotonPass, TellsThePowerOfTheRadiusThatItsBiasGoesWith) {
+  const Medium white = make_medium(nullptr, Rgb(1.0f));
+  const Scene both = lamp_and_floor(&white, Rgb(0.5f)), fog = furnace(nullptr, 1.0f);
+  RenderSettings settings = settings_of(1000, 0.2f);
+  settings.radii = RadiusSchedule::per_pass;
+  const auto order = [&](const Scene& scene) {
+    return render_photon_pass(scene, settings, 0, kNeverStopped).bias_order;
+  };
+  EXPECT_EQ(order(both), 2);
+  settings.volume.kernel = KernelKind::order_4;
+  EXPECT_EQ(order(both), 2);  // the surfaces'
+  EXPECT_EQ(order(fog), 4);
+  settings.surface.kernel = KernelKind::order_4;
+  EXPECT_EQ(order(both), 4);
+  // A = 8/(8 + d): after a pass the measure is (1 + A)/2 of what it was.
+  const auto square = [&](const Scene& scene) {
+    return relative_square(plan_estimators(scene, settings, 1).maps(), 1);
+  };
+  EXPECT_NEAR(square(fog), std::pow((1.0 + 8.0 / 11.0) / 2.0, 2.0 / 3.0), 1e-6);
+  settings.radii = RadiusSchedule::constant;
+  EXPECT_EQ(order(both), 0);
+  settings.integrator = Integrator::path;
+  EXPECT_EQ(bias_order(plan_estimators(both, settings, 0).maps()), 0);
+}
+
 TEST(PhotonPass, TellsTheKernelsThatShrinkFromThoseThatDoNot) {
   const Medium white = make_medium(nullptr, Rgb(1.0f));
   const Scene both = lamp_and_floor(&white, Rgb(0.5f)), fog = furnace(nullptr, 1.0f), floor = lamp_and_floor(nullptr);

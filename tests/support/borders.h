@@ -15,7 +15,7 @@ double share_before_walls(KernelKind kernel, const Vec3& walls) {
   constexpr int kCells = Dimension == 2 ? 600 : 120;  // along an edge
   constexpr float kCell = 2.0f / kCells;
   const auto middle = [&](int i) { return (static_cast<float>(i) + 0.5f) * kCell - 1.0f; };
-  return with_kernel(kernel, [&](auto profile) {
+  return with_kernel<Dimension>(kernel, [&](auto profile) {
     double sum = 0.0;
     for (int z = 0; z < (Dimension == 2 ? 1 : kCells); ++z)
       for (int y = 0; y < kCells; ++y)

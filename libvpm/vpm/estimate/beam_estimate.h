@@ -77,8 +77,9 @@ Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along
     return Rgb(sum_of_photons);
   };
   return kernel_norm_2d(kernel, 1.0f) *
-         std::visit([&](const auto& p) { return with_kernel(kernel, [&](auto profile) { return sum(p, profile); }); },
-                    phase);
+         std::visit(
+             [&](const auto& p) { return with_kernel<2>(kernel, [&](auto profile) { return sum(p, profile); }); },
+             phase);
 }
 
 /// The brute-force twin: looks at every photon of a plain list.
@@ -94,7 +95,7 @@ Rgb beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along
     if (!(q < 1.0 && t >= interval.t0 && t < interval.t1)) continue;
     const float weight =
         phase_value(phase, photon.travel.unpack(), -ray.direction) *
-        with_kernel(list.settings.kernel, [&](auto profile) { return profile(static_cast<float>(q)); });
+        with_kernel<2>(list.settings.kernel, [&](auto profile) { return profile(static_cast<float>(q)); });
     sum += Rgbd(photon.power * (weight * along(static_cast<float>(t))));
   }
   return Rgb(sum * double{kernel_norm_2d(list.settings.kernel, radius)} / static_cast<double>(list.emitted));

@@ -19,6 +19,7 @@ struct MapInfo {
   const std::vector<std::vector<Photon>>* media = nullptr;  // its photons before build(), by medium ...
   const std::vector<Photon>* surfaces = nullptr;            // ... or on surfaces; W, of `emitted` photons
   uint64_t emitted = 0;                                     // for this map alone; 0: as many as in the ledger
+  int order = 2;                                            // of its kernel, kernel_order()
 };
 
 /// The photon tracing of a pass, once it is over.

@@ -29,22 +29,25 @@ float kernel_norm(KernelKind kind, float r) {
   return Dimension == 2 ? kernel_norm_2d(kind, r) : kernel_norm_3d(kind, r);
 }
 
-/// Calls f with the kernel's profile, a function of (distance / radius)^2, as a type the inner loop can inline.
-template <class F>
+/// Calls f with the kernel's profile in `Dimension` dimensions, a function of (distance / radius)^2, as a type the
+/// inner loop can inline.
+template <int Dimension, class F>
 auto with_kernel(KernelKind kind, F&& f) {
   switch (kind) {
     case KernelKind::constant:
-      return f([](float q) { return kernel_profile<KernelKind::constant>(q); });
+      return f([](float q) { return kernel_profile<KernelKind::constant, Dimension>(q); });
     case KernelKind::cone:
-      return f([](float q) { return kernel_profile<KernelKind::cone>(q); });
+      return f([](float q) { return kernel_profile<KernelKind::cone, Dimension>(q); });
     case KernelKind::epanechnikov:
-      return f([](float q) { return kernel_profile<KernelKind::epanechnikov>(q); });
+      return f([](float q) { return kernel_profile<KernelKind::epanechnikov, Dimension>(q); });
     case KernelKind::biweight:
-      return f([](float q) { return kernel_profile<KernelKind::biweight>(q); });
+      return f([](float q) { return kernel_profile<KernelKind::biweight, Dimension>(q); });
     case KernelKind::triweight:
+      return f([](float q) { return kernel_profile<KernelKind::triweight, Dimension>(q); });
+    case KernelKind::order_4:
       break;
   }
-  return f([](float q) { return kernel_profile<KernelKind::triweight>(q); });
+  return f([](float q) { return kernel_profile<KernelKind::order_4, Dimension>(q); });
 }
 
 /// A map of one kind, with the settings of the gather, its counters and its memory.
@@ -67,7 +70,7 @@ template <int Dimension, class Accept, class Value>
 Rgb kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
   const float r = map.settings.radius;
   const float inverse = 1.0f / (r * r);
-  return with_kernel(map.settings.kernel, [&](auto profile) {
+  return with_kernel<Dimension>(map.settings.kernel, [&](auto profile) {
     Rgbd sum(0.0);
     const auto visit = [&](NearPhotons& near) {
       if constexpr (!std::is_same_v<std::decay_t<Accept>, AnyPhoton>) near.keep(map.index.photons(), point, accept);
@@ -102,7 +105,7 @@ Rgb neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours
   const float r2 = neighbours.limit();
   const size_t first = neighbours.full() ? 1 : 0;  // the farthest
   map.work.counters.used += neighbours.size() - first;
-  return with_kernel(map.settings.kernel, [&](auto profile) {
+  return with_kernel<Dimension>(map.settings.kernel, [&](auto profile) {
     Rgbd sum(0.0);
     for (size_t begin = first; begin < neighbours.size(); begin += PhotonBatch::kMost) {
       const size_t number = std::min(PhotonBatch::kMost, neighbours.size() - begin);
@@ -163,7 +166,7 @@ Rgb kernel_sum(const std::vector<Photon>& photons, const GatherSettings& setting
     r2 = near.back().first;
     near.pop_back();
   }
-  return with_kernel(settings.kernel, [&](auto profile) {
+  return with_kernel<Dimension>(settings.kernel, [&](auto profile) {
     Rgbd sum(0.0);
     for (const auto& [d2, p] : near) sum += Rgbd(value(p->travel.unpack(), p->power) * profile(d2 / r2));
     return Rgb(sum) * kernel_norm<Dimension>(settings.kernel, std::sqrt(r2)) / static_cast<float>(emitted);

@@ -74,6 +74,7 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
   result.statistics.passes = 1;
   const Estimators estimators = plan_surface_estimators(scene, settings, pass);
   result.relative_square = relative_square(estimators.maps(), pass);
+  result.bias_order = bias_order(estimators.maps());
   prepare_pass(scene, settings, estimators, {pass, stop, progress}, result.statistics);
   const TexelContext context{scene, settings, layout, *estimators.surface, pass};
   const auto start = std::chrono::steady_clock::now();

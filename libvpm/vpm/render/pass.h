@@ -13,6 +13,7 @@ namespace vpm {
 struct Pass {
   Image image;                   // radiance, W/(m^2 sr)
   float relative_square = 0.0f;  // squared radius of the maps' kernels over that of the first pass; 0: no kernel
+  int bias_order = 0;            // its bias goes with this power of the radius, see bias_order()
   std::vector<uint64_t> found;   // photons in each pixel's disc, over its samples, where pixels have discs of their own
   RenderStatistics statistics;
 };

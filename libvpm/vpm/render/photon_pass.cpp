@@ -75,13 +75,14 @@ Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const
                               const PassRun& run) {
   RenderStatistics statistics;
   const Estimators estimators = plan_estimators(scene, settings, run.pass, discs);
-  const float square = relative_square(estimators.maps(), run.pass);
+  const std::vector<MapInfo> maps = estimators.maps();
   prepare_pass(scene, settings, estimators, run, statistics);
   const EyeContext context{scene, estimators, settings.max_events};
   const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); };
   Pass result = render_image(scene, settings, run.pass, radiance, run.stop, run.progress);
   if (estimators.surface) result.found = estimators.surface->take_found();
-  result.relative_square = square;
+  result.relative_square = relative_square(maps, run.pass);
+  result.bias_order = bias_order(maps);
   result.statistics.merge(statistics);
   return result;
 }

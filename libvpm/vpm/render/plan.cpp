@@ -140,10 +140,17 @@ bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& setti
 float relative_square(const std::vector<MapInfo>& maps, int pass) {
   for (const MapInfo& map : maps) {
     if (!map.shrinks) continue;
-    const float radius = radius_of_pass(1.0f, map.dimension, pass);
+    const float radius = radius_of_pass(1.0f, map.dimension, pass, map.order);
     return radius * radius;
   }
   return maps.empty() ? 0.0f : 1.0f;
+}
+
+int bias_order(const std::vector<MapInfo>& maps) {
+  int least = 0;
+  for (const MapInfo& map : maps)
+    if (map.shrinks) least = least == 0 ? map.order : std::min(least, map.order);
+  return least;
 }
 
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings) {

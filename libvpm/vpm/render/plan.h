@@ -49,6 +49,9 @@ bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& setti
 /// The squared radius of the pass's kernels, relative to the first pass. It is that of the first map whose radii depend
 /// on the pass number: all of these shrink at nearly the same rate. 1 where there is no such map, 0 without maps.
 float relative_square(const std::vector<MapInfo>& maps, int pass);
+/// The power of the radius that the maps' bias goes with as radii shrink: the least of their kernels' orders; 0 where
+/// none shrinks.
+int bias_order(const std::vector<MapInfo>& maps);
 /// The sections of the scene file whose maps are used, but do not shrink with the pass number: the bias of their
 /// kernels cannot be seen.
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings);

@@ -24,7 +24,7 @@ std::vector<MapInfo> FinalGather::maps() const {
   const SurfaceMapSettings& caustics = settings_.caustics;
   return {ends_.info(),
           {"caustics", 2, shrinks(caustics.gather, caustics.pass), nullptr, &caustic_photons_.photons,
-           settings_.caustics_emitted}};
+           settings_.caustics_emitted, kernel_order(caustics.gather.kernel)}};
 }
 
 Recorders FinalGather::recorders() {

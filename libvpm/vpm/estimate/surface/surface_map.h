@@ -27,7 +27,14 @@ class SurfaceMap {
 
   /// The map whose settings are in the section [surface] of the scene file.
   MapInfo info() const {
-    return {"surface", 2, shrinks(settings_.gather, settings_.pass), nullptr, &hits_.photons, hits_.emitted_count};
+    const AskedGather& gather = settings_.gather;
+    return {"surface",
+            2,
+            shrinks(gather, settings_.pass),
+            nullptr,
+            &hits_.photons,
+            hits_.emitted_count,
+            kernel_order(gather.kernel)};
   }
   PhotonRecorder* recorder() { return &hits_; }
   void build(RenderStatistics& statistics);

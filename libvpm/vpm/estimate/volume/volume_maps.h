@@ -30,7 +30,8 @@ class VolumeMaps {
 
   ScatteredLight finds() const { return {settings_.once, true}; }
   std::vector<MapInfo> maps() const {
-    return {{"volume", dimension_, shrinks(settings_.gather, settings_.pass), &collisions_.photons}};
+    const int order = kernel_order(settings_.gather.kernel);
+    return {{"volume", dimension_, shrinks(settings_.gather, settings_.pass), &collisions_.photons, nullptr, 0, order}};
   }
   Recorders recorders() { return {&collisions_}; }
   const VolumeMapSettings& settings() const { return settings_; }
