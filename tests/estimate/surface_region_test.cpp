@@ -79,7 +79,7 @@ TEST(SurfaceRegion, SharesOfCutDiscsAreTheirIntegrals) {
     Rng rng(8, rng_stream(RngUse::test, 0), static_cast<uint64_t>(trial));
     const glm::mat3 rotation = trial % 3 == 0 ? glm::mat3(1.0f) : some_rotation(rng);
     const Scene scene = floor_scene(rotation);
-    const KernelKind kernel = kKernels[static_cast<size_t>(trial) % 5].kind;
+    const KernelKind kernel = kKernels[static_cast<size_t>(trial) % kKernels.size()].kind;
     // Near an edge or a corner, as far as a radius of 0.5 m.
     const float a = rng.uniform(), b = trial % 2 == 0 ? rng.uniform() : 2.0f;
     const Vec3 at(1.0f - 0.5f * a, 1.0f - 0.5f * b, 0.05f);
@@ -101,7 +101,7 @@ TEST(SurfaceRegion, HalvesQuartersAndWholes) {
     EXPECT_EQ(at(0.69f, -0.69f), 1.0);
     EXPECT_NEAR(at(0.9999f, 0.1f), 0.5, 0.005);
     EXPECT_NEAR(at(0.9999f, -0.9999f), 0.25, 0.005);
-    EXPECT_LT(at(0.8f, 0.1f), 1.0);
+    EXPECT_NE(at(0.8f, 0.1f), 1.0);
   }
 }
 

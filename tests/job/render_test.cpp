@@ -51,6 +51,20 @@ TEST(Render, StopsByCountTimeAndSignal) {
   EXPECT_LT(timed.seconds, 2.0);
 }
 
+/// By a kernel with a negative rim and few photons, some pixels see the rim alone.
+TEST(Render, TellsOfNegativePixels) {
+  RenderJob job = lit_floor();
+  const auto told = [&] {
+    std::string all;
+    for (const std::string& warning : warnings_of(job, render_until(job, {.passes = 1}))) all += warning;
+    return all.find("pixels are negative in a channel") != std::string::npos;
+  };
+  job.settings.surface.radius = 0.03f;
+  EXPECT_FALSE(told());
+  job.settings.surface.kernel = KernelKind::order_4;
+  EXPECT_TRUE(told());
+}
+
 TEST(Render, StopsOnceTheEstimatedErrorIsReached) {
   const RenderJob job = lit_floor();
   const double asked = highest_error(render_until(job, {.passes = 20}));

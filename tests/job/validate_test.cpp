@@ -63,6 +63,12 @@ const Contradiction kContradictions[] = {
     {"surface.gather", [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.mode = GatherMode::nearest; }},
     {"surface.indirect",
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface_indirect = IndirectLight::final_gather; }},
+    {"surface.kernel", [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.kernel = KernelKind::order_4; }},
+    {"surface.kernel",
+     [](S& s) {
+       s.surface_indirect = IndirectLight::final_gather, s.end_irradiance = EndIrradiance::precomputed;
+       s.surface.kernel = KernelKind::order_4;
+     }},
     {"surface.boundary",
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.boundary = BoundaryRule::corrected; }},
     {"render.passes", [](S& s) { s.until.passes = 0; }},

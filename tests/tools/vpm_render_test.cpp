@@ -262,6 +262,8 @@ TEST_F(VpmRender, BadCommandLinesAreRefused) {
   vpm_refuses({"render", "scene.toml", "--passes", "0"}, {"--passes"});
   vpm_refuses({"render", "scene.toml", "--passes", "2.5"}, {"--passes"});
   vpm_refuses({"render", "scene.toml", "--passes", "2", "--time", "1"}, {"--time"});
+  vpm_refuses({"render", "scene.toml", "--set", "photons.emitted=1_000_000_000_000_000"},
+              {"photons.emitted", "memory"});
   for (const char* seconds : {"0", "-1", "nan", "inf"})
     vpm_refuses({"render", "scene.toml", "--time", seconds}, {"--time"});
   for (const char* seed : {"-1", "1.5", "x", "18446744073709551616"})

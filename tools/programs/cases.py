@@ -152,7 +152,7 @@ def add_flights(cases):
 
 def add_settings(cases):
     """Every key and word about how to render that no combination uses."""
-    kernels = ("constant", "cone", "epanechnikov", "biweight", "triweight")
+    kernels = ("constant", "cone", "epanechnikov", "biweight", "triweight", "order-4")
     fog = [*choices("volume.gather=radius volume.kernel", *kernels), *choices("volume.gather=beam volume.kernel", *kernels),
            *choices("surface.kernel", *kernels), "render.samples_per_pixel=3", "render.seed=77", "render.max_events=3",
            "render.max_optical_step=0.05", "photons.stored=800", "photons.emitted=900 photons.in_cube=2",

@@ -32,7 +32,9 @@ float kernel_norm(KernelKind kind, float r) {
 /// The weights of a kernel and of its correction, without their common norm, as a function of (distance / radius)^2.
 template <KernelKind K, int Dimension>
 struct KernelProfile {
-  KernelPair<float> operator()(float q) const { return {kernel_profile<K>(q), kernel_correction<K, Dimension>(q)}; }
+  KernelPair<float> operator()(float q) const {
+    return {kernel_profile<K, Dimension>(q), kernel_correction<K, Dimension>(q)};
+  }
 };
 
 /// Calls f with the kernel's KernelProfile, a type the inner loop can inline.
@@ -48,9 +50,11 @@ auto with_kernel(KernelKind kind, F&& f) {
     case KernelKind::biweight:
       return f(KernelProfile<KernelKind::biweight, Dimension>());
     case KernelKind::triweight:
+      return f(KernelProfile<KernelKind::triweight, Dimension>());
+    case KernelKind::order_4:
       break;
   }
-  return f(KernelProfile<KernelKind::triweight, Dimension>());
+  return f(KernelProfile<KernelKind::order_4, Dimension>());
 }
 
 /// A sum in doubles as an estimate, times the kernel's norm.

@@ -25,7 +25,9 @@ bool shrinks(const AskedGather& gather, const PassOfMaps& pass) {
 }
 
 GatherSettings gather_in_pass(const AskedGather& gather, float first_radius, int dimension, const PassOfMaps& pass) {
-  const float radius = shrinks(gather, pass) ? radius_of_pass(first_radius, dimension, pass.number) : first_radius;
+  const float radius = shrinks(gather, pass)
+                           ? radius_of_pass(first_radius, dimension, pass.number, kernel_order(gather.kernel))
+                           : first_radius;
   return {gather.mode, radius, gather.count, gather.kernel, gather.boundary, gather.beam_count};
 }
 

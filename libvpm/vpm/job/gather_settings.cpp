@@ -42,7 +42,9 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
       {.key = section + ".kernel",
        .member = at<Gather, &G::kernel>(),
        .domain = words_of<KernelKind>(),
-       .meaning = "how photons weigh less farther away"},
+       .meaning =
+           "how photons weigh less farther away; `\"order-4\"` has a negative rim, a bias of the fourth power of "
+           "the radius, and more noise, see below"},
   };
 }
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -83,14 +85,32 @@ std::string bias_text(const StatedError& stated, bool gathers) {
   return fmt::format("of which bias {}, below {:.2g}", measured_text(stated.squared_bias), stated.highest_squared_bias);
 }
 
+/// How many pixels are negative in a channel.
+size_t negative_pixels(const Film& film) {
+  const Image mean = film.mean();
+  return static_cast<size_t>(std::count_if(mean.pixels.begin(), mean.pixels.end(),
+                                           [](const Rgb& p) { return p.r < 0.0f || p.g < 0.0f || p.b < 0.0f; }));
+}
+
+/// The warnings about what is rendered, and about the picture of it.
+std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& job, const RenderResult& result) {
+  std::vector<std::string> warnings = warnings_about(shown, job.settings, result.statistics);
+  if (const size_t negative = negative_pixels(result.film); negative > 0)
+    warnings.push_back(
+        fmt::format("{} pixels are negative in a channel, as weights of changing sign make them where photons are few; "
+                    "the preview shows them as 0",
+                    negative));
+  return warnings;
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const RenderJob& job, const RenderResult& result) {
-  return warnings_about(scattering_of(job.scene), job.settings, result.statistics);
+  return all_warnings(scattering_of(job.scene), job, result);
 }
 
 std::vector<std::string> warnings_of_light_map(const RenderJob& job, const RenderResult& result) {
-  return warnings_about({.surfaces = true}, job.settings, result.statistics);
+  return all_warnings({.surfaces = true}, job, result);
 }
 
 std::string error_text(const RenderJob& job, const RenderResult& result) {

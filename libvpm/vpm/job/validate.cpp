@@ -95,6 +95,9 @@ void check_final_gathering(const RenderSettings& s) {
   refuse_if(precomputed && s.surface.boundary == BoundaryRule::corrected, "surface.irradiance",
             "irradiance is computed beforehand without a correction at borders",
             "write \"estimate\", or make 'boundary' \"none\"");
+  refuse_if(precomputed && kernel_order(s.surface.kernel) > 2, "surface.kernel",
+            "irradiance computed beforehand must not be negative, as that by a kernel of order 4 may be",
+            "use another kernel, or make 'irradiance' \"estimate\"");
   if (s.surface_indirect == IndirectLight::final_gather) return;
   const std::string wrong = "there are no rays to gather light: 'indirect' of [surface] is \"photons\"";
   const std::string right = "make 'method' \"final-gather\", or leave out ";
@@ -110,6 +113,9 @@ void check_radii_of_pixels(const RenderSettings& s) {
   const std::string pixels = "where render.radii is \"per-pixel\" ";
   refuse_if(s.surface.mode != GatherMode::radius, "surface.gather", pixels + "surfaces gather by radius",
             "write \"radius\", or other radii");
+  refuse_if(kernel_order(s.surface.kernel) > 2, "surface.kernel",
+            pixels + "the rule of radii is for kernels whose bias goes with their square",
+            "use another kernel, or write other radii");
   refuse_if(s.surface_indirect == IndirectLight::final_gather, "surface.indirect",
             pixels + "there is no final gathering", "take indirect light from \"photons\", or write other radii");
   refuse_if(s.surface.boundary == BoundaryRule::corrected, "surface.boundary",

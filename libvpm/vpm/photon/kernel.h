@@ -1,4 +1,7 @@
 // Density estimation kernels in two and three dimensions, normalised over the unit ball.
+//
+// A kernel of order 4 has no second moment: the error that it makes in a smooth density is of the fourth power of its
+// radius, where that of the others is of the second. For that it is negative near its border, so that estimates may be.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +13,8 @@
 
 namespace vpm {
 
-/// Cone: [Jensen2001, sec. 7.2]; the others: [Silverman1986, sec. 4.2].
-enum class KernelKind { constant, cone, epanechnikov, biweight, triweight };
+/// Cone: [Jensen2001, sec. 7.2]; order_4: [Silverman1986, sec. 3.6]; the others: [Silverman1986, sec. 4.2].
+enum class KernelKind { constant, cone, epanechnikov, biweight, triweight, order_4 };
 
 struct KernelInfo {
   KernelKind kind;
@@ -20,26 +23,33 @@ struct KernelInfo {
 };
 
 /// All kernels, in the order of KernelKind.
-inline constexpr std::array<KernelInfo, 5> kKernels{{{KernelKind::constant, "constant", 1.0f, 0.75f},
+inline constexpr std::array<KernelInfo, 6> kKernels{{{KernelKind::constant, "constant", 1.0f, 0.75f},
                                                      {KernelKind::cone, "cone", 3.0f, 3.0f},
                                                      {KernelKind::epanechnikov, "epanechnikov", 2.0f, 1.875f},
                                                      {KernelKind::biweight, "biweight", 3.0f, 3.28125f},
-                                                     {KernelKind::triweight, "triweight", 4.0f, 4.921875f}}};
+                                                     {KernelKind::triweight, "triweight", 4.0f, 4.921875f},
+                                                     {KernelKind::order_4, "order-4", 6.0f, 8.203125f}}};
 
 inline const KernelInfo& kernel_info(KernelKind kind) { return kKernels[static_cast<size_t>(kind)]; }
 
+/// The power of the radius that the error of a kernel in a smooth density goes with.
+inline int kernel_order(KernelKind kind) { return kind == KernelKind::order_4 ? 4 : 2; }
+
 /// The kernels' profiles in q = (distance / radius)^2, q <= 1, without their normalisation: (1 - q)^n, and 1 - sqrt(q).
-template <KernelKind K>
+/// That of order 4 in d dimensions is (1 - q) (1 - c q): the integral of q times it over the ball is proportional to
+/// 1/(d+2) - (1+c)/(d+4) + c/(d+6), which is 0 for c = (d+6)/(d+2).
+template <KernelKind K, int Dimension>
 float kernel_profile(float q) {
   if constexpr (K == KernelKind::constant) return 1.0f;
   if constexpr (K == KernelKind::cone) return 1.0f - std::sqrt(q);
   if constexpr (K == KernelKind::epanechnikov) return 1.0f - q;
   if constexpr (K == KernelKind::biweight) return (1.0f - q) * (1.0f - q);
   if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (1.0f - q);
+  if constexpr (K == KernelKind::order_4) return (1.0f - q) * (1.0f - (Dimension + 6.0f) / (Dimension + 2.0f) * q);
 }
 
 /// The same, of a kernel known at run time.
-inline double profile_of(KernelKind kind, double q) {
+inline double kernel_profile_of(KernelKind kind, int dimension, double q) {
   const double rest = 1.0 - q;
   switch (kind) {
     case KernelKind::constant:
@@ -51,16 +61,18 @@ inline double profile_of(KernelKind kind, double q) {
     case KernelKind::biweight:
       return rest * rest;
     case KernelKind::triweight:
+      return rest * rest * rest;
+    case KernelKind::order_4:
       break;
   }
-  return rest * rest * rest;
+  return rest * (1.0 - (dimension + 6.0) / (dimension + 2.0) * q);
 }
 
 /// What a kernel sum changes by where its kernel shrinks: -(r/2) d/dr of the kernel in `Dimension` dimensions, over its
-/// normalisation, as the kernels' profiles are. It integrates to 0, and the sum of both has no second moment: so a bias
-/// that goes as r^2 is minus what this weight gives on average, and one that goes as r twice that. A constant kernel
-/// has no derivative at its edge; for it, the difference from the kernel of radius r/sqrt(2) has the same two
-/// properties.
+/// normalisation, as the kernels' profiles are; half of that for order 4. It integrates to 0, and the sum of both has
+/// no second moment, for order 4 no fourth one: so a bias that goes as r to the power of the order is minus what this
+/// weight gives on average. One that goes as r is twice that, four times for order 4. A constant kernel has no
+/// derivative at its edge; for it, the difference from the kernel of radius r/sqrt(2) has the same two properties.
 template <KernelKind K, int Dimension>
 float kernel_correction(float q) {
   constexpr float d = Dimension;
@@ -69,13 +81,18 @@ float kernel_correction(float q) {
   if constexpr (K == KernelKind::epanechnikov) return d / 2.0f * (1.0f - q) - q;
   if constexpr (K == KernelKind::biweight) return (1.0f - q) * (d / 2.0f * (1.0f - q) - 2.0f * q);
   if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (d / 2.0f * (1.0f - q) - 3.0f * q);
+  if constexpr (K == KernelKind::order_4) {
+    constexpr float c = (d + 6.0f) / (d + 2.0f);
+    return 0.5f * (d / 2.0f * (1.0f - q) * (1.0f - c * q) - q * (1.0f + c - 2.0f * c * q));
+  }
 }
 
 /// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m^2 or 1/m^3.
 inline float kernel_norm_2d(KernelKind kind, float r) { return kernel_info(kind).disc / (kPi * r * r); }
 inline float kernel_norm_3d(KernelKind kind, float r) { return kernel_info(kind).ball / (kPi * r * r * r); }
 
-/// The integral of the normalised kernel over the disc, or ball, of `t` <= 1 times its radius; 1 at 1, exactly.
+/// The integral of the normalised kernel over the disc, or ball, of `t` <= 1 times its radius; 1 at 1, exactly. It is
+/// never negative, and above 1 for order 4 where its negative rim is cut off.
 inline double kernel_within_2d(KernelKind kind, double t) {
   const double q = t * t, rest = 1.0 - q;
   switch (kind) {
@@ -88,9 +105,11 @@ inline double kernel_within_2d(KernelKind kind, double t) {
     case KernelKind::biweight:
       return 1.0 - rest * rest * rest;
     case KernelKind::triweight:
+      return 1.0 - rest * rest * rest * rest;
+    case KernelKind::order_4:
       break;
   }
-  return 1.0 - rest * rest * rest * rest;
+  return q * (6.0 - q * (9.0 - 4.0 * q));
 }
 inline double kernel_within_3d(KernelKind kind, double t) {
   const double q = t * t, cube = q * t;
@@ -104,9 +123,11 @@ inline double kernel_within_3d(KernelKind kind, double t) {
     case KernelKind::biweight:
       return cube * (35.0 + q * (15.0 * q - 42.0)) / 8.0;
     case KernelKind::triweight:
+      return cube * (105.0 + q * (q * (135.0 - 35.0 * q) - 189.0)) / 16.0;
+    case KernelKind::order_4:
       break;
   }
-  return cube * (105.0 + q * (q * (135.0 - 35.0 * q) - 189.0)) / 16.0;
+  return cube * (175.0 + q * (135.0 * q - 294.0)) / 16.0;
 }
 
 /// The integral of the normalised kernel over the disc (dimension 2) or ball (3) of `t` <= 1 times its radius, and that
@@ -114,8 +135,9 @@ inline double kernel_within_3d(KernelKind kind, double t) {
 inline KernelPair<double> kernel_within(KernelKind kind, int dimension, double t) {
   const auto within = [&](double s) { return dimension == 2 ? kernel_within_2d(kind, s) : kernel_within_3d(kind, s); };
   if (kind == KernelKind::constant) return {within(t), 2.0 * (within(std::min(1.0, std::sqrt(2.0) * t)) - within(t))};
+  const double half_order = 0.5 * kernel_order(kind);
   const double measure = dimension == 2 ? kernel_info(kind).disc * t * t : 2.0 * kernel_info(kind).ball * t * t * t;
-  return {within(t), measure * profile_of(kind, t * t)};
+  return {within(t), measure * kernel_profile_of(kind, dimension, t * t) / half_order};
 }
 
 }  // namespace vpm

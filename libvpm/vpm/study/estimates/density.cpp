@@ -111,18 +111,21 @@ std::array<Moments, kBiasDensities> estimate_kernel_bias(int dimension, KernelKi
   return result;
 }
 
-KernelIntegrals integrate_kernel(int dimension, KernelKind kernel) {
+namespace {
+
+template <int Dimension>
+KernelIntegrals integrate(KernelKind kernel) {
   constexpr int kSteps = 20'000;
-  const double unit = dimension == 1 ? 2.0 : dimension == 2 ? 2.0 * kPiD : 4.0 * kPiD;  // "surface" of the unit ball
+  const double unit = Dimension == 1 ? 2.0 : Dimension == 2 ? 2.0 * kPiD : 4.0 * kPiD;  // "surface" of the unit ball
   // The mean of cos(a x_1) over directions, for |x| = 1.
   const auto mean_cosine = [&](double a) {
-    if (dimension == 1) return std::cos(a);
-    return dimension == 2 ? std::cyl_bessel_j(0.0, a) : std::sin(a) / a;
+    if (Dimension == 1) return std::cos(a);
+    return Dimension == 2 ? std::cyl_bessel_j(0.0, a) : std::sin(a) / a;
   };
   KernelIntegrals sums;
-  with_kernel<3>(kernel, [&](auto profile) {
+  with_kernel<Dimension>(kernel, [&](auto profile) {
     for (int i = 0; i < kSteps; ++i) {
-      const double r = (i + 0.5) / kSteps, shell = unit * std::pow(r, dimension - 1) / kSteps;
+      const double r = (i + 0.5) / kSteps, shell = unit * std::pow(r, Dimension - 1) / kSteps;
       const double value = profile(static_cast<float>(r * r)).value;
       sums.volume += shell;
       sums.profile += value * shell;
@@ -133,6 +136,13 @@ KernelIntegrals integrate_kernel(int dimension, KernelKind kernel) {
     return 0;
   });
   return sums;
+}
+
+}  // namespace
+
+KernelIntegrals integrate_kernel(int dimension, KernelKind kernel) {
+  if (dimension == 1) return integrate<1>(kernel);
+  return dimension == 2 ? integrate<2>(kernel) : integrate<3>(kernel);
 }
 
 double nearest_volume_below(double volume, uint32_t k, uint64_t n) {

@@ -97,24 +97,32 @@ std::vector<Check> path_tracer(const Effort& effort) {
 /// A field of photons around known points, in a space of `dimension`, at which a map's estimate is compared.
 struct Field {
   int dimension;
-  float radius;  // of the first pass, m
-  double exact;  // at every one of the points
+  KernelKind kernel;  // Epanechnikov's or that of order 4
+  float radius;       // of the first pass, m
+  double exact;       // at every one of the points
   /// Mean of the field over the points at distance s from one of them, within the space.
   std::function<double(double s)> around;
   /// The estimates of one pass at all points.
   std::function<std::vector<double>(uint64_t seed, int pass, float radius)> estimate;
 };
 
-/// A pass of `photons` photons of together 1 W, by theory: Epanechnikov's kernel integrated over the field.
+/// The kernel of radius h at distance s, 1/m^2 or 1/m^3, written down once more.
+double kernel_by_theory(const Field& field, double h, double s) {
+  const double q = s * s / (h * h), measure = kPiD * std::pow(h, field.dimension);
+  if (field.kernel == KernelKind::epanechnikov) return (field.dimension == 3 ? 15.0 / 8.0 : 2.0) / measure * (1.0 - q);
+  return field.dimension == 3 ? 525.0 / 64.0 / measure * (1.0 - q) * (1.0 - 9.0 / 5.0 * q)
+                              : 6.0 / measure * (1.0 - q) * (1.0 - 2.0 * q);
+}
+
+/// A pass of `photons` photons of together 1 W, by theory: the kernel integrated over the field.
 struct PassModel {
   double bias = 0.0, variance = 0.0;
 };
 PassModel model_of_pass(const Field& field, double photons, double h) {
   constexpr int kShells = 400;
-  const double norm = field.dimension == 3 ? 15.0 / (8.0 * kPiD * h * h * h) : 2.0 / (kPiD * h * h);
   double mean = 0.0, square = 0.0;
   for (int i = 0; i < kShells; ++i) {
-    const double s = h * (i + 0.5) / kShells, kernel = norm * (1.0 - s * s / (h * h));
+    const double s = h * (i + 0.5) / kShells, kernel = kernel_by_theory(field, h, s);
     const double measure = (field.dimension == 3 ? 4.0 * kPiD * s * s : 2.0 * kPiD * s) * h / kShells;
     mean += kernel * field.around(s) * measure;
     square += kernel * kernel * field.around(s) * measure;
@@ -122,9 +130,15 @@ PassModel model_of_pass(const Field& field, double photons, double h) {
   return {mean - field.exact, (square - mean * mean) / photons};
 }
 
-/// The mean squared error after each of the pass counts, with radii r_{i+1}^d = r_i^d (i + A) / (i + 1), A = 4/(d + 4).
+/// A, which is also how fast the mean squared error falls with many passes: 4/(d + 4), or 8/(d + 8) for order 4.
+double exponent(const Field& field) {
+  const double twice = field.kernel == KernelKind::order_4 ? 8.0 : 4.0;
+  return twice / (field.dimension + twice);
+}
+
+/// The mean squared error after each of the pass counts, with radii r_{i+1}^d = r_i^d (i + A) / (i + 1).
 std::vector<double> model_errors(const Field& field, double photons, const std::vector<int>& n) {
-  const double d = field.dimension, a = 4.0 / (d + 4.0);
+  const double d = field.dimension, a = exponent(field);
   double measure = std::pow(field.radius, d), bias = 0.0, variance = 0.0;
   std::vector<double> errors;
   for (int i = 1; i <= n.back(); ++i) {
@@ -144,7 +158,8 @@ std::vector<Check> density_estimation(const Field& field, const std::string& nam
   const Groups groups = run_groups(n, effort.count(12, 16), effort, name, [&](uint64_t seed) {
     std::vector<double> sums, errors;
     for (int pass = 0; pass < n.back(); ++pass) {
-      const auto estimates = field.estimate(seed, pass, radius_of_pass(field.radius, field.dimension, pass));
+      const auto estimates =
+          field.estimate(seed, pass, radius_of_pass(field.radius, field.dimension, pass, kernel_order(field.kernel)));
       sums.resize(estimates.size());
       double error = 0.0;
       for (size_t i = 0; i < sums.size(); ++i) {
@@ -156,7 +171,7 @@ std::vector<Check> density_estimation(const Field& field, const std::string& nam
     return errors;
   });
   const std::vector<double> model = model_errors(field, kPhotonsOfPass, n);
-  const double asymptote = -4.0 / (field.dimension + 4.0);
+  const double asymptote = -exponent(field);
   std::vector<Check> checks{
       check_mean("slope of the mean squared error", groups.slopes, slope(n, model)),
       check_bound("slope by theory, and its limit of many passes", slope(n, model), asymptote, 0.06)};
@@ -174,8 +189,13 @@ PhotonLists trace(const Scene& scene, uint64_t seed, int pass) {
   return list_photons(scene, *make_distance_strategy({}), settings);
 }
 
+/// Of the seeds of an experiment.
+std::string name_of(const std::string& where, KernelKind kernel) {
+  return kernel == KernelKind::order_4 ? where + ", order 4" : where;
+}
+
 /// First collisions around an isotropic source of 1 W in a medium of sigma_t = 1/m: fluence exp(-r) / (4 pi r^2).
-std::vector<Check> volume_photons(const Effort& effort) {
+std::vector<Check> volume_photons(const Effort& effort, KernelKind kernel) {
   constexpr double kDistance = 1.2;  // of the points from the source, m
   Scene scene;
   // So little albedo that what scatters twice is far below the noise; without any, nothing would be stored.
@@ -186,7 +206,7 @@ std::vector<Check> volume_photons(const Effort& effort) {
   finish(scene);
   const std::vector<Vec3> axes{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   const auto phi = [](double r) { return std::exp(-r) / (4.0 * kPiD * r * r); };
-  Field field{3, 0.5f, phi(kDistance), {}, {}};
+  Field field{3, kernel, 0.5f, phi(kDistance), {}, {}};
   field.around = [&](double s) {
     // The mean over a sphere of a field that depends on the distance u from the source: int phi u du / (2 r s).
     constexpr int kSteps = 200;
@@ -197,19 +217,19 @@ std::vector<Check> volume_photons(const Effort& effort) {
     }
     return sum / kDistance;
   };
-  field.estimate = [&](uint64_t seed, int pass, float radius) {
+  field.estimate = [&, kernel](uint64_t seed, int pass, float radius) {
     const PhotonMap map =
-        make_photon_map(trace(scene, seed, pass).volume[0], {GatherMode::radius, radius}, kPhotonsOfPass);
+        make_photon_map(trace(scene, seed, pass).volume[0], {.radius = radius, .kernel = kernel}, kPhotonsOfPass);
     std::vector<double> estimates;
     for (const Vec3& axis : axes)
       estimates.push_back(fluence(scene.media[0].majorant(), static_cast<float>(kDistance) * axis, map).g);
     return estimates;
   };
-  return density_estimation(field, "volume", effort);
+  return density_estimation(field, name_of("volume", kernel), effort);
 }
 
 /// Photons of an isotropic source of 1 W at height 1 m on a floor: irradiance cos / (4 pi distance^2).
-std::vector<Check> surface_photons(const Effort& effort) {
+std::vector<Check> surface_photons(const Effort& effort, KernelKind kernel) {
   constexpr double kFromFoot = 0.5;  // of the points, m
   Scene scene;
   add_shape(scene, quad_mesh(Vec3d(-9, 0, 9), Vec3d(18, 0, 0), Vec3d(0, 0, -18)), Lambertian{Rgb(1e-6f)});
@@ -218,7 +238,7 @@ std::vector<Check> surface_photons(const Effort& effort) {
   finish(scene);
   const std::vector<Vec3> axes{{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
   const auto irradiance = [](double square) { return std::pow(1.0 + square, -1.5) / (4.0 * kPiD); };
-  Field field{2, 0.4f, irradiance(kFromFoot * kFromFoot), {}, {}};
+  Field field{2, kernel, 0.4f, irradiance(kFromFoot * kFromFoot), {}, {}};
   field.around = [&](double s) {
     constexpr int kSteps = 64;
     double sum = 0.0;
@@ -228,23 +248,28 @@ std::vector<Check> surface_photons(const Effort& effort) {
     }
     return sum;
   };
-  field.estimate = [&](uint64_t seed, int pass, float radius) {
+  field.estimate = [&, kernel](uint64_t seed, int pass, float radius) {
     const PhotonMap map =
-        make_photon_map(trace(scene, seed, pass).surface, {GatherMode::radius, radius}, kPhotonsOfPass);
+        make_photon_map(trace(scene, seed, pass).surface, {.radius = radius, .kernel = kernel}, kPhotonsOfPass);
     std::vector<double> estimates;
     for (const Vec3& axis : axes)
       estimates.push_back(surface_irradiance(static_cast<float>(kFromFoot) * axis, Vec3(0, 1, 0), map).value.g);
     return estimates;
   };
-  return density_estimation(field, "surface", effort);
+  return density_estimation(field, name_of("surface", kernel), effort);
 }
 
 }  // namespace
 
 std::vector<Experiment> convergence_experiments() {
-  std::vector<Experiment> all{{4, "the path tracer", path_tracer},
-                              {4, "photons in a volume, kernel of dimension 3", volume_photons},
-                              {4, "photons on a surface, kernel of dimension 2", surface_photons}};
+  std::vector<Experiment> all{{4, "the path tracer", path_tracer}};
+  const auto add = [&](const char* name, auto* photons, KernelKind kernel) {
+    all.push_back({4, name, [=](const Effort& effort) { return photons(effort, kernel); }});
+  };
+  add("photons in a volume, kernel of dimension 3", volume_photons, KernelKind::epanechnikov);
+  add("photons on a surface, kernel of dimension 2", surface_photons, KernelKind::epanechnikov);
+  add("photons in a volume, kernel of order 4", volume_photons, KernelKind::order_4);
+  add("photons on a surface, kernel of order 4", surface_photons, KernelKind::order_4);
   for (auto* group : {pass_experiments, march_experiments})
     for (Experiment& e : group()) all.push_back(std::move(e));
   return all;
