@@ -15,7 +15,7 @@ class EyePath {
   Rgb follow() {
     for (int events = 0; events < c_.max_events;) {
       const Encounter met = meet(c_.scene, ray_, kInfinity, medium_, work_.counters.walk);
-      cross({0.0f, met ? met.hits[0].t : kInfinity});
+      cross({0.0f, met ? met.hits[0].t : kInfinity}, met ? towards(met.hits[0], -ray_.direction) : Vec3(0.0f));
       if (is_black(throughput_)) return radiance_;
       if (!met) {
         see_environment();
@@ -26,6 +26,7 @@ class EyePath {
       see_emitter(hit);
       if (is_boundary(material)) {  // no event
         cross_boundaries(c_.scene, met, ray_, medium_, work_.counters.walk);
+        start_ = towards(hit, ray_.direction);
         continue;
       }
       if (!meet_surface(hit, material)) return radiance_;
@@ -36,9 +37,15 @@ class EyePath {
   }
 
  private:
-  /// Adds what media scatter towards the eye along the segment, and attenuates by it.
-  void cross(const Interval& interval) {
-    const EyeSegment segment(c_.scene, ray_, interval, medium_, throughput_);
+  /// The normal of what was hit, on the side that a direction leads to.
+  static Vec3 towards(const Hit& hit, const Vec3& direction) {
+    return glm::dot(hit.normal, direction) < 0.0f ? -hit.normal : hit.normal;
+  }
+
+  /// Adds what media scatter towards the eye along the segment, which ends at a surface of the normal `end`, and
+  /// attenuates by it.
+  void cross(const Interval& interval, const Vec3& end) {
+    const EyeSegment segment(c_.scene, ray_, interval, medium_, throughput_, {start_, end});
     for (const auto& estimator : c_.estimators.volume) radiance_ += estimator->along(segment, work_);
     throughput_ *= segment.transmittance(work_);
   }
@@ -64,6 +71,7 @@ class EyePath {
     Scatter scatter;
     if (!scatter_at_surface(c_.scene, hit, state, work_.rng, scatter)) return false;
     ray_ = state.ray;
+    start_ = towards(hit, ray_.direction);
     medium_ = state.medium;
     throughput_ = state.throughput * scatter.radiance_scale;
     return true;
@@ -73,6 +81,7 @@ class EyePath {
   EyeWork& work_;
   Ray ray_;
   MediumId medium_;
+  Vec3 start_{0.0f};  // the normal of what the ray left last
   Rgb throughput_{1.0f};
   Rgb radiance_{0.0f};
 };
