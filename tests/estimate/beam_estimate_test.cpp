@@ -27,9 +27,25 @@ Ray any_ray(const std::vector<Photon>& all, float radius, uint64_t i) {
   return {past - 0.7f * direction, direction};
 }
 
+/// Every other search is between two planes near the ray's middle, and counts distances from one of them.
+BesideRay search_beside(const Ray& ray, const Interval& interval, uint64_t i) {
+  if (i % 2 == 0) return {ray, interval};
+  Rng rng(4, rng_stream(RngUse::test, 12), i);
+  HalfSpaces within;
+  PlaneDistances distances;
+  for (const float side : {1.0f, -1.0f}) {
+    Vec3 normal = uniform_sphere(rng.uniform2());
+    if (side * glm::dot(normal, ray.direction) < 0.0f) normal = -normal;
+    const float at = 0.7f - side * 0.2f * rng.uniform();  // m along the ray
+    within.add(normal, at * glm::dot(normal, ray.direction));
+    if (side > 0.0f) distances = {normal / glm::dot(normal, ray.direction), 0.0f};
+  }
+  return {ray, interval, within, distances};
+}
+
 TEST(BeamEstimate, EqualsItsBruteForceTwin) {
   const Phase phase = HenyeyGreenstein{0.6f};
-  const auto along = [](float t) { return glm::exp(-Rgb(0.5f, 1.0f, 2.0f) * t); };
+  const auto along = [](float t) { return glm::exp(-Rgb(0.5f, 1.0f, 2.0f) * std::max(t, 0.0f)); };
   int found = 0;
   for (const Layout layout : kLayouts) {
     const std::vector<Photon> all = photons(layout, 5000);
@@ -42,10 +58,10 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
         for (uint64_t i = 0; i < 20; ++i) {
           const Ray ray = any_ray(all, radius, i);
           // Ends that part photons evenly, and an endless one.
-          const Interval interval{0.31f, i % 4 == 0 ? kInfinity : 0.92f};
+          const BesideRay there = search_beside(ray, {0.31f, i % 4 == 0 ? kInfinity : 0.92f}, i);
           GatherCounters counters;
-          const Rgb quick = beam_sum(phase, ray, interval, each_distance(along), map, counters).value;
-          const Rgb slow = beam_sum(phase, ray, interval, along, PhotonList{all, settings, 1000}).value;
+          const Rgb quick = beam_sum(phase, there, each_distance(along), map, counters).sum.value;
+          const Rgb slow = beam_sum(phase, there, along, PhotonList{all, settings, 1000}).value;
           // Rounding of distances changes profiles of far photons by parts of 1e-5 of the kernel's height.
           const float height = kernel_norm_2d(kernel.kind, radius) * static_cast<float>(counters.used) * 1e-3f;
           for (int c = 0; c < 3; ++c)
@@ -68,7 +84,8 @@ TEST(BeamEstimate, EqualsTheSumOverPhotonsWithRadiiOfTheirOwn) {
       const Ray ray = any_ray(photons(layout, 5000), 0.1f, i);
       GatherCounters counters;
       const Rgb quick =
-          beam_sum(Isotropic{}, ray, {0.3f, 0.9f}, each_distance([](float t) { return Rgb(t); }), map, counters).value;
+          beam_sum(Isotropic{}, {ray, {0.3f, 0.9f}}, each_distance([](float t) { return Rgb(t); }), map, counters)
+              .sum.value;
       Rgbd slow(0.0);
       double height = 0.0;  // of the kernels added up, at the middle
       for (size_t k = 0; k < map.photons.size(); ++k) {
@@ -123,9 +140,9 @@ TEST(BeamEstimate, IsTheSameOnAnyNumberOfThreads) {
     std::vector<Rgb> result;
     for (uint64_t i = 0; i < 50; ++i) {
       GatherCounters counters;
-      result.push_back(beam_sum(Isotropic{}, any_ray(all, 0.05f, i), {0.0f, 2.0f},
+      result.push_back(beam_sum(Isotropic{}, {any_ray(all, 0.05f, i), {0.0f, 2.0f}},
                                 each_distance([](float) { return Rgb(1.0f); }), map, counters)
-                           .value);
+                           .sum.value);
     }
     return result;
   };
@@ -140,7 +157,7 @@ TEST(SegmentMap, TakesAtMost28BytesAPhotonAndAnswersWithoutAny) {
     EXPECT_LE(static_cast<double>(map.memory_bytes()) / 20'000.0, 28.0 + 0.1);  // what a map takes beside photons
   }
   const SegmentMap none(std::vector<Photon>{}, {1.0f, 50}, 1.0f);
-  EXPECT_EQ(none.visit_near_ray({}, {}, [](const PhotonsNearRay&) { ADD_FAILURE(); }), 0u);
+  EXPECT_EQ(none.visit_near_ray({Ray{}, Interval{}}, [](const PhotonsNearRay&) { ADD_FAILURE(); }), 0u);
 }
 
 TEST(DensityIntegralsAlong, AreThoseOfTheMedium) {

@@ -92,7 +92,7 @@ TEST(SceneFile, CorrectsAtBordersWhereAsked) {
   EXPECT_EQ(volume.surface.boundary, BoundaryRule::none);
   EXPECT_EQ(volume.caustics.boundary, BoundaryRule::none);
   const RenderSettings surface = load_with("[surface]\nboundary = 'corrected'\n").settings;
-  EXPECT_EQ(surface.volume.boundary, BoundaryRule::none);
+  EXPECT_EQ(surface.volume.boundary, BoundaryRule::ends);  // the default
   EXPECT_EQ(surface.surface.boundary, BoundaryRule::corrected);
   EXPECT_EQ(surface.caustics.boundary, BoundaryRule::corrected);  // goes with the surface's
   const RenderSettings plain = load_with("[volume]\nboundary = 'none'\n[surface]\nboundary = 'none'\n").settings;

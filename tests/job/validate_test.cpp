@@ -43,9 +43,6 @@ const Contradiction kContradictions[] = {
      [](S& s) { s.transmittance.estimator = "ratio", s.surface_direct = DirectLight::photons; }},
     {"volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
     {"surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
-    {"volume.boundary",
-     [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.volume_form = VolumeForm::density_at_photon; }},
-    {"volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.volume.mode = GatherMode::beam; }},
     {"volume.count", [](S& s) { s.volume.count = 20; }},
     {"caustics.count", [](S& s) { s.caustics.count = 20; }},
     {"volume.direct_samples", [](S& s) { s.direct_samples = 3; }},
@@ -76,6 +73,23 @@ const Contradiction kContradictions[] = {
     {"volume.radius", [](S& s) { s.volume.radius = -1.0f; }},
     {"volume.density_floor", [](S& s) { s.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
 };
+
+// The default of volume.boundary goes with everything; and beams know all its words.
+TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam})
+    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon})
+      for (const uint32_t in_cube : {0u, 4u})
+        for (const BoundaryRule rule : {BoundaryRule::none, BoundaryRule::ends, BoundaryRule::corrected}) {
+          RenderSettings s;
+          EXPECT_EQ(s.volume.boundary, BoundaryRule::ends);
+          s.volume.mode = mode;
+          s.volume.boundary = rule;
+          s.volume_form = form;
+          s.photons_in_cube = in_cube;
+          const bool asks_merged = rule == BoundaryRule::corrected && mode != GatherMode::beam && in_cube > 0;
+          if (!asks_merged) EXPECT_NO_THROW(validate(s, {.scattering_media = true}));
+        }
+}
 
 TEST(Validate, NamesTheKeyOfEachContradiction) {
   for (const Contradiction& each : kContradictions) {

@@ -24,6 +24,30 @@ Moments samples(const Scene& scene, const Ray& ray, int count) {
   return moments;
 }
 
+// Glass flush on a table is in optical contact with it: light meets the table from within the glass, and none goes
+// through. Under an even sky a black table leaves the reflection of the glass, a white one shows as the sky.
+TEST(PathTracer, GlassStandsOnATable) {
+  for (const bool upside_down : {false, true})
+    for (const float reflectance : {0.0f, 1.0f}) {
+      Scene scene;
+      scene.media.push_back(make_medium(nullptr, Rgb(1e-6f)));
+      const Interface media{0, kVacuum};
+      const float y = upside_down ? -1.0f : 0.0f;
+      add_shape(scene, box_mesh(Vec3(-50, y, -50), Vec3(50, y + 1, 50)), Dielectric{1.5f}, &media);
+      add_shape(scene, quad_mesh(Vec3(-60, 0, 60), Vec3(120, 0, 0), Vec3(0, 0, -120)), Lambertian{Rgb(reflectance)});
+      scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+      scene.geometry.commit();
+      finish(scene);
+      const float sense = upside_down ? -1.0f : 1.0f;
+      for (const float x : {-0.3f, 0.1f, 0.7f}) {
+        const Moments seen = samples(scene, {Vec3(x, 3.0f * sense, 0.2f), Vec3(0.0f, -sense, 0.0f)}, 20000);
+        if (reflectance == 0.0f) expect_mean(seen, 0.04, kFalseAlarms, "a black table");
+        // The glass is 100 m wide: a part of about 1e-3 of the light leaves by its sides, and sees the sky, too.
+        if (reflectance == 1.0f) EXPECT_NEAR(seen.mean(), 1.0, 1e-3);
+      }
+    }
+}
+
 /// A floor, and above it a lamp that faces it. `lamp`: a DiscLight or a MeshLight.
 template <class Lamp, class Surface>
 Scene lit_floor(const Lamp& lamp, const Surface& surface) {

@@ -33,7 +33,7 @@ Rgb found_along(const VolumeEstimator& estimator, const Scene& scene, const Stre
                 EyeCounters& counters) {
   EyeScratch scratch;
   EyeWork work{rng, counters, scratch};
-  return estimator.along(EyeSegment(scene, s.ray, s.interval, 0, s.throughput), work).value;
+  return estimator.along(EyeSegment(scene, s.ray, s.interval, 0, s.throughput, {}), work).value;
 }
 
 /// The radiance of each channel over many estimates.

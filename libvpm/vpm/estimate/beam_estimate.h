@@ -2,8 +2,10 @@
 // is spread over a disc perpendicular to the ray.
 #pragma once
 
+#include <numeric>
 #include <span>
 
+#include "vpm/base/exp_negative.h"
 #include "vpm/estimate/kernel_sum.h"
 #include "vpm/phase/phase.h"
 #include "vpm/photon/segment_map.h"
@@ -22,6 +24,13 @@ struct PhotonList {
   const GatherSettings& settings;
   uint64_t emitted;
 };
+
+/// transmittance() of a finite density integral, as quick as photons along a ray need it: off by 1e-7 of the optical
+/// thickness.
+inline Rgb beam_transmittance(const Rgb& sigma_t, float integral) {
+  const Rgb optical = sigma_t * integral;
+  return {exp_negative(-optical.r), exp_negative(-optical.g), exp_negative(-optical.b)};
+}
 
 /// Transmittances from places on a ray to the eye, channel by channel.
 struct Passed {
@@ -42,21 +51,28 @@ auto each_distance(AtDistance&& at_distance) {
   };
 }
 
-/// The sum over the photons p whose projection t_p onto the ray lies in the interval:
+/// What the photons beside a ray add up to.
+struct BeamSum {
+  KernelEstimate sum;
+  float radius = 0.0f;  // m: of the discs, in the mean over the photons; 0 without any
+};
+
+/// The sum over the photons p beside the ray, whose distance along it is t_p:
 ///   sum_p p(travel_p . towards the eye) Phi_p K_r(perpendicular distance of p from the ray) along(t_p),
 /// with K_r over discs of the photon's radius r. Times the albedo, this is radiance in W/(m^2 sr) where
 /// `along`(distances, Passed&) finds the transmittances from the eye to the distances t_p. For photons stored for the
 /// density at the query, `along` has one more factor: the density there over the medium's largest.
 ///
-/// The bias that is left is that of the kernel across the ray, of order r^2, and that of discs that stick out of the
-/// medium.
+/// Where discs lie in the medium as a whole, the bias is that of the kernel across the ray, of order r^2. Discs that
+/// stick out of it miss light of order r; SegmentRegion says what makes up for that.
 template <class Along>
-KernelEstimate beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along&& along, const BeamMap& map,
-                        GatherCounters& counters) {
+BeamSum beam_sum(const Phase& phase, const BesideRay& there, Along&& along, const BeamMap& map,
+                 GatherCounters& counters) {
   const KernelKind kernel = map.settings.kernel;
   count(counters.searches);
   const auto sum = [&](const auto& p, auto profile) {
     KernelPair<Rgbd> sum_of_photons;
+    double radii = 0.0;  // m
     uint32_t used = 0;
     const auto visit = [&](const PhotonsNearRay& near) {
       const PhotonBatch& batch = near.batch;
@@ -69,14 +85,17 @@ KernelEstimate beam_sum(const Phase& phase, const Ray& ray, const Interval& inte
         return KernelPair<Rgb>(kept * spread.value, kept * spread.correction);
       };
       const auto scattered = [&](const Vec3& travel, const Rgb& power) {
-        return power * p.value(travel, -ray.direction);
+        return power * p.value(travel, -there.ray.direction);
       };
       sum_of_photons += sum_photons(batch, weight, scattered);
       used += batch.number();
+      if (map.settings.beam_count > 0) radii += std::accumulate(near.radius, near.radius + batch.number(), 0.0f);
     };
-    count(counters.visited, map.photons.visit_near_ray(ray, interval, visit));
+    count(counters.visited, map.photons.visit_near_ray(there, visit));
     counters.used += used;
-    return normed(sum_of_photons, kernel_norm_2d(kernel, 1.0f));
+    const float mean =
+        map.settings.beam_count > 0 ? static_cast<float>(radii / std::max(1u, used)) : map.settings.radius;
+    return BeamSum{normed(sum_of_photons, kernel_norm_2d(kernel, 1.0f)), used > 0 ? mean : 0.0f};
   };
   return std::visit(
       [&](const auto& p) { return with_kernel<2>(kernel, [&](auto profile) { return sum(p, profile); }); }, phase);
@@ -84,8 +103,8 @@ KernelEstimate beam_sum(const Phase& phase, const Ray& ray, const Interval& inte
 
 /// The brute-force twin: looks at every photon of a plain list.
 template <class Along>
-KernelEstimate beam_sum(const Phase& phase, const Ray& ray, const Interval& interval, Along&& along,
-                        const PhotonList& list) {
+KernelEstimate beam_sum(const Phase& phase, const BesideRay& there, Along&& along, const PhotonList& list) {
+  const auto& [ray, interval, within, distances] = there;
   const float radius = list.settings.radius;
   KernelPair<Rgbd> sum;
   for (const Photon& photon : list.photons) {
@@ -93,11 +112,11 @@ KernelEstimate beam_sum(const Phase& phase, const Ray& ray, const Interval& inte
     const double t = glm::dot(offset, Vec3d(ray.direction));
     const Vec3d across = offset - t * Vec3d(ray.direction);
     const double q = glm::dot(across, across) / (double{radius} * radius);
-    if (!(q < 1.0 && t >= interval.t0 && t < interval.t1)) continue;
+    if (!(q < 1.0 && t >= interval.t0 && t < interval.t1 && within.hold(Vec3(offset)))) continue;
     const KernelPair<float> weight =
         with_kernel<2>(list.settings.kernel, [&](auto profile) { return profile(static_cast<float>(q)); });
     const Rgbd seen(photon.power *
-                    (phase_value(phase, photon.travel.unpack(), -ray.direction) * along(static_cast<float>(t))));
+                    (phase_value(phase, photon.travel.unpack(), -ray.direction) * along(distances.of(Vec3(offset)))));
     sum += {seen * double{weight.value}, seen * double{weight.correction}};
   }
   return normed(sum, kernel_norm_2d(list.settings.kernel, radius) / static_cast<float>(list.emitted));

@@ -20,12 +20,19 @@ inline double counted_density_integral(const Medium& medium, const Ray& ray, con
   return crossed.value;
 }
 
+/// What a segment begins and ends at: the normals of the surfaces or boundaries there, unit, to the side of the
+/// segment. 0 where there is none: at the camera, and at the end of a ray that meets nothing.
+struct Borders {
+  Vec3 start{0.0f}, end{0.0f};
+};
+
 /// Lies in one medium. Its density integrals, counted from its start, are computed once, however many estimators ask
 /// for them.
 class EyeSegment {
  public:
-  EyeSegment(const Scene& scene_of_ray, const Ray& along, const Interval& from_to, MediumId in, const Rgb& counts_for)
-      : scene(scene_of_ray), ray(along), interval(from_to), number(in), throughput(counts_for) {}
+  EyeSegment(const Scene& scene_of_ray, const Ray& along, const Interval& from_to, MediumId in, const Rgb& counts_for,
+             const Borders& at)
+      : scene(scene_of_ray), ray(along), interval(from_to), number(in), throughput(counts_for), borders(at) {}
 
   /// Null in vacuum.
   const Medium* medium() const { return number == kVacuum ? nullptr : &scene.media[number]; }
@@ -41,6 +48,7 @@ class EyeSegment {
   const Interval interval;  // m
   const MediumId number;    // the number of the medium
   const Rgb throughput;     // of the eye path up to the near end of the segment
+  const Borders borders;
 
  private:
   mutable bool walked_ = false;             // by integrals()

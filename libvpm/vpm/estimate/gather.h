@@ -13,8 +13,9 @@ namespace vpm {
 enum class GatherMode { radius, nearest, beam };
 
 /// What is done where a disc or a ball reaches beyond the places that photons can come to. `none`: nothing, so that
-/// estimates are too dark there and light leaks through walls. `corrected`: the correction of BoundedMap.
-enum class BoundaryRule { none, corrected };
+/// estimates are too dark there and light leaks through walls. `corrected`: the correction of BoundedMap. `ends`, for
+/// segments of eye rays in media: that of SegmentRegion.
+enum class BoundaryRule { none, corrected, ends };
 
 /// A gather radius as a render asks for it: a length, or the default, which first_radius() derives from the size of the
 /// medium or the scene.

@@ -6,6 +6,18 @@
 
 namespace vpm {
 
+/// volume_sum() of the photons that accept(travel, offset from the point) takes.
+template <class Accept, class... Photons>
+KernelEstimate volume_sum_of(Accept&& accept, const Phase& phase, const Vec3& point, const Vec3& towards,
+                             const Photons&... photons) {
+  return std::visit(
+      [&](const auto& p) {
+        const auto value = [&](const Vec3& travel, const Rgb& power) { return power * p.value(travel, towards); };
+        return kernel_sum<3>(photons..., point, accept, value);
+      },
+      phase);
+}
+
 /// sum_p p(travel_p . towards) Phi_p K_r(x - x_p), K_r over 3D balls, W/(m^3 sr). `towards` is the unit direction in
 /// which the scattered light leaves (towards the eye). `Photons` are a PhotonMap, or a plain list for the brute-force
 /// twin.
@@ -16,12 +28,7 @@ namespace vpm {
 /// Both densities are relative to the medium's largest.
 template <class... Photons>
 KernelEstimate volume_sum(const Phase& phase, const Vec3& point, const Vec3& towards, const Photons&... photons) {
-  return std::visit(
-      [&](const auto& p) {
-        const auto value = [&](const Vec3& travel, const Rgb& power) { return power * p.value(travel, towards); };
-        return kernel_sum<3>(photons..., point, AnyPhoton{}, value);
-      },
-      phase);
+  return volume_sum_of(AnyPhoton{}, phase, point, towards, photons...);
 }
 
 /// The fluence, W/m^2, from photons stored for the density at the query: sum_p Phi_p K_r / majorant. `majorant` is the

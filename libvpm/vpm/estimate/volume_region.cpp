@@ -56,10 +56,11 @@ bool VolumeRegion::holds(const Vec3& offset) const {
   return distance == 0.0f || !scene_.geometry.intersect({point_, offset / distance}, distance);
 }
 
-/// Is the density positive all over the ball?
+/// Is all of the ball that lies in the medium of the region?
 bool VolumeRegion::is_filled(float radius) const {
   const Medium& medium = scene_.media[medium_];
-  return medium.homogeneous() || medium.grid->is_positive({point_ - radius, point_ + radius});
+  return form_ == VolumeForm::density_at_photon || medium.homogeneous() ||
+         medium.grid->is_positive({point_ - radius, point_ + radius});
 }
 
 /// May the medium come again behind its border, within `rest` (m)?

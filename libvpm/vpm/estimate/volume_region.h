@@ -20,8 +20,10 @@ namespace vpm {
 /// in the bricks around the point.
 class VolumeRegion {
  public:
-  VolumeRegion(const Scene& scene, MediumId medium, const Vec3& point, KernelKind kernel)
-      : scene_(scene), medium_(medium), point_(point), kernel_(kernel) {}
+  /// With the density at the photon, places without density are of the region, too: the estimate is that of collisions.
+  VolumeRegion(const Scene& scene, MediumId medium, const Vec3& point, KernelKind kernel,
+               VolumeForm form = VolumeForm::density_at_query)
+      : scene_(scene), medium_(medium), point_(point), kernel_(kernel), form_(form) {}
 
   RegionShare share(float radius) const;
   bool holds(const Vec3& offset) const;
@@ -35,6 +37,7 @@ class VolumeRegion {
   MediumId medium_;  // not kVacuum
   Vec3 point_;
   KernelKind kernel_;
+  VolumeForm form_;
 };
 
 }  // namespace vpm

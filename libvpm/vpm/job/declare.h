@@ -41,7 +41,7 @@ struct WordsOf<KernelKind> {
 };
 template <>
 struct WordsOf<BoundaryRule> {
-  static constexpr std::array<std::string_view, 2> words{"none", "corrected"};
+  static constexpr std::array<std::string_view, 3> words{"none", "corrected", "ends"};
 };
 template <>
 struct WordsOf<VolumeForm> {

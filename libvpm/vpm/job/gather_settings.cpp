@@ -58,9 +58,16 @@ Setting declare_beam_count() {
           .need = {[](const S& s) { return s.volume.mode == GatherMode::beam; }, not_counted, kCountInstead}};
 }
 
-constexpr const char* kBoundary =
-    "`\"corrected\"`: no dark rims at the borders of media and the edges of surfaces, and no light through thin walls, "
-    "see below. `[surface]` decides for the caustic map, too";
+constexpr const char* kBorders =
+    "against dark rims at the borders of media: `\"ends\"` lets photons past the ends of a stretch of the eye's ray "
+    "make "
+    "up for those missing before them; `\"corrected\"` corrects ball by ball, and lets no light through thin walls, "
+    "see "
+    "below";
+constexpr const char* kEdges =
+    "`\"corrected\"`: no dark rims at the edges of surfaces, and no light through thin walls, see below; for the "
+    "caustic "
+    "map, too";
 
 std::vector<Setting> declare_volume() {
   return {
@@ -72,7 +79,7 @@ std::vector<Setting> declare_volume() {
       {.key = "volume.boundary",
        .member = at<&S::volume, &AskedGather::boundary>(),
        .domain = words_of<BoundaryRule>(),
-       .meaning = kBoundary},
+       .meaning = kBorders},
       {.key = "volume.density_floor",
        .member = at<&S::density_floor>(),
        .domain = Numbers{kFraction},
@@ -133,8 +140,8 @@ std::vector<Setting> declare_surface_light() {
   return {
       {.key = "surface.boundary",
        .member = {get_member<&S::surface, &AskedGather::boundary>, set_boundary},
-       .domain = words_of<BoundaryRule>(),
-       .meaning = kBoundary},
+       .domain = words_of<BoundaryRule>(2),
+       .meaning = kEdges},
       {.key = "surface.method",
        .member = {get_method, set_method},
        .domain = names_of(std::span<const Method>(kMethods)),

@@ -56,8 +56,10 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
           line(surfaces, "surface photon map", "", "no rough surface"),
           line(surfaces && settings.radii == RadiusSchedule::per_pixel, "radii of pixels' own", ", on surfaces",
                surfaces ? "radii do not depend on what pixels find" : "no rough surface"),
-          line(media && corrected(settings.volume), "corrections at borders of media", "",
-               media ? "whole balls are summed over" : no_medium),
+          line(media && settings.volume.boundary != BoundaryRule::none, "corrections at borders of media",
+               corrected(settings.volume) && settings.volume.mode != GatherMode::beam ? ", ball by ball"
+                                                                                      : ", along segments of eye rays",
+               media ? "what lies outside of media is summed over, too" : no_medium),
           line(surfaces && corrected(settings.surface), "corrections at edges of surfaces", "",
                surfaces ? "whole discs are summed over" : "no rough surface"),
           line(media && settings.volume_direct != DirectLight::photons, "shadow rays in media",

@@ -77,17 +77,11 @@ void check_estimator(const RenderSettings& s, const SceneFacts& facts) {
 }
 
 void check_borders(const RenderSettings& s) {
-  const bool in_media = s.volume.boundary == BoundaryRule::corrected;
+  const bool in_media = s.volume.boundary == BoundaryRule::corrected && s.volume.mode != GatherMode::beam;
   const bool on_surfaces = s.surface.boundary == BoundaryRule::corrected;
   refuse_if((in_media || on_surfaces) && s.photons_in_cube > 0, in_media ? "volume.boundary" : "surface.boundary",
             "there is no correction at borders where 'in_cube' of [photons] merges photons across them",
             "leave out 'boundary', or 'in_cube'");
-  refuse_if(in_media && s.volume_form == VolumeForm::density_at_photon, "volume.boundary",
-            "there is no correction at borders for 'density-at-photon', which counts photons from outside",
-            "use form = \"density-at-query\", or leave out 'boundary'");
-  refuse_if(in_media && s.volume.mode == GatherMode::beam, "volume.boundary",
-            "there is no correction at borders for \"beam\", which gathers along whole rays",
-            "use gather = \"radius\", or leave out 'boundary'");
 }
 
 void check_final_gathering(const RenderSettings& s) {

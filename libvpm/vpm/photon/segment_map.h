@@ -10,6 +10,7 @@
 
 #include "vpm/base/count.h"
 #include "vpm/base/vec.h"
+#include "vpm/photon/half_spaces.h"
 #include "vpm/photon/leaf_order.h"
 #include "vpm/photon/photon_batch.h"
 
@@ -25,10 +26,32 @@ struct BeamRadii {
   float scale = 1.0f;
 };
 
+/// How far along a ray photons count as lying: distances from a plane that the ray crosses, along the ray's direction.
+struct PlaneDistances {
+  Vec3 slope{0.0f};  // the distance is `slope` . offset from the ray's origin + `from`, m
+  float from = 0.0f;
+
+  float of(const Vec3& offset) const { return glm::dot(slope, offset) + from; }
+};
+
+/// Where photons count for a ray: their projections onto it lie in the interval, their offsets from its origin in the
+/// half spaces.
+struct BesideRay {
+  BesideRay(const Ray& along, const Interval& projections)
+      : ray(along), interval(projections), distances{along.direction} {}
+  BesideRay(const Ray& along, const Interval& projections, const HalfSpaces& in, const PlaneDistances& by)
+      : ray(along), interval(projections), within(in), distances(by) {}
+
+  Ray ray;
+  Interval interval;  // m
+  HalfSpaces within;
+  PlaneDistances distances;  // by default those of the projections
+};
+
 /// Photons whose perpendicular distance from a ray is less than their radius.
 struct PhotonsNearRay {
   const PhotonBatch& batch;
-  const float* distance;  // of each photon's projection onto the ray from the ray's origin, m
+  const float* distance;  // by BesideRay::distances, m
   const float* radius;    // m
 };
 
@@ -38,10 +61,10 @@ class SegmentMap {
   /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
   SegmentMap(const std::vector<Photon>& photons, const BeamRadii& radii, float scale);
 
-  /// Calls visit(const PhotonsNearRay&) for the photons nearer to the ray than their radii whose projection onto it
-  /// lies in the interval, a batch at a time, in a fixed order. Returns how many photons it computed the distance of.
+  /// Calls visit(const PhotonsNearRay&) for the photons there that are nearer to the ray than their radii, a batch at a
+  /// time, in a fixed order. Returns how many photons it computed the distance of.
   template <class Visit>
-  uint32_t visit_near_ray(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  uint32_t visit_near_ray(const BesideRay& there, Visit&& visit) const;
 
   const PhotonTable& photons() const { return photons_; }
   float radius(size_t i) const;  // m, of photon `i` in the map's order
@@ -74,7 +97,7 @@ class SegmentMap {
 
   /// Calls visit(const PhotonsNearRay&) for photons numbered by leaf and place in it.
   template <class Visit>
-  void unpack(const Ray& ray, const Interval& interval, const NearPhotons& near, Visit&& visit) const;
+  void unpack(const BesideRay& there, const NearPhotons& near, Visit&& visit) const;
 
   /// The photons' radii, leaf by leaf, and the boxes around their discs.
   void choose_radii(const BeamRadii& radii);
@@ -112,28 +135,51 @@ inline uint32_t SegmentMap::meet(const Beam& beam, size_t place, uint32_t count,
 }
 
 template <class Visit>
-void SegmentMap::unpack(const Ray& ray, const Interval& interval, const NearPhotons& near, Visit&& visit) const {
+void SegmentMap::unpack(const BesideRay& there, const NearPhotons& near, Visit&& visit) const {
+  const Vec3 origin = there.ray.origin;
+  const auto [slope, from] = there.distances;
   uint32_t photons[NearPhotons::kMost];
-  float radius[NearPhotons::kMost], distance[NearPhotons::kMost];
-  for (size_t i = 0; i < near.size(); ++i) {
+  float radius[NearPhotons::kMost], distance[NearPhotons::kMost], kept2[NearPhotons::kMost];
+  float x[NearPhotons::kMost], y[NearPhotons::kMost], z[NearPhotons::kMost];  // from the ray's origin, m
+  size_t count = near.size();
+  for (size_t i = 0; i < count; ++i) {
     const uint32_t leaf = near.photons()[i] / kBlock;
     photons[i] = static_cast<uint32_t>(leaf_begin(size(), leaves_, leaf)) + near.photons()[i] % kBlock;
     radius[i] = radius_[leaf];
-    const float t = glm::dot(photons_.position(photons[i]) - ray.origin, ray.direction);
-    distance[i] = std::clamp(t, interval.t0, interval.t1);
+    const Vec3 offset = photons_.position(photons[i]) - origin;
+    x[i] = offset.x;
+    y[i] = offset.y;
+    z[i] = offset.z;
+    distance[i] = glm::dot(slope, offset) + from;
   }
-  const PhotonBatch batch(photons_, photons, near.distances2(), near.size());
-  std::fill(radius + near.size(), radius + batch.size(), radius[0]);
-  std::fill(distance + near.size(), distance + batch.size(), distance[0]);
+  const float* distance2 = near.distances2();
+  if (!there.within.hold_all(x, y, z, count)) {
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i) {
+      photons[kept] = photons[i];
+      radius[kept] = radius[i];
+      distance[kept] = distance[i];
+      kept2[kept] = distance2[i];
+      kept += there.within.hold({x[i], y[i], z[i]}) ? 1 : 0;
+    }
+    count = kept;
+    distance2 = kept2;
+  }
+  if (count == 0) return;
+  const PhotonBatch batch(photons_, photons, distance2, count);
+  std::fill(radius + count, radius + batch.size(), radius[0]);
+  std::fill(distance + count, distance + batch.size(), distance[0]);
   visit(PhotonsNearRay{batch, distance, radius});
 }
 
 template <class Visit>
-uint32_t SegmentMap::visit_near_ray(const Ray& ray, const Interval& interval, Visit&& visit) const {
+uint32_t SegmentMap::visit_near_ray(const BesideRay& there, Visit&& visit) const {
   if (size() == 0) return 0;
+  const Ray& ray = there.ray;
+  const Interval& interval = there.interval;
   const Beam beam = make_beam(ray, interval);
   NearPhotons found;  // numbered by leaf and place in it
-  const auto use = [&](const NearPhotons& near) { unpack(ray, interval, near, visit); };
+  const auto use = [&](const NearPhotons& near) { unpack(there, near, visit); };
   struct Group {
     uint32_t begin, end;  // of `met`
   };

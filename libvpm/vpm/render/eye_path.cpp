@@ -27,7 +27,13 @@ struct Branch {
   float radiance_scale = 1.0f;  // the product of Scatter::radiance_scale
   float asks = 1.0f;            // the weight of what estimators find; 0: they are not asked
   int events = 0;               // so far
+  Vec3 start{0.0f};             // the normal of what the ray left last, on the side that it is on; 0: the camera
 };
+
+/// The normal of what was hit, on the side that a direction leads to.
+Vec3 towards(const Hit& hit, const Vec3& direction) {
+  return glm::dot(hit.normal, direction) < 0.0f ? -hit.normal : hit.normal;
+}
 
 class EyePath {
  public:
@@ -51,7 +57,7 @@ class EyePath {
     Ray& ray = at_.state.ray;
     while (at_.events < c_.max_events) {
       const Encounter met = meet(c_.scene, ray, kInfinity, at_.state.medium, work_.counters.walk);
-      cross({0.0f, met ? met.hits[0].t : kInfinity});
+      cross({0.0f, met ? met.hits[0].t : kInfinity}, met ? towards(met.hits[0], -ray.direction) : Vec3(0.0f));
       if (is_black(at_.state.throughput)) return;
       if (!met) return see_environment();
       const Hit& hit = met.hits[0];
@@ -59,6 +65,7 @@ class EyePath {
       see_emitter(hit);
       if (is_boundary(material)) {  // no event
         cross_boundaries(c_.scene, met, ray, at_.state.medium, work_.counters.walk);
+        at_.start = towards(hit, ray.direction);
         continue;
       }
       if (is_rough(material)) return see_surface(hit, material);
@@ -71,9 +78,10 @@ class EyePath {
   /// What radiance counts for that arrives at the present place.
   Rgb seen() const { return at_.state.throughput * at_.radiance_scale; }
 
-  /// Adds what media scatter towards the eye along the segment, and attenuates by it.
-  void cross(const Interval& interval) {
-    const EyeSegment segment(c_.scene, at_.state.ray, interval, at_.state.medium, seen());
+  /// Adds what media scatter towards the eye along the segment, which ends at a surface of the normal `end`, and
+  /// attenuates by it.
+  void cross(const Interval& interval, const Vec3& end) {
+    const EyeSegment segment(c_.scene, at_.state.ray, interval, at_.state.medium, seen(), {at_.start, end});
     const uint64_t used = work_.counters.gather.used;
     if (at_.asks > 0.0f)
       for (const auto& estimator : c_.estimators.volume) radiance_ += Rgb(at_.asks) * estimator->along(segment, work_);
@@ -110,6 +118,7 @@ class EyePath {
     Scatter scatter;
     if (!scatter_at_surface(c_.scene, hit, at_.state, work_.rng, scatter)) return false;
     at_.radiance_scale *= scatter.radiance_scale;
+    at_.start = towards(hit, at_.state.ray.direction);
     return true;
   }
 
@@ -131,6 +140,7 @@ class EyePath {
     if (fraction < kAlwaysAsks)
       branch.asks *= work_.rng.uniform() * kAlwaysAsks < fraction ? kAlwaysAsks / fraction : 0.0f;
     leave_along(c_.scene, hit, scatter, branch.state);
+    branch.start = towards(hit, branch.state.ray.direction);
     return branch;
   }
 

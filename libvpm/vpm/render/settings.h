@@ -65,9 +65,9 @@ struct RenderSettings {
   DistanceSettings distance;            // how photons fly
   TransmittanceSettings transmittance;  // towards lights
 
-  AskedGather volume;             // volumetric radiance estimate
-  AskedGather surface;            // surface radiance estimate
-  AskedGather caustics;           // estimate from the caustic map, under final gathering
+  AskedGather volume{.boundary = BoundaryRule::ends};  // volumetric radiance estimate
+  AskedGather surface;                                 // surface radiance estimate
+  AskedGather caustics;                                // estimate from the caustic map, under final gathering
   uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
                                   // what the other photons bring
   RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode

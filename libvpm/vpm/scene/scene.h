@@ -86,6 +86,7 @@ MediumId medium_after(const Scene& scene, const Encounter& met, const Vec3& dire
 /// What a shape of that material is to rays, for Geometry::add().
 inline Layer layer_of(const Shape& shape, const Material& material) {
   if (is_boundary(material)) return Layer::boundary;
+  if (is_dielectric(material)) return shape.separates_media ? Layer::interface : Layer::pane;
   return shape.separates_media ? Layer::dividing_surface : Layer::surface;
 }
 

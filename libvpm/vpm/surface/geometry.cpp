@@ -25,7 +25,8 @@ static_assert(sizeof(Vec3) == 3 * sizeof(float) && sizeof(glm::uvec3) == 3 * siz
 
 namespace {
 
-constexpr uint32_t kAllLayers = ~0u;
+constexpr uint32_t bit(Layer layer) { return static_cast<uint32_t>(layer); }
+constexpr uint32_t kAllLayers = ~0u, kOpaque = bit(Layer::surface) | bit(Layer::dividing_surface);
 using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
 
 double first_meeting(const SphereShape& s, const Ray& ray, float t_min) { return intersect_sphere(s, ray, t_min); }
@@ -118,6 +119,7 @@ struct Geometry::Impl {
   std::vector<Box> bounds;
   std::vector<Layer> layers;
   float largest_boundary = 0.0f;  // diagonal of its box, m
+  float largest_opaque = 0.0f;    // the same of what light does not pass
   bool committed = false;
   std::atomic<int64_t> bytes{0};
   std::string error;
@@ -156,6 +158,7 @@ struct Geometry::Impl {
     const auto number = static_cast<uint32_t>(areas.size());
     layers.push_back(layer);
     if (layer == Layer::boundary) largest_boundary = std::max(largest_boundary, box.diagonal());
+    if ((bit(layer) & kOpaque) != 0) largest_opaque = std::max(largest_opaque, box.diagonal());
     rtcSetGeometryMask(geometry, static_cast<uint32_t>(layer));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, number);
@@ -230,7 +233,7 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
 }
 
 std::optional<Hit> Geometry::intersect_surface(const Ray& ray, float t_max) const {
-  return intersect(ray, t_max, kAllLayers & ~static_cast<uint32_t>(Layer::boundary), {});
+  return intersect(ray, t_max, kAllLayers & ~bit(Layer::boundary), {});
 }
 
 bool Geometry::is_near(const Vec3& point, float radius) const {
@@ -253,6 +256,7 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
     if (hit->t - coincidence(*hit, ray.direction) > beyond) break;
     found.hits[found.count++] = *hit;
     if (impl_->layers[hit->shape] != Layer::boundary) {
+      if (const std::optional<Hit> behind = in_contact(ray, t_max, *hit)) found.hits[found.count - 1] = *behind;
       found.surface = true;
       found.hits[found.count - 1].t = found.hits[0].t;  // rounding may have put it behind the boundaries
       std::swap(found.hits[0], found.hits[found.count - 1]);
@@ -265,9 +269,18 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
   return found;
 }
 
+/// The opaque surface that coincides with a dielectric; nothing where there is none, or where the hit is of another
+/// kind.
+std::optional<Hit> Geometry::in_contact(const Ray& ray, float t_max, const Hit& dielectric) const {
+  if ((bit(impl_->layers[dielectric.shape]) & kOpaque) != 0) return std::nullopt;
+  const float reach = dielectric.t + coincidence(dielectric, ray.direction);
+  const float margin = 0x1p-18f * impl_->largest_opaque;
+  const std::optional<Hit> hit = intersect(ray, std::min(t_max, reach + margin), kOpaque, {});
+  return hit && hit->t - coincidence(*hit, ray.direction) <= reach ? hit : std::nullopt;
+}
+
 Encounter Geometry::division(const Ray& ray) const {
-  constexpr uint32_t kBetweenMedia =
-      static_cast<uint32_t>(Layer::dividing_surface) | static_cast<uint32_t>(Layer::boundary);
+  constexpr uint32_t kBetweenMedia = bit(Layer::dividing_surface) | bit(Layer::interface) | bit(Layer::boundary);
   return faces(ray, kBetweenMedia);
 }
 

@@ -45,8 +45,9 @@ struct Hit {
 };
 
 /// How a shape acts on a ray. `surface` scatters light and has the same medium on both sides. `dividing_surface`
-/// scatters light and has different media on its two sides. `boundary` lies between media, and light passes it.
-enum class Layer : uint32_t { surface = 1, dividing_surface = 2, boundary = 4 };
+/// scatters light and has different media on its two sides. `boundary` lies between media, and light passes it. `pane`
+/// and `interface` are a surface and a dividing surface of a dielectric: part of the light goes through.
+enum class Layer : uint32_t { surface = 1, dividing_surface = 2, boundary = 4, pane = 8, interface = 16 };
 
 /// The hits of a ray at one place; none if the ray meets nothing. Boundaries are in the order of distance. A surface
 /// that coincides with them comes first.
@@ -86,7 +87,9 @@ class Geometry {
   bool is_near(const Vec3& point, float radius) const;
 
   /// What the ray meets at one place: the nearest hit and, if that is a boundary, all others within the distance by
-  /// which the ray is moved off it. A surface among them stops the ray, so that smoke can stand on a floor.
+  /// which the ray is moved off it. A surface among them stops the ray, so that smoke can stand on a floor. Where a
+  /// dielectric coincides with another surface they are in optical contact: that surface is met from within the
+  /// dielectric, whose own face there is none. So glass can stand on a table.
   Encounter encounter(const Ray& ray, float t_max = kInfinity) const;
   /// The same, but only of shapes between media, and none of them stops the ray: for finding out which medium is where.
   Encounter division(const Ray& ray) const;
@@ -115,6 +118,7 @@ class Geometry {
  private:
   struct Impl;
   std::optional<Hit> intersect(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const;
+  std::optional<Hit> in_contact(const Ray& ray, float t_max, const Hit& dielectric) const;
   Encounter faces(const Ray& ray, uint32_t layers) const;
 
   std::unique_ptr<Impl> impl_;

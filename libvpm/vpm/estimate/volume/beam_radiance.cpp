@@ -1,26 +1,36 @@
 // Photons near rays, and the transmittance from their projections onto the ray to the eye.
 #include "vpm/estimate/volume/beam_radiance.h"
 
-#include "vpm/base/exp_negative.h"
 #include "vpm/photon/stored_power.h"
 
 namespace vpm {
 namespace {
 
-/// transmittance() of a finite density integral, as quick as photons along a ray need it: off by 1e-7 of the optical
-/// thickness.
-inline Rgb beam_transmittance(const Rgb& sigma_t, float integral) {
-  const Rgb optical = sigma_t * integral;
-  return {exp_negative(-optical.r), exp_negative(-optical.g), exp_negative(-optical.b)};
+/// beam_transmittance() along a ray through a homogeneous medium.
+void pass_homogeneous(const Rgb& sigma_t, const Mirrored& mirrored, std::span<const float> distances, Passed& passed) {
+  const auto [t0, t1] = mirrored;
+  if (is_grey(sigma_t)) {
+    const float sigma = sigma_t.r;
+    for (size_t i = 0; i < distances.size(); ++i)
+      passed.r[i] = passed.g[i] = passed.b[i] = exp_negative(-sigma * (Mirrored{t0, t1}(distances[i]) - t0));
+    return;
+  }
+  const Rgb sigma = sigma_t;
+  for (size_t i = 0; i < distances.size(); ++i) {
+    const Rgb kept = beam_transmittance(sigma, Mirrored{t0, t1}(distances[i]) - t0);
+    passed.r[i] = kept.r;
+    passed.g[i] = kept.g;
+    passed.b[i] = kept.b;
+  }
 }
 
 /// beam_transmittance() from places on a ray through a grid; times the relative density there, for the density at the
 /// query.
-void pass_grid(const DensityIntegralsAlong& integrals, const Medium& medium, VolumeForm form,
+void pass_grid(const DensityIntegralsAlong& integrals, const Medium& medium, VolumeForm form, const Mirrored& mirrored,
                std::span<const float> distances, Passed& passed) {
   float integral[PhotonBatch::kMost], density[PhotonBatch::kMost];
   for (size_t i = 0; i < distances.size(); ++i) {
-    const DensityIntegralsAlong::Place place = integrals.at(distances[i]);
+    const DensityIntegralsAlong::Place place = integrals.at(mirrored(distances[i]));
     integral[i] = static_cast<float>(place.integral);
     density[i] =
         form == VolumeForm::density_at_query ? relative_density(medium, static_cast<float>(place.density)) : 1.0f;
@@ -48,36 +58,34 @@ void BeamRadiance::build(uint64_t emitted, RenderStatistics& statistics) {
 }
 
 KernelEstimate BeamRadiance::along(const EyeSegment& segment, EyeWork& work) const {
-  const bool at_query = maps_.settings().form == VolumeForm::density_at_query;
-  KernelEstimate radiance;
-  for (size_t m = 0; m < maps_.size(); ++m) {
-    const BeamMap& map = maps_[m];
-    if (map.photons.size() == 0 || (at_query && &scene_.media[m] != segment.medium())) continue;
-    const Interval near = clip(segment.ray, segment.interval, map.photons.bounds(), map.settings.radius);
-    if (!near.empty()) radiance += gather(segment, near, m, work);
-  }
-  return radiance;
+  if (!segment.medium()) return {};
+  const BeamMap& map = maps_[segment.number];
+  if (map.photons.size() == 0) return {};
+  const SegmentRegion region(segment, map.settings, Spread::discs);
+  const Interval near = clip(segment.ray, region.reach(), map.photons.bounds(), map.settings.radius);
+  return near.empty() ? KernelEstimate() : gather(segment, region, near, work);
 }
 
-/// From the photons of one medium that are near an interval of the segment.
-KernelEstimate BeamRadiance::gather(const EyeSegment& segment, const Interval& near, size_t number,
+/// From the photons near an interval of the ray.
+KernelEstimate BeamRadiance::gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
                                     EyeWork& work) const {
-  const Medium& medium = scene_.media[number];
-  const Medium* around = segment.medium();
+  const Medium& medium = *segment.medium();
   const VolumeForm form = maps_.settings().form;
-  const Rgb factor = segment.throughput * source_factor(medium);
-  GatherCounters& counters = work.counters.gather;
+  const Mirrored mirrored = region.mirrored();
+  const BesideRay there(segment.ray, near, region.within(), region.distances());
+  const DensityIntegralsAlong* integrals = medium.homogeneous() ? nullptr : &segment.integrals(work);
   count(work.counters.volume_queries);
-  if (!around || around->homogeneous()) {  // of density 1
-    const Rgb sigma_t = around ? around->sigma_t : Rgb(0.0f);
-    const auto passed = each_distance([&](float t) { return beam_transmittance(sigma_t, t - segment.interval.t0); });
-    return factor * beam_sum(medium.phase, segment.ray, near, passed, maps_[number], counters);
-  }
-  const DensityIntegralsAlong& integrals = segment.integrals(work);
   const auto passed = [&](std::span<const float> distances, Passed& into) {
-    pass_grid(integrals, *around, form, distances, into);
+    if (integrals)
+      pass_grid(*integrals, medium, form, mirrored, distances, into);
+    else
+      pass_homogeneous(medium.sigma_t, mirrored, distances, into);
   };
-  return factor * beam_sum(medium.phase, segment.ray, near, passed, maps_[number], counters);
+  const BeamSum found = beam_sum(medium.phase, there, passed, maps_[segment.number], work.counters.gather);
+  const KernelEstimate light = segment.throughput * source_factor(medium) * found.sum;
+  if (region.whole() || found.radius == 0.0f) return light;
+  const SeenAlong seen(medium.sigma_t, segment.interval, integrals);
+  return over_share(light, region.share(found.radius, seen), work.counters.gather);
 }
 
 }  // namespace vpm

@@ -4,15 +4,15 @@
 #include <span>
 
 #include "vpm/estimate/beam_estimate.h"
+#include "vpm/estimate/segment_region.h"
 #include "vpm/estimate/volume/volume_maps.h"
 
 namespace vpm {
 
-/// With the density at the query, it gathers photons of the medium that the ray is in; with the density at the photon,
-/// those of all media. The kernel is over discs perpendicular to the ray. Nothing is corrected at borders.
+/// Gathers photons of the medium that the segment is in, over discs perpendicular to the ray.
 class BeamRadiance final : public VolumeEstimator {
  public:
-  BeamRadiance(const Scene& scene, const VolumeMapSettings& settings) : scene_(scene), maps_(scene, settings, 2) {}
+  BeamRadiance(const Scene& scene, const VolumeMapSettings& settings) : maps_(scene, settings, 2) {}
 
   ScatteredLight finds() const override { return maps_.finds(); }
   std::vector<MapInfo> maps() const override { return maps_.maps(); }
@@ -21,9 +21,9 @@ class BeamRadiance final : public VolumeEstimator {
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
 
  private:
-  KernelEstimate gather(const EyeSegment& segment, const Interval& near, size_t medium, EyeWork& work) const;
+  KernelEstimate gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
+                        EyeWork& work) const;
 
-  const Scene& scene_;
   VolumeMaps<BeamMap> maps_;
 };
 

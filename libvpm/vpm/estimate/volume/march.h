@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "vpm/base/count.h"
@@ -80,14 +81,16 @@ struct SeenThrough {
 };
 
 /// Cuts the interval, which must be finite, into equal parts of at most `length` m, and calls add(point, weight) for a
-/// point drawn uniformly in each. The sum of weight * f(point) estimates the integral of Tr f over the interval.
-template <class Add>
-void march_evenly(const SeenThrough& seen, const Interval& interval, float length, Rng& rng, Add&& add) {
+/// point drawn uniformly in each. The sum of weight * f(point) estimates the integral of Tr f over the interval, with
+/// the transmittance to seen_at(t) for the distance t, m.
+template <class Add, class SeenAt = std::identity>
+void march_evenly(const SeenThrough& seen, const Interval& interval, float length, Rng& rng, Add&& add,
+                  SeenAt&& seen_at = {}) {
   const auto strata = static_cast<uint32_t>(std::max(1.0f, std::ceil(interval.length() / length)));
   const double width = static_cast<double>(interval.length()) / strata;
   double t = interval.t0 + rng.uniform_double() * width;
   for (uint32_t next = 0; next < strata;) {
-    const auto integral = static_cast<float>(seen.integrals.at(t).integral);
+    const auto integral = static_cast<float>(seen.integrals.at(seen_at(t)).integral);
     add(seen.ray.at(static_cast<float>(t)), glm::exp(-seen.sigma_t * integral) * static_cast<float>(width));
     t = interval.t0 + (++next + rng.uniform_double()) * width;
   }

@@ -15,44 +15,95 @@ class MarchedLight::March {
       : light_(light), segment_(segment), work_(work), throughput_(segment.throughput) {}
 
   KernelEstimate whole() {
-    std::array<float, 2 * kMostSources + 2> cuts{segment_.interval.t0, segment_.interval.t1};
+    const auto [t0, t1] = segment_.interval;
+    std::array<float, 2 * kMostSources + 2> cuts{t0, t1};
     size_t number = 2;
     for (size_t i = 0; i < light_.sources_.size(); ++i) {
-      reaches_[i] = light_.sources_[i]->reach(segment_);
-      if (reaches_[i].interval.empty()) continue;
-      cuts[number++] = reaches_[i].interval.t0;
-      cuts[number++] = reaches_[i].interval.t1;
+      found_[i].emplace(Found{light_.sources_[i]->reach(segment_)});
+      const Interval& reach = found_[i]->reach.interval;
+      if (reach.empty()) continue;
+      cuts[number++] = std::clamp(reach.t0, t0, t1);
+      cuts[number++] = std::clamp(reach.t1, t0, t1);
     }
     std::sort(cuts.begin(), cuts.begin() + static_cast<std::ptrdiff_t>(number));
     for (size_t i = 1; i < number; ++i) part({cuts[i - 1], cuts[i]});
     segment_.set_integral(integral_);
-    return radiance_;
+    KernelEstimate radiance;
+    for (size_t i = 0; i < light_.sources_.size(); ++i) radiance += past_ends_and_shared(i);
+    return radiance;
   }
 
  private:
+  /// What is found of a source.
+  struct Found {
+    MarchedSource::Reach reach;
+    KernelEstimate radiance{};
+  };
+
   /// Adds what is scattered along a part of the segment, and attenuates by it.
   void part(const Interval& interval) {
     if (interval.empty() || is_black(throughput_)) return;
     const Medium& medium = *segment_.medium();
-    StepLimits limits{kInfinity, light_.max_optical_step_, glm::greaterThan(throughput_ * medium.sigma_s, Rgb(0.0f))};
-    std::array<const MarchedSource*, kMostSources> asked;
+    StepLimits limits = limits_of(throughput_);
+    std::array<size_t, kMostSources> asked;
     size_t number = 0;
     for (size_t i = 0; i < light_.sources_.size(); ++i) {
-      const auto& [reach, step] = reaches_[i];
+      const auto& [reach, step, points] = found_[i]->reach;
       if (reach.t0 > interval.t0 || reach.t1 < interval.t1) continue;
       limits.length = std::min(limits.length, step);
-      asked[number++] = light_.sources_[i].get();
+      asked[number++] = i;
     }
     if (number == 0) return attenuate(counted_density_integral(medium, segment_.ray, interval, work_.counters.walk));
-    const float densest = medium.max_density();  // weights are those of relative densities
     const auto add = [&](const Vec3& point, const Rgb& weight) {
-      const Rgb seen = throughput_ * (weight / densest);
-      for (size_t i = 0; i < number; ++i) radiance_ += seen * asked[i]->at(segment_, point, work_);
+      for (size_t i = 0; i < number; ++i) add_point(asked[i], point, throughput_ * weight);
     };
-    const Marched marched = work_.scratch.marcher.march(medium, segment_.ray, interval, limits, work_.rng, add);
+    attenuate(march(interval, limits, add).integral);
+  }
+
+  /// Adds what a source finds past the segment's ends, where the eye sees as far as to the mirrored places, and
+  /// corrects the light of the source.
+  KernelEstimate past_ends_and_shared(size_t i) {
+    Found& found = *found_[i];
+    if (!found.reach.points) return found.radiance;
+    found.radiance += segment_.throughput * light_.sources_[i]->evenly(segment_, found.reach, work_);
+    if (found.reach.interval.empty()) return found.reach.points->over_share(found.radiance, work_);
+    const auto [t0, t1] = segment_.interval;
+    const Mirrored mirror = found.reach.points->mirrored();
+    if (found.reach.interval.t0 < t0) past_end(i, {t0, mirror(found.reach.interval.t0)}, t0, segment_.throughput);
+    if (found.reach.interval.t1 > t1) {
+      const float from = mirror(found.reach.interval.t1);
+      const double before = counted_density_integral(*segment_.medium(), segment_.ray, {t0, from}, work_.counters.walk);
+      past_end(i, {from, t1}, t1, segment_.throughput * transmittance(*segment_.medium(), before));
+    }
+    return found.reach.points->over_share(found.radiance, work_);
+  }
+
+  /// Adds what a source finds at the places that mirror an interval of the segment at its end.
+  void past_end(size_t i, const Interval& mirrored, float end, const Rgb& throughput) {
+    StepLimits limits = limits_of(throughput);
+    limits.length = found_[i]->reach.step;
+    const Vec3 twice_end = 2.0f * segment_.ray.at(end);
+    march(mirrored, limits,
+          [&](const Vec3& point, const Rgb& weight) { add_point(i, twice_end - point, throughput * weight); });
+  }
+
+  StepLimits limits_of(const Rgb& throughput) const {
+    return {kInfinity, light_.max_optical_step_, glm::greaterThan(throughput * segment_.medium()->sigma_s, Rgb(0.0f))};
+  }
+
+  /// `seen` is the weight of the point times the throughput at the start of the march.
+  void add_point(size_t i, const Vec3& point, const Rgb& seen) {
+    const float densest = segment_.medium()->max_density();  // weights are those of relative densities
+    found_[i]->radiance += seen / densest * light_.sources_[i]->at(segment_, found_[i]->reach, point, work_);
+  }
+
+  template <class Add>
+  Marched march(const Interval& interval, const StepLimits& limits, Add&& add) {
+    const Marched marched =
+        work_.scratch.marcher.march(*segment_.medium(), segment_.ray, interval, limits, work_.rng, add);
     count(work_.counters.steps, marched.steps);
     count(work_.counters.walk.lookups, marched.lookups);
-    attenuate(marched.integral);
+    return marched;
   }
 
   void attenuate(double integral) {
@@ -63,10 +114,9 @@ class MarchedLight::March {
   const MarchedLight& light_;
   const EyeSegment& segment_;
   EyeWork& work_;
-  std::array<MarchedSource::Reach, kMostSources> reaches_;
+  std::array<std::optional<Found>, kMostSources> found_;  // of the sources that there are
   Rgb throughput_;
   double integral_ = 0.0;  // m, so far
-  KernelEstimate radiance_;
 };
 
 MarchedLight::MarchedLight(std::vector<std::unique_ptr<MarchedSource>> sources, float max_optical_step)

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "vpm/estimate/volume/estimator.h"
+#include "vpm/estimate/volume/points_of_segment.h"
 
 namespace vpm {
 
@@ -16,12 +17,15 @@ class MarchedSource : public Estimator {
   struct Reach {
     Interval interval;
     float step = kInfinity;
+    std::optional<PointsOfSegment> points;  // of sources that sum over photons; may reach past the segment's ends
   };
   virtual ScatteredLight finds() const = 0;
   virtual Reach reach(const EyeSegment& segment) const = 0;
-  /// The source of radiance towards the eye at a point of the segment, divided by the relative density there (see
-  /// relative_density()), W/(m^3 sr).
-  virtual KernelEstimate at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const = 0;
+  /// The light that the source finds by a march of its own, over the throughput, W/(m^2 sr).
+  virtual KernelEstimate evenly(const EyeSegment&, const Reach&, EyeWork&) const { return {}; }
+  /// The source of radiance towards the eye at a point within the reach, divided by the relative density there (see
+  /// relative_density()), W/(m^3 sr). Past the segment's ends the density is that at the mirrored place.
+  virtual KernelEstimate at(const EyeSegment& segment, const Reach& reach, const Vec3& point, EyeWork& work) const = 0;
 };
 
 /// Several sources, asked at the same points.

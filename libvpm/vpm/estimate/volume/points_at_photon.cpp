@@ -1,7 +1,7 @@
 // Even steps among photons.
 #include "vpm/estimate/volume/points_at_photon.h"
 
-#include "vpm/estimate/volume_estimate.h"
+#include "vpm/estimate/volume/points_of_segment.h"
 #include "vpm/photon/stored_power.h"
 
 namespace vpm {
@@ -14,23 +14,12 @@ void PointsAtPhoton::build(uint64_t emitted, RenderStatistics& statistics) {
 }
 
 KernelEstimate PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) const {
-  KernelEstimate radiance;
-  for (size_t m = 0; m < maps_.size(); ++m) {
-    const PhotonMap& map = maps_[m];
-    const Interval near = clip(segment.ray, segment.interval, map.bounds(), map.settings.radius);
-    if (map.size() == 0 || near.empty()) continue;
-    const Medium& medium = scene_.media[m];
-    const Rgb factor = segment.throughput * source_factor(medium);
-    const auto add = [&](const Vec3& point, const Rgb& weight) {
-      count(work.counters.volume_queries);
-      radiance +=
-          factor * weight * volume_sum(medium.phase, point, -segment.ray.direction, CountedMap{map, work.gather()});
-    };
-    const SeenThrough seen{segment.ray, segment.integrals(work),
-                           segment.medium() ? segment.medium()->sigma_t : Rgb(0.0f)};
-    march_evenly(seen, near, step_among(map, near), work.rng, add);
-  }
-  return radiance;
+  if (!segment.medium()) return {};
+  const PhotonMap& map = maps_[segment.number];
+  if (map.size() == 0) return {};
+  const PointsOfSegment points(segment, map, maps_.settings().form);
+  const Rgb factor = segment.throughput * source_factor(*segment.medium());
+  return points.over_share(factor * points.march_evenly(work), work);
 }
 
 }  // namespace vpm

@@ -1,17 +1,16 @@
-// The volumetric radiance estimate with the density at the photon: photons of any medium count wherever they lie within
-// the radius of the ray, also where the ray itself is in empty space or outside the medium [Jarosz2008, eq. 7.10,
-// corrected].
+// The volumetric radiance estimate with the density at the photon, among the photons of the medium that the ray is in,
+// also where its density is 0 [Jarosz2008, eq. 7.10, corrected].
 #pragma once
 
 #include "vpm/estimate/volume/volume_maps.h"
 
 namespace vpm {
 
-/// Marches evenly among the photons of each medium.
+/// Marches evenly among the photons.
 class PointsAtPhoton final : public VolumeEstimator {
  public:
-  /// The gather is around points, and does not correct borders.
-  PointsAtPhoton(const Scene& scene, const VolumeMapSettings& settings) : scene_(scene), maps_(scene, settings, 3) {}
+  /// The gather is around points.
+  PointsAtPhoton(const Scene& scene, const VolumeMapSettings& settings) : maps_(scene, settings, 3) {}
 
   ScatteredLight finds() const override { return maps_.finds(); }
   std::vector<MapInfo> maps() const override { return maps_.maps(); }
@@ -20,7 +19,6 @@ class PointsAtPhoton final : public VolumeEstimator {
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
 
  private:
-  const Scene& scene_;
   VolumeMaps<PhotonMap> maps_;
 };
 

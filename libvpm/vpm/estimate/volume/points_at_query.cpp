@@ -1,8 +1,6 @@
 // Sums over photons around points of the ray's own medium.
 #include "vpm/estimate/volume/points_at_query.h"
 
-#include "vpm/estimate/volume_estimate.h"
-#include "vpm/estimate/volume_region.h"
 #include "vpm/photon/stored_power.h"
 
 namespace vpm {
@@ -16,21 +14,22 @@ void PointsAtQuery::build(uint64_t emitted, RenderStatistics& statistics) {
 
 MarchedSource::Reach PointsAtQuery::reach(const EyeSegment& segment) const {
   const PhotonMap& map = maps_[segment.number];
-  if (map.size() == 0) return {{segment.interval.t1, segment.interval.t1}};
-  const Interval near = clip(segment.ray, segment.interval, map.bounds(), map.settings.radius);
-  return {near, step_among(map, near)};
+  if (map.size() == 0) return {{0.0f, 0.0f}, kInfinity, std::nullopt};
+  Reach reach{{0.0f, 0.0f}, kInfinity, PointsOfSegment(segment, map, VolumeForm::density_at_query)};
+  if (reach.points->seen_one_by_one()) return reach;
+  reach.interval = reach.points->reach();
+  reach.step = step_among(map, reach.interval);
+  return reach;
 }
 
-KernelEstimate PointsAtQuery::at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const {
-  const Medium& medium = *segment.medium();
-  const PhotonMap& map = maps_[segment.number];
-  const Vec3 towards_eye = -segment.ray.direction;
-  const Rgb factor = source_factor(medium);
-  count(work.counters.volume_queries);
-  if (map.settings.boundary == BoundaryRule::none)
-    return factor * volume_sum(medium.phase, point, towards_eye, CountedMap{map, work.gather()});
-  const VolumeRegion region(scene_, segment.number, point, map.settings.kernel);
-  return factor * volume_sum(medium.phase, point, towards_eye, BoundedMap{map, region, work.gather()});
+KernelEstimate PointsAtQuery::evenly(const EyeSegment& segment, const Reach& reach, EyeWork& work) const {
+  if (!reach.points || !reach.points->seen_one_by_one()) return {};
+  return source_factor(*segment.medium()) * reach.points->march_evenly(work);
+}
+
+KernelEstimate PointsAtQuery::at(const EyeSegment& segment, const Reach& reach, const Vec3& point,
+                                 EyeWork& work) const {
+  return source_factor(*segment.medium()) * reach.points->sum(point, work);
 }
 
 }  // namespace vpm

@@ -7,21 +7,21 @@
 
 namespace vpm {
 
-/// Photons around a point, by radius or by count, with or without the correction at borders.
+/// Photons around a point, by radius or by count.
 class PointsAtQuery final : public MarchedSource {
  public:
   /// The gather is around points.
-  PointsAtQuery(const Scene& scene, const VolumeMapSettings& settings) : scene_(scene), maps_(scene, settings, 3) {}
+  PointsAtQuery(const Scene& scene, const VolumeMapSettings& settings) : maps_(scene, settings, 3) {}
 
   ScatteredLight finds() const override { return maps_.finds(); }
   std::vector<MapInfo> maps() const override { return maps_.maps(); }
   Recorders recorders() override { return maps_.recorders(); }
   void build(uint64_t emitted, RenderStatistics& statistics) override;
   Reach reach(const EyeSegment& segment) const override;
-  KernelEstimate at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const override;
+  KernelEstimate evenly(const EyeSegment& segment, const Reach& reach, EyeWork& work) const override;
+  KernelEstimate at(const EyeSegment& segment, const Reach& reach, const Vec3& point, EyeWork& work) const override;
 
  private:
-  const Scene& scene_;
   VolumeMaps<PhotonMap> maps_;
 };
 

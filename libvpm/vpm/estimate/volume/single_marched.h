@@ -13,8 +13,8 @@ class SingleMarched final : public MarchedSource {
 
   ScatteredLight finds() const override { return {.once = true}; }
   /// Everywhere, in steps of optical thickness alone.
-  Reach reach(const EyeSegment& segment) const override { return {segment.interval}; }
-  KernelEstimate at(const EyeSegment& segment, const Vec3& point, EyeWork& work) const override {
+  Reach reach(const EyeSegment& segment) const override { return {segment.interval, kInfinity, std::nullopt}; }
+  KernelEstimate at(const EyeSegment& segment, const Reach&, const Vec3& point, EyeWork& work) const override {
     const Medium& medium = *segment.medium();
     return medium.sigma_s * medium.max_density() * light_.towards_eye(light_.pick(work.rng), segment, point, work);
   }

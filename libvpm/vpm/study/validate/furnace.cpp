@@ -252,7 +252,7 @@ std::vector<Check> check_sheet(const Effort& effort) {
 }
 
 /// The picture of a white medium in the box of the fields, gathered from a large radius up to where it ends.
-std::vector<Check> check_picture(const std::string& name, const Medium& medium, float radius, double bound,
+std::vector<Check> check_picture(const std::string& name, const Medium& medium, const AskedGather& gather, double bound,
                                  const Effort& effort) {
   Scene scene = lit_box("", medium).scene;
   scene.camera = make_camera(field_point({20, 17, 25}), field_point(Vec3d(0.0)), Vec3(0, 1, 0), 14.0f, {8, 8});
@@ -260,8 +260,7 @@ std::vector<Check> check_picture(const std::string& name, const Medium& medium, 
   settings.seed = effort.seed_of(name);
   settings.photons_emitted = 10'000;
   settings.radii = RadiusSchedule::constant;
-  settings.volume.radius = radius;
-  settings.volume.boundary = BoundaryRule::corrected;
+  settings.volume = gather;
   Moments means;
   uint64_t least_shares = 0;
   for (int pass = 0; pass < static_cast<int>(effort.count(24, 400)); ++pass) {
@@ -283,6 +282,13 @@ Medium ball_of_voxels() {
                       Rgb(1.5f), Isotropic{});
 }
 
+/// Fills the box, without a place of no density.
+Medium box_of_voxels() {
+  const GridFrame& voxels = test_fields()[2].grid->frame();
+  return white_medium(make_grid(voxels, [](int x, int y, int z) { return (x + y + z) & 1 ? 1.4 : 1.0; }), Rgb(1.5f),
+                      HenyeyGreenstein{0.5f});
+}
+
 std::vector<Check> check_borders(const Effort& effort) {
   const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
   const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
@@ -292,8 +298,17 @@ std::vector<Check> check_borders(const Effort& effort) {
   append(checks,
          check_border_of_medium(lit_box("near a corner of a box", white), field_point({6.4, 6.2, -6.5}), effort));
   append(checks, check_sheet(effort));
-  append(checks, check_picture("picture of a box", white, 0.6f, 0.005, effort));
-  append(checks, check_picture("picture of a ball of voxels", ball_of_voxels(), 0.4f, 0.01, effort));
+  const AskedGather each_ball{.radius = 0.6f, .boundary = BoundaryRule::corrected};
+  append(checks, check_picture("picture of a box", white, each_ball, 0.005, effort));
+  append(checks, check_picture("picture of a ball of voxels", ball_of_voxels(),
+                               {.radius = 0.4f, .boundary = BoundaryRule::corrected}, 0.01, effort));
+  for (const auto& [name, mode] : {std::pair("balls", GatherMode::radius), {"discs", GatherMode::beam}})
+    append(checks, check_picture(fmt::format("picture of a box, {} past ends of segments", name), white,
+                                 {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
+  const Medium voxels = box_of_voxels();
+  for (const auto& [name, mode] : {std::pair("balls", GatherMode::radius), {"discs", GatherMode::beam}})
+    append(checks, check_picture(fmt::format("picture of a box of voxels, {} past ends of segments", name), voxels,
+                                 {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
   return checks;
 }
 

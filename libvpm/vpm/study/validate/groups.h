@@ -31,6 +31,7 @@ std::vector<Experiment> pane_experiments();
 
 // Level 1.
 std::vector<Experiment> furnace_experiments();
+std::vector<Experiment> slanted_slab_experiments();
 std::vector<Experiment> convex_body_experiments();
 std::vector<Experiment> infinite_medium_experiments();
 std::vector<Experiment> balance_experiments();

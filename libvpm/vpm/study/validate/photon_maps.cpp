@@ -78,7 +78,7 @@ Rgb estimate_around_ray(KernelKind kernel, uint32_t count, Rng& rng) {
   const Ray ray{Vec3(0.1f, -0.05f, 1.0f), Vec3(0.0f, 0.0f, -1.0f)};
   const auto transmittance = [](float t) { return glm::exp(-kAttenuation * t); };
   GatherCounters counters;
-  return beam_sum(Isotropic{}, ray, {0.0f, 2.0f}, each_distance(transmittance), map, counters).value;
+  return beam_sum(Isotropic{}, {ray, {0.0f, 2.0f}}, each_distance(transmittance), map, counters).sum.value;
 }
 
 /// The photons' density, 1/(8 m^3), times the integral of exp(-sigma t) over the 2 m of the cube, at 1/(4 pi) sr.

@@ -1,0 +1,151 @@
+// A ball about each point: as it is, cut by the planes of the segment's region, or in a region of its own.
+#include "vpm/estimate/volume/points_of_segment.h"
+
+#include <algorithm>
+
+#include "vpm/estimate/beam_estimate.h"
+#include "vpm/estimate/volume_estimate.h"
+#include "vpm/estimate/volume_region.h"
+
+namespace vpm {
+namespace {
+
+/// Is each ball corrected by itself? With radii that go by count a missing photon makes the next ball larger, so that
+/// balls beyond a border cannot make up for those before it.
+bool each_ball(const GatherSettings& gather) {
+  return gather.boundary == BoundaryRule::corrected ||
+         (gather.boundary == BoundaryRule::ends && gather.mode == GatherMode::nearest);
+}
+
+/// What the region of a segment goes by.
+GatherSettings of_segment(const GatherSettings& gather) {
+  GatherSettings settings = gather;
+  if (each_ball(gather)) settings.boundary = BoundaryRule::none;
+  return settings;
+}
+
+/// Photons have their own transmittances where it costs no look-ups in a grid.
+Spread spread_of(const EyeSegment& segment, const GatherSettings& gather) {
+  const bool at_ends = of_segment(gather).boundary == BoundaryRule::ends;
+  return at_ends && segment.medium()->homogeneous() ? Spread::balls_as_discs : Spread::balls;
+}
+
+}  // namespace
+
+PointsOfSegment::PointsOfSegment(const EyeSegment& segment, const PhotonMap& map, VolumeForm form)
+    : segment_(segment),
+      map_(map),
+      form_(form),
+      spread_(spread_of(segment, map.settings)),
+      region_(segment, of_segment(map.settings), spread_),
+      reach_(region_.reach()) {
+  const float radius = map.settings.radius;
+  if (seen_one_by_one()) reach_ = {reach_.t0 - radius, reach_.t1 + radius};
+  reach_ = clip(segment.ray, reach_, map.bounds(), radius);
+}
+
+KernelEstimate PointsOfSegment::sum(const Vec3& point, EyeWork& work) const {
+  count(work.counters.volume_queries);
+  const Phase& phase = segment_.medium()->phase;
+  const Vec3 towards_eye = -segment_.ray.direction;
+  if (each_ball(map_.settings)) {
+    const VolumeRegion region(segment_.scene, segment_.number, point, map_.settings.kernel, form_);
+    return volume_sum(phase, point, towards_eye, BoundedMap{map_, region, work.gather()});
+  }
+  const CountedMap map{map_, work.gather()};
+  const Vec3 from_origin = point - segment_.ray.origin;
+  if (region_.within().hold_ball(from_origin, map_.settings.radius)) return volume_sum(phase, point, towards_eye, map);
+  const auto within = [&](const PackedDirection&, const Vec3& offset) {
+    return region_.within().hold(from_origin + offset);
+  };
+  return volume_sum_of(within, phase, point, towards_eye, map);
+}
+
+/// The same sum, of photons that project into the region's reach; each times its own transmittance.
+KernelEstimate PointsOfSegment::sum_of_seen(const Vec3& point, EyeWork& work) const {
+  const Medium& medium = *segment_.medium();
+  const RadiusMap& map = std::get<RadiusMap>(map_.index);
+  const Ray& ray = segment_.ray;
+  const float radius = map_.settings.radius, inverse = 1.0f / (radius * radius);
+  const PlaneDistances distances = region_.distances();
+  const Mirrored mirrored = region_.mirrored();
+  const Rgb sigma_t = medium.sigma_t;
+  const Vec3 from_origin = point - ray.origin;
+  const auto accept = [&](const PackedDirection&, const Vec3& offset) {
+    const float t = glm::dot(from_origin + offset, ray.direction);
+    return t >= region_.reach().t0 && t < region_.reach().t1 && region_.within().hold(from_origin + offset);
+  };
+  GatherCounters& counters = work.counters.gather;
+  count(work.counters.volume_queries);
+  count(counters.searches);
+  const KernelKind kernel = map_.settings.kernel;
+  const auto sum = [&](const auto& phase, auto profile) {
+    KernelPair<Rgbd> sum_of_photons;
+    const auto visit = [&](NearPhotons& near) {
+      near.keep(map.photons(), point, accept);
+      counters.used += near.size();
+      if (near.size() == 0) return;
+      const PhotonBatch batch(map.photons(), near.photons(), near.distances2(), near.size());
+      float along[PhotonBatch::kMost] = {};  // m, from the segment's start
+      for (size_t i = 0; i < near.size(); ++i)
+        along[i] = distances.of(map.photons().position(near.photons()[i]) - ray.origin);
+      const auto weight = [&](size_t i) {
+        const KernelPair<float> spread = profile(batch.distance2(i) * inverse);
+        const Rgb kept = beam_transmittance(sigma_t, mirrored(along[i]) - mirrored.t0);
+        return KernelPair<Rgb>(kept * spread.value, kept * spread.correction);
+      };
+      sum_of_photons += sum_photons(batch, weight, [&](const Vec3& travel, const Rgb& power) {
+        return power * phase.value(travel, -ray.direction);
+      });
+    };
+    count(counters.visited, map.visit_near(point, radius, visit));
+    return normed(sum_of_photons, kernel_norm_3d(kernel, radius));
+  };
+  const auto by_kernel = [&](const auto& phase) {
+    return with_kernel<3>(kernel, [&](auto profile) { return sum(phase, profile); });
+  };
+  return std::visit(by_kernel, medium.phase);
+}
+
+/// Goes on by Russian roulette where less than 1 % of the light of the nearest photon comes to the eye.
+KernelEstimate PointsOfSegment::march_seen(EyeWork& work) const {
+  constexpr float kRouletteBelow = 0.01f;
+  const Rgb& sigma_t = segment_.medium()->sigma_t;
+  const float thinnest = std::min({sigma_t.r, sigma_t.g, sigma_t.b});
+  const PlaneDistances distances = region_.distances();
+  const float deeper = map_.settings.radius * glm::length(distances.slope);  // a point is, than photons around it
+  const float step = step_among(map_, reach_);
+  const auto strata = static_cast<uint32_t>(std::max(1.0f, std::ceil(reach_.length() / step)));
+  const float width = reach_.length() / static_cast<float>(strata);
+  KernelPair<Rgbd> sum;
+  float scale = width;  // of what survived roulette, m
+  for (uint32_t i = 0; i < strata && scale > 0.0f; ++i) {
+    const Vec3 point = segment_.ray.at(reach_.t0 + (static_cast<float>(i) + work.rng.uniform()) * width);
+    const KernelEstimate seen = sum_of_seen(point, work);
+    sum += {Rgbd(scale * seen.value), Rgbd(scale * seen.correction)};
+    const float passed = distances.of(point - segment_.ray.origin) - segment_.interval.t0 - deeper;
+    if (std::exp(-thinnest * passed) * scale < kRouletteBelow * width)
+      scale = work.rng.uniform() < 0.5f ? 2.0f * scale : 0.0f;
+  }
+  return {Rgb(sum.value), Rgb(sum.correction)};
+}
+
+KernelEstimate PointsOfSegment::march_evenly(EyeWork& work) const {
+  if (reach_.empty()) return {};
+  if (seen_one_by_one()) return march_seen(work);
+  KernelEstimate all;
+  const auto add = [&](const Vec3& point, const Rgb& weight) { all += weight * sum(point, work); };
+  const SeenThrough seen{segment_.ray, segment_.integrals(work), segment_.medium()->sigma_t};
+  vpm::march_evenly(seen, reach_, step_among(map_, reach_), work.rng, add,
+                    [mirrored = mirrored()](double t) { return mirrored(static_cast<float>(t)); });
+  return all;
+}
+
+KernelEstimate PointsOfSegment::over_share(const KernelEstimate& light, EyeWork& work) const {
+  if (region_.whole() || is_black(light.value)) return light;
+  const Medium& medium = *segment_.medium();
+  const SeenAlong seen(medium.sigma_t, segment_.interval, medium.homogeneous() ? nullptr : &segment_.integrals(work));
+  return vpm::over_share(light, region_.share(map_.settings.radius, seen), work.counters.gather);
+}
+
+}  // namespace vpm

@@ -1,0 +1,66 @@
+// Half spaces that bound where photons count.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "vpm/base/vec.h"
+
+namespace vpm {
+
+/// The places that lie in each of a few half spaces; all places where there are none.
+class HalfSpaces {
+ public:
+  static constexpr int kMost = 4;
+
+  /// Adds the places x with normal . x >= offset, in m. False where there is no room for another.
+  bool add(const Vec3& normal, float offset) {
+    if (count_ == kMost) return false;
+    normal_[count_] = normal;
+    offset_[count_++] = offset;
+    return true;
+  }
+  bool hold(const Vec3& place) const {
+    bool inside = true;
+    for (int i = 0; i < count_; ++i) inside &= glm::dot(normal_[i], place) >= offset_[i];
+    return inside;
+  }
+  /// Do all of the places lie in all of them?
+  bool hold_all(const float* x, const float* y, const float* z, size_t count) const {
+    uint32_t outside = 0;  // no branch, so that each loop compiles to vector instructions
+    for (int k = 0; k < count_; ++k) {
+      const Vec3 n = normal_[k];
+      const float least = offset_[k];
+      for (size_t i = 0; i < count; ++i) outside |= n.x * x[i] + n.y * y[i] + n.z * z[i] < least ? 1u : 0u;
+    }
+    return outside == 0;
+  }
+  /// Does a ball, of that radius about the place, lie in all of them?
+  bool hold_ball(const Vec3& place, float radius) const {
+    bool inside = true;
+    for (int i = 0; i < count_; ++i) inside &= glm::dot(normal_[i], place) - radius >= offset_[i];
+    return inside;
+  }
+  /// The part of an interval of a line that lies in all of them.
+  Interval clip(const Ray& line, Interval part) const {
+    for (int i = 0; i < count_; ++i) {
+      const float rise = glm::dot(normal_[i], line.direction);
+      const float depth = glm::dot(normal_[i], line.origin) - offset_[i];
+      if (rise > 0.0f)
+        part.t0 = std::max(part.t0, -depth / rise);
+      else if (rise < 0.0f)
+        part.t1 = std::min(part.t1, -depth / rise);
+      else if (depth < 0.0f)
+        part.t1 = part.t0;
+    }
+    return part;
+  }
+
+ private:
+  std::array<Vec3, kMost> normal_;
+  std::array<float, kMost> offset_;
+  int count_ = 0;
+};
+
+}  // namespace vpm
