@@ -1,9 +1,11 @@
-// The plan of estimators: light that two of them find is refused.
+// The plan of estimators: light that two of them find is refused, and photons are stored along flights where they may.
 #include "vpm/render/plan.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+
+#include "support/scenes.h"
 
 namespace vpm {
 namespace {
@@ -30,6 +32,27 @@ TEST(Plan, RefusesToCountLightTwice) {
   EXPECT_NO_THROW(apart({all}));
   EXPECT_THROW(apart({once, all}), std::logic_error);
   EXPECT_THROW(apart({more, once, more}), std::logic_error);
+}
+
+TEST(Plan, StoresPhotonsAlongFlightsThatAreDrawnByTheMedium) {
+  const auto grid = make_grid(centred_frame(4, 0.25), [](int x, int y, int z) { return lattice_noise(x, y, z); });
+  const Scene cloud = boxed_medium(make_medium(grid, Rgb(1.0f)), PointLight{});
+  const Scene fog = boxed_medium(make_medium(nullptr, Rgb(1.0f)), PointLight{});
+  const auto along_flights = [](const Scene& scene, const RenderSettings& settings) {
+    return plan_estimators(scene, settings, 0).recorders().at(0)->needs().flights;
+  };
+  RenderSettings settings;
+  for (const StrategyInfo& info : distance_strategies()) {
+    settings.distance.strategy = info.name;
+    EXPECT_EQ(along_flights(cloud, settings), info.bounded_weight) << info.name;
+    EXPECT_FALSE(along_flights(fog, settings)) << info.name;
+  }
+  settings = {};
+  settings.volume_form = VolumeForm::density_at_photon;
+  EXPECT_FALSE(along_flights(cloud, settings));
+  settings = {};
+  settings.density_floor = 0.0f;
+  EXPECT_FALSE(along_flights(cloud, settings));
 }
 
 }  // namespace

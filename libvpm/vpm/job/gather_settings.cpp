@@ -83,9 +83,10 @@ std::vector<Setting> declare_volume() {
       {.key = "volume.density_floor",
        .member = at<&S::density_floor>(),
        .domain = Numbers{kFraction},
-       .meaning = "for `density-at-query`: photons weigh 1/max(density, floor), the floor given as a fraction of the "
-                  "medium's largest density. Ends the bright specks; what is thinner than the floor scatters less, by "
-                  "density/floor"},
+       .meaning = "for `density-at-query`: where a grid's density is below this fraction of its largest (or of its "
+                  "mean, if that is less), photons are also stored along their flights, so that none weighs more than "
+                  "1/floor: no bright specks, and no bias. Not with `\"local-extinction\"` and "
+                  "`\"mean-extinction\"`, whose photons do not weigh 1/density. 0: at collisions alone"},
       {.key = "volume.direct",
        .member = at<&S::volume_direct>(),
        .domain = words_of<DirectLight>(),

@@ -16,6 +16,7 @@ struct Flying {
   PathState& state;
   Rng& rng;
   WalkCounters& counters;
+  std::vector<Track>* tracks;
   Event& event;
 
   bool pass(const Stretch& stretch) {
@@ -34,6 +35,7 @@ struct Flying {
     count(counters.bricks, flight.bricks);
     count(counters.null_collisions, flight.null_collisions);
     counters.majorant_violations += flight.majorant_violations;
+    if (tracks) tracks->push_back({state.ray, state.medium, flight.t, state.throughput});
     state.throughput *= flight.weight;
     if (!flight.collided) return false;
     state.ray.origin = state.ray.at(flight.t);
@@ -61,9 +63,9 @@ void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, Medium
 }
 
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
-                 WalkCounters& counters, float limit) {
+                 WalkCounters& counters, float limit, std::vector<Track>* tracks) {
   Event event;
-  Flying flying{scene, strategy, state, rng, counters, event};
+  Flying flying{scene, strategy, state, rng, counters, tracks, event};
   const std::optional<Hit> surface = each_stretch(scene, state.ray, state.medium, limit, counters, flying);
   if (!surface) return event;
   state.ray.origin = surface->position;

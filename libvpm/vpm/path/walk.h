@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "vpm/base/counters.h"
 #include "vpm/medium/distance/strategy.h"
@@ -14,6 +15,14 @@ struct PathState {
   Ray ray;
   MediumId medium = kVacuum;
   Rgb throughput{1.0f};  // of a path from the eye: dimensionless; of a photon: its power, W
+};
+
+/// The part of a flight that leads through one medium.
+struct Track {
+  Ray ray;
+  MediumId medium = kVacuum;
+  float length = 0.0f;   // m from the ray's origin
+  Rgb throughput{1.0f};  // of the path at the ray's origin
 };
 
 enum class EventKind { collision, surface, limit, escape };
@@ -57,9 +66,10 @@ void cross_boundaries(const Scene& scene, const Encounter& met, Ray& ray, Medium
 
 /// Flies to the next collision in a medium, to the next surface that is no boundary, or out of the scene. The flight
 /// passes any number of boundaries and is at most `limit` metres long, > 0. Multiplies the throughput by the weights
-/// that the distance strategy gives the flight.
+/// that the distance strategy gives the flight. Appends the parts of the flight that lead through media to `tracks`,
+/// unless that is null.
 Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState& state, Rng& rng,
-                 WalkCounters& counters, float limit = kInfinity);
+                 WalkCounters& counters, float limit = kInfinity, std::vector<Track>* tracks = nullptr);
 
 /// Russian roulette for paths whose weight (a magnitude >= 0: the throughput relative to that at the start) has become
 /// small by weighted strategies: such a path costs as much as one of large weight. If the weight is below 0.1, the path

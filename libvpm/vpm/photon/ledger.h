@@ -22,7 +22,7 @@ struct Ledger {
   WeightMoments weights;  // of photons: PathWeight of power over emitted power
   uint64_t collisions = 0;
   uint64_t surface_hits = 0;
-  uint64_t floored = 0;     // stored photons whose density was below the floor of stored_power()
+  uint64_t floored = 0;     // stored photons where the density is below the floor of stored_power()
   uint64_t non_finite = 0;  // photons dropped because their power was not finite
   WalkCounters walk;
 

@@ -9,7 +9,7 @@ namespace vpm {
 /// How photons are traced, and which of them are listed.
 struct ListSettings : TraceSettings {
   VolumeForm volume_form = VolumeForm::density_at_query;
-  float density_floor = 0.0f;                         // density at the query: see stored_power()
+  float density_floor = 0.0f;                         // density at the query: see CollisionRecorder
   bool direct_collisions = true, direct_hits = true;  // also list photons that have not scattered yet
 };
 

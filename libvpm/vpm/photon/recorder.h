@@ -44,9 +44,9 @@ class PhotonRecorder {
 
   /// A photon was emitted.
   virtual void emitted(uint64_t /*number*/) {}
-  /// A photon has flown in a straight line to an event of any kind. `from` is its state at the start of the flight,
-  /// with the power before it is multiplied by the weight of the flight.
-  virtual void flew(const PathState& /*from*/, const ArrivingPhoton&) {}
+  /// A photon has flown through a medium on its way to an event of any kind, or up to it. Called for each medium on the
+  /// way, before collided() and hit(), with the random numbers of the photon.
+  virtual void flew(const Track&, const ArrivingPhoton&, Rng&) {}
   /// A photon collides in a medium. Called before absorption or scattering is drawn.
   virtual void collided(const ArrivingPhoton&) {}
   /// A photon meets a surface that is not just a boundary between media. Called before it scatters there.

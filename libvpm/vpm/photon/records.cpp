@@ -1,7 +1,11 @@
 // What is kept of collisions and of hits.
 #include "vpm/photon/records.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "vpm/base/count.h"
+#include "vpm/medium/distance/mixture.h"
 #include "vpm/photon/stored_power.h"
 
 namespace vpm {
@@ -27,11 +31,20 @@ PhotonFilter caustic_photons(bool direct, bool specular) {
   });
 }
 
-CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter)
-    : photons(scene.media.size()), scene_(scene), form_(form), density_floor_(density_floor), filter_(filter) {}
+CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter,
+                                     bool where_empty)
+    : photons(scene.media.size()),
+      scene_(scene),
+      form_(form),
+      density_floor_(density_floor),
+      filter_(filter),
+      where_empty_(where_empty),
+      fills_(form == VolumeForm::density_at_query && density_floor > 0.0f &&
+             std::any_of(scene.media.begin(), scene.media.end(),
+                         [](const Medium& medium) { return medium.grid && medium.scatters(); })) {}
 
 std::unique_ptr<PhotonRecorder> CollisionRecorder::part() const {
-  return std::make_unique<CollisionRecorder>(scene_, form_, density_floor_, filter_);
+  return std::make_unique<CollisionRecorder>(scene_, form_, density_floor_, filter_, where_empty_);
 }
 
 void CollisionRecorder::join(PhotonRecorder& part) {
@@ -46,13 +59,48 @@ size_t CollisionRecorder::stored() const {
   return all;
 }
 
+// Candidates are evenly spaced, from a random place on, as many as collisions at the floor in the channel of the
+// largest extinction. Of these a fraction 1 - density/floor counts. Empty bricks have none.
+void CollisionRecorder::flew(const Track& track, const ArrivingPhoton& photon, Rng& rng) {
+  const Medium& medium = scene_.media[track.medium];
+  if (!medium.grid || !medium.scatters() || !filter_(photon)) return;
+  const float floor = floor_in(medium, density_floor_);
+  const double spacing = 1.0 / (double{floor} * max_channel(medium.majorant()));  // m
+  const double first = rng.uniform_double() * spacing;                            // m
+  if (!(first < track.length)) return;
+  medium.visit_majorants(track.ray, {0.0f, track.length}, [&](const DensityStretch& stretch) {
+    if (relative_density(medium, stretch.min) >= floor) return true;
+    for (double i = std::ceil((stretch.t0 - first) / spacing); first + i * spacing < stretch.t1; ++i) {
+      const double t = first + i * spacing;
+      const float density = relative_density(medium, stretch.density(t));
+      if (density == 0.0f && !where_empty_) continue;
+      if (rng.uniform() * floor >= density) store_along(track, t, floor);
+    }
+    return true;
+  });
+}
+
+/// Stores a photon on its flight, at the distance t in m, with the power that would collide there.
+void CollisionRecorder::store_along(const Track& track, double t, float floor) {
+  const Medium& medium = scene_.media[track.medium];
+  Rgb flux = track.throughput;
+  if (!is_grey(medium.sigma_t)) {
+    const double integral = density_integral(medium, track.ray, {0.0f, static_cast<float>(t)}).value;
+    flux *= analog_weight(medium, channel_shares(flux), integral, false) * medium.sigma_t / max_channel(medium.sigma_t);
+  }
+  count(floored);
+  photons[track.medium].push_back(
+      {track.ray.at(static_cast<float>(t)), PackedDirection(track.ray.direction), flux / floor});
+}
+
 void CollisionRecorder::collided(const ArrivingPhoton& photon) {
   const Medium& medium = scene_.media[photon.state.medium];
   if (!medium.scatters() || !filter_(photon)) return;
   const float density = relative_density(medium, photon.event.density);
-  if (form_ == VolumeForm::density_at_query && density < density_floor_) count(floored);
+  const float floor = floor_in(medium, density_floor_);
+  if (form_ == VolumeForm::density_at_query && density < floor) count(floored);
   photons[photon.state.medium].push_back(
-      as_photon(photon, stored_power(photon.state.throughput, form_, density, density_floor_)));
+      as_photon(photon, stored_power(photon.state.throughput, form_, density, floor)));
 }
 
 HitRecorder::HitRecorder(const Scene& scene, PhotonFilter filter, HitUse use)

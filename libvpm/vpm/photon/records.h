@@ -40,26 +40,39 @@ PhotonFilter caustic_photons(bool direct, bool specular);
 /// Records photons at their collisions in scattering media, before the choice between absorption and scattering. Their
 /// power is the power that collides; under VolumeForm::density_at_query it is divided by the density there
 /// (stored_power()).
+///
+/// Where a grid's density is below the floor, photons collide too seldom for that. There it also records photons along
+/// their flights: as many as are missing to the collisions that a medium of the floor's density would have. Each has
+/// the power of a collision there, over the floor. So the two estimates of fluence, by collisions and by the length of
+/// flights [Spanier1969], are combined by the balance heuristic [Veach1997, sec. 9.2]: powers are bounded, and their
+/// mean is what it is without a floor. Flights must be drawn from the medium's own transmittance.
 class CollisionRecorder : public PhotonRecorder {
  public:
-  /// `density_floor`, in [0, 1]: see stored_power().
-  CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter);
+  /// `density_floor`, in [0, 1]: relative to the medium's largest, see floor_in(). `where_empty`: photons are also
+  /// stored along flights where the density is 0, unless a whole brick of the grid is empty.
+  CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter,
+                    bool where_empty = true);
 
   std::unique_ptr<PhotonRecorder> part() const override;
   void join(PhotonRecorder& part) override;
   size_t stored() const override;
-  RecordNeeds needs() const override { return {.flights = false, .hits = false}; }
+  RecordNeeds needs() const override { return {.flights = fills_, .hits = false}; }
   bool reads_density() const override { return form_ == VolumeForm::density_at_query; }
+  void flew(const Track& track, const ArrivingPhoton& photon, Rng& rng) override;
   void collided(const ArrivingPhoton& photon) override;
 
   std::vector<std::vector<Photon>> photons;  // by medium; powers not yet divided by the photons emitted
-  uint64_t floored = 0;                      // of these: photons whose density was below the floor
+  uint64_t floored = 0;                      // of these: photons where the density is below the floor
 
  private:
+  void store_along(const Track& track, double t, float floor);
+
   const Scene& scene_;
   VolumeForm form_;
   float density_floor_;
   PhotonFilter filter_;
+  bool where_empty_;
+  bool fills_;  // up to the floor, along flights
 };
 
 /// If irradiance is cached, one in kCachePointStep photons finds the cache points [Christensen1999].

@@ -89,14 +89,16 @@ class PhotonPath {
     while (alive_) {
       if (at_.events == settings_.max_events) return cut();
       ++at_.events;
-      const PathState from = of_flights_.empty() ? PathState{} : at_.state;
-      at_.event = next_event(scene_, strategy_, at_.state, rng, out_.ledger.walk, limit());
+      tracks_.clear();
+      at_.event = next_event(scene_, strategy_, at_.state, rng, out_.ledger.walk, limit(),
+                             of_flights_.empty() ? nullptr : &tracks_);
       if (!is_finite(at_.state.throughput)) {
         ++out_.ledger.non_finite;
         return;
       }
       weight_.meet(sum_channels(at_.state.throughput) / emitted_power_, at_.event);
-      for (PhotonRecorder* const recorder : of_flights_) recorder->flew(from, arriving());
+      for (const Track& track : tracks_)
+        for (PhotonRecorder* const recorder : of_flights_) recorder->flew(track, arriving(), rng);
       arrive(rng);
       if (!alive_) return;
       split(rng);
@@ -200,6 +202,7 @@ class PhotonPath {
   const DirectionGuide* directions_ = nullptr;      // null: scattering is not guided
   Branch at_;
   std::vector<Branch> waiting_;
+  std::vector<Track> tracks_;  // of the last flight, if a recorder is told of them
   float emitted_power_ = 0.0f;
   double balance_ = 0.0;  // gone minus emitted, W
   PathWeight weight_;     // of all branches

@@ -72,7 +72,8 @@ struct RenderSettings {
                                   // what the other photons bring
   RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode
   VolumeForm volume_form = VolumeForm::density_at_query;
-  float density_floor = 0.0f;  // density at the query: bounds photons' weights, see stored_power(); in [0, 1]
+  float density_floor = 0.1f;  // density at the query: where it is less, photons are also stored along flights, which
+                               // bounds their weights, see CollisionRecorder; in [0, 1]; 0: at collisions alone
   DirectLight volume_direct = DirectLight::photons;  // single scattering
   int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
   DirectLight surface_direct = DirectLight::shadow_rays;

@@ -26,7 +26,9 @@ class VolumeMaps {
       : scene_(scene),
         settings_(settings),
         dimension_(dimension),
-        collisions_(scene, settings.form, settings.density_floor, settings.once ? any_photon : indirect_photon) {}
+        // Regions of borders that are corrected have no places without density.
+        collisions_(scene, settings.form, settings.density_floor, settings.once ? any_photon : indirect_photon,
+                    settings.gather.boundary != BoundaryRule::corrected) {}
 
   ScatteredLight finds() const { return {settings_.once, true}; }
   std::vector<MapInfo> maps() const { return {{"volume", dimension_, true, &collisions_.photons}}; }

@@ -160,9 +160,15 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, std::strin
   const auto strategy = make_distance_strategy(careful_settings(strategy_name));
   const std::string name = fmt::format("{}, {}", body.name, strategy_name);
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
+  ListSettings few;
+  few.emitted = 100;
+  few.volume_form = form;
+  few.density_floor = strategy_info(strategy_name).bounded_weight ? 0.3f : 0.0f;
   const auto samples =
       sample_moments(2, effort.count(2'400, 30'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
-        PhotonLists photons = small_pass(body.scene, *strategy, rng, 100, form);
+        ListSettings settings = few;
+        settings.seed = rng.bits();
+        PhotonLists photons = list_photons(body.scene, *strategy, settings);
         const PhotonMap map = make_photon_map(std::move(photons.volume[0]), gather, photons.ledger.emitted_count);
         out[0] = fluence(medium.majorant(), inside, map).g;
         out[1] = volume_sum(medium.phase, inside, uniform_sphere(rng.uniform2()), map).value.g / medium.majorant().g;

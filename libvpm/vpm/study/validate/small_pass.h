@@ -7,12 +7,10 @@
 namespace vpm {
 
 /// Photons of one pass, seeded by `rng`.
-inline PhotonLists small_pass(const Scene& scene, const DistanceStrategy& strategy, Rng& rng, uint64_t emitted = 100,
-                              VolumeForm form = VolumeForm::density_at_query) {
+inline PhotonLists small_pass(const Scene& scene, const DistanceStrategy& strategy, Rng& rng, uint64_t emitted = 100) {
   ListSettings settings;
   settings.seed = rng.bits();
   settings.emitted = emitted;
-  settings.volume_form = form;
   return list_photons(scene, strategy, settings);
 }
 
