@@ -85,16 +85,19 @@ TEST(BoundariesExtremes, NestedAndTouchingGlassIsInvisibleInUniformLight) {
     RenderSettings settings = settings_of(10, 0.1f);
     settings.max_events = 100;  // light may circle for ever in a hollow ball: cut there, and counted
     const Pass pass = render_photon_pass(scene, settings, 0, kNeverStopped);
-    uint64_t dark = 0;
+    uint64_t darker = 0;  // than 1: a branch of their paths was cut
+    double lost = 0.0;
     for (const Rgb& pixel : pass.image.pixels) {
-      dark += pixel == Rgb(0.0f);
-      if (pixel != Rgb(0.0f)) worst.see(pixel.r - 1.0);
-      EXPECT_TRUE(pixel == Rgb(0.0f) || std::abs(pixel.r - 1.0f) < 1e-5f) << pixel.r;
+      const bool whole = std::abs(pixel.r - 1.0f) < 1e-5f;
+      if (whole) worst.see(pixel.r - 1.0);
+      EXPECT_TRUE(whole || (pixel.r >= 0.0f && pixel.r < 1.0f)) << pixel.r;
+      darker += !whole;
+      lost += 1.0 - pixel.r;
     }
-    EXPECT_EQ(dark, pass.statistics.eye.cut_paths);
+    EXPECT_LE(darker, pass.statistics.eye.cut_paths);
     EXPECT_EQ(pass.statistics.eye.non_finite, 0u);
-    EXPECT_LE(dark, 5u);
-    cut.see(static_cast<double>(dark));
+    EXPECT_LE(lost, 5.0);
+    cut.see(lost);
   }
 }
 

@@ -87,7 +87,7 @@ TEST(Forecast, StartsNoPassThatWouldEndTooLate) {
   const PassMaker naps{[&](const RenderResult&, const PassProgress&) {
                          std::this_thread::sleep_for(std::chrono::milliseconds(1900));
                          ++made;
-                         return Pass{.image = Image(1, 1), .found = {}, .statistics = {}};
+                         return Pass(1, 1);
                        },
                        1};
   run_passes({.seconds = 2.0}, naps, {Film(1, 1), {}, 0.0, {}}, {});

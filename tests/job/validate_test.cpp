@@ -87,7 +87,9 @@ TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
           s.volume_form = form;
           s.photons_in_cube = in_cube;
           const bool asks_merged = rule == BoundaryRule::corrected && mode != GatherMode::beam && in_cube > 0;
-          if (!asks_merged) EXPECT_NO_THROW(validate(s, {.scattering_media = true}));
+          if (!asks_merged) {
+            EXPECT_NO_THROW(validate(s, {.scattering_media = true}));
+          }
         }
 }
 

@@ -135,7 +135,7 @@ Moments gathered(const Scene& scene, bool guided, const Ray& ray, int samples, E
   for (int i = 0; i < samples; ++i) {
     Rng rng(8, rng_stream(RngUse::test, guided ? 1 : 0), static_cast<uint64_t>(i));
     EyeWork work{rng, counters, scratch};
-    moments.add(estimators.surface->sent(view, work).g);
+    moments.add(estimators.surface->sent(view, work).value.g);
   }
   return moments;
 }

@@ -43,7 +43,9 @@ TEST(PathTracer, GlassStandsOnATable) {
         const Moments seen = samples(scene, {Vec3(x, 3.0f * sense, 0.2f), Vec3(0.0f, -sense, 0.0f)}, 20000);
         if (reflectance == 0.0f) expect_mean(seen, 0.04, kFalseAlarms, "a black table");
         // The glass is 100 m wide: a part of about 1e-3 of the light leaves by its sides, and sees the sky, too.
-        if (reflectance == 1.0f) EXPECT_NEAR(seen.mean(), 1.0, 1e-3);
+        if (reflectance == 1.0f) {
+          EXPECT_NEAR(seen.mean(), 1.0, 1e-3);
+        }
       }
     }
 }

@@ -26,8 +26,8 @@ constexpr int kScreenWidth = 1000, kScreenHeight = 2500;  // pixels
 /// Colours that a reader's system prefers, as Chromium numbers them.
 enum class Scheme { dark, light };
 
-const std::string kPageScene =
-    "# </script><script>fail('a scene\\'s text is no script')</script>\n" + ball_of_fog(kPageWidth, kPageHeight);
+const std::string kPageScene = "# </script><script>fail('a scene\\'s text is no script')</script>\n" +
+                               ball_of_fog(kPageWidth, kPageHeight) + "[volume]\nboundary = \"none\"\n";
 
 /// Two scenes and two methods, one of them biased beside the other. What texts mean in HTML, and the names of places in
 /// the template, mean nothing here.

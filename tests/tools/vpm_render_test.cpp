@@ -339,7 +339,7 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
 
 TEST_F(VpmRender, InfoRefusesWhatRenderRefuses) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
-      {{"volume.boundary=corrected", "volume.gather=beam"}, "use gather = \"radius\", or leave out 'boundary'"},
+      {{"volume.kernel=order-4", "surface.kernel=order-4", "render.radii=per-pixel"}, ""},
       {{"photons.emitted=0"}, "make one of them positive"},
       {{"transmittance.estimator=ratio", "surface.direct=photons"}, "write direct = \"shadow-rays\""},
       {{"distance.strategy=homogeneous"}, "right in grids: "},

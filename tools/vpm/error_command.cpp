@@ -58,7 +58,7 @@ Errors errors_of(const Image& image, const std::string& path, const Image& refer
     throw InputError(fmt::format(
         "{} has {} x {} pixels and {} has {} x {}: render one of them at the size of the other, with --set "
         "film.width={} "
-        "--set film.height={}, or say --resample, which brings the picture to the size of the reference",
+        "--set film.height={}; of two pictures, --resample brings one to the size of the other",
         path, image.width, image.height, to, reference.width, reference.height, reference.width, reference.height));
   return {mse(image, reference), relative_mse(image, reference), relative_mse_of_pbrt(image, reference)};
 }

@@ -225,7 +225,8 @@ Rgb SegmentRegion::share(float radius, const SeenAlong& seen) const {
     const Interval beside{std::max(part.t0, segment_.interval.t0), std::min(part.t1, segment_.interval.t1)};
     if (beside.empty()) continue;
     const bool at_anchor = anchor_ > beside.t0 && anchor_ < beside.t1;
-    const float from = at_anchor ? anchor_ : 0.5f * (beside.t0 + beside.t1);  // not on a border
+    const float middle = std::isinf(beside.t1) ? beside.t0 + radius : 0.5f * (beside.t0 + beside.t1);
+    const float from = at_anchor ? anchor_ : middle;  // not on a border
     MediumId medium = segment_.number;
     const float distance = glm::length(aside);
     if ((near_ || !at_anchor) &&
@@ -233,6 +234,7 @@ Rgb SegmentRegion::share(float radius, const SeenAlong& seen) const {
       continue;
     const auto add = [&](float begin, float end) {
       const auto at = [&](float y) {
+        if (std::isinf(y)) return seen.whole();
         return seen.to(spread_ == Spread::balls ? std::clamp(y - radius * offset.z, reach_.t0, reach_.t1)
                                                 : distances.of(aside + y * w));
       };

@@ -48,26 +48,6 @@ float kernel_profile(float q) {
   if constexpr (K == KernelKind::order_4) return (1.0f - q) * (1.0f - (Dimension + 6.0f) / (Dimension + 2.0f) * q);
 }
 
-/// The same, of a kernel known at run time.
-inline double kernel_profile_of(KernelKind kind, int dimension, double q) {
-  const double rest = 1.0 - q;
-  switch (kind) {
-    case KernelKind::constant:
-      return 1.0;
-    case KernelKind::cone:
-      return 1.0 - std::sqrt(q);
-    case KernelKind::epanechnikov:
-      return rest;
-    case KernelKind::biweight:
-      return rest * rest;
-    case KernelKind::triweight:
-      return rest * rest * rest;
-    case KernelKind::order_4:
-      break;
-  }
-  return rest * (1.0 - (dimension + 6.0) / (dimension + 2.0) * q);
-}
-
 /// What a kernel sum changes by where its kernel shrinks: -(r/2) d/dr of the kernel in `Dimension` dimensions, over its
 /// normalisation, as the kernels' profiles are; half of that for order 4. It integrates to 0, and the sum of both has
 /// no second moment, for order 4 no fourth one: so a bias that goes as r to the power of the order is minus what this
@@ -132,12 +112,6 @@ inline double kernel_within_3d(KernelKind kind, double t) {
 
 /// The integral of the normalised kernel over the disc (dimension 2) or ball (3) of `t` <= 1 times its radius, and that
 /// of its correction: t/2 times the derivative of the first.
-inline KernelPair<double> kernel_within(KernelKind kind, int dimension, double t) {
-  const auto within = [&](double s) { return dimension == 2 ? kernel_within_2d(kind, s) : kernel_within_3d(kind, s); };
-  if (kind == KernelKind::constant) return {within(t), 2.0 * (within(std::min(1.0, std::sqrt(2.0) * t)) - within(t))};
-  const double half_order = 0.5 * kernel_order(kind);
-  const double measure = dimension == 2 ? kernel_info(kind).disc * t * t : 2.0 * kernel_info(kind).ball * t * t * t;
-  return {within(t), measure * kernel_profile_of(kind, dimension, t * t) / half_order};
-}
+KernelPair<double> kernel_within(KernelKind kind, int dimension, double t);
 
 }  // namespace vpm
