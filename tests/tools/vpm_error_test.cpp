@@ -160,7 +160,8 @@ TEST_F(VpmError, SaysThatPixelsAreNotFinite) {
 TEST_F(VpmError, RefusesWhatItCannotCompare) {
   write_exr(path("small.exr"), Image(2, 2), {}, {});
   write("text.exr", "no picture");
-  vpm_refuses({"error", "small.exr", "reference.exr"}, {"small.exr has 2 x 2", "reference.exr has 3 x 2", "--resample"});
+  vpm_refuses({"error", "small.exr", "reference.exr"},
+              {"small.exr has 2 x 2", "reference.exr has 3 x 2", "--resample"});
   vpm_refuses({"error", "--series", "image.exr", "small.exr", "reference.exr"}, {"small.exr has 2 x 2", "--resample"});
   vpm_refuses({"error", "text.exr", "reference.exr"}, {"text.exr"});
   vpm_refuses({"error", "image.exr", "missing.exr"}, {"missing.exr", "no such file"});
