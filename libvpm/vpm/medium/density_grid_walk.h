@@ -88,8 +88,8 @@ class LatticeWalk {
 
 /// Cuts [t0, t1] down to the part in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 if there is
 /// none.
-inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d& lo, const Vec3d& hi, double& t0,
-                        double& t1) {
+[[gnu::always_inline]] inline void clip_to_box(const Vec3d& origin, const Vec3d& direction, const Vec3d& lo,
+                                               const Vec3d& hi, double& t0, double& t1) {
   for (int a = 0; a < 3; ++a) {
     if (direction[a] == 0.0) {
       if (origin[a] < lo[a] || origin[a] > hi[a]) t1 = t0;
