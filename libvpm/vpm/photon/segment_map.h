@@ -142,6 +142,7 @@ void SegmentMap::unpack(const BesideRay& there, const NearPhotons& near, Visit&&
   float radius[NearPhotons::kMost], distance[NearPhotons::kMost], kept2[NearPhotons::kMost];
   float x[NearPhotons::kMost], y[NearPhotons::kMost], z[NearPhotons::kMost];  // from the ray's origin, m
   size_t count = near.size();
+  if (count == 0) return;
   for (size_t i = 0; i < count; ++i) {
     const uint32_t leaf = near.photons()[i] / kBlock;
     photons[i] = static_cast<uint32_t>(leaf_begin(size(), leaves_, leaf)) + near.photons()[i] % kBlock;
