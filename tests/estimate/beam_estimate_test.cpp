@@ -60,12 +60,15 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
           // Ends that part photons evenly, and an endless one.
           const BesideRay there = search_beside(ray, {0.31f, i % 4 == 0 ? kInfinity : 0.92f}, i);
           GatherCounters counters;
-          const Rgb quick = beam_sum(phase, there, each_distance(along), map, counters).sum.value;
-          const Rgb slow = beam_sum(phase, there, along, PhotonList{all, settings, 1000}).value;
+          const KernelEstimate quick = beam_sum(phase, there, each_distance(along), map, counters).sum;
+          const KernelEstimate slow = beam_sum(phase, there, along, PhotonList{all, settings, 1000});
           // Rounding of distances changes profiles of far photons by parts of 1e-5 of the kernel's height.
           const float height = kernel_norm_2d(kernel.kind, radius) * static_cast<float>(counters.used) * 1e-3f;
-          for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(quick[c], slow[c], 1e-4f * std::abs(slow[c]) + 1e-4f * height) << "ray " << i;
+          for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(quick.value[c], slow.value[c], 1e-4f * std::abs(slow.value[c]) + 1e-4f * height) << "ray " << i;
+            EXPECT_NEAR(quick.correction[c], slow.correction[c], 1e-4f * std::abs(slow.value[c]) + 2e-4f * height)
+                << "ray " << i;
+          }
           found += counters.used > 0;
           EXPECT_LE(counters.used, counters.visited);
         }

@@ -1,7 +1,10 @@
 // A small scene of a plume, which tests render with the binary.
 #pragma once
 
+#include <cstring>
+
 #include "tools/vpm_binary.h"
+#include "vpm/image/image.h"
 
 namespace vpm {
 
@@ -59,6 +62,22 @@ inline nlohmann::json without_circumstances(nlohmann::json report) {
     report["photons"].erase(key);
   report["memory"].erase("peak_of_process");
   return report;
+}
+
+inline bool same_pixels(const Image& a, const Image& b) {
+  return a.pixels.size() == b.pixels.size() &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0;
+}
+
+inline double sum(const Image& image) {
+  double total = 0.0;
+  for (const Rgb& c : image.pixels) total += sum_channels(c);
+  return total;
+}
+
+inline void expect_words(const std::string& text, const std::vector<std::string>& words) {
+  for (const std::string& word : words)
+    EXPECT_NE(text.find(word), std::string::npos) << "expected: " << word << "\n" << text;
 }
 
 }  // namespace vpm

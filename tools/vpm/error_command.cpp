@@ -42,7 +42,10 @@ NoisyImage read_picture(const std::string& path) {
     if (plane == file.planes.end()) return picture;
     for (size_t i = 0; i < variance.pixels.size(); ++i) variance.pixels[i][c] = plane->second[i];
   }
-  if (non_finite_pixels(variance) > 0) return picture;
+  if (const size_t broken = non_finite_pixels(variance); broken > 0) {
+    fmt::print(stderr, "warning: {}: {} of its variances are not finite, so that none of them is used\n", path, broken);
+    return picture;
+  }
   picture.variance = std::move(variance);
   const auto means = file.metadata.find(kVarianceOfMeans);
   Rgbd of_means;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 
 #include "vpm/base/vec.h"
@@ -12,14 +13,13 @@ namespace vpm {
 /// The places that lie in each of a few half spaces; all places where there are none.
 class HalfSpaces {
  public:
-  static constexpr int kMost = 4;
+  static constexpr int kMost = 10;
 
-  /// Adds the places x with normal . x >= offset, in m. False where there is no room for another.
-  bool add(const Vec3& normal, float offset) {
-    if (count_ == kMost) return false;
+  /// Adds the places x with normal . x >= offset, in m; at most kMost times.
+  void add(const Vec3& normal, float offset) {
+    assert(count_ < kMost);
     normal_[count_] = normal;
     offset_[count_++] = offset;
-    return true;
   }
   bool hold(const Vec3& place) const {
     bool inside = true;

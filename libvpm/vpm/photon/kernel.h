@@ -4,7 +4,6 @@
 // radius, where that of the others is of the second. For that it is negative near its border, so that estimates may be.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

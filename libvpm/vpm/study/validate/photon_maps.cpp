@@ -55,6 +55,30 @@ std::vector<Check> check_maps(bool flat, const Effort& effort) {
   return checks;
 }
 
+/// Where the density is (1 + 4 |x|^2) of what it is at the middle of the kernel, the bias of kernels is of order r^2
+/// and nothing else: their corrections take it away as a whole (KernelPair).
+std::vector<Check> check_corrected(bool flat, const Effort& effort) {
+  const Vec3 point(0.1f, -0.05f, 0.0f);
+  std::vector<Check> checks;
+  for (const KernelInfo& kernel : kKernels) {
+    const GatherSettings settings{GatherMode::radius, 0.5f, 12, kernel.kind};
+    const std::string name =
+        fmt::format("{} kernel, corrected in a curved density {}", kernel.name, flat ? "on a plane" : "in a volume");
+    const auto samples =
+        sample_moments(1, effort.count(4'500, 60'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+          std::vector<Photon> photons = even_photons(kPhotons, flat, rng);
+          for (Photon& p : photons) p.power = Rgb(1.0f + 4.0f * glm::dot(p.position - point, p.position - point));
+          const PhotonMap map = make_photon_map(std::move(photons), settings, kPhotons);
+          const auto power = [](const Vec3&, const Rgb& of_photon) { return of_photon; };
+          const KernelEstimate found =
+              flat ? kernel_sum<2>(map, point, AnyPhoton{}, power) : kernel_sum<3>(map, point, AnyPhoton{}, power);
+          out[0] = found.value.g + found.correction.g;
+        });
+    checks.push_back(check_mean(name, samples[0], flat ? 1.0 / 4.0 : 1.0 / 8.0));
+  }
+  return checks;
+}
+
 /// Photons whose power others have taken over leave all means as they are.
 Check check_controlled(const Effort& effort) {
   const std::string name = "at most 4 photons in a cube, fixed radius in a volume";
@@ -108,6 +132,8 @@ std::vector<Experiment> photon_map_experiments() {
   return {{0, "even photons, estimates of their density", [](const Effort& effort) {
              std::vector<Check> checks = check_maps(false, effort);
              append(checks, check_maps(true, effort));
+             append(checks, check_corrected(false, effort));
+             append(checks, check_corrected(true, effort));
              checks.push_back(check_controlled(effort));
              append(checks, check_beams(effort));
              return checks;
