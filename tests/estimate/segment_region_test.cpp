@@ -74,14 +74,14 @@ TEST(SegmentRegion, WithoutARuleItIsTheTubeBetweenTheEnds) {
   EXPECT_FLOAT_EQ(region.distances().of(Vec3(0.3f, 0.2f, -0.7f)), 0.7f);
 }
 
-/// The mean over the disc, by the kernel, of the length of chords of the unit sphere beside one at the distance `b`
-/// from its centre. They count as far as the reach of the region goes.
-double mean_chord(double b, double reach) {
+/// The mean over a disc of that radius, by the kernel, of the length of chords of the unit sphere beside one at the
+/// distance `b` from its centre. They count as far as the reach of the region goes.
+double mean_chord(double b, double reach, double radius) {
   const int rings = 200, turns = 200;
   double sum = 0.0, weights = 0.0;
   for (int i = 0; i < rings; ++i)
     for (int j = 0; j < turns; ++j) {
-      const double q = (i + 0.5) / rings, distance = kRadius * std::sqrt(q), turn = 2.0 * kPiD * (j + 0.5) / turns;
+      const double q = (i + 0.5) / rings, distance = radius * std::sqrt(q), turn = 2.0 * kPiD * (j + 0.5) / turns;
       const double x = b + distance * std::cos(turn), y = distance * std::sin(turn), square = x * x + y * y;
       const double half = square < 1.0 ? std::sqrt(1.0 - square) : 0.0;
       sum += (1.0 - q) * 2.0 * std::min(half, reach);
@@ -93,14 +93,24 @@ double mean_chord(double b, double reach) {
 TEST(SegmentRegion, SharesInASphereAreThoseOfItsChords) {
   Scene scene = body_of_fog(SphereShape{Vec3(0.0f), 1.0f});
   finish_lit(scene);
+  Rng rng(1, 0, 0);
   for (const float b : {0.0f, 0.3f, 0.6f, 0.8f, 0.95f, 0.99f}) {
     const EyeSegment segment = segment_through(scene, {Vec3(b, 0.0f, 3.0f), Vec3(0.0f, 0.0f, -1.0f)});
     const SegmentRegion region(segment, kDiscs, Spread::discs);
     EXPECT_FALSE(region.whole());
     const float length = segment.interval.t1;
     const SeenAlong seen(scene.media[0].sigma_t, segment.interval, nullptr);
-    const double exact = mean_chord(b, 0.5 * length - region.reach().t0) / length;
-    EXPECT_NEAR(region.share(kRadius, seen).g, exact, 0.08 * exact) << b;  // by 16 lines
+    const double reach = 0.5 * length - region.reach().t0, exact = mean_chord(b, reach, kRadius) / length;
+    constexpr double kStep = 0.075 * kRadius;
+    const double slope = (mean_chord(b, reach, kRadius) - mean_chord(b, reach, kRadius - 2.0 * kStep)) / length;
+    constexpr int kShares = 2000;
+    double correction = 0.0;
+    for (int i = 0; i < kShares; ++i) {
+      const KernelEstimate share = region.share(kRadius, seen, rng);
+      EXPECT_NEAR(share.value.g, exact, 0.08 * exact) << b;  // by 16 lines
+      correction += share.correction.g / kShares;
+    }
+    EXPECT_NEAR(correction, -slope * kRadius / (4.0 * kStep), 0.08) << b;
   }
 }
 
@@ -117,7 +127,9 @@ TEST(SegmentRegion, AFloorBesideTheRayIsAPlane) {
   EXPECT_FALSE(region.whole());
   EXPECT_TRUE(region.within().hold(Vec3(1.0f, 0.1f, 0.0f)));
   EXPECT_FALSE(region.within().hold(Vec3(1.0f, -0.1f, 0.0f)));
-  EXPECT_NEAR(region.share(kRadius, SeenAlong(scene.media[0].sigma_t, segment.interval, nullptr)).g, 0.5f, 0.02f);
+  Rng rng(1, 0, 0);
+  const SeenAlong seen(scene.media[0].sigma_t, segment.interval, nullptr);
+  EXPECT_NEAR(region.share(kRadius, seen, rng).value.g, 0.5f, 0.02f);
 }
 
 TEST(Mirrored, IsThePlaceItselfOrItsImageAtAnEnd) {

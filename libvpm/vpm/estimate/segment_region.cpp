@@ -10,10 +10,12 @@
 namespace vpm {
 namespace {
 
-constexpr int kLines = 16;          // by which a share is found
-constexpr int kMostHits = 16;       // along one line
-constexpr float kProbes = 0.8f;     // how far from the ray, in radii, lines look whether there is anything to correct
-constexpr float kResolved = 1e-3f;  // of the radius: what borders are off by does not count
+constexpr int kLines = 16;           // by which a share is found
+constexpr int kMostHits = 16;        // along one line
+constexpr float kProbes = 0.8f;      // how far from the ray, in radii, lines look whether there is anything to correct
+constexpr float kLess = 0.85f;       // the part of a radius by which it is told how shares change with the radius
+constexpr float kCorrected = 0.25f;  // of the shares have a correction, as it costs as much as a share
+constexpr float kResolved = 1e-3f;   // of the radius: what borders are off by does not count
 
 /// Places in the unit disc or ball, each of which stands for a part of a kernel: pairs on both sides of the middle, so
 /// that what a plane through it parts is a half exactly.
@@ -210,8 +212,15 @@ bool SegmentRegion::walk(Ray ray, float length, MediumId& medium, Visit&& visit)
   return solid < 0 && medium == segment_.number;
 }
 
-Rgb SegmentRegion::share(float radius, const SeenAlong& seen) const {
+KernelEstimate SegmentRegion::share(float radius, const SeenAlong& seen, Rng& rng) const {
   if (whole_) return Rgb(1.0f);
+  const Rgb share = share_by_lines(radius, seen);
+  if (!(rng.uniform() < kCorrected)) return share;
+  const Rgb of_less = share_by_lines(kLess * radius, seen);
+  return {share, (of_less - share) * (0.5f / (1.0f - kLess) / kCorrected)};
+}
+
+Rgb SegmentRegion::share_by_lines(float radius, const SeenAlong& seen) const {
   const Vec3 w = segment_.ray.direction;
   Vec3 s, t;
   make_frame(w, s, t);
@@ -255,12 +264,12 @@ Rgb SegmentRegion::share(float radius, const SeenAlong& seen) const {
   return share;
 }
 
-KernelEstimate over_share(const KernelEstimate& light, const Rgb& share, GatherCounters& counters) {
+KernelEstimate over_share(const KernelEstimate& light, const KernelEstimate& share, GatherCounters& counters) {
   const Rgb least(static_cast<float>(kLeastShare));
   count(counters.corrected);
-  if (glm::any(glm::lessThan(share, least))) ++counters.least_shares;
-  const Rgb divisor = glm::max(share, least), value = light.value / divisor;
-  return {value, (light.correction - value * 0.5f * (Rgb(1.0f) - share)) / divisor};
+  if (glm::any(glm::lessThan(share.value, least))) ++counters.least_shares;
+  const Rgb divisor = glm::max(share.value, least), value = light.value / divisor;
+  return {value, (light.correction - value * share.correction) / divisor};
 }
 
 }  // namespace vpm

@@ -67,7 +67,9 @@ class SegmentRegion {
   /// Is the share 1?
   bool whole() const { return whole_; }
   /// The light that kernels of a radius up to that of the region find, over that of the segment, where light is even.
-  Rgb share(float radius, const SeenAlong& seen) const;
+  /// Its correction is -(r/2) d/dr of it, as that of light is: of the share as it is found, whose own error changes
+  /// with the radius, too. Some shares, drawn at random, stand for the corrections of all.
+  KernelEstimate share(float radius, const SeenAlong& seen, Rng& rng) const;
 
  private:
   float reach_past(const Vec3& normal) const;
@@ -76,6 +78,7 @@ class SegmentRegion {
   bool stands_beside(const Vec3& normal, const Vec3& position) const;
   std::optional<Hit> first_met(const Ray& line, const Interval& part) const;
   Interval part_of(const Ray& line, float slack) const;
+  Rgb share_by_lines(float radius, const SeenAlong& seen) const;
   template <class Visit>
   bool walk(Ray ray, float length, MediumId& medium, Visit&& visit) const;
 
@@ -91,8 +94,7 @@ class SegmentRegion {
   bool by_plane_ = false;  // are distances() those from the plane at the start?
 };
 
-/// Divides the light of a segment by its share. What a share lacks of 1 goes about as the radius, by which the
-/// correction is that of the quotient.
-KernelEstimate over_share(const KernelEstimate& light, const Rgb& share, GatherCounters& counters);
+/// Divides the light of a segment by its share. The correction is that of the quotient.
+KernelEstimate over_share(const KernelEstimate& light, const KernelEstimate& share, GatherCounters& counters);
 
 }  // namespace vpm

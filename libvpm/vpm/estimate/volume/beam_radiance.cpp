@@ -85,7 +85,7 @@ KernelEstimate BeamRadiance::gather(const EyeSegment& segment, const SegmentRegi
   const KernelEstimate light = segment.throughput * source_factor(medium) * found.sum;
   if (region.whole() || found.radius == 0.0f) return light;
   const SeenAlong seen(medium.sigma_t, segment.interval, integrals);
-  return over_share(light, region.share(found.radius, seen), work.counters.gather);
+  return over_share(light, region.share(found.radius, seen, work.rng), work.counters.gather);
 }
 
 }  // namespace vpm

@@ -145,7 +145,7 @@ KernelEstimate PointsOfSegment::over_share(const KernelEstimate& light, EyeWork&
   if (region_.whole() || is_black(light.value)) return light;
   const Medium& medium = *segment_.medium();
   const SeenAlong seen(medium.sigma_t, segment_.interval, medium.homogeneous() ? nullptr : &segment_.integrals(work));
-  return vpm::over_share(light, region_.share(map_.settings.radius, seen), work.counters.gather);
+  return vpm::over_share(light, region_.share(map_.settings.radius, seen, work.rng), work.counters.gather);
 }
 
 }  // namespace vpm
