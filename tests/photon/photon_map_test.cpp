@@ -376,7 +376,7 @@ TEST(PhotonMap, TheCorrectionOfASumIsItsSlopeOverTheRadius) {
     return kernel_sum<3>(make_photon_map(photons, settings, 1), Vec3(0.5f), AnyPhoton{}, value);
   };
   for (const KernelKind kernel :
-       {KernelKind::cone, KernelKind::epanechnikov, KernelKind::biweight, KernelKind::triweight}) {
+       {KernelKind::cone, KernelKind::epanechnikov, KernelKind::biweight, KernelKind::triweight, KernelKind::order_4}) {
     constexpr double kRadius = 0.3, kStep = 1e-3;
     const KernelEstimate at = sum(kernel, kRadius);
     const Rgb slope =

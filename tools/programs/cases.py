@@ -106,17 +106,16 @@ def add_scenes(cases):
 def add_gathers(cases):
     """All ways to gather from maps of media, and all from those of surfaces."""
     radii = choices("render.radii", "per-pass", "per-pixel", "constant")
-    boundary = ("none", "corrected")
     volume = [["volume.gather=radius", "volume.gather=nearest volume.count=20", "volume.gather=beam",
                "volume.gather=beam volume.count=10"],
-              choices("volume.form", "density-at-query", "density-at-photon"), choices("volume.boundary", *boundary),
+              choices("volume.form", "density-at-query", "density-at-photon"), choices("volume.boundary", "none", "ends", "corrected"),
               choices("volume.direct", "photons", "shadow-rays", "equiangular"), radii]
     light = [*choices("surface.method", "visualise", "progressive"),
              "surface.method=final-gather surface.gather_rays=2",
              "surface.direct=photons surface.indirect=final-gather surface.gather_rays=2",
              "surface.direct=shadow-rays surface.indirect=photons"]
     surface = [["surface.gather=radius", "surface.gather=nearest surface.count=20"],
-               choices("surface.boundary", *boundary), light, choices("surface.gather_by", "material", "photons"),
+               choices("surface.boundary", "none", "corrected"), light, choices("surface.gather_by", "material", "photons"),
                choices("surface.irradiance", "estimate", "precomputed"), radii]
     for scene, wide in WIDE.items():
         cases.combine("volume", scene, wide, *volume, emitted=1000, size=12)

@@ -13,8 +13,9 @@ namespace vpm {
 enum class GatherMode { radius, nearest, beam };
 
 /// What is done where a disc or a ball reaches beyond the places that photons can come to. `none`: nothing, so that
-/// estimates are too dark there and light leaks through walls. `corrected`: the correction of BoundedMap. `ends`, for
-/// segments of eye rays in media: that of SegmentRegion.
+/// estimates are too dark there and light leaks through walls. `corrected`: each disc or ball by itself, by BoundedMap.
+/// `ends`, for segments of eye rays in media: by SegmentRegion, or as `corrected`; see
+/// GatherRule::corrects_each_ball().
 enum class BoundaryRule { none, corrected, ends };
 
 /// A gather radius as a render asks for it: a length, or the default, which first_radius() derives from the size of the
@@ -47,6 +48,13 @@ struct GatherRule {
 
   /// Does a count of photons decide the radius of a gather, so that `radius` is only the largest allowed?
   bool goes_by_count() const { return mode == GatherMode::nearest || (mode == GatherMode::beam && beam_count > 0); }
+  /// Is each ball in a medium corrected by itself, and not the segment of the ray as a whole? With radii that go by
+  /// count a missing photon makes the next ball larger, so that balls beyond a border cannot make up for those before
+  /// it. Discs around a ray are never corrected one by one.
+  bool corrects_each_ball() const {
+    return mode == GatherMode::nearest ? boundary != BoundaryRule::none
+                                       : mode == GatherMode::radius && boundary == BoundaryRule::corrected;
+  }
 };
 /// As a render asks for it: the radius is that of the first pass.
 using AskedGather = GatherRule<AskedRadius>;

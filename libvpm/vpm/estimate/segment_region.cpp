@@ -10,12 +10,12 @@
 namespace vpm {
 namespace {
 
-constexpr int kLines = 16;           // by which a share is found
-constexpr int kMostHits = 16;        // along one line
-constexpr float kProbes = 0.8f;      // how far from the ray, in radii, lines look whether there is anything to correct
-constexpr float kLess = 0.85f;       // the part of a radius by which it is told how shares change with the radius
-constexpr float kCorrected = 0.25f;  // of the shares have a correction, as it costs as much as a share
-constexpr float kResolved = 1e-3f;   // of the radius: what borders are off by does not count
+constexpr int kLines = 16;            // by which a share is found
+constexpr int kMostHits = 64;         // along one line; what is left of it then counts as being what it is there
+constexpr float kProbes = 0.8f;       // how far from the ray, in radii, lines look whether there is anything to correct
+constexpr float kLess = 0.85f;        // the part of a radius by which it is told how shares change with the radius
+constexpr float kCorrected = 0.125f;  // of the shares have a correction, as it costs as much as a share
+constexpr float kResolved = 1e-3f;    // of the radius: what borders are off by does not count
 
 /// Places in the unit disc or ball, each of which stands for a part of a kernel: pairs on both sides of the middle, so
 /// that what a plane through it parts is a half exactly.
@@ -188,8 +188,8 @@ bool SegmentRegion::walk(Ray ray, float length, MediumId& medium, Visit&& visit)
   const Scene& scene = segment_.scene;
   int solid = -1;  // the shape that the line is inside of
   float begun = 0.0f;
-  for (int i = 0; i < kMostHits && length > begun; ++i) {
-    const std::optional<Hit> hit = scene.geometry.intersect(ray, length - begun);
+  for (int i = 0; i <= kMostHits && length > begun; ++i) {
+    const std::optional<Hit> hit = i < kMostHits ? scene.geometry.intersect(ray, length - begun) : std::optional<Hit>();
     const float end = hit ? begun + hit->t : length;
     if (medium == segment_.number && solid < 0) visit(begun, end);
     if (!hit) break;
@@ -214,21 +214,23 @@ bool SegmentRegion::walk(Ray ray, float length, MediumId& medium, Visit&& visit)
 
 KernelEstimate SegmentRegion::share(float radius, const SeenAlong& seen, Rng& rng) const {
   if (whole_) return Rgb(1.0f);
-  const Rgb share = share_by_lines(radius, seen);
+  const Rgb share = share_by_lines(radius, seen, 0.0f);
   if (!(rng.uniform() < kCorrected)) return share;
-  const Rgb of_less = share_by_lines(kLess * radius, seen);
-  return {share, (of_less - share) * (0.5f / (1.0f - kLess) / kCorrected)};
+  const float turn = 2.0f * kPi * rng.uniform();
+  const Rgb rise = share_by_lines(kLess * radius, seen, turn) - share_by_lines(radius, seen, turn);
+  return {share, rise * (0.5f / (1.0f - kLess) / kCorrected)};
 }
 
-Rgb SegmentRegion::share_by_lines(float radius, const SeenAlong& seen) const {
+Rgb SegmentRegion::share_by_lines(float radius, const SeenAlong& seen, float turn) const {
   const Vec3 w = segment_.ray.direction;
   Vec3 s, t;
   make_frame(w, s, t);
+  const Vec3 right = std::cos(turn) * s + std::sin(turn) * t, up = std::cos(turn) * t - std::sin(turn) * s;
   Rgbd found(0.0);
   const PlaneDistances distances = this->distances();
   for (const auto& [offset, part_of_kernel] :
        kOffsets[static_cast<size_t>(kernel_)][spread_ == Spread::discs ? 0 : 1]) {
-    const Vec3 aside = radius * (offset.x * s + offset.y * t);
+    const Vec3 aside = radius * (offset.x * right + offset.y * up);
     const Ray line{segment_.ray.origin + aside, w};
     const Interval part = part_of(line, 0.0f);
     const Interval beside{std::max(part.t0, segment_.interval.t0), std::min(part.t1, segment_.interval.t1)};

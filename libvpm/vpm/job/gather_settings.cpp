@@ -60,14 +60,11 @@ Setting declare_beam_count() {
 
 constexpr const char* kBorders =
     "against dark rims at the borders of media: `\"ends\"` lets photons past the ends of a stretch of the eye's ray "
-    "make "
-    "up for those missing before them; `\"corrected\"` corrects ball by ball, and lets no light through thin walls, "
-    "see "
-    "below";
+    "make up for those missing before them; `\"corrected\"` corrects ball by ball, and lets no light through thin "
+    "walls, see below";
 constexpr const char* kEdges =
     "`\"corrected\"`: no dark rims at the edges of surfaces, and no light through thin walls, see below; for the "
-    "caustic "
-    "map, too";
+    "caustic map, too";
 
 std::vector<Setting> declare_volume() {
   return {

@@ -54,7 +54,9 @@ std::vector<Setting> declare_render() {
       {.key = "render.max_optical_step",
        .member = at<&S::max_optical_step>(),
        .domain = Numbers{{1e-4, kNoLimit, false, true}},
-       .meaning = "longest step of the eye rays' march, in optical thickness"},
+       .meaning =
+           "longest step of the eye rays' march, in optical thickness; photons of homogeneous media are summed in "
+           "steps of a radius where `boundary` is `\"ends\"`"},
   };
 }
 

@@ -57,8 +57,7 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
           line(surfaces && settings.radii == RadiusSchedule::per_pixel, "radii of pixels' own", ", on surfaces",
                surfaces ? "radii do not depend on what pixels find" : "no rough surface"),
           line(media && settings.volume.boundary != BoundaryRule::none, "corrections at borders of media",
-               corrected(settings.volume) && settings.volume.mode != GatherMode::beam ? ", ball by ball"
-                                                                                      : ", along segments of eye rays",
+               settings.volume.corrects_each_ball() ? ", ball by ball" : ", along segments of eye rays",
                media ? "what lies outside of media is summed over, too" : no_medium),
           line(surfaces && corrected(settings.surface), "corrections at edges of surfaces", "",
                surfaces ? "whole discs are summed over" : "no rough surface"),

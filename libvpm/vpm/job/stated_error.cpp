@@ -11,6 +11,7 @@ namespace {
 /// of media. Which it is cannot be seen: a render states the middle.
 constexpr double kLeast = 1.0, kMost = 4.0, kMiddle = 0.5 * (kLeast + kMost), kHalfRange = 0.5 * (kMost - kLeast);
 /// So many standard errors that a normal distribution is beyond them with 5 %, on both sides, or with 20 %, on one.
+/// That a jackknife over few groups only estimates its standard error is made up for by its being rather too large.
 constexpr double kBothSides = 1.96, kOneSide = 0.84;
 
 }  // namespace

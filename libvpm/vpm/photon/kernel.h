@@ -48,10 +48,10 @@ float kernel_profile(float q) {
 }
 
 /// What a kernel sum changes by where its kernel shrinks: -(r/2) d/dr of the kernel in `Dimension` dimensions, over its
-/// normalisation, as the kernels' profiles are; half of that for order 4. It integrates to 0, and the sum of both has
-/// no second moment, for order 4 no fourth one: so a bias that goes as r to the power of the order is minus what this
-/// weight gives on average. One that goes as r is twice that, four times for order 4. A constant kernel has no
-/// derivative at its edge; for it, the difference from the kernel of radius r/sqrt(2) has the same two properties.
+/// normalisation, as the kernels' profiles are. It integrates to 0, and the sum of both has no second moment: a bias
+/// that goes as r^2 is minus what this weight gives on average. One that goes as r is twice that; one that goes as r^4,
+/// the least that a kernel of order 4 has, is half of that. A constant kernel has no derivative at its edge; for it,
+/// the difference from the kernel of radius r/sqrt(2) has the same two properties.
 template <KernelKind K, int Dimension>
 float kernel_correction(float q) {
   constexpr float d = Dimension;
@@ -62,7 +62,7 @@ float kernel_correction(float q) {
   if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (d / 2.0f * (1.0f - q) - 3.0f * q);
   if constexpr (K == KernelKind::order_4) {
     constexpr float c = (d + 6.0f) / (d + 2.0f);
-    return 0.5f * (d / 2.0f * (1.0f - q) * (1.0f - c * q) - q * (1.0f + c - 2.0f * c * q));
+    return d / 2.0f * (1.0f - q) * (1.0f - c * q) - q * (1.0f + c - 2.0f * c * q);
   }
 }
 

@@ -7,7 +7,8 @@ namespace vpm {
 
 PhotonLists list_photons(const Scene& scene, const DistanceStrategy& strategy, const ListSettings& settings) {
   const auto keeps = [](bool direct) { return direct ? any_photon : indirect_photon; };
-  CollisionRecorder collisions(scene, settings.volume_form, settings.density_floor, keeps(settings.direct_collisions));
+  CollisionRecorder collisions(scene, settings.volume_form, {settings.density_floor, true},
+                               keeps(settings.direct_collisions));
   HitRecorder hits(scene, keeps(settings.direct_hits), HitUse::surface_map);
   Progress silent("photons", 0, false);
   PhotonLists lists;

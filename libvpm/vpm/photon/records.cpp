@@ -31,20 +31,18 @@ PhotonFilter caustic_photons(bool direct, bool specular) {
   });
 }
 
-CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter,
-                                     bool where_empty)
+CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, const ThinParts& thin, PhotonFilter filter)
     : photons(scene.media.size()),
       scene_(scene),
       form_(form),
-      density_floor_(density_floor),
+      thin_(thin),
       filter_(filter),
-      where_empty_(where_empty),
-      fills_(form == VolumeForm::density_at_query && density_floor > 0.0f &&
+      fills_(form == VolumeForm::density_at_query && thin.density_floor > 0.0f &&
              std::any_of(scene.media.begin(), scene.media.end(),
                          [](const Medium& medium) { return medium.grid && medium.scatters(); })) {}
 
 std::unique_ptr<PhotonRecorder> CollisionRecorder::part() const {
-  return std::make_unique<CollisionRecorder>(scene_, form_, density_floor_, filter_, where_empty_);
+  return std::make_unique<CollisionRecorder>(scene_, form_, thin_, filter_);
 }
 
 void CollisionRecorder::join(PhotonRecorder& part) {
@@ -64,7 +62,7 @@ size_t CollisionRecorder::stored() const {
 void CollisionRecorder::flew(const Track& track, const ArrivingPhoton& photon, Rng& rng) {
   const Medium& medium = scene_.media[track.medium];
   if (!medium.grid || !medium.scatters() || !filter_(photon)) return;
-  const float floor = floor_in(medium, density_floor_);
+  const float floor = floor_in(medium, thin_.density_floor);
   const double spacing = 1.0 / (double{floor} * max_channel(medium.majorant()));  // m
   const double first = rng.uniform_double() * spacing;                            // m
   if (!(first < track.length)) return;
@@ -73,7 +71,7 @@ void CollisionRecorder::flew(const Track& track, const ArrivingPhoton& photon, R
     for (double i = std::ceil((stretch.t0 - first) / spacing); first + i * spacing < stretch.t1; ++i) {
       const double t = first + i * spacing;
       const float density = relative_density(medium, stretch.density(t));
-      if (density == 0.0f && !where_empty_) continue;
+      if (density == 0.0f && !thin_.where_empty) continue;
       if (rng.uniform() * floor >= density) store_along(track, t, floor);
     }
     return true;
@@ -97,7 +95,7 @@ void CollisionRecorder::collided(const ArrivingPhoton& photon) {
   const Medium& medium = scene_.media[photon.state.medium];
   if (!medium.scatters() || !filter_(photon)) return;
   const float density = relative_density(medium, photon.event.density);
-  const float floor = floor_in(medium, density_floor_);
+  const float floor = floor_in(medium, thin_.density_floor);
   if (form_ == VolumeForm::density_at_query && density < floor) count(floored);
   photons[photon.state.medium].push_back(
       as_photon(photon, stored_power(photon.state.throughput, form_, density, floor)));

@@ -37,6 +37,12 @@ inline constexpr PhotonFilter photon_from_rough([](bool, bool, bool from_rough) 
 /// mirrors and smooth glass, but nothing else, have scattered are kept only if `specular`.
 PhotonFilter caustic_photons(bool direct, bool specular);
 
+/// Where a grid is so thin that photons are also stored along flights.
+struct ThinParts {
+  float density_floor;  // the density below which it is, in [0, 1], relative to the medium's largest: see floor_in()
+  bool where_empty;     // also where the density is 0, unless a whole brick of the grid is empty?
+};
+
 /// Records photons at their collisions in scattering media, before the choice between absorption and scattering. Their
 /// power is the power that collides; under VolumeForm::density_at_query it is divided by the density there
 /// (stored_power()).
@@ -48,10 +54,7 @@ PhotonFilter caustic_photons(bool direct, bool specular);
 /// mean is what it is without a floor. Flights must be drawn from the medium's own transmittance.
 class CollisionRecorder : public PhotonRecorder {
  public:
-  /// `density_floor`, in [0, 1]: relative to the medium's largest, see floor_in(). `where_empty`: photons are also
-  /// stored along flights where the density is 0, unless a whole brick of the grid is empty.
-  CollisionRecorder(const Scene& scene, VolumeForm form, float density_floor, PhotonFilter filter,
-                    bool where_empty = true);
+  CollisionRecorder(const Scene& scene, VolumeForm form, const ThinParts& thin, PhotonFilter filter);
 
   std::unique_ptr<PhotonRecorder> part() const override;
   void join(PhotonRecorder& part) override;
@@ -69,9 +72,8 @@ class CollisionRecorder : public PhotonRecorder {
 
   const Scene& scene_;
   VolumeForm form_;
-  float density_floor_;
+  ThinParts thin_;
   PhotonFilter filter_;
-  bool where_empty_;
   bool fills_;  // up to the floor, along flights
 };
 

@@ -36,7 +36,7 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
                                                                 int pass, const SharedTransmittance& transmittance) {
   const bool by_rays = settings.volume_direct != DirectLight::photons;
   // Photons that fly by another law than the medium's transmittance do not weigh 1/density where it is thin.
-  const bool analog = strategy_info(settings.distance.strategy).bounded_weight;
+  const bool analog = strategy_info(settings.distance.strategy).analog;
   const VolumeMapSettings map{settings.volume, settings.volume_form, analog ? settings.density_floor : 0.0f, !by_rays,
                               pass_of_maps(settings, pass)};
   std::vector<std::unique_ptr<VolumeEstimator>> estimators;

@@ -72,10 +72,23 @@ class MarchedLight::March {
     if (found.reach.interval.t0 < t0) past_end(i, {t0, mirror(found.reach.interval.t0)}, t0, segment_.throughput);
     if (found.reach.interval.t1 > t1) {
       const float from = mirror(found.reach.interval.t1);
-      const double before = counted_density_integral(*segment_.medium(), segment_.ray, {t0, from}, work_.counters.walk);
-      past_end(i, {from, t1}, t1, segment_.throughput * transmittance(*segment_.medium(), before));
+      const Rgb seen = seen_at(from);
+      if (!is_black(seen)) past_end(i, {from, t1}, t1, segment_.throughput * seen);
     }
     return found.reach.points->over_share(found.radiance, work_);
+  }
+
+  /// The transmittance to a place of the segment, which has been marched. Below 1 % by Russian roulette, as past dense
+  /// segments there is little to see.
+  Rgb seen_at(float t) {
+    constexpr float kRouletteBelow = 0.01f;
+    const Medium& medium = *segment_.medium();
+    const double beyond =
+        counted_density_integral(medium, segment_.ray, {t, segment_.interval.t1}, work_.counters.walk);
+    const Rgb seen = transmittance(medium, std::max(0.0, integral_ - beyond));
+    const float survival = max_channel(seen) / kRouletteBelow;
+    if (survival >= 1.0f) return seen;
+    return work_.rng.uniform() < survival ? seen / survival : Rgb(0.0f);
   }
 
   /// Adds what a source finds at the places that mirror an interval of the segment at its end.

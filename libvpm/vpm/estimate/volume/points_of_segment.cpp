@@ -10,17 +10,10 @@
 namespace vpm {
 namespace {
 
-/// Is each ball corrected by itself? With radii that go by count a missing photon makes the next ball larger, so that
-/// balls beyond a border cannot make up for those before it.
-bool each_ball(const GatherSettings& gather) {
-  return gather.boundary == BoundaryRule::corrected ||
-         (gather.boundary == BoundaryRule::ends && gather.mode == GatherMode::nearest);
-}
-
 /// What the region of a segment goes by.
 GatherSettings of_segment(const GatherSettings& gather) {
   GatherSettings settings = gather;
-  if (each_ball(gather)) settings.boundary = BoundaryRule::none;
+  if (gather.corrects_each_ball()) settings.boundary = BoundaryRule::none;
   return settings;
 }
 
@@ -48,7 +41,7 @@ KernelEstimate PointsOfSegment::sum(const Vec3& point, EyeWork& work) const {
   count(work.counters.volume_queries);
   const Phase& phase = segment_.medium()->phase;
   const Vec3 towards_eye = -segment_.ray.direction;
-  if (each_ball(map_.settings)) {
+  if (map_.settings.corrects_each_ball()) {
     const VolumeRegion region(segment_.scene, segment_.number, point, map_.settings.kernel, form_);
     return volume_sum(phase, point, towards_eye, BoundedMap{map_, region, work.gather()});
   }

@@ -26,9 +26,9 @@ class VolumeMaps {
       : scene_(scene),
         settings_(settings),
         dimension_(dimension),
-        // Regions of borders that are corrected have no places without density.
-        collisions_(scene, settings.form, settings.density_floor, settings.once ? any_photon : indirect_photon,
-                    settings.gather.boundary != BoundaryRule::corrected) {}
+        // The region of a ball that is corrected has no places without density.
+        collisions_(scene, settings.form, {settings.density_floor, !settings.gather.corrects_each_ball()},
+                    settings.once ? any_photon : indirect_photon) {}
 
   ScatteredLight finds() const { return {settings_.once, true}; }
   std::vector<MapInfo> maps() const { return {{"volume", dimension_, true, &collisions_.photons}}; }

@@ -60,6 +60,7 @@ struct StrategyInfo {
   bool heterogeneous = true;  // false: refused in grids
   bool unbiased = true;
   bool marches = false;  // in steps, whose length is its bias
+  bool analog = true;    // draws from the medium's own transmittance, to the order of its bias
   bool bounded_weight = true;
   bool positive = true;  // false: weights of either sign; refused for photons, whose power must not be negative
 };

@@ -311,6 +311,13 @@ std::vector<Check> check_borders(const Effort& effort) {
   for (const auto& [name, mode] : {std::pair("balls", GatherMode::radius), {"discs", GatherMode::beam}})
     append(checks, check_picture(fmt::format("picture of a box, {} past ends of segments", name), white,
                                  {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
+  append(checks,
+         check_picture("picture of a ball of voxels, discs", ball_of_voxels(),
+                       {.mode = GatherMode::beam, .radius = 0.4f, .boundary = BoundaryRule::corrected}, 0.01, effort));
+  append(checks,
+         check_picture("picture of a ball of voxels, nearest photons", ball_of_voxels(),
+                       {.mode = GatherMode::nearest, .radius = 0.6f, .count = 100, .boundary = BoundaryRule::ends},
+                       0.01, effort));
   const Medium voxels = box_of_voxels();
   for (const auto& [name, mode] : {std::pair("balls", GatherMode::radius), {"discs", GatherMode::beam}})
     append(checks, check_picture(fmt::format("picture of a box of voxels, {} past ends of segments", name), voxels,
