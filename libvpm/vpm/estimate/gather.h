@@ -9,8 +9,9 @@
 
 namespace vpm {
 
-/// Around points, by radius or by count; or, in media, around whole segments of rays, by radius (beam_estimate.h).
-enum class GatherMode { radius, nearest, beam };
+/// Around points, by radius or by count; in media also around whole segments of rays, by radius: photons
+/// (beam_estimate.h), or the beams of their flights (volume/photon_beams.h).
+enum class GatherMode { radius, nearest, beam, photon_beams };
 
 /// What is done where a disc or a ball reaches beyond the places that photons can come to. `none`: nothing, so that
 /// estimates are too dark there and light leaks through walls. `corrected`: each disc or ball by itself, by BoundedMap.

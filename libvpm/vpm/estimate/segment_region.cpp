@@ -45,9 +45,9 @@ Offsets make_offsets(KernelKind kernel, int dimension) {
   const int positive = crest < 1.0 ? kPairs - 1 : kPairs;
   Offsets offsets;
   for (int i = 0; i < kPairs; ++i) {
-    const float along = dimension == 2 ? 0.0f : (static_cast<float>(i) + 0.5f) / kPairs;
+    const float along = dimension < 3 ? 0.0f : (static_cast<float>(i) + 0.5f) / kPairs;
     const float across = std::sqrt(1.0f - along * along), turn = golden * static_cast<float>(i) + kTurn;
-    const int ring = dimension == 2 ? i : i * kApart % kPairs;
+    const int ring = dimension < 3 ? i : i * kApart % kPairs;
     const double distance = ring < positive
                                 ? distance_within(kernel, dimension, before * (ring + 0.5) / positive, 0.0, crest)
                                 : distance_within(kernel, dimension, 0.5 * (before + 1.0), 1.0, crest);
@@ -59,14 +59,16 @@ Offsets make_offsets(KernelKind kernel, int dimension) {
   return offsets;
 }
 
-/// Of all kernels, in two and in three dimensions.
+/// Of all kernels, in one, two and three dimensions. Lines across a ray lie all around it.
 const auto kOffsets = [] {
-  std::array<std::array<Offsets, 2>, kKernels.size()> all;
+  std::array<std::array<Offsets, 3>, kKernels.size()> all;
   for (const KernelInfo& info : kKernels)
-    for (const int dimension : {2, 3})
-      all[static_cast<size_t>(info.kind)][dimension - 2] = make_offsets(info.kind, dimension);
+    for (const int dimension : {1, 2, 3})
+      all[static_cast<size_t>(info.kind)][dimension - 1] = make_offsets(info.kind, dimension);
   return all;
 }();
+
+int dimension_of(Spread spread) { return spread == Spread::lines ? 1 : spread == Spread::discs ? 2 : 3; }
 
 float tangent(float cosine) { return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) / cosine; }
 
@@ -229,7 +231,7 @@ Rgb SegmentRegion::share_by_lines(float radius, const SeenAlong& seen, float tur
   Rgbd found(0.0);
   const PlaneDistances distances = this->distances();
   for (const auto& [offset, part_of_kernel] :
-       kOffsets[static_cast<size_t>(kernel_)][spread_ == Spread::discs ? 0 : 1]) {
+       kOffsets[static_cast<size_t>(kernel_)][static_cast<size_t>(dimension_of(spread_) - 1)]) {
     const Vec3 aside = radius * (offset.x * right + offset.y * up);
     const Ray line{segment_.ray.origin + aside, w};
     const Interval part = part_of(line, 0.0f);

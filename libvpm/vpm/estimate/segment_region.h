@@ -43,8 +43,9 @@ struct Mirrored {
 };
 
 /// What photons are spread over: discs across the ray; balls whose projections are such discs, as each photon has its
-/// own transmittance; or balls about points of the ray, with the transmittance of the point.
-enum class Spread { discs, balls_as_discs, balls };
+/// own transmittance; balls about points of the ray, with the transmittance of the point; or, of photon beams, lines
+/// across the ray.
+enum class Spread { discs, balls_as_discs, balls, lines };
 
 /// The region of a segment: the places of its medium in the tube around the ray, on the near side of the planes that
 /// touch the borders at both its ends and of flat walls beside it.

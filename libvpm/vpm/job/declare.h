@@ -29,7 +29,7 @@ struct WordsOf<RadiusSchedule> {
 };
 template <>
 struct WordsOf<GatherMode> {
-  static constexpr std::array<std::string_view, 3> words{"radius", "nearest", "beam"};
+  static constexpr std::array<std::string_view, 4> words{"radius", "nearest", "beam", "photon-beams"};
 };
 template <>
 struct WordsOf<KernelKind> {

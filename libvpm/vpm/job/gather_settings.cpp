@@ -22,10 +22,13 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
   return {
       {.key = section + ".gather",
        .member = at<Gather, &G::mode>(),
-       .domain = words_of<GatherMode>(in_media ? 3 : 2),
-       .meaning = in_media ? "photons within a `\"radius\"`, or the `\"nearest\"` few, or by `\"beam\"` those within "
-                             "the radius of a whole stretch of the eye's ray, in one query"
-                           : "photons within a `\"radius\"`, or the `\"nearest\"` few"},
+       .domain = words_of<GatherMode>(in_media ? 4 : 2),
+       .meaning =
+           in_media
+               ? "photons within a `\"radius\"`, or the `\"nearest\"` few, or by `\"beam\"` those within "
+                 "the radius of a whole stretch of the eye's ray, in one query; `\"photon-beams\"`: all flights of "
+                 "photons that pass it within the radius"
+               : "photons within a `\"radius\"`, or the `\"nearest\"` few"},
       {.key = section + ".radius",
        .member = at<Gather, &G::radius>(),
        // Kernels, 1 over its cube, must be floats; and coordinates are at most 1e9 m.

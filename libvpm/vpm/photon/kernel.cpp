@@ -29,9 +29,15 @@ double kernel_profile_of(KernelKind kind, int dimension, double q) {
 }  // namespace
 
 KernelPair<double> kernel_within(KernelKind kind, int dimension, double t) {
-  const auto within = [&](double s) { return dimension == 2 ? kernel_within_2d(kind, s) : kernel_within_3d(kind, s); };
+  const auto within = [&](double s) {
+    if (dimension == 1) return kernel_within_1d(kind, s);
+    return dimension == 2 ? kernel_within_2d(kind, s) : kernel_within_3d(kind, s);
+  };
   if (kind == KernelKind::constant) return {within(t), 2.0 * (within(std::min(1.0, std::sqrt(2.0) * t)) - within(t))};
-  const double measure = dimension == 2 ? kernel_info(kind).disc * t * t : 2.0 * kernel_info(kind).ball * t * t * t;
+  const KernelInfo& info = kernel_info(kind);
+  const double measure = dimension == 1   ? info.line * t
+                         : dimension == 2 ? info.disc * t * t
+                                          : 2.0 * info.ball * t * t * t;
   return {within(t), measure * kernel_profile_of(kind, dimension, t * t)};
 }
 

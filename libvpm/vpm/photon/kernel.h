@@ -1,4 +1,4 @@
-// Density estimation kernels in two and three dimensions, normalised over the unit ball.
+// Density estimation kernels in one to three dimensions, normalised over the unit ball.
 //
 // A kernel of order 4 has no second moment: the error that it makes in a smooth density is of the fourth power of its
 // radius, where that of the others is of the second. For that it is negative near its border, so that estimates may be.
@@ -18,16 +18,17 @@ enum class KernelKind { constant, cone, epanechnikov, biweight, triweight, order
 struct KernelInfo {
   KernelKind kind;
   const char* name;
-  float disc, ball;  // pi times what the profile is multiplied by for its integral over the unit disc, or ball, to be 1
+  float line;        // what the profile is multiplied by for its integral from -1 to 1 to be 1
+  float disc, ball;  // pi times what it is multiplied by for its integral over the unit disc, or ball, to be 1
 };
 
 /// All kernels, in the order of KernelKind.
-inline constexpr std::array<KernelInfo, 6> kKernels{{{KernelKind::constant, "constant", 1.0f, 0.75f},
-                                                     {KernelKind::cone, "cone", 3.0f, 3.0f},
-                                                     {KernelKind::epanechnikov, "epanechnikov", 2.0f, 1.875f},
-                                                     {KernelKind::biweight, "biweight", 3.0f, 3.28125f},
-                                                     {KernelKind::triweight, "triweight", 4.0f, 4.921875f},
-                                                     {KernelKind::order_4, "order-4", 6.0f, 8.203125f}}};
+inline constexpr std::array<KernelInfo, 6> kKernels{{{KernelKind::constant, "constant", 0.5f, 1.0f, 0.75f},
+                                                     {KernelKind::cone, "cone", 1.0f, 3.0f, 3.0f},
+                                                     {KernelKind::epanechnikov, "epanechnikov", 0.75f, 2.0f, 1.875f},
+                                                     {KernelKind::biweight, "biweight", 0.9375f, 3.0f, 3.28125f},
+                                                     {KernelKind::triweight, "triweight", 1.09375f, 4.0f, 4.921875f},
+                                                     {KernelKind::order_4, "order-4", 1.40625f, 6.0f, 8.203125f}}};
 
 inline const KernelInfo& kernel_info(KernelKind kind) { return kKernels[static_cast<size_t>(kind)]; }
 
@@ -66,12 +67,31 @@ float kernel_correction(float q) {
   }
 }
 
-/// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m^2 or 1/m^3.
+/// What the profile is multiplied by for its integral over the ball of radius r to be 1: 1/m, 1/m^2 or 1/m^3.
+inline float kernel_norm_1d(KernelKind kind, float r) { return kernel_info(kind).line / r; }
 inline float kernel_norm_2d(KernelKind kind, float r) { return kernel_info(kind).disc / (kPi * r * r); }
 inline float kernel_norm_3d(KernelKind kind, float r) { return kernel_info(kind).ball / (kPi * r * r * r); }
 
-/// The integral of the normalised kernel over the disc, or ball, of `t` <= 1 times its radius; 1 at 1, exactly. It is
-/// never negative, and above 1 for order 4 where its negative rim is cut off.
+/// The integral of the normalised kernel over the interval, disc, or ball of `t` <= 1 times its radius; 1 at 1,
+/// exactly. It is never negative, and above 1 for order 4 where its negative rim is cut off.
+inline double kernel_within_1d(KernelKind kind, double t) {
+  const double q = t * t;
+  switch (kind) {
+    case KernelKind::constant:
+      return t;
+    case KernelKind::cone:
+      return t * (2.0 - t);
+    case KernelKind::epanechnikov:
+      return t * (3.0 - q) / 2.0;
+    case KernelKind::biweight:
+      return t * (15.0 + q * (3.0 * q - 10.0)) / 8.0;
+    case KernelKind::triweight:
+      return t * (35.0 + q * (q * (21.0 - 5.0 * q) - 35.0)) / 16.0;
+    case KernelKind::order_4:
+      break;
+  }
+  return t * (45.0 + q * (21.0 * q - 50.0)) / 16.0;
+}
 inline double kernel_within_2d(KernelKind kind, double t) {
   const double q = t * t, rest = 1.0 - q;
   switch (kind) {
@@ -109,8 +129,8 @@ inline double kernel_within_3d(KernelKind kind, double t) {
   return cube * (175.0 + q * (135.0 * q - 294.0)) / 16.0;
 }
 
-/// The integral of the normalised kernel over the disc (dimension 2) or ball (3) of `t` <= 1 times its radius, and that
-/// of its correction: t/2 times the derivative of the first.
+/// The integral of the normalised kernel over the interval (dimension 1), disc (2) or ball (3) of `t` <= 1 times its
+/// radius, and that of its correction: t/2 times the derivative of the first.
 KernelPair<double> kernel_within(KernelKind kind, int dimension, double t);
 
 }  // namespace vpm

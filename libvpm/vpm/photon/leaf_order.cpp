@@ -44,20 +44,29 @@ void part(std::vector<Item>& items, LeafOrder& tree, size_t node, size_t first, 
   }
 }
 
+/// The leaves of `count` places; position_of(i) is in m.
+template <class PositionOf>
+LeafOrder sort_places(size_t count, size_t largest, PositionOf&& position_of) {
+  LeafOrder tree;
+  tree.leaves = std::bit_ceil(std::max<size_t>(1, (count + largest - 1) / largest));
+  tree.splits.resize(tree.leaves);
+  std::vector<Item> items(count);
+  parallel_for_chunks(items.size(), kCopyChunk, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) items[i] = {position_of(i), static_cast<uint32_t>(i)};
+  });
+  part(items, tree, 1, 0, tree.leaves);
+  tree.order.resize(count);
+  std::transform(items.begin(), items.end(), tree.order.begin(), [](const Item& item) { return item.photon; });
+  return tree;
+}
+
 }  // namespace
 
 LeafOrder sort_into_leaves(const std::vector<Photon>& photons, size_t largest) {
-  LeafOrder tree;
-  tree.leaves = std::bit_ceil(std::max<size_t>(1, (photons.size() + largest - 1) / largest));
-  tree.splits.resize(tree.leaves);
-  std::vector<Item> items(photons.size());
-  parallel_for_chunks(items.size(), kCopyChunk, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) items[i] = {photons[i].position, static_cast<uint32_t>(i)};
-  });
-  part(items, tree, 1, 0, tree.leaves);
-  tree.order.resize(photons.size());
-  std::transform(items.begin(), items.end(), tree.order.begin(), [](const Item& item) { return item.photon; });
-  return tree;
+  return sort_places(photons.size(), largest, [&](size_t i) { return photons[i].position; });
+}
+LeafOrder sort_into_leaves(const std::vector<Vec3>& positions, size_t largest) {
+  return sort_places(positions.size(), largest, [&](size_t i) { return positions[i]; });
 }
 
 }  // namespace vpm

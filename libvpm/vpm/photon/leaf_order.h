@@ -1,5 +1,5 @@
-// Photons sorted into the leaves of a balanced binary tree [Friedman1977] without pointers. Nodes are numbered as in a
-// heap: the root is 1, the children of node i are 2 i and 2 i + 1. The photons of a leaf follow from its number.
+// Positions sorted into the leaves of a balanced binary tree [Friedman1977] without pointers. Nodes are numbered as in
+// a heap: the root is 1, the children of node i are 2 i and 2 i + 1. The photons of a leaf follow from its number.
 #pragma once
 
 #include <bit>
@@ -32,5 +32,7 @@ inline size_t leaf_begin(size_t photons, size_t leaves, size_t leaf) {
 /// holds at most `largest`. A leaf holds at least half of that, if there are so many photons. Runs on all threads; the
 /// result does not depend on their number.
 LeafOrder sort_into_leaves(const std::vector<Photon>& photons, size_t largest);
+/// The same of any positions, m.
+LeafOrder sort_into_leaves(const std::vector<Vec3>& positions, size_t largest);
 
 }  // namespace vpm

@@ -55,4 +55,11 @@ class PhotonRecorder {
 
 using Recorders = std::vector<PhotonRecorder*>;
 
+/// Appends to a list what a part of it has, and leaves that empty.
+template <class T>
+void join_lists(std::vector<T>& all, std::vector<T>& part) {
+  all.insert(all.end(), part.begin(), part.end());
+  part = {};
+}
+
 }  // namespace vpm

@@ -11,13 +11,6 @@
 namespace vpm {
 namespace {
 
-/// Appends what a part has, and leaves that empty.
-template <class T>
-void append(std::vector<T>& all, std::vector<T>& part) {
-  all.insert(all.end(), part.begin(), part.end());
-  part = {};
-}
-
 Photon as_photon(const ArrivingPhoton& arriving, const Rgb& power) {
   return {arriving.state.ray.origin, PackedDirection(arriving.state.ray.direction), power};
 }
@@ -47,7 +40,7 @@ std::unique_ptr<PhotonRecorder> CollisionRecorder::part() const {
 
 void CollisionRecorder::join(PhotonRecorder& part) {
   auto& other = static_cast<CollisionRecorder&>(part);
-  for (size_t m = 0; m < photons.size(); ++m) append(photons[m], other.photons[m]);
+  for (size_t m = 0; m < photons.size(); ++m) join_lists(photons[m], other.photons[m]);
   floored += other.floored;
 }
 
@@ -110,7 +103,7 @@ std::unique_ptr<PhotonRecorder> HitRecorder::part() const {
 
 void HitRecorder::join(PhotonRecorder& part) {
   auto& other = static_cast<HitRecorder&>(part);
-  append(photons, other.photons);
+  join_lists(photons, other.photons);
   emitted_count += other.emitted_count;
 }
 
@@ -119,7 +112,9 @@ void HitRecorder::hit(const ArrivingPhoton& photon) {
   photons.push_back(as_photon(photon, photon.state.throughput));
 }
 
-void CachePointRecorder::join(PhotonRecorder& part) { append(points, static_cast<CachePointRecorder&>(part).points); }
+void CachePointRecorder::join(PhotonRecorder& part) {
+  join_lists(points, static_cast<CachePointRecorder&>(part).points);
+}
 
 void CachePointRecorder::hit(const ArrivingPhoton& photon) {
   const Hit& hit = photon.event.hit;

@@ -9,6 +9,7 @@
 #include "vpm/estimate/surface/progressive.h"
 #include "vpm/estimate/surface/visualise.h"
 #include "vpm/estimate/volume/beam_radiance.h"
+#include "vpm/estimate/volume/photon_beams.h"
 #include "vpm/estimate/volume/points_at_photon.h"
 #include "vpm/estimate/volume/points_at_query.h"
 #include "vpm/estimate/volume/single_equiangular.h"
@@ -41,7 +42,10 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
                               pass_of_maps(settings, pass)};
   std::vector<std::unique_ptr<VolumeEstimator>> estimators;
   std::vector<std::unique_ptr<MarchedSource>> marched;
-  if (settings.volume.mode == GatherMode::beam)
+  if (settings.volume.mode == GatherMode::photon_beams)
+    estimators.push_back(std::make_unique<PhotonBeams>(
+        scene, PhotonBeamSettings{settings.volume, settings.volume_form, !by_rays, pass_of_maps(settings, pass)}));
+  else if (settings.volume.mode == GatherMode::beam)
     estimators.push_back(std::make_unique<BeamRadiance>(scene, map));
   else if (settings.volume_form == VolumeForm::density_at_photon)
     estimators.push_back(std::make_unique<PointsAtPhoton>(scene, map));

@@ -1,0 +1,115 @@
+// A hierarchy of boxes over leaves, for rays. The sixteen boxes below a box are met at once: four levels of the binary
+// tree that leaves are sorted by (leaf_order.h).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "vpm/base/below.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/vec.h"
+
+namespace vpm {
+
+class BoxTree {
+ public:
+  BoxTree() = default;
+  /// Of `leaves` leaves, a power of 2 up to 2^32; box_of(leaf) is the box around one, and is called on all threads.
+  template <class BoxOf>
+  BoxTree(size_t leaves, BoxOf&& box_of);
+
+  /// Calls visit(leaf) for the leaves whose boxes the interval of the ray meets, in a fixed order.
+  template <class Visit>
+  void visit_leaves(const Ray& ray, const Interval& interval, Visit&& visit) const;
+
+  size_t memory_bytes() const { return 6 * lo_[0].capacity() * sizeof(float); }
+
+ private:
+  static constexpr int kLevels = 4;          // of the binary tree between a box and those below it
+  static constexpr int kMostDepth = 8;       // of boxes: 2^32 leaves
+  static constexpr size_t kChunk = 1 << 10;  // leaves one thread takes at once
+
+  /// A ray as boxes are met. Along each axis it enters a box at the near plane times `inverse` plus `enter`, m, and
+  /// leaves it at the far plane times `inverse` plus `leave`.
+  struct Beam {
+    Interval interval;
+    Vec3 inverse, enter, leave;
+    std::array<const float*, 3> near, far;  // of all boxes: their lower sides or their upper ones
+  };
+  Beam make_beam(const Ray& ray, const Interval& interval) const;
+  /// The first of the boxes below a box, numbered among those of their depth, and how many there are.
+  std::pair<uint32_t, uint32_t> children(int depth, uint32_t box) const {
+    const uint32_t most = 1u << kLevels;
+    return {box * most, static_cast<uint32_t>(std::min<size_t>(most, begin_[depth + 2] - begin_[depth + 1]))};
+  }
+  /// Appends to `met` which of the `count` boxes from that place on the beam meets, numbered from `first` on. Returns
+  /// how many it does.
+  uint32_t meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
+  void allocate(size_t leaves);
+  void set(size_t place, const Box& box);
+  void join_boxes();
+
+  int depth_ = 0;                               // of the leaves' boxes; the root's is 0
+  std::array<size_t, kMostDepth + 2> begin_{};  // of the boxes of each depth, and one past the last
+  std::array<std::vector<float>, 3> lo_, hi_;   // m
+};
+
+template <class BoxOf>
+BoxTree::BoxTree(size_t leaves, BoxOf&& box_of) {
+  allocate(leaves);
+  parallel_for_chunks(leaves, kChunk, [&](size_t begin, size_t end, size_t) {
+    for (size_t leaf = begin; leaf < end; ++leaf) set(begin_[depth_] + leaf, box_of(leaf));
+  });
+  join_boxes();
+}
+
+inline uint32_t BoxTree::meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const {
+  const float *near_x = beam.near[0] + place, *near_y = beam.near[1] + place, *near_z = beam.near[2] + place;
+  const float *far_x = beam.far[0] + place, *far_y = beam.far[1] + place, *far_z = beam.far[2] + place;
+  const auto [t0, t1] = beam.interval;
+  const Vec3 inverse = beam.inverse, at_enter = beam.enter, at_leave = beam.leave;
+  float missed[kBlock], unused[kBlock];
+  for (uint32_t i = 0; i < kBlock; ++i) {
+    float enter = t0, leave = t1;
+    enter = std::max(enter, near_x[i] * inverse.x + at_enter.x);
+    enter = std::max(enter, near_y[i] * inverse.y + at_enter.y);
+    enter = std::max(enter, near_z[i] * inverse.z + at_enter.z);
+    leave = std::min(leave, far_x[i] * inverse.x + at_leave.x);
+    leave = std::min(leave, far_y[i] * inverse.y + at_leave.y);
+    leave = std::min(leave, far_z[i] * inverse.z + at_leave.z);
+    missed[i] = enter <= leave ? 0.0f : 1.0f;
+  }
+  return append_below(missed, count, 0.5f, first, unused, met);
+}
+
+template <class Visit>
+void BoxTree::visit_leaves(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  const Beam beam = make_beam(ray, interval);
+  struct Group {
+    uint32_t begin, end;  // of `met`
+  };
+  // Boxes met and not looked into yet, depth by depth.
+  uint32_t met[(kMostDepth + 1) * kBlock] = {0};
+  Group waiting[kMostDepth + 1];
+  waiting[0] = {0, 1};
+  for (int depth = 0; depth >= 0;) {
+    Group& group = waiting[depth];
+    if (group.begin == group.end) {
+      --depth;
+      continue;
+    }
+    const uint32_t box = met[group.begin++];
+    if (depth == depth_) {
+      visit(box);
+      continue;
+    }
+    const auto [first, below] = children(depth, box);
+    const uint32_t begin = group.end, hits = meet(beam, begin_[depth + 1] + first, below, first, met + begin);
+    waiting[++depth] = {begin, begin + hits};
+  }
+}
+
+}  // namespace vpm

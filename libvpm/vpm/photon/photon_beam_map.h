@@ -1,0 +1,143 @@
+// The photon beams of a medium, searched along rays: where does a ray pass closely by which of them? Beams are cut into
+// pieces, since a box around a long beam is mostly empty; the pieces lie in leaves of a hierarchy of boxes. Each beam
+// is met once, wherever its pieces lie, as the place nearest to the ray is in one of them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vpm/base/count.h"
+#include "vpm/photon/box_tree.h"
+#include "vpm/photon/photon_beam.h"
+
+namespace vpm {
+
+/// Beams that pass a ray more closely than a radius, with the ends of the common perpendicular of the two lines.
+struct BeamCrossings {
+  static constexpr size_t kMost = 256;
+
+  size_t size = 0;
+  uint32_t beam[kMost];                // its number in the map
+  float t[kMost];                      // along the ray, m
+  float s[kMost];                      // along the beam, m from its origin
+  float distance2[kMost];              // between the two lines, m^2
+  float sine[kMost];                   // of the angle between them, > 0
+  float x[kMost], y[kMost], z[kMost];  // of the place on the beam from the ray's origin, m
+};
+
+class PhotonBeamMap {
+ public:
+  PhotonBeamMap() = default;
+  /// Of beams that are met within `radius`, m, > 0; powers are multiplied by `scale`: 1/emitted.
+  PhotonBeamMap(std::vector<PhotonBeam> beams, float radius, float scale);
+
+  /// Calls visit(const BeamCrossings&) for the beams that pass the ray within the radius, where the perpendicular meets
+  /// the ray in the interval; some at a time, in a fixed order. Returns how many pieces of beams it looked at.
+  template <class Visit>
+  uint32_t visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const;
+
+  const PhotonBeam& beam(size_t i) const { return beams_[i]; }
+  size_t size() const { return beams_.size(); }
+  const Box& bounds() const { return bounds_; }
+  size_t memory_bytes() const;
+
+ private:
+  static constexpr uint32_t kLeaf = kBlock;  // pieces of a leaf, at most
+
+  /// The axes across a ray and along it.
+  struct Frame {
+    Vec3 right, up, along;
+  };
+  /// Finds which pieces from that place on the ray passes closely: 0 for these in `missed`, 1 for others.
+  void test(size_t place, const Ray& ray, const Frame& frame, const Interval& interval, float* missed) const;
+  void cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame, BeamCrossings& found) const;
+  void cut();
+
+  std::vector<PhotonBeam> beams_;
+  float radius_ = 0.0f;  // m
+  // The pieces, leaf by leaf, with kBlock further ones so that whole blocks can be read.
+  size_t pieces_ = 0, leaves_ = 1;
+  std::vector<float> x_, y_, z_;     // of their middles, m
+  std::vector<float> dx_, dy_, dz_;  // direction, unit
+  std::vector<float> half_;          // of their lengths, m
+  std::vector<float> from_;          // of their middles from the beam's origin, m
+  std::vector<uint32_t> beam_;
+  BoxTree boxes_;
+  Box bounds_;
+};
+
+inline void PhotonBeamMap::test(size_t place, const Ray& ray, const Frame& frame, const Interval& interval,
+                                float* missed) const {
+  const float *px = &x_[place], *py = &y_[place], *pz = &z_[place];
+  const float *dx = &dx_[place], *dy = &dy_[place], *dz = &dz_[place], *half = &half_[place];
+  const auto [right, up, along] = frame;
+  const auto [t0, t1] = interval;
+  const Vec3 o = ray.origin;
+  const float radius2 = radius_ * radius_;
+  for (uint32_t i = 0; i < kBlock; ++i) {
+    const float x = px[i] - o.x, y = py[i] - o.y, z = pz[i] - o.z;
+    const float a = x * right.x + y * right.y + z * right.z, b = x * up.x + y * up.y + z * up.z;
+    const float da = dx[i] * right.x + dy[i] * right.y + dz[i] * right.z;
+    const float db = dx[i] * up.x + dy[i] * up.y + dz[i] * up.z;
+    const float sine2 = da * da + db * db, across = a * db - b * da, back = a * da + b * db;
+    const float s_sine2 = -back;  // along the beam from the middle, times sine2
+    const float c = x * along.x + y * along.y + z * along.z;
+    const float dc = dx[i] * along.x + dy[i] * along.y + dz[i] * along.z;
+    const float t_sine2 = c * sine2 + s_sine2 * dc, end = half[i] * sine2;
+    const bool near = across * across < radius2 * sine2;
+    const bool on_piece = s_sine2 >= -end && s_sine2 < end;
+    const bool on_ray = t_sine2 >= t0 * sine2 && t_sine2 < t1 * sine2;
+    missed[i] = near && on_piece && on_ray ? 0.0f : 1.0f;
+  }
+}
+
+inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame,
+                                 BeamCrossings& found) const {
+  const auto [right, up, along] = frame;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t p = pieces[i];
+    const Vec3 middle = Vec3(x_[p], y_[p], z_[p]) - ray.origin, d(dx_[p], dy_[p], dz_[p]);
+    const float a = glm::dot(middle, right), b = glm::dot(middle, up), da = glm::dot(d, right), db = glm::dot(d, up);
+    const float sine2 = da * da + db * db, across = a * db - b * da, s = -(a * da + b * db) / sine2;
+    const Vec3 place = middle + s * d;
+    found.beam[i] = beam_[p];
+    found.t[i] = glm::dot(place, along);
+    found.s[i] = from_[p] + s;
+    found.distance2[i] = across * across / sine2;
+    found.sine[i] = std::sqrt(sine2);
+    found.x[i] = place.x;
+    found.y[i] = place.y;
+    found.z[i] = place.z;
+  }
+  found.size = count;
+}
+
+template <class Visit>
+uint32_t PhotonBeamMap::visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  if (beams_.empty()) return 0;
+  Frame frame{{}, {}, ray.direction};
+  make_frame(ray.direction, frame.right, frame.up);
+  uint32_t pieces[BeamCrossings::kMost + kBlock];
+  float unused[kBlock];
+  size_t count_found = 0;
+  uint32_t visited = 0;
+  BeamCrossings found;
+  const auto use = [&] {
+    cross(pieces, count_found, ray, frame, found);
+    visit(std::as_const(found));
+    count_found = 0;
+  };
+  boxes_.visit_leaves(ray, interval, [&](uint32_t leaf) {
+    const size_t begin = leaf_begin(pieces_, leaves_, leaf), end = leaf_begin(pieces_, leaves_, leaf + 1);
+    float missed[kBlock];
+    test(begin, ray, frame, interval, missed);
+    const auto number = static_cast<uint32_t>(end - begin);
+    count_found += append_below(missed, number, 0.5f, static_cast<uint32_t>(begin), unused, pieces + count_found);
+    if (count_found > BeamCrossings::kMost - kBlock) use();
+    count(visited, number);
+  });
+  if (count_found > 0) use();
+  return visited;
+}
+
+}  // namespace vpm
