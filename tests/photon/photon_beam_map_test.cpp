@@ -1,0 +1,110 @@
+// Crossings of beams and rays against their brute-force twin.
+#include "vpm/photon/photon_beam_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+
+namespace vpm {
+namespace {
+
+enum class Bundle { scattered, parallel, far, short_ones };
+
+std::vector<PhotonBeam> beams_of(Bundle bundle, int count) {
+  std::vector<PhotonBeam> beams;
+  Rng rng(7, rng_stream(RngUse::test, static_cast<uint64_t>(bundle)), 0);
+  for (int i = 0; i < count; ++i) {
+    PhotonBeam beam;
+    beam.direction = uniform_sphere(rng.uniform2());
+    beam.origin = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    beam.length = rng.uniform();
+    beam.power = Rgb(1.0f + rng.uniform());
+    if (bundle == Bundle::parallel) beam.direction = Vec3(0.0f, 0.0f, 1.0f);
+    if (bundle == Bundle::short_ones) beam.length *= 1e-3f;
+    if (bundle == Bundle::far && i % 50 == 0) {
+      beam.origin -= 1e3f * beam.direction;
+      beam.length = 1e6f;
+    }
+    beams.push_back(beam);
+  }
+  return beams;
+}
+
+/// How the lines of a beam and a ray pass each other, in doubles.
+struct Pass {
+  double t, s, distance, sine;  // as in BeamCrossings
+};
+
+Pass pass_of(const PhotonBeam& beam, const Ray& ray) {
+  const Vec3d from = Vec3d(beam.origin) - Vec3d(ray.origin), w(ray.direction), b(beam.direction);
+  const Vec3d normal = glm::cross(b, w);
+  const double sine = glm::length(normal);
+  const Vec3d beside = from - glm::dot(from, w) * w, turned = b - glm::dot(b, w) * w;
+  const double s = -glm::dot(beside, turned) / glm::dot(turned, turned);
+  return {glm::dot(from, w) + s * glm::dot(b, w), s, std::abs(glm::dot(from, normal)) / sine, sine};
+}
+
+/// How far inside its limits a crossing lies, m: below 0 where there is none.
+double depth_of(const Pass& pass, const PhotonBeam& beam, const Interval& interval, float radius) {
+  return std::min({pass.t - double{interval.t0}, double{interval.t1} - pass.t, pass.s, double{beam.length} - pass.s,
+                   double{radius} - pass.distance});
+}
+
+TEST(PhotonBeamMap, FindsEachCrossingOnce) {
+  uint64_t met = 0;
+  for (const Bundle bundle : {Bundle::scattered, Bundle::parallel, Bundle::far, Bundle::short_ones})
+    for (const float radius : {0.005f, 0.1f, 2.0f}) {
+      const std::vector<PhotonBeam> all = beams_of(bundle, 2000);
+      const PhotonBeamMap map(all, radius, 0.5f);
+      const float resolved = bundle == Bundle::far ? 3e-3f : 3e-5f;  // m: of floats, 1 km from the origin
+      for (uint64_t i = 0; i < 30; ++i) {
+        Rng rng(8, rng_stream(RngUse::test, 3), i);
+        const Ray ray{Vec3(rng.uniform(), rng.uniform(), rng.uniform()), uniform_sphere(rng.uniform2())};
+        const Interval interval{-0.5f * rng.uniform(), i % 3 == 0 ? kInfinity : rng.uniform()};
+        std::map<uint32_t, int> found;
+        map.visit_crossings(ray, interval, [&](const BeamCrossings& crossings) {
+          for (size_t k = 0; k < crossings.size; ++k) {
+            const PhotonBeam& beam = all[crossings.beam[k]];
+            const Pass pass = pass_of(beam, ray);
+            EXPECT_GT(depth_of(pass, beam, interval, radius), -double{resolved} / pass.sine);
+            EXPECT_NEAR(crossings.t[k], pass.t, resolved / pass.sine);
+            EXPECT_NEAR(crossings.s[k], pass.s, resolved / pass.sine + 1e-7 * beam.length);
+            EXPECT_NEAR(std::sqrt(crossings.distance2[k]), pass.distance, resolved / pass.sine);
+            EXPECT_NEAR(crossings.sine[k], pass.sine, 1e-5);
+            EXPECT_EQ(map.beam(crossings.beam[k]).power, 0.5f * beam.power);
+            ++found[crossings.beam[k]];
+          }
+        });
+        for (uint32_t b = 0; b < all.size(); ++b) {
+          const Pass pass = pass_of(all[b], ray);
+          EXPECT_LE(found[b], 1);
+          if (depth_of(pass, all[b], interval, radius) > double{resolved} / pass.sine) EXPECT_EQ(found[b], 1) << b;
+          met += static_cast<uint64_t>(found[b]);
+        }
+      }
+    }
+  EXPECT_GT(met, 10'000u);
+}
+
+TEST(PhotonBeamMap, OfNoBeamsFindsNone) {
+  const PhotonBeamMap map({}, 0.1f, 1.0f);
+  EXPECT_EQ(map.visit_crossings({Vec3(0.0f), Vec3(0.0f, 0.0f, 1.0f)}, {0.0f, 1.0f},
+                                [](const BeamCrossings&) { FAIL(); }),
+            0u);
+}
+
+// A ray along a beam has no common perpendicular with it.
+TEST(PhotonBeamMap, ParallelLinesDoNotCross) {
+  const Vec3 along(0.6f, 0.0f, 0.8f);
+  const PhotonBeamMap map({{Vec3(0.0f), 1.0f, along, Rgb(1.0f)}}, 0.1f, 1.0f);
+  map.visit_crossings({Vec3(0.0f, 0.05f, 0.0f), along}, {0.0f, 1.0f}, [](const BeamCrossings& crossings) {
+    for (size_t i = 0; i < crossings.size; ++i) EXPECT_TRUE(std::isfinite(1.0f / crossings.sine[i]));
+  });
+}
+
+}  // namespace
+}  // namespace vpm
