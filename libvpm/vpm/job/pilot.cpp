@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/stopwatch.h"
 #include "vpm/path/follow.h"
 #include "vpm/photon/nearest_map.h"
 #include "vpm/photon/trace.h"
@@ -171,10 +171,6 @@ PilotPass trace(const Scene& scene, const RenderSettings& settings) {
   return {std::move(estimators), statistics.ledger};
 }
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 /// Renders the rays of one block of pixels of many, cut at the borders of small pictures; the first of them, and others
 /// until so many seconds are over.
 EyeCounters render_block(const Scene& scene, const RayRadiance& radiance, uint64_t seed, size_t block, double seconds) {
@@ -185,8 +181,8 @@ EyeCounters render_block(const Scene& scene, const RayRadiance& radiance, uint64
     const auto middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocks;
     return std::clamp(middle + static_cast<float>(i) - 0.5f * kBlockEdge + 0.5f, 0.0f, static_cast<float>(pixels));
   };
-  const Clock::time_point start = Clock::now();
-  for (int i = 0; i < kBlockEdge * kBlockEdge && (i == 0 || seconds_since(start) < seconds); ++i) {
+  const Stopwatch rendering;
+  for (int i = 0; i < kBlockEdge * kBlockEdge && (i == 0 || rendering.seconds() < seconds); ++i) {
     const Vec2 film(pixel_of(camera.width, block % kBlocks, i % kBlockEdge),
                     pixel_of(camera.height, block / kBlocks, i / kBlockEdge));
     Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
@@ -207,11 +203,11 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
   constexpr size_t kAll = size_t{kBlocks} * kBlocks;
   constexpr double kSearch = 25.0;  // photons that are as dear as a search without any (papers/performance.md)
   std::array<EyeCounters, kAll> blocks;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch rendering;
   parallel_for_chunks(kAll, 1, [&](size_t block, size_t, size_t) {
     blocks[block] = render_block(scene, radiance, settings.seed, block, seconds / kAll);
   });
-  const double taken = seconds_since(start);
+  const double taken = rendering.seconds();
   EyeCounters sum;
   for (const EyeCounters& block : blocks) sum.merge(block);
   const double all = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
@@ -235,13 +231,13 @@ ReadyPass make_ready_within(const Scene& scene, RenderSettings settings, double 
   constexpr uint64_t kFewest = 1000;
   const uint64_t wanted = settings.photons_emitted;
   if (!std::isfinite(seconds)) return make_ready(scene, settings);
-  const Clock::time_point start = Clock::now();
+  const Stopwatch tracing;
   for (uint64_t photons = kFewest;;) {
     settings.photons_emitted = wanted == 0 ? photons : std::min(photons, wanted);
     settings.caustics_emitted = std::min(settings.caustics_emitted, settings.photons_emitted);
     ReadyPass ready = make_ready(scene, settings);
     const RenderStatistics& s = ready.statistics;
-    const double taken = s.trace_seconds + s.build_seconds, left = seconds - seconds_since(start);
+    const double taken = s.trace_seconds + s.build_seconds, left = seconds - tracing.seconds();
     const bool stored_all = std::max(s.volume_photons, s.surface_photons) >= settings.photons_stored;
     if (settings.photons_emitted == wanted || stored_all || left < 2.0 * taken) return ready;
     photons = static_cast<uint64_t>(static_cast<double>(settings.photons_emitted) *

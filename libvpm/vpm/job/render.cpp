@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "vpm/base/error.h"
+#include "vpm/base/stopwatch.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/validate.h"
 #include "vpm/render/path_tracer.h"
@@ -14,8 +14,6 @@
 
 namespace vpm {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// How far a render is, from 0 to 1, in what limits it: passes, time or error (which falls about as passes grow).
 double share_done(const StopRule& until, const RenderResult& result) {
@@ -109,7 +107,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
 
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result,
                         const RunControl& control) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch rendering;
   const double before = result.seconds;
   // One pass shows its stages. Of several the whole is shown: as work of all passes, or as thousandths of the limit.
   const bool counted = until.counts_passes(), shown = progress_enabled(control.progress);
@@ -126,7 +124,7 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
     if (control.stop) break;
     add(result, done);
     if (until.error > 0.0) estimate_errors(result);
-    const double seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = before + rendering.seconds();
     last = seconds - result.seconds;
     result.seconds = seconds;
     if (!counted) {

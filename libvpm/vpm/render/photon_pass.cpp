@@ -2,22 +2,14 @@
 #include "vpm/render/photon_pass.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
+#include "vpm/base/stopwatch.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
 
 namespace vpm {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run) {
   TraceSettings trace;
