@@ -30,9 +30,9 @@ bool too_late(const StopRule& until, const RenderResult& result, double last_pas
   return until.seconds > 0.0 && result.film.passes() > 0 && result.seconds + last_pass > longest_time(until.seconds);
 }
 
-/// Reads the errors off the film, where there are any.
-void estimate_errors(RenderResult& result) {
-  if (result.film.passes() > 1) result.errors = result.film.errors();
+/// Reads the errors off the film where the stop rule goes by them.
+void estimate_errors(const StopRule& until, RenderResult& result) {
+  if (until.error > 0.0 && result.film.passes() >= kLeastPasses) result.errors = result.film.errors();
 }
 
 /// "7 of 16 passes, relative MSE below 0.02": what a terminal shows beside the bar. Errors are read off the film anew
@@ -44,7 +44,7 @@ class ProgressNote {
   std::string after(const RenderResult& result) {
     const int passes = result.film.passes();
     if (result.errors || passes % kLeastPasses == 0)
-      error_ = passes < kLeastPasses ? "" : fmt::format(", relative MSE below {:.2g}", highest_error(result));
+      error_ = fmt::format(", relative MSE below {:.2g}", highest_error(result));
     return until_.counts_passes() ? fmt::format("{} of {} passes{}", passes, until_.passes, error_)
                                   : fmt::format("{} {}{}", passes, passes == 1 ? "pass" : "passes", error_);
   }
@@ -118,12 +118,12 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
                counted ? passes.work : 1);
   ProgressNote note(until);
   const PassProgress pass_progress{shown && single, counted ? &bar : nullptr};
-  if (until.error > 0.0) estimate_errors(result);  // of a render that goes on
+  estimate_errors(until, result);  // of a render that goes on
   for (double last = 0.0; !control.stop && share_done(until, result) < 1.0 && !too_late(until, result, last);) {
     const Pass done = passes.make(result, pass_progress);
     if (control.stop) break;
     add(result, done);
-    if (until.error > 0.0) estimate_errors(result);
+    estimate_errors(until, result);
     const double seconds = before + rendering.seconds();
     last = seconds - result.seconds;
     result.seconds = seconds;
@@ -135,7 +135,7 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
     if (control.finished) control.finished(result);
   }
   bar.finish();
-  if (!result.errors) estimate_errors(result);
+  result.errors = errors_of(result);
   return result;
 }
 

@@ -53,12 +53,17 @@ void choose_again(RenderJob& job, std::vector<Choice> choices) {
 void foresee(RenderJob& job) {
   validate(job.settings, facts_of(job.scene));
   const Stopwatch looking;
-  check_memory(job.scene, job.settings, physical_memory());
+  check_memory(job.scene, job.settings, PassOf::picture, physical_memory());
   if (const double seconds = job.settings.until.seconds; seconds > 0.0) {
     const PassCost cost = time_pass(job.scene, job.settings, std::min(0.1 * seconds, 1.0));
     if (std::string text = too_long_text(cost, job.settings); !text.empty()) job.notes.push_back(std::move(text));
   }
   job.pilot_seconds += looking.seconds();
+}
+
+void foresee_light_map(const RenderJob& job) {
+  validate_light_map(job.settings, facts_of(job.scene));
+  check_memory(job.scene, job.settings, PassOf::light_map, physical_memory());
 }
 
 }  // namespace vpm

@@ -45,9 +45,9 @@ void trace_pass(const Scene& scene, const RenderSettings& settings, const Estima
   Progress bar("photons", settings.photons_emitted, run.progress.stages);
   statistics.ledger = trace_photons(scene, *strategy, trace, recorders, bar);
   bar.finish();
-  for (Estimator* estimator : estimators.all())
-    estimator->trace_more({*strategy, trace, statistics.ledger.emitted_count});
   statistics.trace_seconds = tracing.seconds();
+  for (Estimator* estimator : estimators.all())
+    estimator->trace_more({*strategy, trace, statistics.ledger.emitted_count}, statistics);
 }
 
 void prepare_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
