@@ -59,6 +59,7 @@ int bake_command(const BakeOptions& options) {
   validate_light_map(job.settings, facts_of(job.scene));
   const UvLayout layout = lay_out(job.scene, options);
   check_outputs(outputs, layout.texels(), false, job);
+  foresee_light_map(job);
   print_notes(job);
   const std::atomic<bool>& stop = stop_on_signals();
   const RenderResult result = bake_light_map(job.scene, job.settings, layout, {stop, options.progress});
