@@ -105,7 +105,8 @@ std::vector<Rgbd> relative_scales(const Image& means) {
     for (size_t i = begin; i < end; ++i) {
       const auto x = static_cast<int>(i % means.width), y = static_cast<int>(i / means.width);
       const Rgbd own(means.at(x, y)), around = mean_of_neighbours(means, x, y);
-      scales[i] = glm::min(own * own, around * around) + 0.01 * channels * channels;
+      for (int c = 0; c < 3; ++c)
+        scales[i][c] = relative_scale(std::min(std::abs(own[c]), std::abs(around[c])), channels[c]);
     }
   });
   return scales;
