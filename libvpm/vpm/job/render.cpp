@@ -46,7 +46,7 @@ class ProgressNote {
     if (result.errors || passes % kLeastPasses == 0)
       error_ = fmt::format(", relative MSE below {:.2g}", highest_error(result));
     return until_.counts_passes() ? fmt::format("{} of {} passes{}", passes, until_.passes, error_)
-                                  : fmt::format("{} {}{}", passes, passes == 1 ? "pass" : "passes", error_);
+                                  : passes_text(passes) + error_;
   }
 
  private:
@@ -74,6 +74,8 @@ void add(RenderResult& result, const Pass& pass) {
 }
 
 }  // namespace
+
+std::string passes_text(int passes) { return passes == 1 ? "1 pass" : fmt::format("{} passes", passes); }
 
 RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0, {}}; }
 

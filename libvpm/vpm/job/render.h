@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "vpm/base/progress.h"
 #include "vpm/estimate/statistics.h"
@@ -26,6 +27,9 @@ struct RenderResult {
                                           // where the stop rule asks for an error also after each pass, once there
                                           // are kLeastPasses
 };
+
+/// "1 pass", "16 passes".
+std::string passes_text(int passes);
 
 /// How a render is watched and stopped.
 struct RunControl {
