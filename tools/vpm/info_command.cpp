@@ -8,6 +8,7 @@
 #include "vpm/estimate/pass_map.h"
 #include "vpm/input/grid_file.h"
 #include "vpm/input/scene_file.h"
+#include "vpm/job/render.h"
 #include "vpm/job/stage_lines.h"
 #include "vpm/render/plan.h"
 
