@@ -138,7 +138,7 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
   refuses(kRender, "it is no checkpoint");
-  std::ofstream(path_) << "vpm checkpoint of a render\nformat 3\nidentity 2\nrender.seed=1\n";
+  std::ofstream(path_) << "vpm checkpoint of a render\nformat 4\nidentity 2\nrender.seed=1\n";
   refuses(kRender, "it is damaged or not whole");
   write_checkpoint(path_, kRender, some_result());
   const uintmax_t size = fs::file_size(path_);
@@ -175,11 +175,11 @@ std::string bytes_of(T number) {
 TEST_F(Checkpoint, OfAnotherFormatIsRefused) {
   write_checkpoint(path_, kRender, some_result());
   const std::string content = bytes();
-  put(with(content, "format 3\n", "format 4\n"));
-  refuses(kRender, "it is written by another format of checkpoints, 4; this program reads 3");
+  put(with(content, "format 4\n", "format 5\n"));
+  refuses(kRender, "it is written by another format of checkpoints, 5; this program reads 4");
   EXPECT_THROW(checkpoint_identity(path_), InputError);
-  put(with(content, "format 3\n", ""));  // as they were before they told it
-  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 3");
+  put(with(content, "format 4\n", ""));  // as they were before they told it
+  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 4");
 }
 
 TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
@@ -254,7 +254,7 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
   };
   constexpr const char* kOld = "format_1";  // a whole file, written before files told their format
   put(seed(folder / kOld));
-  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 3; render again");
+  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 4; render again");
   int accepted = 0;
   size_t refused = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {

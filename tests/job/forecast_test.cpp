@@ -10,6 +10,7 @@
 #include "vpm/base/error.h"
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
+#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 namespace {
@@ -54,20 +55,21 @@ TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
   const RenderJob job = fog();
   RenderSettings settings;
   settings.photons_emitted = 100'000'000;  // 2e8 stored, 12.8 GB
-  EXPECT_NO_THROW(check_memory(job.scene, settings, 15e9));
+  EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 15e9));
+  EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::light_map, 8e9));  // which shows no medium
   try {
-    check_memory(job.scene, settings, 8e9);
+    check_memory(job.scene, settings, PassOf::picture, 8e9);
     ADD_FAILURE() << "it fits";
   } catch (const InputError& error) {
     const std::string text = error.what();
-    for (const char* part : {"photons.emitted", "2e+08 photons", "13 GB", "8 GB", "photons.emitted = 3e+07"})
+    for (const char* part : {"photons.emitted", "2e+08 photons", "13 GB", "8 GB", "e+07 photons.emitted would fit"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
   settings.photons_stored = 50'000'000;  // tracing stops there
-  EXPECT_NO_THROW(check_memory(job.scene, settings, 8e9));
+  EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
   settings.photons_stored = 0;
   settings.integrator = Integrator::path;
-  EXPECT_NO_THROW(check_memory(job.scene, settings, 1e6));
+  EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 1e6));
 }
 
 TEST(Forecast, LooksAheadOnlyWhereATimeIsAskedFor) {
@@ -79,6 +81,62 @@ TEST(Forecast, LooksAheadOnlyWhereATimeIsAskedFor) {
   ASSERT_EQ(job.notes.size(), 1u);
   EXPECT_EQ(job.notes[0].substr(0, 14), "one pass takes");
   EXPECT_GT(job.pilot_seconds, 0.0);
+}
+
+/// A glass ball over a floor, whose caustic has photons of its own.
+RenderJob glass_over_floor(uint64_t photons, uint64_t aimed) {
+  AssembledScene parts;
+  Scene& scene = parts.scene;
+  add_shape(scene, quad_mesh(Vec3d(-3.0, -1.5, 3.0), Vec3d(6.0, 0.0, 0.0), Vec3d(0.0, 0.0, -6.0)),
+            Lambertian{Rgb(0.5f)});
+  add_shape(scene, SphereShape{Vec3(0.0f), 0.5f}, Dielectric{1.5f});
+  scene.lights.push_back(PointLight{Vec3(0.0f, 3.0f, 0.0f), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 0.5f, 5.0f), Vec3(0.0f, -1.0f, 0.0f), Vec3(0.0f, 1.0f, 0.0f), 40.0f, {8, 8});
+  scene.geometry.commit();
+  finish(scene);
+  RenderJob job = make_job(std::move(parts));
+  job.settings.photons_emitted = photons;
+  job.settings.surface_indirect = IndirectLight::final_gather;
+  job.settings.caustics_emitted = aimed;
+  return job;
+}
+
+TEST(Forecast, SeesCausticPhotonsThatTakeTooLong) {
+  RenderJob job = glass_over_floor(1000, 100'000'000);
+  job.settings.until.seconds = 2.0;  // the eye's rays take far less, also where others work beside
+  foresee(job);
+  ASSERT_EQ(job.notes.size(), 1u);
+  EXPECT_EQ(job.notes[0].substr(0, 14), "one pass takes");
+  EXPECT_NE(job.notes[0].find("caustics.emitted would fit"), std::string::npos) << job.notes[0];
+  EXPECT_LT(job.pilot_seconds, 10.0);  // of 0.2 s
+}
+
+/// From a part of either kind, of which the caustic ones are many more.
+TEST(Forecast, CountsThePhotonsOfEitherKindThatAPassStores) {
+  const RenderJob job = glass_over_floor(20'000, 400'000);
+  const Pass pass = render_photon_pass(job.scene, job.settings, 0, kNeverStopped);
+  const RenderStatistics& s = pass.statistics;
+  const PassCost cost = time_photons(job.scene, job.settings, PassOf::picture, 0.05);
+  const auto aimed = static_cast<double>(s.aimed_photons);
+  const double stored = static_cast<double>(s.surface_photons + s.caustic_photons);
+  EXPECT_GT(aimed, 0.5 * stored);
+  EXPECT_NEAR(cost.stored_caustics, aimed, 0.1 * aimed);
+  EXPECT_NEAR(cost.stored(20'000), stored, 0.1 * stored);
+  EXPECT_GT(cost.caustics, 0.0);
+}
+
+TEST(Forecast, RefusesCausticPhotonsThatDoNotFitIntoMemory) {
+  RenderJob job = glass_over_floor(1000, 100'000'000);  // of which seven in ten are stored: 4.6 GB
+  EXPECT_NO_THROW(check_memory(job.scene, job.settings, PassOf::picture, 8e9));
+  EXPECT_THROW(check_memory(job.scene, job.settings, PassOf::light_map, 3e9), InputError);
+  try {
+    check_memory(job.scene, job.settings, PassOf::picture, 3e9);
+    ADD_FAILURE() << "it fits";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"caustics.emitted: ", "3 GB", "e+07 caustics.emitted would fit"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
 }
 
 /// Another pass would end at 3.8 s, and 3.6 s is the longest time for 2 s.

@@ -74,6 +74,16 @@ TEST(Render, StopsOnceTheEstimatedErrorIsReached) {
   EXPECT_GE(result.film.passes(), kLeastPasses);
 }
 
+TEST(Render, ReadsErrorsOnceTheyTellEnough) {
+  const RenderJob job = lit_floor();
+  RenderSettings settings = job.settings;
+  settings.until = {.error = highest_error(render_until(job, {.passes = kLeastPasses + 2}))};
+  const auto finished = [&](const RenderResult& so_far) {
+    EXPECT_EQ(so_far.errors.has_value(), so_far.film.passes() >= kLeastPasses) << so_far.film.passes();
+  };
+  render(job.scene, settings, nothing_rendered(job.scene.camera), {kNeverStopped, ProgressMode::never, finished});
+}
+
 TEST(Render, GoesOnToTheSameBits) {
   const RenderJob job = lit_floor();
   RenderSettings settings = job.settings;

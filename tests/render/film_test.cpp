@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/statistics.h"
 #include "vpm/image/metrics.h"
@@ -186,6 +187,20 @@ TEST(Film, IsTheSameInAnyOrderAndGroupingOfPasses) {
     EXPECT_EQ(a.variance_part, b.variance_part);
     EXPECT_EQ(a.bias_part, b.bias_part);
   }
+}
+
+TEST(Film, TellsTheSameErrorsOnAnyNumberOfThreads) {
+  const Film film = FilmOf{.bias = 0.05, .pixels = 20'000}.film(1);
+  std::vector<FilmErrors> told;
+  for (const int threads : {1, 4}) {
+    set_threads(threads);
+    told.push_back(film.errors());
+  }
+  set_threads(0);
+  EXPECT_TRUE(same_bits(told[0].variance, told[1].variance));
+  EXPECT_TRUE(same_bits(told[0].bias, told[1].bias));
+  EXPECT_EQ(told[0].variance_part, told[1].variance_part);
+  EXPECT_EQ(told[0].bias_part, told[1].bias_part);
 }
 
 TEST(Film, TellsGroupsByThePassesNumbers) {

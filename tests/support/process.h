@@ -17,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+#include "vpm/base/stopwatch.h"
+
 namespace vpm {
 
 /// What a program may use before it is stopped.
@@ -92,7 +94,7 @@ class Process {
   bool has_ended() {
     if (ended_) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    result_.seconds = stopwatch_.seconds();
     const bool late = result_.seconds > limits_.seconds;
     if (late) {
       ADD_FAILURE() << "still running after " << limits_.seconds << " s; killed";
@@ -114,7 +116,7 @@ class Process {
   }
 
   const ProcessLimits limits_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch_;
   std::FILE* const out_ = std::tmpfile();
   std::FILE* const err_ = std::tmpfile();
   pid_t id_ = -1;

@@ -187,6 +187,11 @@ TEST_F(VpmBake, RefusesManyOverlapsBeforeTheyFillTheMemory) {
               {"overlap in texture coordinates near ("}, kAddressSpace);
 }
 
+TEST_F(VpmBake, RefusesPhotonsThatDoNotFitIntoMemory) {
+  refuses("floor", {"photons.emitted: the maps of a pass would hold", "photons.emitted would fit"},
+          {"--set", "photons.emitted=1000000000000"});
+}
+
 TEST_F(VpmBake, TellsAfterHowManyPassesItWasInterrupted) {
   Process process(command({"bake", "scene.toml", "--mesh", "floor", "-o", "a.exr", "--resolution", "8", "--passes",
                            "100000", "--progress", "always"}),

@@ -59,6 +59,7 @@ int bake_command(const BakeOptions& options) {
   validate_light_map(job.settings, facts_of(job.scene));
   const UvLayout layout = lay_out(job.scene, options);
   check_outputs(outputs, layout.texels(), false, job);
+  foresee_light_map(job);
   print_notes(job);
   const std::atomic<bool>& stop = stop_on_signals();
   const RenderResult result = bake_light_map(job.scene, job.settings, layout, {stop, options.progress});
@@ -68,9 +69,9 @@ int bake_command(const BakeOptions& options) {
   if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
   print_warnings(warnings_of_light_map(job, result));
   write_outputs(outputs, options, job, layout, result);
-  fmt::print("{}: {} passes in {:.1f} s; {} of {} texels covered; preview {}, report {}\n", outputs.exr.string(),
-             result.film.passes(), result.seconds, layout.covered_texels(), layout.texels(), outputs.png.string(),
-             outputs.json.string());
+  fmt::print("{}: {} in {:.1f} s; {} of {} texels covered; preview {}, report {}\n", outputs.exr.string(),
+             passes_text(result.film.passes()), result.seconds, layout.covered_texels(), layout.texels(),
+             outputs.png.string(), outputs.json.string());
   return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;
 }
 

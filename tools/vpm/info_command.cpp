@@ -8,6 +8,7 @@
 #include "vpm/estimate/pass_map.h"
 #include "vpm/input/grid_file.h"
 #include "vpm/input/scene_file.h"
+#include "vpm/job/render.h"
 #include "vpm/job/stage_lines.h"
 #include "vpm/render/plan.h"
 
@@ -64,7 +65,7 @@ void print_medium(const Medium& m) {
 }
 
 std::string until_text(const StopRule& until) {
-  if (until.counts_passes()) return fmt::format("{} {}", until.passes, until.passes == 1 ? "pass" : "passes");
+  if (until.counts_passes()) return passes_text(until.passes);
   const std::string time = fmt::format("{:.6g} s are over", until.seconds);
   const std::string error = fmt::format("the relative MSE is {:.3g}", until.error);
   return "passes until " + (until.error == 0.0 ? time : until.seconds == 0.0 ? error : time + " or " + error);

@@ -45,7 +45,7 @@ int say_interrupted(const StopRule& until, int passes) {
   else if (until.counts_passes())
     fmt::print(stderr, "interrupted after {} of {} passes\n", passes, until.passes);
   else
-    fmt::print(stderr, "interrupted after {} {}\n", passes, passes == 1 ? "pass" : "passes");
+    fmt::print(stderr, "interrupted after {}\n", passes_text(passes));
   return kInterrupted;
 }
 

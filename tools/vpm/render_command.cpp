@@ -89,7 +89,7 @@ int render_command(const RenderOptions& options) {
   if (log) log->finish(result);
   write_outputs(options, outputs, job, result);
   const std::string error = error_text(job, result);
-  fmt::print("{}: {} passes in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), result.film.passes(),
+  fmt::print("{}: {} in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), passes_text(result.film.passes()),
              result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
   return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;
 }

@@ -1,7 +1,6 @@
 // vpm validate: the ladder, check by check.
 #include <fmt/format.h>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "check_report.h"
@@ -11,6 +10,7 @@
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/stopwatch.h"
 #include "vpm/base/version.h"
 #include "vpm/study/validate/ladder.h"
 
@@ -45,7 +45,7 @@ std::vector<Experiment> asked_for(const ValidateOptions& options) {
 }
 
 Outcome climb(const ValidateOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch climbing;
   const Effort effort{options.seed, options.full};
   const std::vector<Experiment> all = asked_for(options);
   Outcome outcome;
@@ -59,7 +59,7 @@ Outcome climb(const ValidateOptions& options) {
   }
   bar.finish();
   outcome.threshold = judge(outcome.checks, options.rate);
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.seconds = climbing.seconds();
   return outcome;
 }
 

@@ -20,6 +20,8 @@ struct Counter {
   T Counts::*member;
   CountRule rule = CountRule::sum;
 };
+template <class Counts, class T>
+Counter(const char*, T Counts::*, CountRule = CountRule::sum) -> Counter<Counts, T>;
 
 /// A structure with a static function counters() that gives a tuple of Counter.
 template <class T>

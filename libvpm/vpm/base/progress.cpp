@@ -55,7 +55,7 @@ Progress::Progress(std::string stage, uint64_t total, bool enabled, uint64_t lea
 }
 
 void Progress::show_if_due() {
-  const double now = seconds();
+  const double now = stopwatch_.seconds();
   if (now < next_.load(std::memory_order_relaxed)) return;
   if (printing_.test_and_set(std::memory_order_acquire)) return;  // another thread is at it
   if (now >= next_.load(std::memory_order_relaxed)) {
@@ -68,7 +68,7 @@ void Progress::show_if_due() {
 void Progress::finish() {
   if (!enabled_ || finished_) return;
   finished_ = true;
-  show(bar_text(stage_, done(), total_) + "  in " + duration_text(seconds()), "\n");
+  show(bar_text(stage_, done(), total_) + "  in " + duration_text(stopwatch_.seconds()), "\n");
 }
 
 void Progress::show(const std::string& line, const char* end) {

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <utility>
+
+#include "vpm/base/stopwatch.h"
 
 namespace vpm {
 
@@ -45,9 +46,6 @@ class Progress {
   uint64_t done() const { return done_.load(std::memory_order_relaxed); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   void show_if_due();
   void show(const std::string& line, const char* end);
 
@@ -55,7 +53,7 @@ class Progress {
   const uint64_t total_;
   const bool enabled_;
   const uint64_t least_;
-  const Clock::time_point start_ = Clock::now();
+  const Stopwatch stopwatch_;
   std::atomic<uint64_t> done_{0};
   std::atomic<double> next_{0.1};                 // s after the start: when the line is due again
   std::atomic_flag printing_ = ATOMIC_FLAG_INIT;  // guards shown_ and the terminal

@@ -35,8 +35,8 @@ class Estimator {
   virtual std::vector<MapInfo> maps() const { return {}; }
   /// What photon tracing is to deposit into before build().
   virtual Recorders recorders() { return {}; }
-  /// Traces photons of its own, after the others and before build(), where it wants any.
-  virtual void trace_more(const TracedPass&) {}
+  /// Traces photons of its own, after the others and before build(), where it wants any, and counts that.
+  virtual void trace_more(const TracedPass&, RenderStatistics&) {}
   /// Sorts what was deposited, of so many emitted photons, and counts that; once.
   virtual void build(uint64_t /*emitted*/, RenderStatistics&) {}
 };

@@ -223,43 +223,47 @@ KernelEstimate SegmentRegion::share(float radius, const SeenAlong& seen, Rng& rn
   return {share, rise * (0.5f / (1.0f - kLess) / kCorrected)};
 }
 
-Rgb SegmentRegion::share_by_lines(float radius, const SeenAlong& seen, float turn) const {
+/// The light that is seen of a line beside the ray. `aside` is its distance from the ray, and `ahead` how far places on
+/// it lie before the centres of their balls, m.
+Rgbd SegmentRegion::seen_of_line(const Vec3& aside, float ahead, float radius, const SeenAlong& seen) const {
+  Rgbd sum(0.0);
   const Vec3 w = segment_.ray.direction;
+  const Ray line{segment_.ray.origin + aside, w};
+  const Interval part = part_of(line, 0.0f);
+  const Interval beside{std::max(part.t0, segment_.interval.t0), std::min(part.t1, segment_.interval.t1)};
+  if (beside.empty()) return sum;
+  const bool at_anchor = anchor_ > beside.t0 && anchor_ < beside.t1;
+  const float middle = std::isinf(beside.t1) ? beside.t0 + radius : 0.5f * (beside.t0 + beside.t1);
+  const float from = at_anchor ? anchor_ : middle;  // not on a border
+  MediumId medium = segment_.number;
+  const float distance = glm::length(aside);
+  if ((near_ || !at_anchor) && !walk({segment_.ray.at(from), aside / distance}, distance, medium, [](float, float) {}))
+    return sum;
+  const PlaneDistances distances = this->distances();
+  const auto seen_to = [&](float y) {
+    if (std::isinf(y)) return seen.whole();
+    return seen.to(spread_ == Spread::balls ? std::clamp(y - ahead, reach_.t0, reach_.t1)
+                                            : distances.of(aside + y * w));
+  };
+  const auto add = [&](float begin, float end) { sum += seen_to(end) - seen_to(begin); };
+  if (!near_ && at_anchor && !first_met(line, part_of(line, kResolved * radius))) {
+    add(part.t0, part.t1);
+    return sum;
+  }
+  MediumId behind = medium, before = medium;
+  walk({line.at(from), w}, part.t1 - from, behind, [&](float a, float b) { add(from + a, from + b); });
+  walk({line.at(from), -w}, from - part.t0, before, [&](float a, float b) { add(from - b, from - a); });
+  return sum;
+}
+
+Rgb SegmentRegion::share_by_lines(float radius, const SeenAlong& seen, float turn) const {
   Vec3 s, t;
-  make_frame(w, s, t);
+  make_frame(segment_.ray.direction, s, t);
   const Vec3 right = std::cos(turn) * s + std::sin(turn) * t, up = std::cos(turn) * t - std::sin(turn) * s;
   Rgbd found(0.0);
-  const PlaneDistances distances = this->distances();
-  for (const auto& [offset, part_of_kernel] :
-       kOffsets[static_cast<size_t>(kernel_)][static_cast<size_t>(dimension_of(spread_) - 1)]) {
-    const Vec3 aside = radius * (offset.x * right + offset.y * up);
-    const Ray line{segment_.ray.origin + aside, w};
-    const Interval part = part_of(line, 0.0f);
-    const Interval beside{std::max(part.t0, segment_.interval.t0), std::min(part.t1, segment_.interval.t1)};
-    if (beside.empty()) continue;
-    const bool at_anchor = anchor_ > beside.t0 && anchor_ < beside.t1;
-    const float middle = std::isinf(beside.t1) ? beside.t0 + radius : 0.5f * (beside.t0 + beside.t1);
-    const float from = at_anchor ? anchor_ : middle;  // not on a border
-    MediumId medium = segment_.number;
-    const float distance = glm::length(aside);
-    if ((near_ || !at_anchor) &&
-        !walk({segment_.ray.at(from), aside / distance}, distance, medium, [](float, float) {}))
-      continue;
-    const auto add = [&](float begin, float end) {
-      const auto at = [&](float y) {
-        if (std::isinf(y)) return seen.whole();
-        return seen.to(spread_ == Spread::balls ? std::clamp(y - radius * offset.z, reach_.t0, reach_.t1)
-                                                : distances.of(aside + y * w));
-      };
-      found += part_of_kernel * (at(end) - at(begin));
-    };
-    if (!near_ && at_anchor && !first_met(line, part_of(line, kResolved * radius))) {
-      add(part.t0, part.t1);
-      continue;
-    }
-    MediumId behind = medium, before = medium;
-    walk({line.at(from), w}, part.t1 - from, behind, [&](float a, float b) { add(from + a, from + b); });
-    walk({line.at(from), -w}, from - part.t0, before, [&](float a, float b) { add(from - b, from - a); });
+  for (const Offset& offset : kOffsets[static_cast<size_t>(kernel_)][static_cast<size_t>(dimension_of(spread_) - 1)]) {
+    const Vec3 place = radius * offset.place;
+    found += offset.part * seen_of_line(place.x * right + place.y * up, place.z, radius, seen);
   }
   Rgb share(1.0f);
   for (int c = 0; c < 3; ++c)

@@ -79,6 +79,7 @@ class SegmentRegion {
   bool stands_beside(const Vec3& normal, const Vec3& position) const;
   std::optional<Hit> first_met(const Ray& line, const Interval& part) const;
   Interval part_of(const Ray& line, float slack) const;
+  Rgbd seen_of_line(const Vec3& aside, float ahead, float radius, const SeenAlong& seen) const;
   Rgb share_by_lines(float radius, const SeenAlong& seen, float turn) const;
   template <class Visit>
   bool walk(Ray ray, float length, MediumId& medium, Visit&& visit) const;

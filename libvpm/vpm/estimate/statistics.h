@@ -48,8 +48,10 @@ static_assert(lists_every_member<EyeCounters>());
 struct RenderStatistics {
   int64_t passes = 0;
   double guide_seconds = 0.0, trace_seconds = 0.0, build_seconds = 0.0, eye_seconds = 0.0;  // wall clock
+  double caustic_seconds = 0.0;  // the same: tracing what is aimed at mirrors and glass, trace_seconds apart
   Ledger ledger;
   uint64_t volume_photons = 0, surface_photons = 0, caustic_photons = 0;  // stored
+  uint64_t aimed_photons = 0;                                             // of the caustic ones: those that are aimed
   uint64_t guiding_photons = 0, irradiance_points = 0;                    // stored besides, for final gathering
   uint64_t merged_photons = 0;  // of these: those whose power others took over, see control_density()
   uint64_t photon_map_bytes = 0, guide_bytes = 0;               // of the largest pass
@@ -61,12 +63,14 @@ struct RenderStatistics {
     return std::tuple{Counter{"passes", &S::passes},
                       Counter{"times.importance", &S::guide_seconds},
                       Counter{"times.photon_tracing", &S::trace_seconds},
+                      Counter{"times.caustic_tracing", &S::caustic_seconds},
                       Counter{"times.map_building", &S::build_seconds},
                       Counter{"times.eye_pass", &S::eye_seconds},
                       Counter{"", &S::ledger},
                       Counter{"photons.stored_volume", &S::volume_photons},
                       Counter{"photons.stored_surface", &S::surface_photons},
                       Counter{"photons.stored_caustic", &S::caustic_photons},
+                      Counter{"photons.stored_caustic_aimed", &S::aimed_photons},
                       Counter{"photons.stored_to_guide_gathering", &S::guiding_photons},
                       Counter{"photons.irradiance_points", &S::irradiance_points},
                       Counter{"photons.merged", &S::merged_photons},

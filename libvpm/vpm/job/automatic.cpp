@@ -110,10 +110,8 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
   for (int round = 0; round < 2; ++round)
     chosen = choose_count(cost_of(std::min(chosen.count, kMost)), kPassesShare * seconds);
   if (seconds > 0.0)
-    chosen = make_fit(chosen, kPassesShare * seconds, [&](uint64_t photons) {
-      const PassCost cost = cost_of(photons);
-      return cost.eye + static_cast<double>(photons) * cost.photon;
-    });
+    chosen = make_fit(chosen, kPassesShare * seconds,
+                      [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
   settings.photons_emitted = chosen.count;
   return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
 }
@@ -134,22 +132,22 @@ ChosenRadius choose_radius(const MapDensity& density, double emitted, double dia
 }
 
 ChosenCount choose_count(const PassCost& cost, double seconds) {
-  const double balanced = cost.eye / cost.photon;
+  const char* const others = cost.caustics > 0.0 ? "eye pass with the caustic photons" : "eye pass";
+  const double rest = cost.rest(), balanced = rest / cost.photon;
   double count = balanced;
-  std::string reason = fmt::format("tracing and sorting them takes as long as the eye pass, {:.2g} s", cost.eye);
-  const auto fit = [&](double passes) { return (seconds / passes - cost.eye) / cost.photon; };  // so many passes
+  std::string reason = fmt::format("tracing and sorting them takes as long as the {}, {:.2g} s", others, rest);
+  const auto fit = [&](double passes) { return (seconds / passes - rest) / cost.photon; };  // so many passes
   const double least = kLeastShare * balanced;
   if (seconds > 0.0 && fit(kLeastPasses) < balanced) {
     count = std::max(fit(kLeastPasses), least);
     reason =
         count > least
-            ? fmt::format("{} passes fit into {:g} s; the eye pass takes {:.2g} s", kLeastPasses, seconds, cost.eye)
-            : fmt::format(
-                  "an eighth of the time of the eye pass, {:.2g} s; {} passes of that alone do not fit into {:g} s",
-                  cost.eye, kLeastPasses, seconds);
+            ? fmt::format("{} passes fit into {:g} s; the {} takes {:.2g} s", kLeastPasses, seconds, others, rest)
+            : fmt::format("an eighth of the time of the {}, {:.2g} s; {} passes of that alone do not fit into {:g} s",
+                          others, rest, kLeastPasses, seconds);
     if (fit(1) < count && fit(1) >= kLeastCount) {
       count = fit(1);
-      reason = fmt::format("a pass fits into {:g} s; the eye pass takes {:.2g} s of these", seconds, cost.eye);
+      reason = fmt::format("a pass fits into {:g} s; the {} takes {:.2g} s of these", seconds, others, rest);
     }
   }
   if (count * cost.stored_per_photon > kMostStored) {

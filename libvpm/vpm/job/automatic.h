@@ -39,8 +39,9 @@ struct ChosenCount {
   uint64_t count = 0;  // of two digits
   std::string reason;
 };
-/// As many photons as cost what the eye pass costs; fewer, down to an eighth, where kLeastPasses passes would not fit
-/// into `seconds` (0: no limit), and fewer yet where that lets one pass fit; and no more than fill maps of kMostStored.
+/// As many photons as cost what the rest of a pass costs; fewer, down to an eighth, where kLeastPasses passes would not
+/// fit into `seconds` (0: no limit), and fewer yet where that lets one pass fit; and no more than fill maps of
+/// kMostStored.
 ChosenCount choose_count(const PassCost& cost, double seconds);
 inline constexpr uint64_t kLeastCount = 1000;
 inline constexpr double kMostStored = 2e7;

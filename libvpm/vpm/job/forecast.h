@@ -18,7 +18,7 @@ std::string too_long_text(const PassCost& cost, const RenderSettings& settings);
 
 /// Throws InputError where the photons that a pass stores take more than `memory` bytes. Only where they may be many
 /// does it trace some.
-void check_memory(const Scene& scene, const RenderSettings& settings, double memory);
+void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory);
 
 /// Bytes of the machine.
 double physical_memory();

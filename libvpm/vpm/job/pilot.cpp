@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/stopwatch.h"
 #include "vpm/path/follow.h"
+#include "vpm/photon/caustics.h"
 #include "vpm/photon/nearest_map.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
@@ -117,7 +118,6 @@ RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
   settings.seed = ~settings.seed;
   settings.photons_emitted = photons;
   settings.photons_stored = in_a_hurry(kStored, settings);
-  settings.caustics_emitted = std::min(settings.caustics_emitted, photons);
   settings.radii = RadiusSchedule::constant;
   return settings;
 }
@@ -171,10 +171,6 @@ PilotPass trace(const Scene& scene, const RenderSettings& settings) {
   return {std::move(estimators), statistics.ledger};
 }
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 /// Renders the rays of one block of pixels of many, cut at the borders of small pictures; the first of them, and others
 /// until so many seconds are over.
 EyeCounters render_block(const Scene& scene, const RayRadiance& radiance, uint64_t seed, size_t block, double seconds) {
@@ -185,8 +181,8 @@ EyeCounters render_block(const Scene& scene, const RayRadiance& radiance, uint64
     const auto middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocks;
     return std::clamp(middle + static_cast<float>(i) - 0.5f * kBlockEdge + 0.5f, 0.0f, static_cast<float>(pixels));
   };
-  const Clock::time_point start = Clock::now();
-  for (int i = 0; i < kBlockEdge * kBlockEdge && (i == 0 || seconds_since(start) < seconds); ++i) {
+  const Stopwatch rendering;
+  for (int i = 0; i < kBlockEdge * kBlockEdge && (i == 0 || rendering.seconds() < seconds); ++i) {
     const Vec2 film(pixel_of(camera.width, block % kBlocks, i % kBlockEdge),
                     pixel_of(camera.height, block / kBlocks, i / kBlockEdge));
     Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
@@ -207,11 +203,11 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
   constexpr size_t kAll = size_t{kBlocks} * kBlocks;
   constexpr double kSearch = 25.0;  // photons that are as dear as a search without any (papers/performance.md)
   std::array<EyeCounters, kAll> blocks;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch rendering;
   parallel_for_chunks(kAll, 1, [&](size_t block, size_t, size_t) {
     blocks[block] = render_block(scene, radiance, settings.seed, block, seconds / kAll);
   });
-  const double taken = seconds_since(start);
+  const double taken = rendering.seconds();
   EyeCounters sum;
   for (const EyeCounters& block : blocks) sum.merge(block);
   const double all = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
@@ -219,34 +215,67 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
   return {taken * all / static_cast<double>(sum.rays), used / std::max(1.0, used + kSearch * searches)};
 }
 
-/// A pass made ready, and what that took.
+/// A part of a pass made ready, and what that took.
 struct ReadyPass {
+  RenderSettings settings;
   Estimators estimators;
   RenderStatistics statistics;
 };
-ReadyPass make_ready(const Scene& scene, const RenderSettings& settings) {
-  ReadyPass ready{plan_estimators(scene, settings, 0), {}};
+ReadyPass make_ready(const Scene& scene, const RenderSettings& settings, PassOf of) {
+  ReadyPass ready{
+      settings,
+      of == PassOf::picture ? plan_estimators(scene, settings, 0) : plan_surface_estimators(scene, settings, 0),
+      {}};
   prepare_pass(scene, settings, ready.estimators, {.stop = kNeverStopped}, ready.statistics);
   return ready;
 }
 
-/// Makes a pass ready with as many of its photons as that many seconds allow, a thousand at the least.
-ReadyPass make_ready_within(const Scene& scene, RenderSettings settings, double seconds) {
-  constexpr uint64_t kFewest = 1000;
-  const uint64_t wanted = settings.photons_emitted;
-  if (!std::isfinite(seconds)) return make_ready(scene, settings);
-  const Clock::time_point start = Clock::now();
-  for (uint64_t photons = kFewest;;) {
-    settings.photons_emitted = wanted == 0 ? photons : std::min(photons, wanted);
-    settings.caustics_emitted = std::min(settings.caustics_emitted, settings.photons_emitted);
-    ReadyPass ready = make_ready(scene, settings);
+/// A share of a pass's photons, and of those that are aimed for caustics, one of either at the least.
+RenderSettings part_of(RenderSettings pass, double share, double photons) {
+  const auto part = [&](double count) { return static_cast<uint64_t>(std::max(1.0, std::round(share * count))); };
+  pass.photons_emitted = part(photons);
+  pass.caustics_emitted = std::min(pass.caustics_emitted, part(static_cast<double>(pass.caustics_emitted)));
+  return pass;
+}
+
+/// Makes as large a part of a pass ready as that many seconds allow, a thousand of its photons at the least.
+ReadyPass make_ready_within(const Scene& scene, const RenderSettings& settings, PassOf of, double seconds) {
+  constexpr double kFewest = 1000.0, kMost = 0x1p40;
+  const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
+  const auto stored = static_cast<double>(pilot.photons_stored);  // of either kind at the most
+  const auto caustics = static_cast<double>(settings.caustics_emitted);
+  // Where nothing but the stored photons is limited, each is taken to be stored once: the share may end above 1.
+  const double photons = photons_of_pass(settings, 1.0);
+  const double limit = settings.photons_emitted > 0 ? static_cast<double>(settings.photons_emitted) : kMost;
+  const double largest = std::min(std::min(limit, kMost) / photons, caustics > stored ? stored / caustics : kInfinity);
+  const Stopwatch tracing;
+  for (double share = std::isfinite(seconds) ? kFewest / std::max(photons, caustics) : largest;;) {
+    share = std::min(share, largest);
+    ReadyPass ready = make_ready(scene, part_of(pilot, share, photons), of);
     const RenderStatistics& s = ready.statistics;
-    const double taken = s.trace_seconds + s.build_seconds, left = seconds - seconds_since(start);
-    const bool stored_all = std::max(s.volume_photons, s.surface_photons) >= settings.photons_stored;
-    if (settings.photons_emitted == wanted || stored_all || left < 2.0 * taken) return ready;
-    photons = static_cast<uint64_t>(static_cast<double>(settings.photons_emitted) *
-                                    std::clamp(0.5 * left / std::max(taken, 1e-6), 2.0, 16.0));
+    const double taken = s.trace_seconds + s.caustic_seconds + s.build_seconds, left = seconds - tracing.seconds();
+    const bool stored_all = std::max(s.volume_photons, s.surface_photons) >= pilot.photons_stored;
+    const bool traced_none = s.ledger.emitted_count == 0;  // there is no map
+    if (share == largest || stored_all || traced_none || left < 2.0 * taken) return ready;
+    share *= std::clamp(0.5 * left / std::max(taken, 1e-6), 2.0, 16.0);
   }
+}
+
+/// What a pass's photons cost, told by a part of them. Sorting goes by the number stored.
+PassCost cost_of_photons(const RenderSettings& settings, const ReadyPass& ready) {
+  const RenderStatistics& s = ready.statistics;
+  if (s.ledger.emitted_count == 0) return {};
+  const auto emitted = static_cast<double>(s.ledger.emitted_count), aimed = static_cast<double>(s.aimed_photons);
+  const double others = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons) - aimed;
+  const double sorting = s.build_seconds / std::max(1.0, others + aimed);  // s, of one photon
+  PassCost cost;
+  cost.photon = (s.trace_seconds + sorting * others) / emitted;
+  cost.stored_per_photon = others / emitted;
+  if (settings.caustics_emitted == 0) return cost;
+  const uint64_t all = settings.caustics_emitted, part = ready.settings.caustics_emitted;
+  cost.stored_caustics = aimed * static_cast<double>(all) / static_cast<double>(part);
+  cost.caustics = s.caustic_seconds * caustic_paths(all) / caustic_paths(part) + sorting * cost.stored_caustics;
+  return cost;
 }
 
 }  // namespace
@@ -267,7 +296,8 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
 }
 
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
-  const RenderSettings pilot = pilot_settings(settings, in_a_hurry(kPhotons, settings));
+  RenderSettings pilot = pilot_settings(settings, in_a_hurry(kPhotons, settings));
+  pilot.caustics_emitted = std::min(pilot.caustics_emitted, pilot.photons_emitted);
   const PilotPass pass = trace(scene, pilot);
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Probes probes;
@@ -296,26 +326,30 @@ double photons_of_pass(const RenderSettings& settings, double stored_per_photon)
   return settings.photons_emitted == 0 ? full : std::min(limit, full);
 }
 
+PassCost time_photons(const Scene& scene, const RenderSettings& settings, PassOf of, double seconds) {
+  return cost_of_photons(settings, make_ready_within(scene, settings, of, seconds));
+}
+
 PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
-  const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
   if (settings.integrator == Integrator::path) {
+    const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
     const PathContext context = make_path_context(scene, pilot);
     const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) {
       return path_radiance(context, ray, medium_of_ray(scene, scene.camera_medium, ray), work.rng, work.counters);
     };
-    return {0.0, time_eye_pass(scene, pilot, radiance, seconds).seconds, 0.0};
+    return {.eye = time_eye_pass(scene, pilot, radiance, seconds).seconds};
   }
-  const ReadyPass ready = make_ready_within(scene, pilot, 0.5 * seconds);
-  const RenderStatistics& s = ready.statistics;
-  const EyeContext context{scene, ready.estimators, pilot.max_events};
+  const ReadyPass ready = make_ready_within(scene, settings, PassOf::picture, 0.5 * seconds);
+  const EyeContext context{scene, ready.estimators, settings.max_events};
   const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); };
-  const EyeCost eye = time_eye_pass(scene, pilot, radiance, 0.5 * seconds);
-  if (s.ledger.emitted_count == 0) return {0.0, s.guide_seconds + eye.seconds, 0.0};
-  const auto emitted = static_cast<double>(s.ledger.emitted_count);
-  const auto stored = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons) / emitted;
-  const double more = std::max(1.0, photons_of_pass(settings, stored) / emitted);
-  return {(s.trace_seconds + s.build_seconds) / emitted,
-          s.guide_seconds + eye.seconds * (1.0 + eye.of_photons * (more - 1.0)), stored};
+  const EyeCost eye = time_eye_pass(scene, ready.settings, radiance, 0.5 * seconds);
+  const RenderStatistics& s = ready.statistics;
+  PassCost cost = cost_of_photons(settings, ready);
+  const auto stored = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons);
+  const double whole = cost.stored(photons_of_pass(settings, cost.stored_per_photon));
+  const double more = std::max(1.0, whole / std::max(1.0, stored));
+  cost.eye = s.guide_seconds + eye.seconds * (1.0 + eye.of_photons * (more - 1.0));
+  return cost;
 }
 
 }  // namespace vpm

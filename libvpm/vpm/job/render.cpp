@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "vpm/base/error.h"
+#include "vpm/base/stopwatch.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/validate.h"
 #include "vpm/render/path_tracer.h"
@@ -14,8 +14,6 @@
 
 namespace vpm {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// How far a render is, from 0 to 1, in what limits it: passes, time or error (which falls about as passes grow).
 double share_done(const StopRule& until, const RenderResult& result) {
@@ -32,9 +30,9 @@ bool too_late(const StopRule& until, const RenderResult& result, double last_pas
   return until.seconds > 0.0 && result.film.passes() > 0 && result.seconds + last_pass > longest_time(until.seconds);
 }
 
-/// Reads the errors off the film, where there are any.
-void estimate_errors(RenderResult& result) {
-  if (result.film.passes() > 1) result.errors = result.film.errors();
+/// Reads the errors off the film where the stop rule goes by them.
+void estimate_errors(const StopRule& until, RenderResult& result) {
+  if (until.error > 0.0 && result.film.passes() >= kLeastPasses) result.errors = result.film.errors();
 }
 
 /// "7 of 16 passes, relative MSE below 0.02": what a terminal shows beside the bar. Errors are read off the film anew
@@ -46,9 +44,9 @@ class ProgressNote {
   std::string after(const RenderResult& result) {
     const int passes = result.film.passes();
     if (result.errors || passes % kLeastPasses == 0)
-      error_ = passes < kLeastPasses ? "" : fmt::format(", relative MSE below {:.2g}", highest_error(result));
+      error_ = fmt::format(", relative MSE below {:.2g}", highest_error(result));
     return until_.counts_passes() ? fmt::format("{} of {} passes{}", passes, until_.passes, error_)
-                                  : fmt::format("{} {}{}", passes, passes == 1 ? "pass" : "passes", error_);
+                                  : passes_text(passes) + error_;
   }
 
  private:
@@ -76,6 +74,8 @@ void add(RenderResult& result, const Pass& pass) {
 }
 
 }  // namespace
+
+std::string passes_text(int passes) { return passes == 1 ? "1 pass" : fmt::format("{} passes", passes); }
 
 RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0, {}}; }
 
@@ -109,7 +109,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
 
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result,
                         const RunControl& control) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch rendering;
   const double before = result.seconds;
   // One pass shows its stages. Of several the whole is shown: as work of all passes, or as thousandths of the limit.
   const bool counted = until.counts_passes(), shown = progress_enabled(control.progress);
@@ -120,13 +120,13 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
                counted ? passes.work : 1);
   ProgressNote note(until);
   const PassProgress pass_progress{shown && single, counted ? &bar : nullptr};
-  if (until.error > 0.0) estimate_errors(result);  // of a render that goes on
+  estimate_errors(until, result);  // of a render that goes on
   for (double last = 0.0; !control.stop && share_done(until, result) < 1.0 && !too_late(until, result, last);) {
     const Pass done = passes.make(result, pass_progress);
     if (control.stop) break;
     add(result, done);
-    if (until.error > 0.0) estimate_errors(result);
-    const double seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
+    estimate_errors(until, result);
+    const double seconds = before + rendering.seconds();
     last = seconds - result.seconds;
     result.seconds = seconds;
     if (!counted) {
@@ -137,7 +137,7 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
     if (control.finished) control.finished(result);
   }
   bar.finish();
-  if (!result.errors) estimate_errors(result);
+  result.errors = errors_of(result);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "vpm/base/progress.h"
 #include "vpm/estimate/statistics.h"
@@ -22,9 +23,13 @@ struct RenderResult {
   RenderStatistics statistics;
   double seconds = 0.0;                   // wall clock, of all runs together where a render was resumed
   PixelDiscs discs;                       // where pixels have radii of their own, once there is a pass
-  std::optional<FilmErrors> errors = {};  // of the film, once it has two passes and run_passes() has come to its end,
-                                          // or to the end of a pass where the stop rule asks for an error
+  std::optional<FilmErrors> errors = {};  // of the film, once it has two passes and run_passes() has come to its end;
+                                          // where the stop rule asks for an error also after each pass, once there
+                                          // are kLeastPasses
 };
+
+/// "1 pass", "16 passes".
+std::string passes_text(int passes);
 
 /// How a render is watched and stopped.
 struct RunControl {

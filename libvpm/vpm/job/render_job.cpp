@@ -3,28 +3,14 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <chrono>
 
+#include "vpm/base/stopwatch.h"
 #include "vpm/job/automatic.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/validate.h"
 
 namespace vpm {
 namespace {
-
-/// Adds the time of its life to that of the job's pilot.
-class Timer {
- public:
-  explicit Timer(RenderJob& job) : job_(job) {}
-  ~Timer() { job_.pilot_seconds += seconds(); }
-  Timer(const Timer&) = delete;
-  Timer& operator=(const Timer&) = delete;
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  RenderJob& job_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// What was chosen, and how to have it again.
 void note_choices(RenderJob& job) {
@@ -50,9 +36,11 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
 void choose(RenderJob& job) {
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
-  const Timer timer(job);
+  const Stopwatch choosing;
   job.choices = choose_settings(job.scene, job.automatic, job.settings);
-  job.notes.push_back(fmt::format("choosing settings took {:.2g} s", timer.seconds()));
+  const double seconds = choosing.seconds();
+  job.pilot_seconds += seconds;
+  job.notes.push_back(fmt::format("choosing settings took {:.2g} s", seconds));
   note_choices(job);
 }
 
@@ -64,12 +52,18 @@ void choose_again(RenderJob& job, std::vector<Choice> choices) {
 
 void foresee(RenderJob& job) {
   validate(job.settings, facts_of(job.scene));
-  const Timer timer(job);
-  check_memory(job.scene, job.settings, physical_memory());
-  const double seconds = job.settings.until.seconds;
-  if (seconds == 0.0) return;
-  const PassCost cost = time_pass(job.scene, job.settings, std::min(0.1 * seconds, 1.0));
-  if (std::string text = too_long_text(cost, job.settings); !text.empty()) job.notes.push_back(std::move(text));
+  const Stopwatch looking;
+  check_memory(job.scene, job.settings, PassOf::picture, physical_memory());
+  if (const double seconds = job.settings.until.seconds; seconds > 0.0) {
+    const PassCost cost = time_pass(job.scene, job.settings, std::min(0.1 * seconds, 1.0));
+    if (std::string text = too_long_text(cost, job.settings); !text.empty()) job.notes.push_back(std::move(text));
+  }
+  job.pilot_seconds += looking.seconds();
+}
+
+void foresee_light_map(const RenderJob& job) {
+  validate_light_map(job.settings, facts_of(job.scene));
+  check_memory(job.scene, job.settings, PassOf::light_map, physical_memory());
 }
 
 }  // namespace vpm

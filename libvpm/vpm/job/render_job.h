@@ -51,5 +51,7 @@ void choose_again(RenderJob& job, std::vector<Choice> choices);
 /// would; for that it times a few photons and rays, for a tenth of these seconds and at most a second. Throws
 /// InputError where the photons of a pass will not fit into the memory of the machine.
 void foresee(RenderJob& job);
+/// The same of a light map's memory alone: how long its passes take is not told.
+void foresee_light_map(const RenderJob& job);
 
 }  // namespace vpm

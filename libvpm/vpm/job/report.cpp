@@ -83,7 +83,7 @@ Json rates(const RenderStatistics& s) {
   const double emitted = per_second(s.ledger.emitted_count, s.trace_seconds);
   return {{"emitted_per_second", emitted},
           {"emitted_per_second_and_thread", emitted / thread_count()},
-          {"stored_per_second", per_second(stored_photons(s), s.trace_seconds)}};
+          {"stored_per_second", per_second(stored_photons(s), s.trace_seconds + s.caustic_seconds)}};
 }
 
 /// What each light sends into the scene, exactly; `share`: of the power of all, and of the photons.

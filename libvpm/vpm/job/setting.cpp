@@ -7,15 +7,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "vpm/base/overloads.h"
 #include "vpm/job/declare.h"
 
 namespace vpm {
 namespace {
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
 
 template <class Number>
 std::optional<SettingValue> number_in(const std::string& text) {
@@ -68,7 +64,7 @@ std::string outside_of(const Domain& domain, const SettingValue& value) {
     return fmt::format("must be {}, not {}", allowed, text_of(value));
   };
   return std::visit(
-      Overloaded{
+      Overloads{
           [](const Flags&) { return std::string(); },
           [&](const Integers& of) {
             const uint64_t integer = std::get<uint64_t>(value);

@@ -15,6 +15,8 @@ constexpr size_t kCausticChunk = 4096;  // photons traced one after another
 // Scouts for each photon, and at most: enough for ten to find what a ten thousandth of all emission meets.
 constexpr uint64_t kScouts = 4, kMostScouts = 100'000;
 
+uint64_t scouts_of(uint64_t emitted) { return kScouts * std::min(emitted, kMostScouts / kScouts); }
+
 /// The photon that an emission leads to, if it is a caustic one.
 std::optional<Photon> follow_caustic(const Scene& scene, const DistanceStrategy& strategy, const EmissionPoint& point,
                                      int max_events, Rng& rng) {
@@ -34,6 +36,10 @@ std::optional<Photon> follow_caustic(const Scene& scene, const DistanceStrategy&
 
 }  // namespace
 
+double caustic_paths(uint64_t emitted) {
+  return static_cast<double>(emitted) + static_cast<double>(scouts_of(emitted));
+}
+
 std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& strategy,
                                    const CausticSettings& settings) {
   const auto score = [&](const EmissionPoint& point, Rng& rng) {
@@ -41,7 +47,7 @@ std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& s
     if (!photon) return 0.0f;
     return sum_channels(photon->power) * (settings.importance ? settings.importance->at(photon->position) : 1.0f);
   };
-  const EmissionGuide guide = EmissionGuide::learn(std::min(kScouts * settings.emitted, kMostScouts), settings.seed,
+  const EmissionGuide guide = EmissionGuide::learn(scouts_of(settings.emitted), settings.seed,
                                                    rng_stream(RngUse::caustic_scout, settings.pass), score);
   std::vector<std::vector<Photon>> parts(chunk_count(settings.emitted, kCausticChunk));
   parallel_for_chunks(settings.emitted, kCausticChunk, [&](size_t begin, size_t end, size_t chunk) {

@@ -20,6 +20,9 @@ struct CausticSettings {
   const std::atomic<bool>* stop = nullptr;    // once true, tracing ends as soon as it can
 };
 
+/// The paths that so many photons take, with those of the scouts that are traced first.
+double caustic_paths(uint64_t emitted);
+
 /// Traces the photons that go from a light via one or more mirrors or smooth glass surfaces, and via nothing else, to
 /// a non-specular surface (L S+ D in the notation of [Heckbert1990]). Scouts are traced first, and emission is guided
 /// by what they found. Photons end where they are stored. Powers are not yet divided by `settings.emitted`. The result

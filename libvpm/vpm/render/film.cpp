@@ -15,7 +15,8 @@ namespace vpm {
 namespace {
 
 constexpr size_t kBlockValues = ExactSums::kCount;
-constexpr size_t kBlockChunk = 32;  // blocks, of parallel work
+constexpr size_t kBlockChunk = 32;    // blocks, of parallel work
+constexpr size_t kPixelChunk = 4096;  // pixels, of parallel work
 
 /// Calls work(block, first, end) for each block of an image's values, on all threads.
 void for_blocks(size_t values, const std::function<void(size_t block, size_t first, size_t end)>& work) {
@@ -66,6 +67,21 @@ void merge_all(std::vector<ExactSums>& sums, const std::vector<ExactSums>& other
   });
 }
 
+/// Calls add(sums, i) for each pixel, on all threads. Each chunk of pixels has sums of its own, joined in their order:
+/// they are the same for any number of threads.
+template <class Sums, class Add>
+Sums sum_over_pixels(size_t pixels, const Add& add) {
+  std::vector<Sums> parts(chunk_count(pixels, kPixelChunk));
+  parallel_for_chunks(pixels, kPixelChunk, [&](size_t begin, size_t end, size_t chunk) {
+    Sums part;
+    for (size_t i = begin; i < end; ++i) add(part, i);
+    parts[chunk] = part;
+  });
+  Sums all;
+  for (const Sums& part : parts) all.merge(part);
+  return all;
+}
+
 // --- What errors are divided by
 
 /// The mean of the pixels around one; that pixel where it has no neighbour.
@@ -84,13 +100,15 @@ Rgbd mean_of_neighbours(const Image& image, int x, int y) {
 /// What squares of errors of a pixel are divided by, as FilmErrors says; 0 in a channel that is black everywhere.
 std::vector<Rgbd> relative_scales(const Image& means) {
   const Rgbd channels = channel_means(means);
-  std::vector<Rgbd> scales;
-  scales.reserve(means.pixels.size());
-  for (int y = 0; y < means.height; ++y)
-    for (int x = 0; x < means.width; ++x) {
+  std::vector<Rgbd> scales(means.pixels.size());
+  parallel_for_chunks(scales.size(), kPixelChunk, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      const auto x = static_cast<int>(i % means.width), y = static_cast<int>(i / means.width);
       const Rgbd own(means.at(x, y)), around = mean_of_neighbours(means, x, y);
-      scales.push_back(glm::min(own * own, around * around) + 0.01 * channels * channels);
+      for (int c = 0; c < 3; ++c)
+        scales[i][c] = relative_scale(std::min(std::abs(own[c]), std::abs(around[c])), channels[c]);
     }
+  });
   return scales;
 }
 
@@ -103,8 +121,9 @@ double mean_over_channels(const Rgbd& squares, const Rgbd& scale) {
 
 /// The mean over pixels, and its standard error, were pixels independent.
 Estimated variance_part_of(const Image& variances, const std::vector<Rgbd>& scales) {
-  Moments parts;
-  for (size_t i = 0; i < scales.size(); ++i) parts.add(mean_over_channels(Rgbd(variances.pixels[i]), scales[i]));
+  const auto parts = sum_over_pixels<Moments>(scales.size(), [&](Moments& part, size_t i) {
+    part.add(mean_over_channels(Rgbd(variances.pixels[i]), scales[i]));
+  });
   return {parts.mean(), scales.size() > 1 ? std::sqrt(parts.variance_of_mean()) : parts.mean()};
 }
 
@@ -114,9 +133,9 @@ using GroupMeans = std::array<Image, FilmSums::kGroups>;
 
 /// The relative mean product of two groups' corrections.
 double relative_product(const Image& a, const Image& b, const std::vector<Rgbd>& scales) {
-  Sum sum;
-  for (size_t i = 0; i < scales.size(); ++i)
-    sum.add(mean_over_channels(Rgbd(a.pixels[i]) * Rgbd(b.pixels[i]), scales[i]));
+  const auto sum = sum_over_pixels<Sum>(scales.size(), [&](Sum& part, size_t i) {
+    part.add(mean_over_channels(Rgbd(a.pixels[i]) * Rgbd(b.pixels[i]), scales[i]));
+  });
   return sum.value() / static_cast<double>(scales.size());
 }
 
@@ -232,11 +251,11 @@ FilmErrors Film::errors() const {
     const int n = sums_.passes.count_of(g, kGroups);
     if (n == 0) continue;
     groups[g] = Image(width_, height_);
+    const float share = static_cast<float>(n) / static_cast<float>(passes());
     for_blocks(3 * scales.size(), [&](size_t block, size_t first, size_t end) {
       put(over(sums_.corrections[g][block].totals(), n), groups[g], first, end);
+      for (size_t i = first; i < end; ++i) value_at(errors.bias, i) -= share * value_at(groups[g], i);
     });
-    const float share = static_cast<float>(n) / static_cast<float>(passes());
-    for (size_t i = 0; i < scales.size(); ++i) errors.bias.pixels[i] -= share * groups[g].pixels[i];
     filled.push_back(&groups[g]);
   }
   errors.bias_part = mean_product(filled, scales);

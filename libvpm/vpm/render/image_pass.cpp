@@ -1,9 +1,8 @@
 // Tiles of pixels, each pixel sample with random numbers of its own.
 #include "vpm/render/image_pass.h"
 
-#include <chrono>
-
 #include "vpm/base/parallel.h"
+#include "vpm/base/stopwatch.h"
 
 namespace vpm {
 namespace {
@@ -37,7 +36,7 @@ uint64_t tile_count(const Camera& camera) {
 
 Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
                   const std::atomic<bool>& stop, const PassProgress& progress) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch rendering;
   const Camera& camera = scene.camera;
   Pass result(camera.width, camera.height);
   result.statistics.passes = 1;
@@ -56,7 +55,7 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
     if (progress.tiles) progress.tiles->advance();
   });
   for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
-  result.statistics.eye_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.statistics.eye_seconds = rendering.seconds();
   return result;
 }
 

@@ -2,10 +2,10 @@
 #include "vpm/render/light_map.h"
 
 #include <cassert>
-#include <chrono>
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/stopwatch.h"
 #include "vpm/render/photon_pass.h"
 
 namespace vpm {
@@ -74,7 +74,7 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
   const Estimators estimators = plan_surface_estimators(scene, settings, pass);
   prepare_pass(scene, settings, estimators, {pass, stop, progress}, result.statistics);
   const TexelContext context{scene, settings, layout, *estimators.surface, pass};
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch baking;
   const size_t chunks = chunk_count(layout.texels(), kTexelChunk);
   std::vector<EyeCounters> counters(chunks);
   Progress bar("texels", chunks, progress.stages);
@@ -91,7 +91,7 @@ Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const Uv
   });
   bar.finish();
   for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
-  result.statistics.eye_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.statistics.eye_seconds = baking.seconds();
   return result;
 }
 

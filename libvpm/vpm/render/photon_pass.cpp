@@ -2,22 +2,14 @@
 #include "vpm/render/photon_pass.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
+#include "vpm/base/stopwatch.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
 
 namespace vpm {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run) {
   TraceSettings trace;
@@ -53,9 +45,9 @@ void trace_pass(const Scene& scene, const RenderSettings& settings, const Estima
   Progress bar("photons", settings.photons_emitted, run.progress.stages);
   statistics.ledger = trace_photons(scene, *strategy, trace, recorders, bar);
   bar.finish();
-  for (Estimator* estimator : estimators.all())
-    estimator->trace_more({*strategy, trace, statistics.ledger.emitted_count});
   statistics.trace_seconds = tracing.seconds();
+  for (Estimator* estimator : estimators.all())
+    estimator->trace_more({*strategy, trace, statistics.ledger.emitted_count}, statistics);
 }
 
 void prepare_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,

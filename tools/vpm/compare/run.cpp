@@ -1,9 +1,9 @@
 // Passes, with a look at their cost after each.
 #include "compare/run.h"
 
-#include <chrono>
 #include <ctime>
 
+#include "vpm/base/stopwatch.h"
 #include "vpm/job/render.h"
 #include "vpm/job/setting.h"
 
@@ -12,9 +12,6 @@ namespace {
 
 /// CPU time of this process, all threads together, s.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-double wall_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 RunCost counted(const RenderStatistics& s) {
   RunCost cost;
@@ -48,10 +45,11 @@ std::vector<Snapshot> run_method(const RenderJob& job, const ComparisonPlan& pla
   std::vector<Snapshot> snapshots;
   std::atomic<bool> done{false};
   double cpu = 0.0, wall = 0.0;  // s, of rendering
-  double cpu_begin = cpu_seconds(), wall_begin = wall_seconds();
+  double cpu_begin = cpu_seconds();
+  Stopwatch rendering;
   const auto look = [&](const RenderResult& so_far) {
     cpu += cpu_seconds() - cpu_begin;
-    wall += wall_seconds() - wall_begin;
+    wall += rendering.seconds();
     RunCost cost = counted(so_far.statistics);
     cost.cpu_seconds = cpu;
     cost.wall_seconds = wall;
@@ -59,7 +57,7 @@ std::vector<Snapshot> run_method(const RenderJob& job, const ComparisonPlan& pla
       snapshots.push_back({cost, so_far.film.mean()});
     done = stop || snapshots.size() == plan.budgets.size();
     cpu_begin = cpu_seconds();
-    wall_begin = wall_seconds();
+    rendering = {};
   };
   render(job.scene, settings, nothing_rendered(job.scene.camera), {done, ProgressMode::never, look});
   return snapshots;

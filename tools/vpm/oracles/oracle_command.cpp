@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "check_report.h"
@@ -12,15 +11,12 @@
 #include "oracles/tables.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/stopwatch.h"
 #include "vpm/base/tails.h"
 #include "vpm/base/version.h"
 
 namespace vpm::tools {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// The results of one list of cases.
 struct ListResult {
@@ -54,19 +50,19 @@ std::vector<ListResult> run_folder(const OracleFolder& folder, const ValidateOpt
   std::vector<ListResult> all;
   Progress bar("oracles", folder.lists.size() + folder.tables.size(), progress_enabled(options.progress));
   for (const OracleList& list : folder.lists) {
-    const auto start = Clock::now();
+    const Stopwatch stopwatch;
     std::string title = list.name == "cases" ? list.file : list.file + ", " + list.name;
     all.push_back({std::move(title), run_list(list, effort), 0.0});
-    all.back().seconds = seconds_since(start);
+    all.back().seconds = stopwatch.seconds();
     bar.advance();
   }
   for (const OracleList& table : folder.tables) {
-    const auto start = Clock::now();
+    const Stopwatch stopwatch;
     OracleList alone{table.file, "cases", {}};
     const CaseResult compared = compare_table(table, folder.lists, alone);
     all.push_back({table.file, run_list(alone, effort), 0.0});
     if (!compared.checks.empty()) all.back().cases.push_back(compared);
-    all.back().seconds = seconds_since(start);
+    all.back().seconds = stopwatch.seconds();
     bar.advance();
   }
   bar.finish();

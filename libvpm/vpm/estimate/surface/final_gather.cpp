@@ -2,6 +2,7 @@
 #include "vpm/estimate/surface/final_gather.h"
 
 #include "vpm/base/count.h"
+#include "vpm/base/stopwatch.h"
 #include "vpm/estimate/eye_segment.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/photon/caustics.h"
@@ -34,8 +35,9 @@ Recorders FinalGather::recorders() {
 }
 
 /// Adds caustic photons that are aimed, with powers as if they were as many as the others.
-void FinalGather::trace_more(const TracedPass& pass) {
+void FinalGather::trace_more(const TracedPass& pass, RenderStatistics& statistics) {
   if (settings_.caustics_emitted == 0) return;
+  const Stopwatch tracing;
   const TraceSettings& trace = pass.settings;
   CausticSettings aimed{trace.seed, trace.pass, settings_.caustics_emitted, trace.max_events, nullptr, trace.stop};
   if (trace.guide) aimed.importance = &trace.guide->importance;
@@ -43,7 +45,9 @@ void FinalGather::trace_more(const TracedPass& pass) {
   for (Photon& photon : trace_caustics(scene_, pass.strategy, aimed)) {
     photon.power *= share;
     caustic_photons_.photons.push_back(photon);
+    ++statistics.aimed_photons;
   }
+  statistics.caustic_seconds = tracing.seconds();
 }
 
 void FinalGather::build(uint64_t emitted, RenderStatistics& statistics) {

@@ -42,7 +42,7 @@ class FinalGather final : public SurfaceEstimator {
 
   std::vector<MapInfo> maps() const override;
   Recorders recorders() override;
-  void trace_more(const TracedPass& pass) override;
+  void trace_more(const TracedPass& pass, RenderStatistics& statistics) override;
   void build(uint64_t emitted, RenderStatistics& statistics) override;
   KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override;
 
