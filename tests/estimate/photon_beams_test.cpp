@@ -1,0 +1,79 @@
+// Photon beams met by a ray: one beam by hand, many in the mean.
+#include "vpm/estimate/volume/photon_beams.h"
+
+#include <gtest/gtest.h>
+
+#include "support/grids.h"
+#include "support/scenes.h"
+
+namespace vpm {
+namespace {
+
+constexpr float kRadius = 0.1f;  // m
+
+/// Beams in an endless medium, and a segment of a ray along x, from 0 to 2 m.
+struct Crossed {
+  Scene scene;
+  EyeCounters counters;
+  EyeScratch scratch;
+
+  explicit Crossed(Medium medium) {
+    scene.media.push_back(std::move(medium));
+    scene.world_medium = 0;
+    scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+    scene.geometry.commit();
+    finish(scene);
+  }
+
+  Rgb light_of(const std::vector<PhotonBeam>& beams, KernelKind kernel = KernelKind::epanechnikov,
+               VolumeForm form = VolumeForm::density_at_query) {
+    PhotonBeams estimator(scene, {{.mode = GatherMode::photon_beams, .radius = kRadius, .kernel = kernel}, form, true, {}});
+    static_cast<BeamRecorder*>(estimator.recorders()[0])->beams[0] = beams;
+    RenderStatistics statistics;
+    estimator.build(1, statistics);
+    Rng rng(1, 0, 0);
+    EyeWork work{rng, counters, scratch};
+    const EyeSegment segment(scene, {Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 2.0f}, 0, Rgb(1.0f), {});
+    return estimator.along(segment, work).value;
+  }
+};
+
+/// Crosses the ray at x = 1.2 m, 0.04 m beside it, 0.5 m from the beam's origin, at an angle of 30 degrees.
+PhotonBeam slanted(float length) {
+  const Vec3 direction(std::cos(kPi / 6), std::sin(kPi / 6), 0.0f);
+  return {Vec3(1.2f, 0.0f, 0.04f) - 0.5f * direction, length, direction, Rgb(3.0f, 2.0f, 1.0f)};
+}
+
+TEST(PhotonBeams, OneBeamIsItsFiveFactors) {
+  const Rgb sigma_t(0.7f), albedo(0.9f, 0.5f, 0.1f);
+  Crossed crossed(make_medium(nullptr, sigma_t, albedo, HenyeyGreenstein{0.4f}));
+  for (const KernelInfo& info : kKernels) {
+    const Rgb found = crossed.light_of({slanted(0.6f)}, info.kind);
+    const float q = 0.4f * 0.4f;
+    const float profile =
+        with_kernel<1>(info.kind, [&](auto of) { return of(q).value; }) * kernel_norm_1d(info.kind, kRadius);
+    const float phase = phase_value(HenyeyGreenstein{0.4f}, slanted(0.6f).direction, Vec3(-1.0f, 0.0f, 0.0f));
+    const Rgb light = Rgb(3.0f, 2.0f, 1.0f) * sigma_t * albedo * phase * std::exp(-0.7f * 1.2f) * profile / 0.5f;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 1e-4f * std::abs(light[c])) << info.name;
+  }
+}
+
+TEST(PhotonBeams, ABeamEndsWhereItsPhotonCollides) {
+  Crossed crossed(make_medium(nullptr, Rgb(0.7f)));
+  EXPECT_GT(crossed.light_of({slanted(0.501f)}).g, 0.0f);
+  EXPECT_EQ(crossed.light_of({slanted(0.499f)}).g, 0.0f);
+}
+
+// Where a photon has come as far as to the crossing, its colours are those of the mixture that its flight was drawn by.
+TEST(PhotonBeams, ChromaticBeamsCarryTheWeightsOfTheirMixture) {
+  const Rgb sigma_t(0.2f, 1.0f, 3.0f), power(3.0f, 2.0f, 1.0f);
+  Crossed crossed(make_medium(nullptr, sigma_t));
+  const Rgb found = crossed.light_of({slanted(0.6f)});
+  const Rgb come = glm::exp(-sigma_t * 0.5f), weight = come / glm::dot(power / 6.0f, come);
+  const float kernel = 0.75f / kRadius * (1.0f - 0.16f) / 0.5f / (4.0f * kPi);
+  const Rgb light = power * weight * sigma_t * glm::exp(-sigma_t * 1.2f) * kernel;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 1e-4f * light[c]);
+}
+
+}  // namespace
+}  // namespace vpm
