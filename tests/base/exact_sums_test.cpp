@@ -160,6 +160,7 @@ TEST(ExactSums, RefuseWhatTheyCannotHold) {
   EXPECT_THROW(ExactSums(0, words(2 * ExactSums::kCount + 1)), std::domain_error);
   EXPECT_THROW(ExactSums(-11, words(2 * ExactSums::kCount)), std::domain_error);
   EXPECT_THROW(ExactSums(9, words(3 * ExactSums::kCount)), std::domain_error);
+  EXPECT_THROW(ExactSums(std::numeric_limits<int>::max(), words(2 * ExactSums::kCount)), std::domain_error);
 }
 
 }  // namespace

@@ -132,6 +132,47 @@ TEST(SegmentRegion, AFloorBesideTheRayIsAPlane) {
   EXPECT_NEAR(region.share(kRadius, seen, rng).value.g, 0.5f, 0.02f);
 }
 
+/// The part of a cylinder about a ray that a ball takes away, weighted by the kernel; `closest` is the ray's distance
+/// from the ball's centre.
+double taken_by_ball(double closest, double ball, double radius, double length) {
+  const int rings = 200, turns = 200;
+  double sum = 0.0, weights = 0.0;
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < turns; ++j) {
+      const double q = (i + 0.5) / rings, distance = radius * std::sqrt(q), turn = 2.0 * kPiD * (j + 0.5) / turns;
+      const double x = closest + distance * std::cos(turn), y = distance * std::sin(turn);
+      const double square = x * x + y * y, chord = square < ball * ball ? 2.0 * std::sqrt(ball * ball - square) : 0.0;
+      sum += (1.0 - q) * chord;
+      weights += 1.0 - q;
+    }
+  return sum / weights / length;
+}
+
+// A ball beside the ray takes chords of lines away, not whole lines, though these lie inside it where they pass the
+// middle of the segment: an opaque ball, and one of glass with a vacuum inside.
+TEST(SegmentRegion, ABallBesideTheRayTakesItsChordsAway) {
+  for (const bool glass : {false, true}) {
+    Scene scene;
+    scene.media.push_back(make_medium(nullptr, Rgb(1e-4f)));
+    scene.world_medium = 0;
+    constexpr float kBall = 0.5f, kLength = 4.0f, kClosest = 0.55f;  // m
+    const Interface vacuum_inside{kVacuum, 0};
+    if (glass)
+      add_shape(scene, SphereShape{Vec3(0.0f), kBall}, Dielectric{1.5f}, &vacuum_inside);
+    else
+      add_shape(scene, SphereShape{Vec3(0.0f), kBall}, Lambertian{Rgb(0.5f)});
+    finish_lit(scene);
+    const Ray ray{Vec3(kClosest, 0.0f, 0.5f * kLength + 0.1f), Vec3(0.0f, 0.0f, -1.0f)};
+    const EyeSegment segment(scene, ray, {0.0f, kLength}, 0, Rgb(1.0f), {});
+    const SegmentRegion region(segment, kDiscs, Spread::discs);
+    EXPECT_FALSE(region.whole());
+    Rng rng(1, 0, 0);
+    const SeenAlong seen(scene.media[0].sigma_t, segment.interval, nullptr);
+    const double exact = 1.0 - taken_by_ball(kClosest, kBall, kRadius, kLength);
+    EXPECT_NEAR(region.share(kRadius, seen, rng).value.g, exact, 0.01) << glass;
+  }
+}
+
 TEST(Mirrored, IsThePlaceItselfOrItsImageAtAnEnd) {
   const Mirrored mirrored{1.0f, 3.0f};
   EXPECT_FLOAT_EQ(mirrored(1.25f), 1.25f);

@@ -51,6 +51,16 @@ TEST(Render, StopsByCountTimeAndSignal) {
   EXPECT_LT(timed.seconds, 2.0);
 }
 
+TEST(Render, TellsThatAnErrorIsNotReached) {
+  RenderJob job = lit_floor();
+  job.settings.until = {.seconds = 0.1, .error = 1e-12};
+  const std::atomic<bool> stop{false};
+  const std::vector<std::string> warnings =
+      warnings_of(job, render(job.scene, job.settings, nothing_rendered(job.scene.camera), {stop, {}, {}}));
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings.back().find("below 1e-12 is not reached after "), std::string::npos) << warnings.back();
+}
+
 /// By a kernel with a negative rim and few photons, some pixels see the rim alone.
 TEST(Render, TellsOfNegativePixels) {
   RenderJob job = lit_floor();

@@ -98,6 +98,31 @@ TEST_F(VpmError, BringsAPictureToTheSizeOfTheReference) {
   write_exr(path("large.exr"), Image(6, 4), {}, {});
   vpm_refuses({"error", "large.exr", "reference.exr"}, {"6 x 4", "3 x 2", "--set film.width=3", "--resample"});
   EXPECT_EQ(json({"large.exr", "reference.exr", "--resample"}).at("width"), 3);
+  write_exr(path("nearly.exr"), Image(14, 10), {}, {});  // 3 : 2, but for rounding
+  EXPECT_EQ(json({"nearly.exr", "reference.exr", "--resample"}).at("height"), 2);
+  write_exr(path("square.exr"), Image(60, 60), {}, {});
+  vpm_refuses({"error", "square.exr", "reference.exr", "--resample"}, {"60 x 60", "3 x 2", "different shapes"});
+}
+
+TEST_F(VpmError, SaysThatPicturesShareNoise) {
+  const auto write = [&](const std::string& name, const std::string& seed, const std::string& integrator) {
+    write_exr(path(name), image_, {},
+              {{"vpm.seed", seed}, {"vpm.settings", "render.integrator=" + integrator + " x=1"}});
+  };
+  write("one.exr", "1", "photon");
+  write("again.exr", "1", "photon");
+  write("two.exr", "2", "photon");
+  write("paths.exr", "1", "path");
+  EXPECT_TRUE(json({"one.exr", "again.exr"}).at("same_seed"));
+  for (const char* other : {"two.exr", "paths.exr", "image.exr"})
+    EXPECT_FALSE(json({"one.exr", other}).at("same_seed")) << other;
+  EXPECT_FALSE(json({"image.exr", "reference.exr"}).at("same_seed"));  // neither tells
+  Image variance(3, 2);
+  for (Rgb& pixel : variance.pixels) pixel = Rgb(0.01f);
+  for (const char* name : {"noisy.exr", "as_noisy.exr"})
+    write_exr(path(name), image_, {{"variance", &variance}}, {{"vpm.seed", "7"}, {"vpm.settings", "x=1"}});
+  const std::string text = vpm_succeeds({"error", "noisy.exr", "as_noisy.exr"}).out;
+  EXPECT_NE(text.find("of the same seed"), std::string::npos) << text;
 }
 
 TEST_F(VpmError, WritesTheSignedDifference) {
@@ -141,6 +166,9 @@ TEST_F(VpmError, SaysWhyASeriesHasNoSlope) {
   EXPECT_NE(said({"a.exr", "c.exr"}).find("c.exr does not tell its passes"), std::string::npos);
   EXPECT_NE(said({"a.exr", "b.exr"}).find("the same number of passes"), std::string::npos);
   EXPECT_NE(said({"a.exr"}).find("the same number of passes"), std::string::npos);
+  write_exr(path("other.exr"), image_, {}, {{"vpm.passes", "8"}, {"vpm.sceneHash", "1234"}});
+  EXPECT_NE(said({"a.exr", "other.exr"}).find("other.exr has another scene or other settings than a.exr"),
+            std::string::npos);
   write_member("exact.exr", 0.0f, "8");
   EXPECT_NE(said({"a.exr", "exact.exr"}).find("the error of exact.exr is 0"), std::string::npos);
 }

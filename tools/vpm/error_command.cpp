@@ -32,9 +32,37 @@ struct Errors {
   double mse, relative_mse, relative_mse_of_pbrt;
 };
 
+/// What a file tells of where its picture is from; empty where it does not.
+struct Origin {
+  std::string scene, settings, seed;  // vpm.sceneHash, vpm.settings, vpm.seed
+  std::optional<uint64_t> passes;     // vpm.passes
+
+  /// The first of the settings: with which of the integrators it was rendered.
+  std::string integrator() const { return settings.substr(0, settings.find(' ')); }
+};
+
+std::optional<uint64_t> passes_of(const std::string& text) {
+  uint64_t passes = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), passes);
+  const bool whole = error == std::errc() && stop == text.data() + text.size() && passes > 0;
+  return whole ? std::optional(passes) : std::nullopt;
+}
+
+Origin origin_of(const ExrChannels& file) {
+  const auto told = [&](const char* name) {
+    const auto found = file.metadata.find(name);
+    return found == file.metadata.end() ? std::string() : found->second;
+  };
+  return {told("vpm.sceneHash"), told("vpm.settings"), told("vpm.seed"), passes_of(told("vpm.passes"))};
+}
+
+/// Do they draw the same random numbers for the same things, so that part of their noise is the same?
+bool share_noise(const Origin& one, const Origin& other) {
+  return !one.seed.empty() && one.seed == other.seed && one.integrator() == other.integrator();
+}
+
 /// The picture of a file with what it tells of its noise.
-NoisyImage read_picture(const std::string& path) {
-  const ExrChannels file = read_exr_channels(path);
+NoisyImage read_picture(const std::string& path, const ExrChannels& file) {
   NoisyImage picture{read_exr(path), {}, {}};
   Image variance(file.width, file.height);
   for (int c = 0; c < 3; ++c) {
@@ -95,6 +123,7 @@ void check_output(const ErrorOptions& options) {
 /// Two pictures of one size, and how far they are apart.
 struct Pair {
   NoisyImage picture, reference;
+  bool same_seed;  // do they share noise?
   Errors errors;
   NoisyDifference difference;
 };
@@ -115,6 +144,7 @@ Json report_of_pair(const ErrorOptions& options, const Pair& pair) {
           {"reference", options.images[1]},
           {"width", image.width},
           {"height", image.height},
+          {"same_seed", pair.same_seed},
           {"mse", {{"value", number(errors.mse)}, {"is", kMse}}},
           {"relative_mse",
            {{"value", number(errors.relative_mse)},
@@ -144,7 +174,10 @@ void print_noise(const Pair& pair) {
   fmt::print("{:<14} {:.4g} +- {:.2g} less noise, of which {}, and {}\n", "", d.less_noise, d.standard_error,
              pair.picture.variance ? fmt::format("I has {:.2g}", d.noise) : "I tells none",
              pair.reference.variance ? fmt::format("R {:.2g}", d.noise_of_reference) : "R tells none");
-  if (pair.picture.variance && d.noise_of_reference > d.noise)
+  if (pair.same_seed)
+    fmt::print(
+        "{:<14} both are of the same seed: what noise they share does not show; render one with another --seed\n", "");
+  else if (pair.picture.variance && d.noise_of_reference > d.noise)
     fmt::print("{:<14} the reference is noisier than the picture: render it longer\n", "");
 }
 
@@ -179,11 +212,29 @@ void print_pair(const ErrorOptions& options, const Pair& pair) {
   }
 }
 
+/// Brings a picture to the size of the reference. Throws InputError where their shapes differ by more than rounding of
+/// a width or a height makes.
+void resample(const ErrorOptions& options, NoisyImage& picture, const Image& reference) {
+  const int64_t width = picture.image.width, height = picture.image.height;
+  const int64_t apart = std::abs(width * reference.height - height * reference.width);
+  if (2 * apart > std::max(width, height) + std::max(reference.width, reference.height))
+    throw InputError(
+        fmt::format("{} has {} x {} pixels and {} has {} x {}: they are of different shapes, and --resample does "
+                    "not stretch pictures",
+                    options.images[0], width, height, options.images[1], reference.width, reference.height));
+  picture = resampled(picture, reference.width, reference.height);
+}
+
 int compare_pair(const ErrorOptions& options) {
   check_output(options);
-  Pair pair{read_picture(options.images[0]), read_picture(options.images[1]), {}, {}};
+  const ExrChannels files[] = {read_exr_channels(options.images[0]), read_exr_channels(options.images[1])};
+  Pair pair{read_picture(options.images[0], files[0]),
+            read_picture(options.images[1], files[1]),
+            share_noise(origin_of(files[0]), origin_of(files[1])),
+            {},
+            {}};
   const Image& reference = pair.reference.image;
-  if (options.resample) pair.picture = resampled(pair.picture, reference.width, reference.height);
+  if (options.resample) resample(options, pair.picture, reference);
   const Image& image = pair.picture.image;
   pair.errors = errors_of(image, options.images[0], reference, options.images[1]);
   pair.difference = noisy_difference(pair.picture, pair.reference);
@@ -203,23 +254,12 @@ int compare_pair(const ErrorOptions& options) {
 
 // --- A series
 
-/// A picture of a series with the passes that it is the mean of, where the file tells.
+/// A picture of a series.
 struct Member {
   std::string path;
-  std::optional<uint64_t> passes;
+  Origin origin;
   Errors errors;
 };
-
-std::optional<uint64_t> passes_of(const std::string& path) {
-  const std::map<std::string, std::string> metadata = read_exr_channels(path).metadata;
-  const auto found = metadata.find("vpm.passes");
-  if (found == metadata.end()) return std::nullopt;
-  const std::string& text = found->second;
-  uint64_t passes = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), passes);
-  const bool whole = error == std::errc() && stop == text.data() + text.size() && passes > 0;
-  return whole ? std::optional(passes) : std::nullopt;
-}
 
 /// How an error falls with passes, error ~ passes^slope; or why that cannot be said.
 struct Convergence {
@@ -230,11 +270,14 @@ struct Convergence {
 Convergence convergence_of(const std::vector<Member>& series, double Errors::*error) {
   std::vector<double> x, y;
   for (const Member& member : series) {
-    if (!member.passes) return {std::nullopt, fmt::format("{} does not tell its passes (vpm.passes)", member.path)};
+    const Origin &origin = member.origin, &first = series[0].origin;
+    if (!origin.passes) return {std::nullopt, fmt::format("{} does not tell its passes (vpm.passes)", member.path)};
+    if (origin.scene != first.scene || origin.settings != first.settings)
+      return {std::nullopt, fmt::format("{} has another scene or other settings than {}", member.path, series[0].path)};
     const double value = member.errors.*error;
     if (!(value > 0.0) || std::isinf(value))
       return {std::nullopt, fmt::format("the error of {} is {}", member.path, value)};
-    x.push_back(std::log(static_cast<double>(*member.passes)));
+    x.push_back(std::log(static_cast<double>(*origin.passes)));
     y.push_back(std::log(value));
   }
   if (std::all_of(x.begin(), x.end(), [&](double value) { return value == x[0]; }))
@@ -262,8 +305,8 @@ void print_series(const std::vector<Member>& series, const std::string& to, cons
              reference.height, kMse, kRelativeMse, kRelativeMseOfPbrt);
   fmt::print("{:>8} {:>12} {:>12} {:>12}  image (I)\n", "passes", "MSE", "relMSE", "pbrt's MRSE");
   for (const Member& m : series)
-    fmt::print("{:>8} {:>12.6g} {:>12.6g} {:>12.6g}  {}\n", m.passes ? std::to_string(*m.passes) : "?", m.errors.mse,
-               m.errors.relative_mse, m.errors.relative_mse_of_pbrt, m.path);
+    fmt::print("{:>8} {:>12.6g} {:>12.6g} {:>12.6g}  {}\n", m.origin.passes ? std::to_string(*m.origin.passes) : "?",
+               m.errors.mse, m.errors.relative_mse, m.errors.relative_mse_of_pbrt, m.path);
 }
 
 void print_series_json(const std::vector<Member>& series, const std::string& to, const Image& reference,
@@ -271,7 +314,7 @@ void print_series_json(const std::vector<Member>& series, const std::string& to,
   Json members = Json::array();
   for (const Member& m : series)
     members.push_back({{"image", m.path},
-                       {"passes", m.passes ? Json(*m.passes) : Json(nullptr)},
+                       {"passes", m.origin.passes ? Json(*m.origin.passes) : Json(nullptr)},
                        {"mse", number(m.errors.mse)},
                        {"relative_mse", number(m.errors.relative_mse)},
                        {"relative_mse_of_pbrt", number(m.errors.relative_mse_of_pbrt)}});
@@ -292,7 +335,7 @@ int compare_series(const ErrorOptions& options) {
   for (size_t i = 0; i + 1 < options.images.size(); ++i) {
     const std::string& path = options.images[i];
     const Image image = read_exr(path);
-    series.push_back({path, passes_of(path), errors_of(image, path, reference, to)});
+    series.push_back({path, origin_of(read_exr_channels(path)), errors_of(image, path, reference, to)});
     warn_of_non_finite(image, path);
   }
   warn_of_non_finite(reference, to);

@@ -56,6 +56,14 @@ std::string check_rate(const std::string& text) {
   return rate > 0.0 && rate < 1.0 ? "" : fmt::format("{} is not a probability between 0 and 1", text);
 }
 
+/// A check that a text is a whole number within a range.
+auto whole_number(int lo, int hi) {
+  return [lo, hi](const std::string& text) {
+    const int number = parse(text, std::numeric_limits<int>::min());
+    return number >= lo && number <= hi ? "" : fmt::format("{} is not a whole number from {} to {}", text, lo, hi);
+  };
+}
+
 void add_progress(CLI::App* command, ProgressMode& mode) {
   const std::map<std::string, ProgressMode> modes{
       {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
@@ -70,7 +78,7 @@ CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std
                       "Image to write (.exr); default: " + usual_name + ".exr in the current folder");
   command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
   command
       ->add_option("--exposure", options.exposure,
@@ -78,7 +86,7 @@ CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std
                    "curve; default: such that the 99th percentile of the luminance becomes 0.8")
       ->check(check_stops);
   add_progress(command, options.progress);
-  return command->add_option("--passes", options.passes, "Passes to average")->check(CLI::Range(1, 1'000'000'000));
+  return command->add_option("--passes", options.passes, "Passes to average")->check(whole_number(1, 1'000'000'000));
 }
 
 void add_render(CLI::App& app, RenderOptions& options) {
@@ -112,7 +120,7 @@ void add_bake(CLI::App& app, BakeOptions& options) {
   command->add_option("--mesh", options.mesh, "Name of the shape: a quad, or a mesh with texture coordinates")
       ->required();
   command->add_option("--resolution", options.resolution, "Texels along an edge of the map")
-      ->check(CLI::Range(1, 16384))
+      ->check(whole_number(1, 16384))
       ->capture_default_str();
 }
 
@@ -124,7 +132,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
       ->required();
   command->add_option("--set", options.overrides, "Change a key of the experiment: key.path=value; may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
   add_progress(command, options.progress);
 }
 
@@ -146,7 +154,7 @@ void add_error(CLI::App& app, ErrorOptions& options) {
       ->excludes(series);
   command->add_flag("--resample", options.resample, "Bring the picture to the size of the reference")->excludes(series);
   command->add_option("--worst", options.worst, "Pixels to list, those with the largest part in the relative MSE")
-      ->check(CLI::Range(0, 1'000'000))
+      ->check(whole_number(0, 1'000'000))
       ->capture_default_str()
       ->excludes(series);
   command->add_flag("--json", options.json, "Print JSON");
@@ -173,7 +181,7 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
                            ->add_option("--level", options.level,
                                         "Only this level: 0 distributions, 1 identities, 2 transport theory, "
                                         "3 agreement, 4 convergence")
-                           ->check(CLI::Range(0, kLevels - 1));
+                           ->check(whole_number(0, kLevels - 1));
   CLI::Option* only = command->add_option("--only", options.only, "Only experiments whose name holds this text");
   command
       ->add_option("--oracles", options.oracles,
@@ -187,7 +195,7 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
   command->add_option("--rate", options.rate, "Probability that right code fails the run")
       ->check(check_rate)
       ->capture_default_str();
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(CLI::Range(0, 1024));
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
   command->add_option("--json", options.json, "Write every check to this file");
   add_progress(command, options.progress);
 }

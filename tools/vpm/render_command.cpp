@@ -78,6 +78,8 @@ int render_command(const RenderOptions& options) {
   if (begun.film.passes() == 0) foresee(job);
   begun.seconds += job.pilot_seconds;
   print_notes(job);
+  if (const StopRule& until = job.settings.until; until.counts_passes() && begun.film.passes() >= until.passes)
+    fmt::print(stderr, "note: the checkpoint has {} already, and none is added\n", passes_text(begun.film.passes()));
   const std::atomic<bool>& stop = stop_on_signals();
   const auto finished = [&](const RenderResult& so_far) {
     if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);

@@ -65,7 +65,8 @@ ExactSums::ExactSums(int lowest_word, std::vector<uint32_t> words) : lowest_(low
   const bool empty = words_.empty() && lowest_ == 0;
   const size_t planes = words_.size() / kCount;
   const bool whole = words_.size() % kCount == 0 && planes >= 2 && planes <= kWords + 1;
-  if (!empty && !(whole && lowest_ >= kLowestWord && sign_word() <= kHighestWord + 1))
+  const bool in_range = lowest_ >= kLowestWord && lowest_ <= kHighestWord;  // before sign_word(), which could overflow
+  if (!empty && !(whole && in_range && sign_word() <= kHighestWord + 1))
     throw std::domain_error("these are no words of exact sums");
 }
 

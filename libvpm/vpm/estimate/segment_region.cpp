@@ -183,35 +183,34 @@ void SegmentRegion::add_wall(const Hit& wall, const Vec3& direction) {
 }
 
 /// Follows a line through all that it meets, and calls visit(t0, t1), in m from its origin, for its parts in the
-/// segment's medium. `medium` is that at its origin, and in the end that at its end. False where it ends at a wall
-/// beside the segment.
+/// segment's medium. `in` is what its origin lies in, and in the end what its end lies in. False where it ends at a
+/// wall beside the segment.
 template <class Visit>
-bool SegmentRegion::walk(Ray ray, float length, MediumId& medium, Visit&& visit) const {
+bool SegmentRegion::walk(Ray ray, float length, Inside& in, Visit&& visit) const {
   const Scene& scene = segment_.scene;
-  int solid = -1;  // the shape that the line is inside of
   float begun = 0.0f;
   for (int i = 0; i <= kMostHits && length > begun; ++i) {
     const std::optional<Hit> hit = i < kMostHits ? scene.geometry.intersect(ray, length - begun) : std::optional<Hit>();
     const float end = hit ? begun + hit->t : length;
-    if (medium == segment_.number && solid < 0) visit(begun, end);
+    if (in.medium == segment_.number && in.solid < 0) visit(begun, end);
     if (!hit) break;
     const Shape& shape = scene.shapes[hit->shape];
     const bool opaque = !is_boundary(scene.material_of(*hit)) && !is_dielectric(scene.material_of(*hit));
     if (opaque && stands_beside(near_side(*hit, ray.direction), hit->position)) return false;
     const bool enters = glm::dot(hit->normal, ray.direction) < 0.0f;
     const Ray beyond{leave_surface(*hit, ray.direction), ray.direction};
-    if (solid == static_cast<int>(hit->shape) && !enters) solid = -1;
-    if (opaque && !shape.separates_media && enters && solid < 0) {
+    if (in.solid == static_cast<int>(hit->shape) && !enters) in.solid = -1;
+    if (opaque && !shape.separates_media && enters && in.solid < 0) {
       // A closed body is left again; behind a sheet the medium goes on.
       const std::optional<Hit> next = scene.geometry.intersect(beyond);
       if (next && next->shape == hit->shape && glm::dot(next->normal, ray.direction) > 0.0f)
-        solid = static_cast<int>(hit->shape);
+        in.solid = static_cast<int>(hit->shape);
     }
-    medium = medium_beyond(shape, hit->normal, ray.direction, medium);
+    in.medium = medium_beyond(shape, hit->normal, ray.direction, in.medium);
     ray = beyond;
     begun = end;
   }
-  return solid < 0 && medium == segment_.number;
+  return true;
 }
 
 KernelEstimate SegmentRegion::share(float radius, const SeenAlong& seen, Rng& rng) const {
@@ -235,9 +234,9 @@ Rgbd SegmentRegion::seen_of_line(const Vec3& aside, float ahead, float radius, c
   const bool at_anchor = anchor_ > beside.t0 && anchor_ < beside.t1;
   const float middle = std::isinf(beside.t1) ? beside.t0 + radius : 0.5f * (beside.t0 + beside.t1);
   const float from = at_anchor ? anchor_ : middle;  // not on a border
-  MediumId medium = segment_.number;
+  Inside there{segment_.number};                    // at the line's place beside the ray's
   const float distance = glm::length(aside);
-  if ((near_ || !at_anchor) && !walk({segment_.ray.at(from), aside / distance}, distance, medium, [](float, float) {}))
+  if ((near_ || !at_anchor) && !walk({segment_.ray.at(from), aside / distance}, distance, there, [](float, float) {}))
     return sum;
   const PlaneDistances distances = this->distances();
   const auto seen_to = [&](float y) {
@@ -250,7 +249,7 @@ Rgbd SegmentRegion::seen_of_line(const Vec3& aside, float ahead, float radius, c
     add(part.t0, part.t1);
     return sum;
   }
-  MediumId behind = medium, before = medium;
+  Inside behind = there, before = there;
   walk({line.at(from), w}, part.t1 - from, behind, [&](float a, float b) { add(from + a, from + b); });
   walk({line.at(from), -w}, from - part.t0, before, [&](float a, float b) { add(from - b, from - a); });
   return sum;

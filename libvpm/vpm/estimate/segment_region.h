@@ -81,8 +81,13 @@ class SegmentRegion {
   Interval part_of(const Ray& line, float slack) const;
   Rgbd seen_of_line(const Vec3& aside, float ahead, float radius, const SeenAlong& seen) const;
   Rgb share_by_lines(float radius, const SeenAlong& seen, float turn) const;
+  /// What a place lies in.
+  struct Inside {
+    MediumId medium;
+    int solid = -1;  // the number of the opaque shape about it, if there is one
+  };
   template <class Visit>
-  bool walk(Ray ray, float length, MediumId& medium, Visit&& visit) const;
+  bool walk(Ray ray, float length, Inside& in, Visit&& visit) const;
 
   const EyeSegment& segment_;
   KernelKind kernel_;

@@ -48,7 +48,7 @@ static_assert(lists_every_member<EyeCounters>());
 struct RenderStatistics {
   int64_t passes = 0;
   double guide_seconds = 0.0, trace_seconds = 0.0, build_seconds = 0.0, eye_seconds = 0.0;  // wall clock
-  double caustic_seconds = 0.0;  // the same: tracing what is aimed at mirrors and glass, trace_seconds apart
+  double caustic_seconds = 0.0;  // likewise: of photons that are aimed at mirrors and glass, not in trace_seconds
   Ledger ledger;
   uint64_t volume_photons = 0, surface_photons = 0, caustic_photons = 0;  // stored
   uint64_t aimed_photons = 0;                                             // of the caustic ones: those that are aimed

@@ -41,7 +41,9 @@ void read_media_and_world(TableReader& root, ScenePlan& plan, Names& names) {
 }
 
 void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan) {
-  root.require("camera");
+  if (!root.has("camera"))
+    root.fail_here(root.title() + " lacks the table [camera]",
+                   "add [camera] with position, target and fov: scenes/README.md begins with a whole scene");
   plan.camera_table = root.table("camera", "[camera]");
   TableReader& camera = *plan.camera_table;
   std::optional<TableReader> film = root.table("film", "[film]");

@@ -54,7 +54,9 @@ void fail_at(const Place& place, const std::string& wrong, const std::string& ri
   if (!source.lines.empty()) {
     const std::string line_number = std::to_string(place.line);
     message = source.name + ":" + line_number + ":" + std::to_string(place.column) + ": " + wrong;
-    const std::string line = place.line <= source.lines.size() ? source.lines[place.line - 1] : "";
+    std::string line = place.line <= source.lines.size() ? source.lines[place.line - 1] : "";
+    const auto is_control = [](unsigned char c) { return (c < 0x20u && c != '\t') || c == 0x7fu; };
+    std::replace_if(line.begin(), line.end(), is_control, '?');  // of files that are no text
     message += "\n  " + line_number + " | " + line + "\n  " + std::string(line_number.size(), ' ') + " | " +
                indent_to(line, place.column) + "^";
   }

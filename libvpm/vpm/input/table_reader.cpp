@@ -73,7 +73,7 @@ float TableReader::number(const std::string& key, const Range& range, std::optio
 bool TableReader::says_auto(const std::string& key) {
   const Node* node = find(key);
   const std::string* word = node ? std::get_if<std::string>(&node->value) : nullptr;
-  if (word && *word != kAuto) refuse_word(key, *word, {"a number", kAuto});
+  if (word && *word != kAuto) refuse_word(key, *node, {"a number", kAuto});
   return word != nullptr;
 }
 
@@ -184,9 +184,10 @@ void TableReader::refuse_unknown(const Entry& entry) const {
   fail_at(entry.place, "unknown key '" + entry.key + "' in " + title_, suggest(entry.key, known_, "known keys"));
 }
 
-void TableReader::refuse_word(const std::string& key, const std::string& word,
-                              const std::vector<std::string>& words) const {
-  fail(key, quoted(key, title_) + " cannot be '" + word + "'", suggest(word, words, "it can be"));
+void TableReader::refuse_word(const std::string& key, const Node& node, const std::vector<std::string>& words) const {
+  const auto* word = std::get_if<std::string>(&node.value);
+  fail(key, quoted(key, title_) + " cannot be " + (word ? "'" + *word + "'" : kind_of(node)),
+       suggest(word ? *word : "", words, "it can be"));
 }
 
 std::vector<std::string> TableReader::keys() const {

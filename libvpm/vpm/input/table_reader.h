@@ -69,8 +69,8 @@ class TableReader {
 
  private:
   [[noreturn]] void refuse_unknown(const Entry& entry) const;
-  [[noreturn]] void refuse_word(const std::string& key, const std::string& word,
-                                const std::vector<std::string>& words) const;
+  /// Says what words there are in place of another, or of no word.
+  [[noreturn]] void refuse_word(const std::string& key, const Node& node, const std::vector<std::string>& words) const;
 
   const Node* node_;
   std::string title_;
@@ -82,13 +82,14 @@ template <class T>
 T TableReader::choice(const std::string& key, const std::vector<std::pair<std::string, T>>& words,
                       std::optional<T> fallback) {
   if (!find(key) && fallback) return *fallback;
-  const std::string word = string(key);
+  const Node& node = require(key);
+  const auto* word = std::get_if<std::string>(&node.value);
   std::vector<std::string> allowed;
   for (const auto& [name, value] : words) {
-    if (name == word) return value;
+    if (word && name == *word) return value;
     allowed.push_back(name);
   }
-  refuse_word(key, word, allowed);
+  refuse_word(key, node, allowed);
 }
 
 }  // namespace vpm

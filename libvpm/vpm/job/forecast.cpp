@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "vpm/base/error.h"
 #include "vpm/job/automatic.h"
@@ -16,11 +17,18 @@ constexpr uint64_t kSafePhotons = 10'000'000;  // that fit everywhere, unless ea
 constexpr double kMapBytes = 64.0;       // a stored photon takes while maps are built (62 in scenes/street_lamp.toml)
 constexpr double kMostIndexed = 0x1p32;  // photons of a map: their numbers have 32 bits
 
-/// "about 2e+05 photons.emitted would fit": that share of the photons of a pass, and of those aimed for caustics.
+/// Two digits of a number of photons and then zeros, "210000000": as the setting takes it.
+std::string photons_text(double photons) {
+  const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(photons)) - 1.0));
+  return fmt::format("{:.0f}", std::floor(photons / unit) * unit);
+}
+
+/// "about 210000 photons.emitted would fit": that share of the photons of a pass, and of those aimed for caustics.
 std::string fitting_text(double photons, const RenderSettings& settings, double share) {
-  std::string text = fmt::format("about {:.2g} photons.emitted", share * photons);
+  std::string text = fmt::format("about {} photons.emitted", photons_text(share * photons));
   if (settings.caustics_emitted > 0)
-    text += fmt::format(" and {:.2g} caustics.emitted", share * static_cast<double>(settings.caustics_emitted));
+    text +=
+        fmt::format(" and {} caustics.emitted", photons_text(share * static_cast<double>(settings.caustics_emitted)));
   return text + " would fit";
 }
 

@@ -100,6 +100,9 @@ std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& 
         fmt::format("{} pixels are negative in a channel, as weights of changing sign make them where photons are few; "
                     "the preview shows them as 0",
                     negative));
+  if (const double error = job.settings.until.error; error > 0.0 && highest_error(result) > error)
+    warnings.push_back(
+        fmt::format("a relative MSE below {:g} is not reached after {}", error, passes_text(result.film.passes())));
   return warnings;
 }
 

@@ -55,6 +55,20 @@ Scene furnished_box(const Medium& medium) {
   return scene;
 }
 
+/// A large white ball in the box, and a bubble in it whose wall is glass.
+Scene box_around_balls(const Medium& medium) {
+  Scene scene;
+  scene.media.push_back(medium);
+  const Interface media{0, kVacuum}, bubble{kVacuum, 0};
+  add_shape(scene, field_box(), Boundary{}, &media);
+  add_shape(scene, SphereShape{field_point({-3.0, 0.0, 0.5}), 0.5f}, Lambertian{Rgb(1.0f)});
+  add_shape(scene, SphereShape{field_point({3.0, -1.0, 0.0}), 0.4f}, Dielectric{1.5f}, &bubble);
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
 /// A room whose walls glow evenly, six lights of three sizes, and reflect half of what they get; in it a white ball.
 /// Shadow rays and paths that run into walls share what they find, by the lights' densities and probabilities.
 Scene glowing_room(const Medium& medium) {
@@ -258,18 +272,18 @@ std::vector<Check> check_sheet(const Effort& effort) {
 }
 
 /// The picture of a white medium in the box of the fields, gathered from a large radius up to where it ends.
-std::vector<Check> check_picture(const std::string& name, const Medium& medium, const AskedGather& gather, double bound,
-                                 const Effort& effort) {
-  Scene scene = lit_box("", medium).scene;
+std::vector<Check> check_picture(const std::string& name, Scene scene, const AskedGather& gather, double bound,
+                                 const Effort& effort, uint64_t passes = 24) {
   scene.camera = make_camera(field_point({20, 17, 25}), field_point(Vec3d(0.0)), Vec3(0, 1, 0), 14.0f, {8, 8});
   RenderSettings settings;
   settings.seed = effort.seed_of(name);
   settings.photons_emitted = 10'000;
   settings.radii = RadiusSchedule::constant;
   settings.volume = gather;
+  settings.surface.radius = 0.05f;
   Moments means;
   uint64_t least_shares = 0;
-  for (int pass = 0; pass < static_cast<int>(effort.count(24, 400)); ++pass) {
+  for (int pass = 0; pass < static_cast<int>(effort.count(passes, 400)); ++pass) {
     const Pass found = render_photon_pass(scene, settings, pass, kNeverStopped);
     means.add(channel_means(found.image).g);
     least_shares += found.statistics.eye.gather.least_shares;
@@ -305,23 +319,28 @@ std::vector<Check> check_borders(const Effort& effort) {
          check_border_of_medium(lit_box("near a corner of a box", white), field_point({6.4, 6.2, -6.5}), effort));
   append(checks, check_sheet(effort));
   const AskedGather each_ball{.radius = 0.6f, .boundary = BoundaryRule::corrected};
-  append(checks, check_picture("picture of a box", white, each_ball, 0.005, effort));
-  append(checks, check_picture("picture of a ball of voxels", ball_of_voxels(),
+  const auto box_of = [](const Medium& medium) { return lit_box("", medium).scene; };
+  append(checks, check_picture("picture of a box", box_of(white), each_ball, 0.005, effort));
+  append(checks, check_picture("picture of a ball of voxels", box_of(ball_of_voxels()),
                                {.radius = 0.4f, .boundary = BoundaryRule::corrected}, 0.01, effort));
   for (const auto& [name, mode] : {std::pair("balls", GatherMode::radius), {"discs", GatherMode::beam}})
-    append(checks, check_picture(fmt::format("picture of a box, {} past ends of segments", name), white,
+    append(checks, check_picture(fmt::format("picture of a box, {} past ends of segments", name), box_of(white),
                                  {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
   append(checks,
-         check_picture("picture of a ball of voxels, discs", ball_of_voxels(),
+         check_picture("picture of balls in a box, discs past ends of segments", box_around_balls(white),
+                       {.mode = GatherMode::beam, .radius = 0.4f, .boundary = BoundaryRule::ends}, 0.005, effort, 100));
+  append(checks,
+         check_picture("picture of a ball of voxels, discs", box_of(ball_of_voxels()),
                        {.mode = GatherMode::beam, .radius = 0.4f, .boundary = BoundaryRule::corrected}, 0.01, effort));
   append(checks,
-         check_picture("picture of a ball of voxels, nearest photons", ball_of_voxels(),
+         check_picture("picture of a ball of voxels, nearest photons", box_of(ball_of_voxels()),
                        {.mode = GatherMode::nearest, .radius = 0.6f, .count = 100, .boundary = BoundaryRule::ends},
                        0.01, effort));
   const Medium voxels = box_of_voxels();
   for (const auto& [name, mode] : {std::pair("balls", GatherMode::radius), {"discs", GatherMode::beam}})
-    append(checks, check_picture(fmt::format("picture of a box of voxels, {} past ends of segments", name), voxels,
-                                 {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
+    append(checks,
+           check_picture(fmt::format("picture of a box of voxels, {} past ends of segments", name), box_of(voxels),
+                         {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
   return checks;
 }
 
