@@ -144,5 +144,17 @@ TEST_F(Png, ReadsGreyAndOpaqueFiles) {
     EXPECT_THROW(read_png(folder / name, PngValues::srgb), InputError) << name;
 }
 
+// Text of 1.8 GB is announced, of which there are eleven bytes.
+TEST_F(Png, RefusesChunksLongerThanTheFile) {
+  try {
+    read_png(fs::path(VPM_SOURCE_DIR) / "tests/fuzz/corpus/png/long_chunk.png", PngValues::srgb);
+    ADD_FAILURE() << "it is read";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"long_chunk.png' is cut off", "at byte 33", "1767135348 bytes", "and 11 do"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+}
+
 }  // namespace
 }  // namespace vpm

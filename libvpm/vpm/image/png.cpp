@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,31 @@ struct OpenPng {
   }
 };
 
+/// Throws InputError where a chunk is longer than what is left of the file: libpng would ask for memory for it first.
+/// What is no PNG file is left to libpng.
+void check_chunks(const std::filesystem::path& path) {
+  constexpr uint64_t kSignature = 8, kHead = 8, kChecksum = 4;  // bytes
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<uint64_t>(std::max<std::streamoff>(0, file.tellg()));
+  std::array<png_byte, kHead> head{};
+  const auto read_head = [&](uint64_t at) {
+    return at + kHead <= size && file.seekg(static_cast<std::streamoff>(at)) &&
+           file.read(reinterpret_cast<char*>(head.data()), kHead);
+  };
+  if (!read_head(0) || png_sig_cmp(head.data(), 0, kSignature) != 0) return;
+  for (uint64_t at = kSignature; read_head(at);) {
+    const uint64_t length = png_get_uint_32(head.data());
+    if (length + kHead + kChecksum > size - at)
+      throw InputError("'" + path.string() + "' is cut off: its chunk at byte " + std::to_string(at) + " says that " +
+                       std::to_string(length) + " bytes follow, and " + std::to_string(size - at - kHead) + " do");
+    at += kHead + length + kChecksum;
+  }
+}
+
 /// The four bytes of each pixel: red, green, blue, opacity.
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path, int& width, int& height) {
   constexpr double kMostPixelBytes = 0x1p30;
+  check_chunks(path);
   OpenPng open(path);
   if (double{sizeof(Rgb)} * open.png.width * open.png.height > kMostPixelBytes)
     throw InputError("'" + path.string() + "' takes more than 1 GiB in memory");
