@@ -9,7 +9,7 @@
 namespace vpm {
 namespace {
 
-constexpr float kRadius = 0.1f;  // m
+constexpr float kBeamRadius = 0.1f;  // m
 
 /// Beams in an endless medium, and a segment of a ray along x, from 0 to 2 m.
 struct Crossed {
@@ -27,7 +27,8 @@ struct Crossed {
 
   Rgb light_of(const std::vector<PhotonBeam>& beams, KernelKind kernel = KernelKind::epanechnikov,
                VolumeForm form = VolumeForm::density_at_query) {
-    PhotonBeams estimator(scene, {{.mode = GatherMode::photon_beams, .radius = kRadius, .kernel = kernel}, form, true, {}});
+    PhotonBeams estimator(
+        scene, {{.mode = GatherMode::photon_beams, .radius = kBeamRadius, .kernel = kernel}, form, true, 0, 1, {}});
     static_cast<BeamRecorder*>(estimator.recorders()[0])->beams[0] = beams;
     RenderStatistics statistics;
     estimator.build(1, statistics);
@@ -46,12 +47,15 @@ PhotonBeam slanted(float length) {
 
 TEST(PhotonBeams, OneBeamIsItsFiveFactors) {
   const Rgb sigma_t(0.7f), albedo(0.9f, 0.5f, 0.1f);
-  Crossed crossed(make_medium(nullptr, sigma_t, albedo, HenyeyGreenstein{0.4f}));
+  Medium medium = make_medium(nullptr, sigma_t);
+  medium.sigma_s = albedo * sigma_t;
+  medium.phase = HenyeyGreenstein{0.4f};
+  Crossed crossed(medium);
   for (const KernelInfo& info : kKernels) {
     const Rgb found = crossed.light_of({slanted(0.6f)}, info.kind);
     const float q = 0.4f * 0.4f;
     const float profile =
-        with_kernel<1>(info.kind, [&](auto of) { return of(q).value; }) * kernel_norm_1d(info.kind, kRadius);
+        with_kernel<1>(info.kind, [&](auto of) { return of(q).value; }) * kernel_norm_1d(info.kind, kBeamRadius);
     const float phase = phase_value(HenyeyGreenstein{0.4f}, slanted(0.6f).direction, Vec3(-1.0f, 0.0f, 0.0f));
     const Rgb light = Rgb(3.0f, 2.0f, 1.0f) * sigma_t * albedo * phase * std::exp(-0.7f * 1.2f) * profile / 0.5f;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 1e-4f * std::abs(light[c])) << info.name;
@@ -70,8 +74,8 @@ TEST(PhotonBeams, ChromaticBeamsCarryTheWeightsOfTheirMixture) {
   Crossed crossed(make_medium(nullptr, sigma_t));
   const Rgb found = crossed.light_of({slanted(0.6f)});
   const Rgb come = glm::exp(-sigma_t * 0.5f), weight = come / glm::dot(power / 6.0f, come);
-  const float kernel = 0.75f / kRadius * (1.0f - 0.16f) / 0.5f / (4.0f * kPi);
-  const Rgb light = power * weight * sigma_t * glm::exp(-sigma_t * 1.2f) * kernel;
+  const float kernel = 0.75f / kBeamRadius * (1.0f - 0.16f) / 0.5f / (4.0f * kPi);
+  const Rgb light = power * weight * 0.5f * sigma_t * glm::exp(-sigma_t * 1.2f) * kernel;
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 1e-4f * light[c]);
 }
 

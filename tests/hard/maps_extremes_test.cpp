@@ -24,7 +24,8 @@ TEST(MapsExtremes, ThousandsAtOnePointWeighAsMuchAsTheirSum) {
   constexpr int kCount = 5000;
   const Vec3 spot(0.3f, -7.0f, 2.0f);
   const std::vector<Photon> photons(kCount, Photon{spot, PackedDirection(Vec3(0, -1, 0)), Rgb(0.5f)});
-  for (const auto& [kernel, kernel_name, disc_norm, ball_norm] : kKernels) {
+  for (const KernelInfo& info : kKernels) {
+    const KernelKind kernel = info.kind;
     const GatherSettings settings{GatherMode::radius, 0.25f, 0, kernel};
     const PhotonMap map = make_photon_map(photons, settings, 1);
     const double at_it = kCount * 0.5 * kernel_norm_3d(kernel, 0.25f);

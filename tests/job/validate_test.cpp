@@ -33,6 +33,10 @@ using S = RenderSettings;
 const Contradiction kContradictions[] = {
     {"photons.emitted", [](S& s) { s.photons_emitted = 0; }},
     {"photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
+    {"photons.flights", [](S& s) { s.flights = 100; }},
+    {"distance.strategy",
+     [](S& s) { s.volume.mode = GatherMode::photon_beams, s.distance.strategy = "mean-extinction"; }},
+    {"volume.count", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.volume.beam_count = 20; }},
     {"importance.aim", [](S& s) { s.guide.aim = false; }},
     {"importance.split", [](S& s) { s.guide.split = false; }},
     {"importance.scatter", [](S& s) { s.guide.scatter = true; }},
@@ -76,7 +80,7 @@ const Contradiction kContradictions[] = {
 
 // The default of volume.boundary goes with everything; and beams know all its words.
 TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
-  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam})
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams})
     for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon})
       for (const uint32_t in_cube : {0u, 4u})
         for (const BoundaryRule rule : {BoundaryRule::none, BoundaryRule::ends, BoundaryRule::corrected}) {
@@ -86,7 +90,7 @@ TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
           s.volume.boundary = rule;
           s.volume_form = form;
           s.photons_in_cube = in_cube;
-          const bool asks_merged = rule == BoundaryRule::corrected && mode != GatherMode::beam && in_cube > 0;
+          const bool asks_merged = rule == BoundaryRule::corrected && !s.volume.along_rays() && in_cube > 0;
           if (!asks_merged) {
             EXPECT_NO_THROW(validate(s, {.scattering_media = true}));
           }

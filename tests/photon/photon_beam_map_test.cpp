@@ -82,7 +82,9 @@ TEST(PhotonBeamMap, FindsEachCrossingOnce) {
         for (uint32_t b = 0; b < all.size(); ++b) {
           const Pass pass = pass_of(all[b], ray);
           EXPECT_LE(found[b], 1);
-          if (depth_of(pass, all[b], interval, radius) > double{resolved} / pass.sine) EXPECT_EQ(found[b], 1) << b;
+          if (depth_of(pass, all[b], interval, radius) > double{resolved} / pass.sine) {
+            EXPECT_EQ(found[b], 1) << b;
+          }
           met += static_cast<uint64_t>(found[b]);
         }
       }
@@ -90,11 +92,42 @@ TEST(PhotonBeamMap, FindsEachCrossingOnce) {
   EXPECT_GT(met, 10'000u);
 }
 
+// Each flight is kept as often, with the power of those that it stands for.
+TEST(ThinFlights, KeepsSumsInTheMean) {
+  constexpr int kBeams = 1000, kMost = 37, kDraws = 4000;
+  std::vector<int> kept(kBeams, 0);
+  for (uint64_t i = 0; i < kDraws; ++i) {
+    std::vector<std::vector<PhotonBeam>> by_medium(2);
+    for (int b = 0; b < kBeams; ++b)
+      by_medium[b < 300 ? 0 : 1].push_back({Vec3(0.0f), 1.0f + b, Vec3(1, 0, 0), Rgb(1)});
+    Rng rng(3, rng_stream(RngUse::test, 12), i);
+    thin_flights(by_medium, kMost, rng);
+    ASSERT_EQ(by_medium[0].size() + by_medium[1].size(), size_t{kMost});
+    for (const std::vector<PhotonBeam>& beams : by_medium)
+      for (const PhotonBeam& beam : beams) {
+        ASSERT_FLOAT_EQ(beam.power.g, 1000.0f / kMost);
+        ++kept[static_cast<size_t>(beam.length - 1.0f)];
+      }
+  }
+  const double expected = 1.0 * kDraws * kMost / kBeams;  // 148, binomial: six standard deviations are one in 1e6 runs
+  for (const int count : kept) EXPECT_NEAR(count, expected, 6.0 * std::sqrt(expected));
+}
+
+TEST(ThinFlights, KeepsAllWhereTheyAreFew) {
+  std::vector<std::vector<PhotonBeam>> by_medium{{{Vec3(0.0f), 1.0f, Vec3(1, 0, 0), Rgb(2.0f)}}, {}};
+  Rng rng(1, 0, 0);
+  for (const uint64_t most : {0, 1, 5}) {
+    thin_flights(by_medium, most, rng);
+    ASSERT_EQ(by_medium[0].size(), 1u);
+    EXPECT_EQ(by_medium[0][0].power, Rgb(2.0f));
+  }
+}
+
 TEST(PhotonBeamMap, OfNoBeamsFindsNone) {
   const PhotonBeamMap map({}, 0.1f, 1.0f);
-  EXPECT_EQ(map.visit_crossings({Vec3(0.0f), Vec3(0.0f, 0.0f, 1.0f)}, {0.0f, 1.0f},
-                                [](const BeamCrossings&) { FAIL(); }),
-            0u);
+  EXPECT_EQ(
+      map.visit_crossings({Vec3(0.0f), Vec3(0.0f, 0.0f, 1.0f)}, {0.0f, 1.0f}, [](const BeamCrossings&) { FAIL(); }),
+      0u);
 }
 
 // A ray along a beam has no common perpendicular with it.

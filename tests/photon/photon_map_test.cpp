@@ -56,13 +56,13 @@ TEST(PhotonMap, EstimatesEqualTheBruteForceTwin) {
   for (const Layout layout : kLayouts) {
     const std::vector<Photon> all = photons(layout, 5000);
     for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
-      for (const auto& [kernel, kernel_name, disc_norm, ball_norm] : kKernels)
+      for (const KernelInfo& kernel : kKernels)
         for (const float radius : {0.02f, 0.11f, 3.0f}) {
-          const GatherSettings settings{mode, radius, 40, kernel};
+          const GatherSettings settings{mode, radius, 40, kernel.kind};
           const PhotonMap map = make_photon_map(all, settings, 1000);
           SCOPED_TRACE(testing::Message()
                        << "layout " << static_cast<int>(layout) << ", by count " << (mode == GatherMode::nearest)
-                       << ", " << kernel_name << ", " << radius << " m");
+                       << ", " << kernel.name << ", " << radius << " m");
           for (uint64_t i = 0; i < 20; ++i) {
             Rng rng(4, rng_stream(RngUse::test, 10), i);
             const Vec3 at = all[static_cast<size_t>(rng.uniform() * 5000)].position +

@@ -19,7 +19,8 @@ enum class RngUse : uint64_t {
   scout = 7,
   caustic = 8,
   caustic_scout = 9,
-  pilot = 10
+  pilot = 10,
+  flight = 11
 };
 
 /// A permuted congruential generator with 128 bits of state [ONeill2014, sec. 6.3, XSL RR]. Equal (seed, stream,

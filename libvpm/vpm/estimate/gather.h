@@ -47,6 +47,8 @@ struct GatherRule {
   uint32_t beam_count = 0;  // beam mode; > 0: each photon has its own radius, that of a ball which holds about so
                             // many photons, between a hundredth of `radius` and `radius`; 0: all have `radius`
 
+  /// Is the light of a whole segment of a ray gathered at once?
+  bool along_rays() const { return mode == GatherMode::beam || mode == GatherMode::photon_beams; }
   /// Does a count of photons decide the radius of a gather, so that `radius` is only the largest allowed?
   bool goes_by_count() const { return mode == GatherMode::nearest || (mode == GatherMode::beam && beam_count > 0); }
   /// Is each ball in a medium corrected by itself, and not the segment of the ray as a whole? With radii that go by

@@ -79,6 +79,11 @@ std::vector<Setting> declare_photons() {
        .domain = Integers{0, 1'000'000},
        .meaning = "> 0: the most photons kept in a cube of half a gather radius for each octant of directions; these "
                   "take over the power of the rest"},
+      {.key = "photons.flights",
+       .member = at<&S::flights>(),
+       .domain = Integers{0, kAnyInteger},
+       .meaning = "with `gather = \"photon-beams\"`: at most so many flights of a pass become beams, drawn evenly from "
+                  "all and with the power of all; 0: all"},
   };
 }
 

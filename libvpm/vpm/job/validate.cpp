@@ -76,8 +76,20 @@ void check_estimator(const RenderSettings& s, const SceneFacts& facts) {
             "write direct = \"shadow-rays\" in [volume] or [surface] of what scatters, or leave out 'estimator'");
 }
 
+void check_photon_beams(const RenderSettings& s) {
+  if (s.volume.mode != GatherMode::photon_beams) {
+    refuse_if(s.flights > 0, "photons.flights", "no flights are kept: 'gather' of [volume] is not \"photon-beams\"",
+              "leave out 'flights', or write gather = \"photon-beams\"");
+    return;
+  }
+  refuse_if(!strategy_info(s.distance.strategy).analog, "distance.strategy",
+            "flights by '" + s.distance.strategy + "' do not end as the transmittance says, so that they are no beams",
+            "write another 'gather' in [volume], or another strategy; " +
+                strategies_that(&StrategyInfo::analog, "right for photon beams"));
+}
+
 void check_borders(const RenderSettings& s) {
-  const bool in_media = s.volume.boundary == BoundaryRule::corrected && s.volume.mode != GatherMode::beam;
+  const bool in_media = s.volume.boundary == BoundaryRule::corrected && !s.volume.along_rays();
   const bool on_surfaces = s.surface.boundary == BoundaryRule::corrected;
   refuse_if((in_media || on_surfaces) && s.photons_in_cube > 0, in_media ? "volume.boundary" : "surface.boundary",
             "there is no correction at borders where 'in_cube' of [photons] merges photons across them",
@@ -140,6 +152,7 @@ void validate(const RenderSettings& settings, const SceneFacts& facts) {
   check_photons(settings);
   check_importance(settings);
   check_strategy(settings, facts);
+  check_photon_beams(settings);
   check_borders(settings);
   check_final_gathering(settings);
   check_radii_of_pixels(settings);

@@ -8,7 +8,7 @@
 
 namespace vpm {
 
-/// A flight of a photon through one medium, up to its collision or to where it leaves the medium [Jarosz2011, sec. 4].
+/// A flight of a photon through one medium, up to its collision or to where it leaves the medium [Jarosz2011].
 struct PhotonBeam {
   Vec3 origin{0.0f};     // m
   float length = 0.0f;   // m, > 0
@@ -35,5 +35,9 @@ class BeamRecorder final : public PhotonRecorder {
   const Scene& scene_;
   PhotonFilter filter_;
 };
+
+/// Keeps no more than `most` flights, those of all media together; 0: all. They are evenly spaced in the list of all,
+/// from a random place on, and take the power of those between them: sums over flights stay what they are in the mean.
+void thin_flights(std::vector<std::vector<PhotonBeam>>& by_medium, uint64_t most, Rng& rng);
 
 }  // namespace vpm

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "vpm/base/parallel.h"
-#include "vpm/photon/leaf_order.h"
 
 namespace vpm {
 namespace {

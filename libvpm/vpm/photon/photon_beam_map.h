@@ -8,6 +8,7 @@
 
 #include "vpm/base/count.h"
 #include "vpm/photon/box_tree.h"
+#include "vpm/photon/leaf_order.h"
 #include "vpm/photon/photon_beam.h"
 
 namespace vpm {

@@ -44,7 +44,8 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
   std::vector<std::unique_ptr<MarchedSource>> marched;
   if (settings.volume.mode == GatherMode::photon_beams)
     estimators.push_back(std::make_unique<PhotonBeams>(
-        scene, PhotonBeamSettings{settings.volume, settings.volume_form, !by_rays, pass_of_maps(settings, pass)}));
+        scene, PhotonBeamSettings{settings.volume, settings.volume_form, !by_rays, settings.flights, settings.seed,
+                                  pass_of_maps(settings, pass)}));
   else if (settings.volume.mode == GatherMode::beam)
     estimators.push_back(std::make_unique<BeamRadiance>(scene, map));
   else if (settings.volume_form == VolumeForm::density_at_photon)

@@ -58,6 +58,7 @@ struct RenderSettings {
       0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
   uint32_t photons_in_cube = 0;  // > 0: the most photons that travel into one octant of directions, in a cube
                                  // whose edges are half a radius long, see control_density()
+  uint64_t flights = 0;          // > 0: the most photon beams of a pass, thin_flights()
   int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
   GuideSettings guide;  // of photons, by importance

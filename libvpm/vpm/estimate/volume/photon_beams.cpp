@@ -1,4 +1,4 @@
-// L = sum over beams of Phi W(s) sigma_s p T(t) K(distance) / sine of the angle [Jarosz2011, eq. 38].
+// L = sum over beams of Phi W(s) sigma_s p T(t) K(distance) / sine of the angle [Jarosz2011].
 #include "vpm/estimate/volume/photon_beams.h"
 
 #include <utility>
@@ -31,6 +31,8 @@ PhotonBeams::PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings)
 
 void PhotonBeams::build(uint64_t emitted, RenderStatistics& statistics) {
   const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
+  Rng rng(settings_.seed, rng_stream(RngUse::flight, static_cast<uint64_t>(settings_.pass.number)), 0);
+  thin_flights(recorder_.beams, settings_.flights, rng);
   for (size_t m = 0; m < scene_.media.size(); ++m) {
     const float first = first_radius(settings_.gather, scene_, scene_.media[m]);
     const GatherSettings gather = gather_in_pass(settings_.gather, first, 1, settings_.pass);

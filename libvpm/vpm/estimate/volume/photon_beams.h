@@ -12,7 +12,9 @@ namespace vpm {
 struct PhotonBeamSettings {
   AskedGather gather;
   VolumeForm form = VolumeForm::density_at_query;
-  bool once = true;  // also the beams of photons that come straight from lights
+  bool once = true;      // also the beams of photons that come straight from lights
+  uint64_t flights = 0;  // > 0: the most beams, of all media together
+  uint64_t seed = 1;     // of which of them
   PassOfMaps pass;
 };
 

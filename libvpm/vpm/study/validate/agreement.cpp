@@ -139,18 +139,26 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
   }
   all.emplace_back("k nearest within the radius", nearest);
   if (media) {
-    for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
+    for (const auto& [found, mode, form] :
+         {std::tuple("photons around rays", GatherMode::beam, VolumeForm::density_at_query),
+          {"photons around rays", GatherMode::beam, VolumeForm::density_at_photon},
+          {"photon beams", GatherMode::photon_beams, VolumeForm::density_at_query},
+          {"photon beams", GatherMode::photon_beams, VolumeForm::density_at_photon}}) {
       RenderSettings beams = base;
-      beams.volume.mode = GatherMode::beam;
+      beams.volume.mode = mode;
       beams.volume_form = form;
-      const std::string name = fmt::format("photons around rays, density at the {}",
-                                           form == VolumeForm::density_at_query ? "query" : "photon");
+      const std::string name =
+          fmt::format("{}, density at the {}", found, form == VolumeForm::density_at_query ? "query" : "photon");
       all.emplace_back(name, beams);
       beams.volume_direct = DirectLight::shadow_rays;
       all.emplace_back(name + ", single scattering by shadow rays", beams);
       beams.volume_direct = DirectLight::equiangular;
       all.emplace_back(name + ", single scattering equiangular", beams);
     }
+    RenderSettings few_beams = base;
+    few_beams.volume.mode = GatherMode::photon_beams;
+    few_beams.flights = base.photons_emitted / 2;
+    all.emplace_back("photon beams of some flights", few_beams);
     RenderSettings own_radii = base;
     own_radii.volume.mode = GatherMode::beam;
     own_radii.volume.beam_count = 30;

@@ -310,6 +310,8 @@ Medium box_of_voxels() {
 }
 
 std::vector<Check> check_borders(const Effort& effort) {
+  const std::pair<const char*, GatherMode> spreads[] = {
+      {"balls", GatherMode::radius}, {"discs", GatherMode::beam}, {"photon beams", GatherMode::photon_beams}};
   const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
   const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
   std::vector<Check> checks =
@@ -323,7 +325,7 @@ std::vector<Check> check_borders(const Effort& effort) {
   append(checks, check_picture("picture of a box", box_of(white), each_ball, 0.005, effort));
   append(checks, check_picture("picture of a ball of voxels", box_of(ball_of_voxels()),
                                {.radius = 0.4f, .boundary = BoundaryRule::corrected}, 0.01, effort));
-  for (const auto& [name, mode] : {std::pair("balls", GatherMode::radius), {"discs", GatherMode::beam}})
+  for (const auto& [name, mode] : spreads)
     append(checks, check_picture(fmt::format("picture of a box, {} past ends of segments", name), box_of(white),
                                  {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
   append(checks,
@@ -337,7 +339,7 @@ std::vector<Check> check_borders(const Effort& effort) {
                        {.mode = GatherMode::nearest, .radius = 0.6f, .count = 100, .boundary = BoundaryRule::ends},
                        0.01, effort));
   const Medium voxels = box_of_voxels();
-  for (const auto& [name, mode] : {std::pair("balls", GatherMode::radius), {"discs", GatherMode::beam}})
+  for (const auto& [name, mode] : spreads)
     append(checks,
            check_picture(fmt::format("picture of a box of voxels, {} past ends of segments", name), box_of(voxels),
                          {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));

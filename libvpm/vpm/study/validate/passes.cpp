@@ -42,6 +42,9 @@ std::vector<Check> check_radii(const Effort& effort) {
     beams.volume.mode = GatherMode::beam;
     check("radius around rays", render_photon_pass(scene, beams, pass, kNeverStopped).statistics.last_volume_radius,
           settings.volume.radius.metres(), 2.0);
+    beams.volume.mode = GatherMode::photon_beams;
+    check("radius of photon beams", render_photon_pass(scene, beams, pass, kNeverStopped).statistics.last_volume_radius,
+          settings.volume.radius.metres(), 1.0);
   }
   settings.radii = RadiusSchedule::constant;
   const RenderStatistics found = render_photon_pass(scene, settings, 30, kNeverStopped).statistics;
