@@ -26,42 +26,40 @@ double total_length(const std::vector<PhotonBeam>& beams) {
 
 }  // namespace
 
-PhotonBeamMap::PhotonBeamMap(std::vector<PhotonBeam> beams, float radius, float scale)
-    : beams_(std::move(beams)), radius_(radius) {
-  for (PhotonBeam& beam : beams_) beam.power *= scale;
-  if (!beams_.empty()) cut();
+PhotonBeamMap::PhotonBeamMap(const std::vector<PhotonBeam>& beams, float radius, float scale)
+    : size_(beams.size()), radius_(radius) {
+  if (!beams.empty()) cut(beams, scale);
 }
 
-void PhotonBeamMap::cut() {
+void PhotonBeamMap::cut(const std::vector<PhotonBeam>& beams, float scale) {
   const double longest = std::max(double{kShortest} * double{radius_},
-                                  total_length(beams_) / static_cast<double>(kMostPieces * beams_.size()));
-  std::vector<size_t> first(beams_.size() + 1, 0);
-  for (size_t i = 0; i < beams_.size(); ++i) first[i + 1] = first[i] + pieces_of(beams_[i], longest);
+                                  total_length(beams) / static_cast<double>(kMostPieces * beams.size()));
+  std::vector<size_t> first(beams.size() + 1, 0);
+  for (size_t i = 0; i < beams.size(); ++i) first[i + 1] = first[i] + pieces_of(beams[i], longest);
   pieces_ = first.back();
   std::vector<Vec3> middles(pieces_);
   std::vector<uint32_t> owner(pieces_);
   const auto half_of = [&](size_t beam) {
-    return 0.5 * double{beams_[beam].length} / static_cast<double>(first[beam + 1] - first[beam]);
+    return 0.5 * double{beams[beam].length} / static_cast<double>(first[beam + 1] - first[beam]);
   };
   const auto from_of = [&](size_t piece) {
     return half_of(owner[piece]) * static_cast<double>(2 * (piece - first[owner[piece]]) + 1);
   };
-  parallel_for_chunks(beams_.size(), kChunk, [&](size_t begin, size_t end, size_t) {
+  parallel_for_chunks(beams.size(), kChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i)
       for (size_t piece = first[i]; piece < first[i + 1]; ++piece) {
         owner[piece] = static_cast<uint32_t>(i);
-        middles[piece] = Vec3(Vec3d(beams_[i].origin) + from_of(piece) * Vec3d(beams_[i].direction));
+        middles[piece] = Vec3(Vec3d(beams[i].origin) + from_of(piece) * Vec3d(beams[i].direction));
       }
   });
   const LeafOrder tree = sort_into_leaves(middles, kLeaf);
   leaves_ = tree.leaves;
-  for (std::vector<float>* values : {&x_, &y_, &z_, &dx_, &dy_, &dz_, &half_, &from_})
+  for (std::vector<float>* values : {&x_, &y_, &z_, &dx_, &dy_, &dz_, &half_, &from_, &r_, &g_, &b_})
     values->assign(pieces_ + kBlock, 0.0f);
-  beam_.assign(pieces_ + kBlock, 0);
   parallel_for_chunks(pieces_, kChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       const uint32_t piece = tree.order[i], beam = owner[piece];
-      const Vec3 middle = middles[piece], direction = beams_[beam].direction;
+      const Vec3 middle = middles[piece], direction = beams[beam].direction;
       x_[i] = middle.x;
       y_[i] = middle.y;
       z_[i] = middle.z;
@@ -70,7 +68,10 @@ void PhotonBeamMap::cut() {
       dz_[i] = direction.z;
       half_[i] = static_cast<float>(half_of(beam));
       from_[i] = static_cast<float>(from_of(piece));
-      beam_[i] = beam;
+      const Rgb power = scale * beams[beam].power;
+      r_[i] = power.r;
+      g_[i] = power.g;
+      b_[i] = power.b;
     }
   });
   boxes_ = BoxTree(leaves_, [&](size_t leaf) {
@@ -86,15 +87,14 @@ void PhotonBeamMap::cut() {
     }
     return box;
   });
-  for (const PhotonBeam& beam : beams_) {
+  for (const PhotonBeam& beam : beams) {
     bounds_.add(beam.origin);
     bounds_.add(beam.origin + beam.length * beam.direction);
   }
 }
 
 size_t PhotonBeamMap::memory_bytes() const {
-  return sizeof(*this) + beams_.capacity() * sizeof(PhotonBeam) + boxes_.memory_bytes() +
-         9 * x_.capacity() * sizeof(float);
+  return sizeof(*this) + boxes_.memory_bytes() + 11 * x_.capacity() * sizeof(float);
 }
 
 }  // namespace vpm

@@ -18,27 +18,27 @@ struct BeamCrossings {
   static constexpr size_t kMost = 256;
 
   size_t size = 0;
-  uint32_t beam[kMost];                // its number in the map
-  float t[kMost];                      // along the ray, m
-  float s[kMost];                      // along the beam, m from its origin
-  float distance2[kMost];              // between the two lines, m^2
-  float sine[kMost];                   // of the angle between them, > 0
-  float x[kMost], y[kMost], z[kMost];  // of the place on the beam from the ray's origin, m
+  float t[kMost];                         // along the ray, m
+  float s[kMost];                         // along the beam, m from its origin
+  float distance2[kMost];                 // between the two lines, m^2
+  float sine[kMost];                      // of the angle between them, > 0
+  float x[kMost], y[kMost], z[kMost];     // of the place on the beam from the ray's origin, m
+  float dx[kMost], dy[kMost], dz[kMost];  // the beam's direction, unit
+  float r[kMost], g[kMost], b[kMost];     // its power at its origin, W
 };
 
 class PhotonBeamMap {
  public:
   PhotonBeamMap() = default;
   /// Of beams that are met within `radius`, m, > 0; powers are multiplied by `scale`: 1/emitted.
-  PhotonBeamMap(std::vector<PhotonBeam> beams, float radius, float scale);
+  PhotonBeamMap(const std::vector<PhotonBeam>& beams, float radius, float scale);
 
   /// Calls visit(const BeamCrossings&) for the beams that pass the ray within the radius, where the perpendicular meets
   /// the ray in the interval; some at a time, in a fixed order. Returns how many pieces of beams it looked at.
   template <class Visit>
   uint32_t visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const;
 
-  const PhotonBeam& beam(size_t i) const { return beams_[i]; }
-  size_t size() const { return beams_.size(); }
+  size_t size() const { return size_; }
   const Box& bounds() const { return bounds_; }
   size_t memory_bytes() const;
 
@@ -52,9 +52,9 @@ class PhotonBeamMap {
   /// Finds which pieces from that place on the ray passes closely: 0 for these in `missed`, 1 for others.
   void test(size_t place, const Ray& ray, const Frame& frame, const Interval& interval, float* missed) const;
   void cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame, BeamCrossings& found) const;
-  void cut();
+  void cut(const std::vector<PhotonBeam>& beams, float scale);
 
-  std::vector<PhotonBeam> beams_;
+  size_t size_ = 0;
   float radius_ = 0.0f;  // m
   // The pieces, leaf by leaf, with kBlock further ones so that whole blocks can be read.
   size_t pieces_ = 0, leaves_ = 1;
@@ -62,7 +62,7 @@ class PhotonBeamMap {
   std::vector<float> dx_, dy_, dz_;  // direction, unit
   std::vector<float> half_;          // of their lengths, m
   std::vector<float> from_;          // of their middles from the beam's origin, m
-  std::vector<uint32_t> beam_;
+  std::vector<float> r_, g_, b_;     // the beam's power, W
   BoxTree boxes_;
   Box bounds_;
 };
@@ -101,7 +101,6 @@ inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray
     const float a = glm::dot(middle, right), b = glm::dot(middle, up), da = glm::dot(d, right), db = glm::dot(d, up);
     const float sine2 = da * da + db * db, across = a * db - b * da, s = -(a * da + b * db) / sine2;
     const Vec3 place = middle + s * d;
-    found.beam[i] = beam_[p];
     found.t[i] = glm::dot(place, along);
     found.s[i] = from_[p] + s;
     found.distance2[i] = across * across / sine2;
@@ -109,13 +108,19 @@ inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray
     found.x[i] = place.x;
     found.y[i] = place.y;
     found.z[i] = place.z;
+    found.dx[i] = d.x;
+    found.dy[i] = d.y;
+    found.dz[i] = d.z;
+    found.r[i] = r_[p];
+    found.g[i] = g_[p];
+    found.b[i] = b_[p];
   }
   found.size = count;
 }
 
 template <class Visit>
 uint32_t PhotonBeamMap::visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const {
-  if (beams_.empty()) return 0;
+  if (size_ == 0) return 0;
   Frame frame{{}, {}, ray.direction};
   make_frame(ray.direction, frame.right, frame.up);
   uint32_t pieces[BeamCrossings::kMost + kBlock];

@@ -11,17 +11,11 @@
 namespace vpm {
 namespace {
 
-/// What is left of a beam's power at the distance s (m) from its origin, given that the photon has come so far.
-Rgb weight_along(const Medium& medium, const PhotonBeam& beam, float s) {
-  if (is_grey(medium.sigma_t)) return Rgb(1.0f);
-  const double integral = density_integral(medium, {beam.origin, beam.direction}, {0.0f, s}).value;
-  return analog_weight(medium, channel_shares(beam.power), integral, false);
-}
-
-/// sigma_s over the relative density that the light passing to the eye is multiplied by, 1/m.
-Rgb scattering_at(const Medium& medium, VolumeForm form, const Vec3& place) {
-  if (form == VolumeForm::density_at_photon) return medium.sigma_s * medium.density(place);
-  return medium.sigma_s * medium.max_density();
+/// What is left of a beam's power at the distance s (m) from its origin, given that the photon has come so far, in a
+/// chromatic medium. In a grey one it is all.
+Rgb weight_along(const Medium& medium, const Ray& beam, const Rgb& power, float s) {
+  const double integral = density_integral(medium, beam, {0.0f, s}).value;
+  return analog_weight(medium, channel_shares(power), integral, false);
 }
 
 }  // namespace
@@ -36,10 +30,10 @@ void PhotonBeams::build(uint64_t emitted, RenderStatistics& statistics) {
   for (size_t m = 0; m < scene_.media.size(); ++m) {
     const float first = first_radius(settings_.gather, scene_, scene_.media[m]);
     const GatherSettings gather = gather_in_pass(settings_.gather, first, 1, settings_.pass);
-    std::vector<PhotonBeam>& beams = recorder_.beams[m];
+    const std::vector<PhotonBeam> beams = std::exchange(recorder_.beams[m], {});
     statistics.volume_photons += beams.size();
     statistics.last_volume_radius = std::max(statistics.last_volume_radius, gather.radius);
-    by_medium_.push_back({gather, PhotonBeamMap(std::exchange(beams, {}), gather.radius, scale)});
+    by_medium_.push_back({gather, PhotonBeamMap(beams, gather.radius, scale)});
     statistics.photon_map_bytes += by_medium_.back().beams.memory_bytes();
   }
 }
@@ -65,6 +59,7 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
   count(work.counters.volume_queries);
   count(counters.searches);
   const Vec3 towards_eye = -segment.ray.direction;
+  const bool grey = is_grey(medium.sigma_t), at_photon = settings_.form == VolumeForm::density_at_photon;
   const auto sum = [&](const auto& phase, auto profile) {
     KernelPair<Rgbd> sum_of_beams;
     const auto visit = [&](const BeamCrossings& found) {
@@ -76,24 +71,27 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
         const Vec3 place(found.x[i], found.y[i], found.z[i]);  // from the ray's origin
         if (!region.within().hold(place)) continue;
         ++counters.used;
-        const PhotonBeam& beam = map.beams.beam(found.beam[i]);
+        const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
+        const Rgb power(found.r[i], found.g[i], found.b[i]);
         const KernelPair<float> spread = profile(found.distance2[i] * inverse) * (1.0f / found.sine[i]);
-        const Rgbd light(beam.power * weight_along(medium, beam, found.s[i]) *
-                         scattering_at(medium, settings_.form, segment.ray.origin + place) *
-                         phase.value(beam.direction, towards_eye) * Rgb(passed.r[i], passed.g[i], passed.b[i]));
-        sum_of_beams += {light * double{spread.value}, light * double{spread.correction}};
+        Rgb light = phase.value(direction, towards_eye) * power * Rgb(passed.r[i], passed.g[i], passed.b[i]);
+        const Vec3 crossing = segment.ray.origin + place;
+        if (!grey) light *= weight_along(medium, {crossing - found.s[i] * direction, direction}, power, found.s[i]);
+        if (at_photon) light *= medium.density(crossing);
+        sum_of_beams += {Rgbd(light) * double{spread.value}, Rgbd(light) * double{spread.correction}};
       }
     };
     count(counters.visited, map.beams.visit_crossings(segment.ray, near, visit));
     return normed(sum_of_beams, kernel_norm_1d(map.settings.kernel, radius));
   };
-  const KernelEstimate light = segment.throughput * std::visit(
-                                                        [&](const auto& phase) {
-                                                          return with_kernel<1>(map.settings.kernel, [&](auto profile) {
-                                                            return sum(phase, profile);
-                                                          });
-                                                        },
-                                                        medium.phase);
+  const Rgb scattering = at_photon ? medium.sigma_s : medium.sigma_s * medium.max_density();
+  const KernelEstimate light =
+      segment.throughput * scattering *
+      std::visit(
+          [&](const auto& phase) {
+            return with_kernel<1>(map.settings.kernel, [&](auto profile) { return sum(phase, profile); });
+          },
+          medium.phase);
   if (region.whole() || is_black(light.value)) return light;
   const SeenAlong seen(medium.sigma_t, segment.interval, integrals);
   return over_share(light, region.share(radius, seen, work.rng), counters);
