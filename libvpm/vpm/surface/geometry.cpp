@@ -253,7 +253,7 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
   // far do.
   const float margin = 0x1p-18f * impl_->largest_boundary;
   for (float beyond = kInfinity; hit; hit = intersect(ray, std::min(t_max, beyond + margin), kAllLayers, found)) {
-    if (hit->t - coincidence(*hit, ray.direction) > beyond) break;
+    if (found.count > 0 && hit->t - coincidence(*hit, ray.direction) > beyond) break;
     found.hits[found.count++] = *hit;
     if (impl_->layers[hit->shape] != Layer::boundary) {
       if (const std::optional<Hit> behind = in_contact(ray, t_max, *hit)) found.hits[found.count - 1] = *behind;
