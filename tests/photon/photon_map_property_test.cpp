@@ -14,7 +14,7 @@ rc::Gen<KernelKind> any_kernel() {
                       [](const KernelInfo& k) { return k.kind; });
 }
 
-/// The integral of the kernel of radius r over its disc or ball.
+/// The integral of the kernel of radius r over its interval, disc or ball.
 template <int Dimension>
 void check_kernel(KernelKind kind, float r) {
   with_kernel<Dimension>(kind, [&](auto profile) {
@@ -26,7 +26,8 @@ void check_kernel(KernelKind kind, float r) {
       const float value = profile(static_cast<float>(t * t)).value;
       RC_ASSERT(kernel_order(kind) == 4 || (value >= 0.0f && value <= last));
       last = value;
-      sum += value * 2.0 * (Dimension - 1) * kPiD * std::pow(t, Dimension - 1) / kSteps;
+      constexpr double kSphere = Dimension == 1 ? 2.0 : 2.0 * (Dimension - 1) * kPiD;  // of radius 1
+      sum += value * kSphere * std::pow(t, Dimension - 1) / kSteps;
     }
     RC_ASSERT(std::abs(sum * std::pow(double{r}, Dimension) * kernel_norm<Dimension>(kind, r) - 1.0) < 1e-5);
     RC_ASSERT(kind == KernelKind::constant || profile(1.0f).value == 0.0f);
@@ -37,6 +38,7 @@ void check_kernel(KernelKind kind, float r) {
 RC_GTEST_PROP(KernelProperty, IsNormalisedFallsAndEndsAtItsRadius, ()) {
   const KernelKind kind = *any_kernel();
   const auto r = static_cast<float>(*magnitude(1e-9, 1e9));
+  check_kernel<1>(kind, r);
   check_kernel<2>(kind, r);
   check_kernel<3>(kind, r);
 }

@@ -208,14 +208,15 @@ TEST(PhotonMap, APhotonFarAwayDoesNotWidenTheCells) {
   }
 }
 
-/// Compares kernel_within_2d() or _3d() with sums over shells.
+/// Compares kernel_within_1d(), _2d() or _3d() with sums over shells.
 template <int Dimension, class Within>
 void expect_within(const KernelInfo& kernel, Within&& within) {
   constexpr int kSteps = 10000;
   with_kernel<Dimension>(kernel.kind, [&](auto profile) {
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i) {
-      const double t = (i + 0.5) / kSteps, shell = 2.0 * (Dimension - 1) * kPiD * std::pow(t, Dimension - 1) / kSteps;
+      constexpr double kSphere = Dimension == 1 ? 2.0 : 2.0 * (Dimension - 1) * kPiD;  // of radius 1
+      const double t = (i + 0.5) / kSteps, shell = kSphere * std::pow(t, Dimension - 1) / kSteps;
       sum += profile(static_cast<float>(t * t)).value * shell * kernel_norm<Dimension>(kernel.kind, 1.0f);
       const double end = (i + 1.0) / kSteps;
       EXPECT_NEAR(within(kernel.kind, end), sum, 1e-5) << kernel.name;
@@ -228,6 +229,7 @@ void expect_within(const KernelInfo& kernel, Within&& within) {
 
 TEST(Kernel, KnowsItsIntegralUpToAnyRadius) {
   for (const KernelInfo& kernel : kKernels) {
+    expect_within<1>(kernel, kernel_within_1d);
     expect_within<2>(kernel, kernel_within_2d);
     expect_within<3>(kernel, kernel_within_3d);
   }

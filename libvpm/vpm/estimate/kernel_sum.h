@@ -22,11 +22,11 @@ inline const GatherSettings& settings_of(const std::vector<Photon>&, const Gathe
   return settings;
 }
 
-/// The norm of the kernel in a space of `Dimension` 2 or 3.
+/// The norm of the kernel in a space of `Dimension` 1 to 3.
 template <int Dimension>
 float kernel_norm(KernelKind kind, float r) {
-  static_assert(Dimension == 2 || Dimension == 3);
-  return Dimension == 2 ? kernel_norm_2d(kind, r) : kernel_norm_3d(kind, r);
+  static_assert(Dimension >= 1 && Dimension <= 3);
+  return Dimension == 1 ? kernel_norm_1d(kind, r) : Dimension == 2 ? kernel_norm_2d(kind, r) : kernel_norm_3d(kind, r);
 }
 
 /// The weights of a kernel and of its correction, without their common norm, as a function of (distance / radius)^2.
