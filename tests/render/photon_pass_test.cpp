@@ -9,6 +9,7 @@
 #include "vpm/base/progress.h"
 #include "vpm/base/tails.h"
 #include "vpm/estimate/radius_schedule.h"
+#include "vpm/render/film.h"
 #include "vpm/render/path_tracer.h"
 
 namespace vpm {
@@ -220,6 +221,29 @@ TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
   EXPECT_EQ(statistics(no_medium).last_surface_radius, 0.1f);
   EXPECT_EQ(statistics(no_surface).last_volume_radius, 0.1f);
   EXPECT_EQ(statistics(no_surface).last_surface_radius, 0.0f);
+}
+
+/// The mean over the pixels of the variance of one pass.
+double noise_of(const Scene& scene, const RenderSettings& settings) {
+  constexpr int kPasses = 12;
+  Film film(scene.camera.width, scene.camera.height);
+  for (int pass = 0; pass < kPasses; ++pass)
+    film.add(pass, render_photon_pass(scene, settings, pass, kNeverStopped).image);
+  double sum = 0.0;
+  for (const Rgb& v : film.variance_of_mean().pixels) sum += kPasses * v.g;
+  return sum / static_cast<double>(scene.camera.width * scene.camera.height);
+}
+
+// Of a hundred photons that pass a ray closely few collide there.
+TEST(PhotonPass, BeamsHaveLessNoiseThanPhotonsInThinFog) {
+  const Medium fog = make_medium(nullptr, Rgb(0.05f), 0.9f);
+  const Scene scene = lamp_and_floor(&fog);
+  RenderSettings settings = settings_of(5'000, 0.05f);
+  settings.volume.mode = GatherMode::beam;
+  const double photons = noise_of(scene, settings);
+  settings.volume.mode = GatherMode::photon_beams;
+  const double beams = noise_of(scene, settings);
+  EXPECT_GT(photons, 10.0 * beams);
 }
 
 }  // namespace

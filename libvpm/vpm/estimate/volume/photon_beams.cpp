@@ -60,6 +60,7 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
   count(counters.searches);
   const Vec3 towards_eye = -segment.ray.direction;
   const bool grey = is_grey(medium.sigma_t), at_photon = settings_.form == VolumeForm::density_at_photon;
+  static_assert(BeamCrossings::kMost <= PhotonBatch::kMost);
   const auto sum = [&](const auto& phase, auto profile) {
     KernelPair<Rgbd> sum_of_beams;
     const auto visit = [&](const BeamCrossings& found) {
