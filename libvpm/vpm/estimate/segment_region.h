@@ -73,6 +73,12 @@ class SegmentRegion {
   KernelEstimate share(float radius, const SeenAlong& seen, Rng& rng) const;
 
  private:
+  /// What a place lies in.
+  struct Inside {
+    MediumId medium;
+    int solid = -1;  // the number of the opaque shape about it, if there is one
+  };
+
   float reach_past(const Vec3& normal) const;
   bool is_plain();
   void add_wall(const Hit& wall, const Vec3& direction);
@@ -81,11 +87,6 @@ class SegmentRegion {
   Interval part_of(const Ray& line, float slack) const;
   Rgbd seen_of_line(const Vec3& aside, float ahead, float radius, const SeenAlong& seen) const;
   Rgb share_by_lines(float radius, const SeenAlong& seen, float turn) const;
-  /// What a place lies in.
-  struct Inside {
-    MediumId medium;
-    int solid = -1;  // the number of the opaque shape about it, if there is one
-  };
   template <class Visit>
   bool walk(Ray ray, float length, Inside& in, Visit&& visit) const;
 

@@ -15,7 +15,22 @@ namespace {
 
 constexpr uint64_t kSafePhotons = 10'000'000;  // that fit everywhere, unless each is stored hundreds of times
 constexpr double kMapBytes = 64.0;       // a stored photon takes while maps are built (62 in scenes/street_lamp.toml)
-constexpr double kMostIndexed = 0x1p32;  // photons of a map: their numbers have 32 bits
+constexpr double kMostIndexed = 0x1p32;  // photons of a map, or pieces of beams: their numbers have 32 bits
+// Flights take more, as each is cut into up to 9 pieces in the mean (620 bytes in scenes/fog_room.toml at a radius of
+// 1 cm), unless most of them are left out.
+constexpr uint64_t kFewFlights = 1'000'000;
+constexpr double kFlightBytes = 650.0, kThinnedFlightBytes = 130.0, kPiecesOfFlight = 9.0;
+
+/// What a stored photon or flight takes of the memory while maps are built, and of the numbers that they have.
+struct Room {
+  double bytes, numbers;
+};
+Room room_of(const Scene& scene, const RenderSettings& settings, PassOf of) {
+  const bool beams = settings.volume.mode == GatherMode::photon_beams && of == PassOf::picture && !scene.media.empty();
+  if (!beams) return {kMapBytes, 1.0};
+  const bool thinned = settings.flights > 0 && settings.flights <= kFewFlights;
+  return thinned ? Room{kThinnedFlightBytes, 1.0} : Room{kFlightBytes, kPiecesOfFlight};
+}
 
 /// Two digits of a number of photons and then zeros, "210000000": as the setting takes it.
 std::string photons_text(double photons) {
@@ -51,16 +66,20 @@ std::string too_long_text(const PassCost& cost, const RenderSettings& settings) 
 
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory) {
   if (settings.integrator == Integrator::path) return;
-  if (std::max({settings.photons_emitted, settings.photons_stored, settings.caustics_emitted}) <= kSafePhotons) return;
+  const Room room = room_of(scene, settings, of);
+  const auto asked =
+      static_cast<double>(std::max({settings.photons_emitted, settings.photons_stored, settings.caustics_emitted}));
+  if (asked * room.bytes <= kMapBytes * static_cast<double>(kSafePhotons)) return;
   const PassCost cost = time_photons(scene, settings, of, 0.1);
   const double photons = photons_of_pass(settings, cost.stored_per_photon), stored = cost.stored(photons);
-  const double most = std::min(memory / kMapBytes, kMostIndexed);
+  const double most = std::min(memory / room.bytes, kMostIndexed / room.numbers);
   if (stored <= most) return;
   throw InputError(fmt::format(
-      "{}: the maps of a pass would hold about {:.2g} photons and take {:.2g} GB of memory; this machine has {:.2g} "
+      "{}: the maps of a pass would hold about {:.2g} {} and take {:.2g} GB of memory; this machine has {:.2g} "
       "GB, where {}; more passes do what more photons would",
-      cost.stored_caustics > 0.5 * stored ? "caustics.emitted" : "photons.emitted", stored, kMapBytes * stored * 1e-9,
-      memory * 1e-9, fitting_text(photons, settings, 0.5 * most / stored)));
+      cost.stored_caustics > 0.5 * stored ? "caustics.emitted" : "photons.emitted", stored,
+      room.bytes > kMapBytes ? "photons and flights" : "photons", room.bytes * stored * 1e-9, memory * 1e-9,
+      fitting_text(photons, settings, 0.5 * most / stored)));
 }
 
 double physical_memory() {

@@ -10,7 +10,7 @@ namespace vpm {
 namespace {
 
 constexpr float kShortest = 8.0f;   // a piece, in radii: the box around a shorter one is no emptier
-constexpr size_t kMostPieces = 8;   // in the mean over the beams
+constexpr size_t kMostPieces = 8;   // in the mean over the beams, and less than one more
 constexpr size_t kChunk = 1 << 13;  // beams or pieces one thread takes at once
 
 /// How many pieces a beam is cut into, so that none is longer than `longest`, m.

@@ -244,7 +244,8 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
   return checks;
 }
 
-/// Every strategy with every estimator of transmittance, by the path tracer, and in every form of the photon map.
+/// Every strategy with every estimator of transmittance, by the path tracer, in every form of the photon map, and where
+/// beams may fly by it, with these.
 std::vector<Check> combinations(const Effort& effort) {
   const Scene scene = small_cloud(Viewpoint::outside, Rgb(0.8f, 1.0f, 1.3f));
   RenderSettings base = photon_settings({"", {}, BiasOrder::smooth, 0.3f}, effort.count(3'000, 8'000));
@@ -271,6 +272,13 @@ std::vector<Check> combinations(const Effort& effort) {
       const int passes = static_cast<int>(effort.count(10, 32));
       compare(checks, name, by_photons(scene, settings, BiasOrder::smooth, passes), reference, scene.grey);
     }
+    if (!strategy.analog) continue;
+    RenderSettings beams = base;
+    beams.volume.mode = GatherMode::photon_beams;
+    const std::string name = fmt::format("photon beams by {}", strategy.name);
+    beams.seed = effort.seed_of("combinations " + name);
+    const int passes = static_cast<int>(effort.count(10, 32));
+    compare(checks, name, by_photons(scene, beams, BiasOrder::smooth, passes), reference, scene.grey);
   }
   return checks;
 }
