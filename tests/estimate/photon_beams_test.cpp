@@ -26,10 +26,11 @@ struct Crossed {
   }
 
   Rgb light_of(const std::vector<PhotonBeam>& beams, KernelKind kernel = KernelKind::epanechnikov,
-               VolumeForm form = VolumeForm::density_at_query) {
-    PhotonBeams estimator(
-        scene, {{.mode = GatherMode::photon_beams, .radius = kBeamRadius, .kernel = kernel}, form, true, 0, 1, {}});
+               const std::vector<Photon>& collisions = {}) {
+    const AskedGather gather{.mode = GatherMode::photon_beams, .radius = kBeamRadius, .kernel = kernel};
+    PhotonBeams estimator(scene, {{.gather = gather}});
     static_cast<BeamRecorder*>(estimator.recorders()[0])->beams[0] = beams;
+    static_cast<CollisionRecorder*>(estimator.recorders()[1])->photons[0] = collisions;
     RenderStatistics statistics;
     estimator.build(1, statistics);
     Rng rng(1, 0, 0);
@@ -45,6 +46,21 @@ PhotonBeam slanted(float length) {
   return {Vec3(1.2f, 0.0f, 0.04f) - 0.5f * direction, length, direction, Rgb(3.0f, 2.0f, 1.0f)};
 }
 
+/// The share of light that comes from beams rather than from collisions, by integrals of squared kernels.
+float share_of_beams(KernelKind kernel, float sine, float sigma_t) {
+  constexpr int kSteps = 2000;
+  double line = 0.0, disc = 0.0;  // the integrals at the radius 1
+  for (int i = 0; i < kSteps; ++i) {
+    const float t = (static_cast<float>(i) + 0.5f) / kSteps;
+    const float k1 = kernel_norm_1d(kernel, 1.0f) * with_kernel<1>(kernel, [&](auto of) { return of(t * t).value; });
+    const float k2 = kernel_norm_2d(kernel, 1.0f) * with_kernel<2>(kernel, [&](auto of) { return of(t * t).value; });
+    line += 2.0 * double{k1 * k1} / kSteps;
+    disc += 2.0 * kPi * double{t * k2 * k2} / kSteps;
+  }
+  const double beams = kBeamRadius / line * double{sine}, points = kBeamRadius * kBeamRadius / disc * double{sigma_t};
+  return static_cast<float>(beams / (beams + points));
+}
+
 TEST(PhotonBeams, OneBeamIsItsFiveFactors) {
   const Rgb sigma_t(0.7f), albedo(0.9f, 0.5f, 0.1f);
   Medium medium = make_medium(nullptr, sigma_t);
@@ -57,7 +73,8 @@ TEST(PhotonBeams, OneBeamIsItsFiveFactors) {
     const float profile =
         with_kernel<1>(info.kind, [&](auto of) { return of(q).value; }) * kernel_norm_1d(info.kind, kBeamRadius);
     const float phase = phase_value(HenyeyGreenstein{0.4f}, slanted(0.6f).direction, Vec3(-1.0f, 0.0f, 0.0f));
-    const Rgb light = Rgb(3.0f, 2.0f, 1.0f) * sigma_t * albedo * phase * std::exp(-0.7f * 1.2f) * profile / 0.5f;
+    const Rgb light = Rgb(3.0f, 2.0f, 1.0f) * sigma_t * albedo * phase * std::exp(-0.7f * 1.2f) * profile / 0.5f *
+                      share_of_beams(info.kind, 0.5f, 0.7f);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 1e-4f * std::abs(light[c])) << info.name;
   }
 }
@@ -68,13 +85,31 @@ TEST(PhotonBeams, ABeamEndsWhereItsPhotonCollides) {
   EXPECT_EQ(crossed.light_of({slanted(0.499f)}).g, 0.0f);
 }
 
+// A collision beside the ray has the rest of the light of its direction; all of it where it flew along the ray.
+TEST(PhotonBeams, CollisionsHaveTheOtherShare) {
+  const float sigma_t = 0.7f;
+  Crossed crossed(make_medium(nullptr, Rgb(sigma_t)));
+  for (const KernelInfo& info : kKernels)
+    for (const float sine : {0.0f, 0.01f, 0.5f, 1.0f}) {
+      const Vec3 travel(std::sqrt(1.0f - sine * sine), sine, 0.0f);
+      const Photon photon{Vec3(1.2f, 0.0f, 0.04f), PackedDirection(travel), Rgb(3.0f, 2.0f, 1.0f)};
+      const Rgb found = crossed.light_of({}, info.kind, {photon});
+      const float kernel =
+          with_kernel<2>(info.kind, [&](auto of) { return of(0.16f).value; }) * kernel_norm_2d(info.kind, kBeamRadius);
+      const float share = 1.0f - share_of_beams(info.kind, sine, sigma_t);
+      const Rgb light = Rgb(3.0f, 2.0f, 1.0f) * std::exp(-sigma_t * 1.2f) * kernel * share / (4.0f * kPi);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 2e-3f * light[c]) << info.name << " " << sine;
+    }
+}
+
 // Where a photon has come as far as to the crossing, its colours are those of the mixture that its flight was drawn by.
 TEST(PhotonBeams, ChromaticBeamsCarryTheWeightsOfTheirMixture) {
   const Rgb sigma_t(0.2f, 1.0f, 3.0f), power(3.0f, 2.0f, 1.0f);
   Crossed crossed(make_medium(nullptr, sigma_t));
   const Rgb found = crossed.light_of({slanted(0.6f)});
   const Rgb come = glm::exp(-sigma_t * 0.5f), weight = come / glm::dot(power / 6.0f, come);
-  const float kernel = 0.75f / kBeamRadius * (1.0f - 0.16f) / 0.5f / (4.0f * kPi);
+  const float kernel =
+      0.75f / kBeamRadius * (1.0f - 0.16f) / 0.5f / (4.0f * kPi) * share_of_beams(KernelKind::epanechnikov, 0.5f, 1.4f);
   const Rgb light = power * weight * 0.5f * sigma_t * glm::exp(-sigma_t * 1.2f) * kernel;
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 1e-4f * light[c]);
 }

@@ -1,5 +1,6 @@
 // Crossings of beams and rays against their brute-force twin.
 #include "vpm/photon/photon_beam_map.h"
+#include "vpm/photon/thinning.h"
 
 #include <gtest/gtest.h>
 
@@ -103,7 +104,7 @@ TEST(ThinFlights, KeepsSumsInTheMean) {
     for (int b = 0; b < kBeams; ++b)
       by_medium[b < 300 ? 0 : 1].push_back({Vec3(0.0f), 1.0f + b, Vec3(1, 0, 0), Rgb(1)});
     Rng rng(3, rng_stream(RngUse::test, 12), i);
-    thin_flights(by_medium, kMost, rng);
+    thin(by_medium, kMost, rng);
     ASSERT_EQ(by_medium[0].size() + by_medium[1].size(), size_t{kMost});
     for (const std::vector<PhotonBeam>& beams : by_medium)
       for (const PhotonBeam& beam : beams) {
@@ -119,7 +120,7 @@ TEST(ThinFlights, KeepsAllWhereTheyAreFew) {
   std::vector<std::vector<PhotonBeam>> by_medium{{{Vec3(0.0f), 1.0f, Vec3(1, 0, 0), Rgb(2.0f)}}, {}};
   Rng rng(1, 0, 0);
   for (const uint64_t most : {0, 1, 5}) {
-    thin_flights(by_medium, most, rng);
+    thin(by_medium, most, rng);
     ASSERT_EQ(by_medium[0].size(), 1u);
     EXPECT_EQ(by_medium[0][0].power, Rgb(2.0f));
   }

@@ -20,7 +20,8 @@ enum class RngUse : uint64_t {
   caustic = 8,
   caustic_scout = 9,
   pilot = 10,
-  flight = 11
+  flight = 11,
+  plane = 12
 };
 
 /// A permuted congruential generator with 128 bits of state [ONeill2014, sec. 6.3, XSL RR]. Equal (seed, stream,

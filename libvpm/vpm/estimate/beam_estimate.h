@@ -3,7 +3,6 @@
 #pragma once
 
 #include <numeric>
-#include <span>
 
 #include "vpm/base/exp_negative.h"
 #include "vpm/estimate/kernel_sum.h"
@@ -41,9 +40,9 @@ struct Passed {
 /// ray, returns the transmittance as an Rgb.
 template <class AtDistance>
 auto each_distance(AtDistance&& at_distance) {
-  return [at_distance](std::span<const float> distances, Passed& passed) {
-    for (size_t i = 0; i < distances.size(); ++i) {
-      const Rgb transmittance = at_distance(distances[i]);
+  return [at_distance](const PhotonsNearRay& near, Passed& passed) {
+    for (size_t i = 0; i < near.batch.size(); ++i) {
+      const Rgb transmittance = at_distance(near.distance[i]);
       passed.r[i] = transmittance.r;
       passed.g[i] = transmittance.g;
       passed.b[i] = transmittance.b;
@@ -60,8 +59,8 @@ struct BeamSum {
 /// The sum over the photons p beside the ray, whose distance along it is t_p:
 ///   sum_p p(travel_p . towards the eye) Phi_p K_r(perpendicular distance of p from the ray) along(t_p),
 /// with K_r over discs of the photon's radius r. Times the albedo, this is radiance in W/(m^2 sr) where
-/// `along`(distances, Passed&) finds the transmittances from the eye to the distances t_p. For photons stored for the
-/// density at the query, `along` has one more factor: the density there over the medium's largest.
+/// `along`(const PhotonsNearRay&, Passed&) finds the transmittances from the eye to the distances t_p. For photons
+/// stored for the density at the query, `along` has one more factor: the density there over the medium's largest.
 ///
 /// Where discs lie in the medium as a whole, the bias is that of the kernel across the ray, of order r^2. Discs that
 /// stick out of it miss light of order r; SegmentRegion says what makes up for that.
@@ -77,7 +76,7 @@ BeamSum beam_sum(const Phase& phase, const BesideRay& there, Along&& along, cons
     const auto visit = [&](const PhotonsNearRay& near) {
       const PhotonBatch& batch = near.batch;
       Passed passed;
-      along(std::span(near.distance, batch.size()), passed);
+      along(near, passed);
       const auto weight = [&](size_t i) {
         const float inverse = 1.0f / (near.radius[i] * near.radius[i]);
         const KernelPair<float> spread = profile(batch.distance2(i) * inverse) * inverse;

@@ -29,7 +29,15 @@ struct WordsOf<RadiusSchedule> {
 };
 template <>
 struct WordsOf<GatherMode> {
-  static constexpr std::array<std::string_view, 4> words{"radius", "nearest", "beam", "photon-beams"};
+  static constexpr std::array<std::string_view, 5> words{"radius", "nearest", "beam", "photon-beams", "photon-planes"};
+};
+template <>
+struct WordsOf<BeamLength> {
+  static constexpr std::array<std::string_view, 2> words{"short", "long"};
+};
+template <>
+struct WordsOf<PlaneUse> {
+  static constexpr std::array<std::string_view, 2> words{"combined", "alone"};
 };
 template <>
 struct WordsOf<KernelKind> {

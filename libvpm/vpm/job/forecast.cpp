@@ -26,7 +26,7 @@ struct Room {
   double bytes, numbers;
 };
 Room room_of(const Scene& scene, const RenderSettings& settings, PassOf of) {
-  const bool beams = settings.volume.mode == GatherMode::photon_beams && of == PassOf::picture && !scene.media.empty();
+  const bool beams = settings.volume.gathers_flights() && of == PassOf::picture && !scene.media.empty();
   if (!beams) return {kMapBytes, 1.0};
   const bool thinned = settings.flights > 0 && settings.flights <= kFewFlights;
   return thinned ? Room{kThinnedFlightBytes, 1.0} : Room{kFlightBytes, kPiecesOfFlight};

@@ -22,12 +22,13 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
   return {
       {.key = section + ".gather",
        .member = at<Gather, &G::mode>(),
-       .domain = words_of<GatherMode>(in_media ? 4 : 2),
+       .domain = words_of<GatherMode>(in_media ? 5 : 2),
        .meaning =
            in_media
                ? "photons within a `\"radius\"`, or the `\"nearest\"` few, or by `\"beam\"` those within "
                  "the radius of a whole stretch of the eye's ray, in one query; `\"photon-beams\"`: all flights of "
-                 "photons that pass it within the radius"
+                 "photons that pass it within the radius, and the photons beside it where flights run along it; "
+                 "`\"photon-planes\"`: these, and planes without a radius for light that media scatter twice in turn"
                : "photons within a `\"radius\"`, or the `\"nearest\"` few"},
       {.key = section + ".radius",
        .member = at<Gather, &G::radius>(),
@@ -94,6 +95,25 @@ std::vector<Setting> declare_volume() {
                   "`\"equiangular\"`, by shadow rays from a few distances of each stretch of an eye ray, drawn both "
                   "towards the light and by what reaches the eye. Light that scatters more than once always comes from "
                   "the photon map"},
+      {.key = "volume.beams",
+       .member = at<&S::beam_length>(),
+       .domain = words_of<BeamLength>(),
+       .meaning =
+           "with `\"photon-beams\"` and `\"photon-planes\"`: a beam is a photon's flight, `\"short\"`, or goes on "
+           "to where the ray leaves the medium, `\"long\"`, and counts with the transmittance: less noise in thin "
+           "media; more time, most of all in grids",
+       .need = {[](const S& s) { return s.volume.gathers_flights(); },
+                [](const S&) { return std::string("there are no beams: 'gather' of [volume] asks for none"); },
+                "leave out 'beams', or write gather = \"photon-beams\""}},
+      {.key = "volume.planes",
+       .member = at<&S::plane_use>(),
+       .domain = words_of<PlaneUse>(),
+       .meaning =
+           "with `\"photon-planes\"`: light that planes can find is `\"combined\"` from them and beams; or comes "
+           "from planes `\"alone\"`, without any bias but of infinite variance, for study",
+       .need = {[](const S& s) { return s.volume.mode == GatherMode::photon_planes; },
+                [](const S&) { return std::string("there are no planes: 'gather' of [volume] asks for none"); },
+                "leave out 'planes', or write gather = \"photon-planes\""}},
       {.key = "volume.direct_samples",
        .member = at<&S::direct_samples>(),
        .domain = Integers{1, kMostRays},

@@ -299,7 +299,7 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
   RenderSettings pilot = pilot_settings(settings, in_a_hurry(kPhotons, settings));
   pilot.caustics_emitted = std::min(pilot.caustics_emitted, pilot.photons_emitted);
   // Photons tell the density of beams as well: beams have none at a place.
-  if (pilot.volume.mode == GatherMode::photon_beams) pilot.volume.mode = GatherMode::beam;
+  if (pilot.volume.gathers_flights()) pilot.volume.mode = GatherMode::beam;
   const PilotPass pass = trace(scene, pilot);
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Probes probes;

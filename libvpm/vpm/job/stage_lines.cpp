@@ -45,19 +45,21 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   if (settings.integrator == Integrator::path)
     return {line(true, "path tracing", distances + transmittance, ""),
             line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
-  const bool beams = settings.volume.mode == GatherMode::photon_beams;
+  const bool beams = settings.volume.gathers_flights();
   const bool photons = media || surfaces,
              gathers = surfaces && settings.surface_indirect == IndirectLight::final_gather;
   const auto corrected = [](const AskedGather& gather) { return gather.boundary == BoundaryRule::corrected; };
   return {line(photons, "photon tracing", distances, "nothing stores photons"),
           line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                photons ? "photons go where power does" : "nothing stores photons"),
-          line(media && !beams, "volume photon map",
-               settings.volume.mode == GatherMode::beam ? ", gathered from along rays" : "",
-               media ? "flights are gathered, not collisions" : no_medium),
+          line(media, "volume photon map", settings.volume.along_rays() ? ", gathered from along rays" : "", no_medium),
           line(media && beams, "photon beams",
-               settings.flights > 0 ? fmt::format(", at most {} in a pass", settings.flights) : "",
+               (settings.beam_length == BeamLength::whole ? ", to where media end" : "") +
+                   (settings.flights > 0 ? fmt::format(", at most {} in a pass", settings.flights) : ""),
                media ? "collisions are gathered, not flights" : no_medium),
+          line(media && settings.volume.mode == GatherMode::photon_planes, "photon planes",
+               fmt::format(", at most {} in a pass", settings.planes),
+               media ? "light comes from collisions or beams" : no_medium),
           line(surfaces, "surface photon map", "", "no rough surface"),
           line(surfaces && settings.radii == RadiusSchedule::per_pixel, "radii of pixels' own", ", on surfaces",
                surfaces ? "radii do not depend on what pixels find" : "no rough surface"),

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 #include <vector>
 
-#include "vpm/job/setting.h"
+#include "vpm/job/declare.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -76,12 +76,16 @@ void check_estimator(const RenderSettings& s, const SceneFacts& facts) {
             "write direct = \"shadow-rays\" in [volume] or [surface] of what scatters, or leave out 'estimator'");
 }
 
-void check_photon_beams(const RenderSettings& s) {
-  if (s.volume.mode != GatherMode::photon_beams) {
-    refuse_if(s.flights > 0, "photons.flights", "no flights are kept: 'gather' of [volume] is not \"photon-beams\"",
-              "leave out 'flights', or write gather = \"photon-beams\"");
-    return;
-  }
+void check_photon_beams(const RenderSettings& s, const SceneFacts& facts) {
+  const std::string gather = "'gather' of [volume] is \"" + word_of(s.volume.mode) + "\"";
+  refuse_if(s.planes != RenderSettings{}.planes && s.volume.mode != GatherMode::photon_planes, "photons.planes",
+            "there are no planes: " + gather, "leave out 'planes', or write gather = \"photon-planes\"");
+  refuse_if(s.flights > 0 && !s.volume.gathers_flights(), "photons.flights", "no flights are kept: " + gather,
+            "leave out 'flights', or write gather = \"photon-beams\"");
+  if (!s.volume.gathers_flights()) return;
+  refuse_if(s.beam_length == BeamLength::whole && facts.endless, "volume.beams",
+            "the medium of the world has no end, and long beams would have none",
+            "write \"short\", or put the scene into a box of the medium");
   refuse_if(!strategy_info(s.distance.strategy).analog, "distance.strategy",
             "flights by '" + s.distance.strategy + "' do not end as the transmittance says, so that they are no beams",
             "write another 'gather' in [volume], or another strategy; " +
@@ -143,6 +147,7 @@ SceneFacts facts_of(const Scene& scene) {
     facts.grids |= !medium.homogeneous();
     facts.scattering_media |= medium.scatters();
   }
+  facts.endless = scene.world_medium != kVacuum && scene.media[scene.world_medium].scatters();
   for (const Shape& shape : scene.shapes) facts.rough_surfaces |= is_rough(scene.materials[shape.material]);
   return facts;
 }
@@ -152,7 +157,7 @@ void validate(const RenderSettings& settings, const SceneFacts& facts) {
   check_photons(settings);
   check_importance(settings);
   check_strategy(settings, facts);
-  check_photon_beams(settings);
+  check_photon_beams(settings, facts);
   check_borders(settings);
   check_final_gathering(settings);
   check_radii_of_pixels(settings);

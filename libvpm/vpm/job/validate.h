@@ -12,6 +12,7 @@ struct SceneFacts {
   bool grids = false;             // media of grids
   bool scattering_media = false;  // media that scatter
   bool rough_surfaces = false;    // surfaces that store photons; mirrors and glass do not
+  bool endless = false;           // the medium of the world, which scatters
 };
 SceneFacts facts_of(const Scene& scene);
 

@@ -14,7 +14,7 @@ struct ShadowRay {
   const ShadowRays& rays;
   Ray ray;
   MediumId medium;
-  int light;       // that it is sent to
+  int light;       // that it is sent to; -1: to a place
   float distance;  // of the light from the ray's origin, m
   Vec3 target;     // on the light, m
   Rgb transmittance{1.0f};
@@ -30,7 +30,7 @@ struct ShadowRay {
     return stretch.met && !is_black(transmittance) && !is_light(stretch.met.hits[0]);
   }
   bool is_light(const Hit& hit) const {
-    return rays.scene.shapes[hit.shape].light == light && stands_at(hit, ray, distance);
+    return light >= 0 && rays.scene.shapes[hit.shape].light == light && stands_at(hit, ray, distance);
   }
 
   /// Not > 0 where a light stands just behind a boundary: they were passed together.
@@ -70,6 +70,10 @@ Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, Mediu
   ShadowRay shadow{rays, ray, medium, light, distance, ray.at(distance)};
   const bool blocked = each_stretch(rays.scene, shadow.ray, shadow.medium, distance, rays.counters, shadow).has_value();
   return blocked ? Rgb(0.0f) : shadow.transmittance;
+}
+
+Rgb visibility(const ShadowRays& rays, Ray ray, float distance, MediumId medium) {
+  return visibility(rays, ray, distance, -1, medium);
 }
 
 DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver,

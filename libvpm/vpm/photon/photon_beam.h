@@ -8,12 +8,15 @@
 
 namespace vpm {
 
-/// A flight of a photon through one medium, up to its collision or to where it leaves the medium [Jarosz2011].
+/// A flight of a photon through one medium [Jarosz2011].
 struct PhotonBeam {
   Vec3 origin{0.0f};     // m
-  float length = 0.0f;   // m, > 0
+  float length = 0.0f;   // m, > 0: to the collision, or to where the flight, or its ray, leaves the medium
   Vec3 direction{0.0f};  // in which the photon travels, unit
   Rgb power{0.0f};       // of the photon at the origin, W
+  // If it is recorded that the flight began at a collision, not at a light or a surface:
+  PackedDirection turned_from;   // the direction before it
+  float scattering_rate = 0.0f;  // the scattering coefficient there, the mean of its channels, 1/m; otherwise 0
 };
 static_assert(sizeof(PhotonBeam) <= 48);
 
@@ -21,12 +24,20 @@ static_assert(sizeof(PhotonBeam) <= 48);
 /// record in each.
 class BeamRecorder final : public PhotonRecorder {
  public:
-  BeamRecorder(const Scene& scene, PhotonFilter filter);
+  /// What is recorded besides flights: that they would have gone on without a collision; the collisions that they
+  /// began at.
+  struct More {
+    bool beyond = false, turns = false;
+  };
+  BeamRecorder(const Scene& scene, PhotonFilter filter, const More& more);
 
-  std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<BeamRecorder>(scene_, filter_); }
+  std::unique_ptr<PhotonRecorder> part() const override {
+    return std::make_unique<BeamRecorder>(scene_, filter_, more_);
+  }
   void join(PhotonRecorder& part) override;
   size_t stored() const override;
   RecordNeeds needs() const override { return {.collisions = false, .hits = false}; }
+  bool reads_density() const override { return more_.turns; }
   void flew(const Track& track, const ArrivingPhoton& photon, Rng&) override;
 
   std::vector<std::vector<PhotonBeam>> beams;  // by medium; powers not yet divided by the photons emitted
@@ -34,10 +45,7 @@ class BeamRecorder final : public PhotonRecorder {
  private:
   const Scene& scene_;
   PhotonFilter filter_;
+  More more_;
 };
-
-/// Keeps no more than `most` flights, those of all media together; 0: all. They are evenly spaced in the list of all,
-/// from a random place on, and take the power of those between them: sums over flights stay what they are in the mean.
-void thin_flights(std::vector<std::vector<PhotonBeam>>& by_medium, uint64_t most, Rng& rng);
 
 }  // namespace vpm

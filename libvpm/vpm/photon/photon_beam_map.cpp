@@ -56,10 +56,12 @@ void PhotonBeamMap::cut(const std::vector<PhotonBeam>& beams, float scale) {
   leaves_ = tree.leaves;
   for (std::vector<float>* values : {&x_, &y_, &z_, &dx_, &dy_, &dz_, &half_, &from_, &r_, &g_, &b_})
     values->assign(pieces_ + kBlock, 0.0f);
+  beam_.resize(pieces_);
   parallel_for_chunks(pieces_, kChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       const uint32_t piece = tree.order[i], beam = owner[piece];
       const Vec3 middle = middles[piece], direction = beams[beam].direction;
+      beam_[i] = beam;
       x_[i] = middle.x;
       y_[i] = middle.y;
       z_[i] = middle.z;
@@ -94,7 +96,8 @@ void PhotonBeamMap::cut(const std::vector<PhotonBeam>& beams, float scale) {
 }
 
 size_t PhotonBeamMap::memory_bytes() const {
-  return sizeof(*this) + boxes_.memory_bytes() + 11 * x_.capacity() * sizeof(float);
+  return sizeof(*this) + boxes_.memory_bytes() + 11 * x_.capacity() * sizeof(float) +
+         beam_.capacity() * sizeof(uint32_t);
 }
 
 }  // namespace vpm

@@ -18,6 +18,7 @@ struct BeamCrossings {
   static constexpr size_t kMost = 256;
 
   size_t size = 0;
+  uint32_t beam[kMost];                   // its number in the list that the map was made of
   float t[kMost];                         // along the ray, m
   float s[kMost];                         // along the beam, m from its origin
   float distance2[kMost];                 // between the two lines, m^2
@@ -63,6 +64,7 @@ class PhotonBeamMap {
   std::vector<float> half_;          // of their lengths, m
   std::vector<float> from_;          // of their middles from the beam's origin, m
   std::vector<float> r_, g_, b_;     // the beam's power, W
+  std::vector<uint32_t> beam_;       // its number
   BoxTree boxes_;
   Box bounds_;
 };
@@ -101,6 +103,7 @@ inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray
     const float a = glm::dot(middle, right), b = glm::dot(middle, up), da = glm::dot(d, right), db = glm::dot(d, up);
     const float sine2 = da * da + db * db, across = a * db - b * da, s = -(a * da + b * db) / sine2;
     const Vec3 place = middle + s * d;
+    found.beam[i] = beam_[p];
     found.t[i] = glm::dot(place, along);
     found.s[i] = from_[p] + s;
     found.distance2[i] = across * across / sine2;

@@ -10,6 +10,15 @@
 
 namespace vpm {
 
+/// The collision that a photon's flight began at. False where it began at a light or at a surface instead.
+struct Turn {
+  Vec3 from{0.0f};  // direction of travel before it, unit
+  MediumId medium = kVacuum;
+  float density = 0.0f;  // at the collision: Event::density
+
+  explicit operator bool() const { return medium != kVacuum; }
+};
+
 /// A photon as it arrives at an event.
 struct ArrivingPhoton {
   uint64_t number;         // of the photon among those emitted in the pass
@@ -18,6 +27,7 @@ struct ArrivingPhoton {
   bool direct;      // not yet scattered, reflected or refracted; crossing a boundary between media does not count
   bool specular;    // nothing except mirrors and smooth glass has scattered it
   bool from_rough;  // its last non-specular scattering was at a surface, not in a medium
+  const Turn& turn;
 };
 
 /// Which kinds of events are reported to a recorder.

@@ -9,7 +9,7 @@
 
 namespace vpm {
 
-/// Which of the arriving photons a recorder keeps, decided by where they come from: one bit for each of the eight
+/// Which of the arriving photons a recorder keeps, decided by where they come from: one bit for each of the sixteen
 /// cases.
 class PhotonFilter {
  public:
@@ -17,10 +17,17 @@ class PhotonFilter {
   template <std::predicate<bool, bool, bool> Keeps>
   constexpr explicit PhotonFilter(Keeps&& keeps) {
     for (uint32_t answer = 0; answer < 8; ++answer)
-      kept_ |= static_cast<uint32_t>(keeps((answer & 1) != 0, (answer & 2) != 0, (answer & 4) != 0)) << answer;
+      kept_ |= static_cast<uint32_t>(keeps((answer & 1) != 0, (answer & 2) != 0, (answer & 4) != 0)) * 0x101u << answer;
+  }
+  /// Of these, the photons whose flight did not begin at a collision (Turn).
+  constexpr PhotonFilter straight() const {
+    PhotonFilter filter = *this;
+    filter.kept_ &= 0xffu;
+    return filter;
   }
   bool operator()(const ArrivingPhoton& photon) const {
-    const uint32_t answer = uint32_t{photon.direct} | uint32_t{photon.specular} << 1 | uint32_t{photon.from_rough} << 2;
+    const uint32_t answer = uint32_t{photon.direct} | uint32_t{photon.specular} << 1 |
+                            uint32_t{photon.from_rough} << 2 | (photon.turn ? 8u : 0u);
     return (kept_ >> answer & 1) != 0;
   }
 

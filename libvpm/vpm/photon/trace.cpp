@@ -65,6 +65,7 @@ class PhotonPath {
     bool direct = true;
     bool specular = true;     // nothing but mirrors and glass has scattered it
     bool from_rough = false;  // the last non-specular scattering was at a surface
+    Turn turn;
   };
 
   void emit(Rng& rng) {
@@ -116,8 +117,14 @@ class PhotonPath {
   /// What happens at the event.
   void go_on(Rng& rng) {
     alive_ = true;
-    if (at_.event.kind == EventKind::collision) scatter_in(scene_.media[at_.state.medium], rng);
-    if (at_.event.kind == EventKind::surface) scatter_at(at_.event.hit, rng);
+    if (at_.event.kind == EventKind::collision) {
+      at_.turn = {at_.state.ray.direction, at_.state.medium, at_.event.density};
+      scatter_in(scene_.media[at_.state.medium], rng);
+    }
+    if (at_.event.kind == EventKind::surface) {
+      at_.turn = {};
+      scatter_at(at_.event.hit, rng);
+    }
   }
 
   void deposit(Rgbd& account, const Rgbd& power) {
@@ -169,7 +176,9 @@ class PhotonPath {
     deposit(out_.ledger.absorbed_on_surfaces, Rgbd(before * (Rgb(1.0f) - scatter.weight * scatter.flux_scale)));
   }
 
-  ArrivingPhoton arriving() const { return {number_, at_.state, at_.event, at_.direct, at_.specular, at_.from_rough}; }
+  ArrivingPhoton arriving() const {
+    return {number_, at_.state, at_.event, at_.direct, at_.specular, at_.from_rough, at_.turn};
+  }
 
   /// What the path is worth next to others: its importance, or without any its power.
   double worth() const {

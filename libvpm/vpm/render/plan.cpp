@@ -9,7 +9,7 @@
 #include "vpm/estimate/surface/progressive.h"
 #include "vpm/estimate/surface/visualise.h"
 #include "vpm/estimate/volume/beam_radiance.h"
-#include "vpm/estimate/volume/photon_beams.h"
+#include "vpm/estimate/volume/photon_planes.h"
 #include "vpm/estimate/volume/points_at_photon.h"
 #include "vpm/estimate/volume/points_at_query.h"
 #include "vpm/estimate/volume/single_equiangular.h"
@@ -42,10 +42,12 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
                               pass_of_maps(settings, pass)};
   std::vector<std::unique_ptr<VolumeEstimator>> estimators;
   std::vector<std::unique_ptr<MarchedSource>> marched;
-  if (settings.volume.mode == GatherMode::photon_beams)
-    estimators.push_back(std::make_unique<PhotonBeams>(
-        scene, PhotonBeamSettings{settings.volume, settings.volume_form, !by_rays, settings.flights, settings.seed,
-                                  pass_of_maps(settings, pass)}));
+  const PhotonBeamSettings beams{map, settings.flights, settings.seed, settings.beam_length == BeamLength::whole};
+  if (settings.volume.mode == GatherMode::photon_planes)
+    estimators.push_back(std::make_unique<PhotonPlanes>(
+        scene, transmittance, PhotonPlaneSettings{beams, settings.planes, settings.plane_use == PlaneUse::alone}));
+  else if (settings.volume.mode == GatherMode::photon_beams)
+    estimators.push_back(std::make_unique<PhotonBeams>(scene, beams));
   else if (settings.volume.mode == GatherMode::beam)
     estimators.push_back(std::make_unique<BeamRadiance>(scene, map));
   else if (settings.volume_form == VolumeForm::density_at_photon)

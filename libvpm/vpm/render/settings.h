@@ -34,6 +34,12 @@ enum class GatherBy { material, photons };
 /// ends, or one computed beforehand at a cache point nearby.
 enum class EndIrradiance { estimate, precomputed };
 
+/// Where photon beams end: where the photon collides; or where its ray leaves the medium.
+enum class BeamLength { flight, whole };
+
+/// What photon planes find of the light that they can find: their share of it, beside photon beams, or all.
+enum class PlaneUse { combined, alone };
+
 /// What estimates radiance: photon maps, or the unbiased reference path tracer.
 enum class Integrator { photon, path };
 
@@ -58,7 +64,8 @@ struct RenderSettings {
       0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
   uint32_t photons_in_cube = 0;  // > 0: the most photons that travel into one octant of directions, in a cube
                                  // whose edges are half a radius long, see control_density()
-  uint64_t flights = 0;          // > 0: the most photon beams of a pass, thin_flights()
+  uint64_t flights = 0;          // > 0: the most photon beams of a pass, see thin()
+  uint64_t planes = 1000;        // the most photon planes of a pass, likewise, >= 1
   int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
   GuideSettings guide;  // of photons, by importance
@@ -76,6 +83,8 @@ struct RenderSettings {
   float density_floor = 0.1f;  // density at the query: where it is less, photons are also stored along flights, which
                                // bounds their weights, see CollisionRecorder; in [0, 1]; 0: at collisions alone
   DirectLight volume_direct = DirectLight::photons;  // single scattering
+  BeamLength beam_length = BeamLength::flight;
+  PlaneUse plane_use = PlaneUse::combined;
   int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
   DirectLight surface_direct = DirectLight::shadow_rays;
   IndirectLight surface_indirect = IndirectLight::photons;

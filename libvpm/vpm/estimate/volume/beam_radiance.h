@@ -1,15 +1,21 @@
 // The beam radiance estimate [Jarosz2008beam]: all photons near a segment of the eye ray, by one query of each map.
 #pragma once
 
-#include <span>
-
 #include "vpm/estimate/beam_estimate.h"
-#include "vpm/estimate/segment_region.h"
+#include "vpm/estimate/volume/beam_balance.h"
 #include "vpm/estimate/volume/volume_maps.h"
 
 namespace vpm {
 
-/// Gathers photons of the medium that the segment is in, over discs perpendicular to the ray.
+/// For VolumeMaps::build().
+BeamMap make_beam_map(std::vector<Photon>& photons, const GatherSettings& gather, float shrunk, uint64_t emitted,
+                      const PassOfMaps& pass, RenderStatistics& statistics);
+
+/// Gathers photons of the medium that the segment is in, over discs perpendicular to the ray. If they find the light
+/// together with photon beams, `balance` says which share they have; null: all.
+KernelEstimate photons_beside(const EyeSegment& segment, const BeamMap& map, VolumeForm form,
+                              const BeamBalance* balance, EyeWork& work);
+
 class BeamRadiance final : public VolumeEstimator {
  public:
   BeamRadiance(const Scene& scene, const VolumeMapSettings& settings) : maps_(scene, settings, 2) {}
@@ -21,9 +27,6 @@ class BeamRadiance final : public VolumeEstimator {
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
 
  private:
-  KernelEstimate gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
-                        EyeWork& work) const;
-
   VolumeMaps<BeamMap> maps_;
 };
 

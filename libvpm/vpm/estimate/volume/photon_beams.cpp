@@ -6,78 +6,119 @@
 
 #include "vpm/estimate/volume/pass_to_eye.h"
 #include "vpm/medium/distance/mixture.h"
-#include "vpm/photon/stored_power.h"
+#include "vpm/photon/thinning.h"
 
 namespace vpm {
 namespace {
 
-/// What is left of a beam's power at the distance s (m) from its origin, given that the photon has come so far, in a
-/// chromatic medium. In a grey one it is all.
-Rgb weight_along(const Medium& medium, const Ray& beam, const Rgb& power, float s) {
-  const double integral = density_integral(medium, beam, {0.0f, s}).value;
-  return analog_weight(medium, channel_shares(power), integral, false);
+/// The settings of the collisions that are gathered with the beams.
+VolumeMapSettings with_beams(const PhotonBeamSettings& settings) {
+  VolumeMapSettings maps = settings.maps;
+  maps.turned &= !settings.planes;
+  return maps;
 }
 
 }  // namespace
 
-PhotonBeams::PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings)
-    : scene_(scene), settings_(settings), recorder_(scene, settings.once ? any_photon : indirect_photon) {}
+Rgb weight_along(const Medium& medium, const Ray& beam, const Rgb& power, float s) {
+  if (is_grey(medium.sigma_t)) return Rgb(1.0f);
+  const double integral = density_integral(medium, beam, {0.0f, s}).value;
+  return analog_weight(medium, channel_shares(power), integral, false);
+}
 
-void PhotonBeams::build(uint64_t emitted, RenderStatistics& statistics) {
+PhotonBeams::PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings)
+    : scene_(scene),
+      settings_(settings),
+      flights_(scene, settings.maps.filter(), {settings.whole, settings.planes}),
+      collisions_(scene, with_beams(settings), 2) {}
+
+Recorders PhotonBeams::recorders() {
+  Recorders both{&flights_};
+  for (PhotonRecorder* recorder : collisions_.recorders()) both.push_back(recorder);
+  return both;
+}
+
+void PhotonBeams::build_beside(float planes, uint64_t emitted, RenderStatistics& statistics) {
+  const AskedGather& gather = settings_.maps.gather;
+  const PassOfMaps& pass = settings_.maps.pass;
+  collisions_.build(emitted, statistics,
+                    [&](std::vector<Photon>& photons, const GatherSettings& of_pass, float shrunk, uint64_t of,
+                        RenderStatistics& s) { return make_beam_map(photons, of_pass, shrunk, of, pass, s); });
   const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
-  Rng rng(settings_.seed, rng_stream(RngUse::flight, static_cast<uint64_t>(settings_.pass.number)), 0);
-  thin_flights(recorder_.beams, settings_.flights, rng);
+  Rng rng(settings_.seed, rng_stream(RngUse::flight, static_cast<uint64_t>(pass.number)), 0);
+  const float kept = thin(flights_.beams, settings_.flights, rng);
   for (size_t m = 0; m < scene_.media.size(); ++m) {
-    const float first = first_radius(settings_.gather, scene_, scene_.media[m]);
-    const GatherSettings gather = gather_in_pass(settings_.gather, first, 1, settings_.pass);
-    const std::vector<PhotonBeam> beams = std::exchange(recorder_.beams[m], {});
+    const GatherSettings of_pass = gather_in_pass(gather, first_radius(gather, scene_, scene_.media[m]), 1, pass);
+    const std::vector<PhotonBeam> beams = std::exchange(flights_.beams[m], {});
     statistics.volume_photons += beams.size();
-    statistics.last_volume_radius = std::max(statistics.last_volume_radius, gather.radius);
-    by_medium_.push_back({gather, PhotonBeamMap(beams, gather.radius, scale)});
-    statistics.photon_map_bytes += by_medium_.back().beams.memory_bytes();
+    statistics.last_volume_radius = std::max(statistics.last_volume_radius, of_pass.radius);
+    const BeamBalance balance{kept * kernel_size_1d(of_pass.kernel, of_pass.radius),
+                              kernel_size_2d(of_pass.kernel, collisions_[m].settings.radius), planes};
+    by_medium_.push_back({of_pass, balance, PhotonBeamMap(beams, of_pass.radius, scale), {}});
+    Map& map = by_medium_.back();
+    if (settings_.planes)
+      for (const PhotonBeam& beam : beams) map.begins.push_back({beam.turned_from.unpack(), beam.scattering_rate});
+    statistics.photon_map_bytes += map.beams.memory_bytes() + map.begins.capacity() * sizeof(Begin);
   }
+}
+
+float PhotonBeams::Map::share(uint32_t beam, float sine, float sigma_t, const Vec3& direction, const Vec3& ray) const {
+  if (begins.empty() || begins[beam].sigma_s == 0.0f) return balance.of_beams(sine, sigma_t);
+  const float determinant = std::abs(glm::dot(begins[beam].from, glm::cross(direction, ray)));
+  return balance.of_beams_beside_planes(sine, begins[beam].sigma_s, determinant);
 }
 
 KernelEstimate PhotonBeams::along(const EyeSegment& segment, EyeWork& work) const {
   if (!segment.medium()) return {};
   const Map& map = by_medium_[segment.number];
+  KernelEstimate light = beams_along(segment, map, work);
+  light += photons_beside(segment, collisions_[segment.number], settings_.maps.form, &map.balance, work);
+  return light;
+}
+
+Rgb PhotonBeams::weight(const Medium& medium, const Ray& beam, const Rgb& power, float s) const {
+  return settings_.whole ? transmittance(medium, density_integral(medium, beam, {0.0f, s}).value)
+                         : weight_along(medium, beam, power, s);
+}
+
+KernelEstimate PhotonBeams::beams_along(const EyeSegment& segment, const Map& map, EyeWork& work) const {
   if (map.beams.size() == 0) return {};
   const SegmentRegion region(segment, map.settings, Spread::lines);
   const Interval near = clip(segment.ray, region.reach(), map.beams.bounds(), map.settings.radius);
-  return near.empty() ? KernelEstimate() : gather(segment, region, near, work);
+  return near.empty() ? KernelEstimate() : gather(segment, region, near, map, work);
 }
 
 KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
-                                   EyeWork& work) const {
+                                   const Map& map, EyeWork& work) const {
   const Medium& medium = *segment.medium();
-  const Map& map = by_medium_[segment.number];
   const float radius = map.settings.radius, inverse = 1.0f / (radius * radius);
-  const Mirrored mirrored = region.mirrored();
   const PlaneDistances distances = region.distances();
-  const DensityIntegralsAlong* integrals = medium.homogeneous() ? nullptr : &segment.integrals(work);
+  const bool at_photon = settings_.maps.form == VolumeForm::density_at_photon;
+  const PassToEye pass(medium, medium.homogeneous() ? nullptr : &segment.integrals(work), settings_.maps.form,
+                       region.mirrored());
   GatherCounters& counters = work.counters.gather;
   count(work.counters.volume_queries);
   count(counters.searches);
   const Vec3 towards_eye = -segment.ray.direction;
-  const bool grey = is_grey(medium.sigma_t), at_photon = settings_.form == VolumeForm::density_at_photon;
   static_assert(BeamCrossings::kMost <= PhotonBatch::kMost);
   const auto sum = [&](const auto& phase, auto profile) {
     KernelPair<Rgbd> sum_of_beams;
     const auto visit = [&](const BeamCrossings& found) {
-      float passes[PhotonBatch::kMost];
-      for (size_t i = 0; i < found.size; ++i) passes[i] = distances.of({found.x[i], found.y[i], found.z[i]});
+      float along[PhotonBatch::kMost], sigma_t[PhotonBatch::kMost];
+      for (size_t i = 0; i < found.size; ++i) along[i] = distances.of({found.x[i], found.y[i], found.z[i]});
       Passed passed;
-      pass_to_eye(medium, integrals, settings_.form, mirrored, {passes, found.size}, passed);
+      pass({along, found.size}, passed, sigma_t);
       for (size_t i = 0; i < found.size; ++i) {
         const Vec3 place(found.x[i], found.y[i], found.z[i]);  // from the ray's origin
         if (!region.within().hold(place)) continue;
         ++counters.used;
         const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
         const Rgb power(found.r[i], found.g[i], found.b[i]);
-        const KernelPair<float> spread = profile(found.distance2[i] * inverse) * (1.0f / found.sine[i]);
+        const float share = map.share(found.beam[i], found.sine[i], sigma_t[i], direction, towards_eye);
+        const KernelPair<float> spread = profile(found.distance2[i] * inverse) * (share / found.sine[i]);
         Rgb light = phase.value(direction, towards_eye) * power * Rgb(passed.r[i], passed.g[i], passed.b[i]);
         const Vec3 crossing = segment.ray.origin + place;
-        if (!grey) light *= weight_along(medium, {crossing - found.s[i] * direction, direction}, power, found.s[i]);
+        light *= weight(medium, {crossing - found.s[i] * direction, direction}, power, found.s[i]);
         if (at_photon) light *= medium.density(crossing);
         sum_of_beams += {Rgbd(light) * double{spread.value}, Rgbd(light) * double{spread.correction}};
       }
@@ -94,7 +135,7 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
           },
           medium.phase);
   if (region.whole() || is_black(light.value)) return light;
-  const SeenAlong seen(medium.sigma_t, segment.interval, integrals);
+  const SeenAlong seen(medium.sigma_t, segment.interval, pass.integrals());
   return over_share(light, region.share(radius, seen, work.rng), counters);
 }
 

@@ -14,6 +14,12 @@ struct VolumeMapSettings {
   float density_floor = 0.0f;  // in [0, 1], see stored_power()
   bool once = true;            // also gather photons that come straight from lights
   PassOfMaps pass;
+  bool turned = true;  // also gather photons whose flights began at collisions (Turn)
+
+  PhotonFilter filter() const {
+    const PhotonFilter of_light = once ? any_photon : indirect_photon;
+    return turned ? of_light : of_light.straight();
+  }
 };
 
 /// A Map is what `make`(photons, settings in this pass, radius over that of the first pass, emitted, statistics)
@@ -28,7 +34,7 @@ class VolumeMaps {
         dimension_(dimension),
         // The region of a ball that is corrected has no places without density.
         collisions_(scene, settings.form, {settings.density_floor, !settings.gather.corrects_each_ball()},
-                    settings.once ? any_photon : indirect_photon) {}
+                    settings.filter()) {}
 
   ScatteredLight finds() const { return {settings_.once, true}; }
   std::vector<MapInfo> maps() const { return {{"volume", dimension_, true, &collisions_.photons}}; }

@@ -1,0 +1,36 @@
+// Photon beams that cross a ray, collisions beside it and photon planes find the same light. The balance heuristic
+// [Veach1997, sec. 9.2] combines them: beams that run nearly along the ray are bright without bound, as they are
+// divided by the sine of the angle between the two; so are planes that the ray lies in; collisions are rare where the
+// medium is thin.
+#pragma once
+
+namespace vpm {
+
+/// The shares in which light of a direction, scattered at a place of the ray, is taken from beams and from others. Per
+/// photon, a beam comes within the kernel with a probability as 1D kernel x sine, a collision as sigma_t x 2D kernel
+/// [Krivanek2014]. The size of a kernel is that of a constant one of the same variance.
+///
+/// Light whose last flight began at a collision comes from planes instead of collisions, where there are planes. Per
+/// photon, a beam then needs a collision at that place, with a probability as sigma_s, and a plane crosses the ray with
+/// one as the determinant [Bitterli2017].
+struct BeamBalance {
+  float line = 0.0f;   // m: the size of the beams' kernel, times the share of the flights that are kept as beams
+  float disc = 0.0f;   // m^2: the size of the collisions' kernel
+  float plane = 0.0f;  // the share of the flights that are kept as planes
+
+  /// Of the sine (>= 0) between the directions of light and ray and of sigma_t (1/m), at the place of the ray.
+  float of_beams(float sine, float sigma_t) const { return line * sine / (line * sine + disc * sigma_t); }
+  /// 1 - of_beams(), without rounding to 0.
+  float of_collisions(float sine, float sigma_t) const { return disc * sigma_t / (line * sine + disc * sigma_t); }
+  /// Of beams beside planes, for the scattering coefficient where the flight began, 1/m, and the volume that its
+  /// direction, the one before and the ray's span.
+  float of_beams_beside_planes(float sine, float sigma_s, float determinant) const {
+    return line * sine * sigma_s / (line * sine * sigma_s + plane * determinant);
+  }
+  /// 1 - of_beams_beside_planes() over the determinant, which is bounded.
+  float of_planes_over_determinant(float sine, float sigma_s, float determinant) const {
+    return plane / (line * sine * sigma_s + plane * determinant);
+  }
+};
+
+}  // namespace vpm

@@ -1,0 +1,77 @@
+// The photon planes of a pass, met by rays. Planes reach so far that a ray crosses a good part of them. So it looks at
+// all of them: that takes a small part of the time of asking what light comes from those that it crosses.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "vpm/base/below.h"
+#include "vpm/photon/photon_plane.h"
+
+namespace vpm {
+
+/// Where a ray crosses a plane.
+struct PlaneCrossing {
+  const PhotonPlane& plane;  // with its power over the photons emitted, W
+  MediumId medium;           // of the plane's flight
+  float along_flight;        // from the plane's origin to the collision, m
+  float beyond;              // from the collision to the crossing, m
+  float t;                   // along the ray, m
+  float determinant;         // of the directions of flight, scattered light and ray: the volume that they span, > 0
+};
+
+class PhotonPlaneList {
+ public:
+  PhotonPlaneList() = default;
+  /// Powers are multiplied by `scale`: 1/emitted.
+  PhotonPlaneList(const std::vector<std::vector<PhotonPlane>>& by_medium, float scale);
+
+  /// Calls visit(const PlaneCrossing&) for the planes that the ray crosses in the interval, in their order.
+  template <class Visit>
+  void visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const;
+
+  size_t size() const { return planes_.size(); }
+  size_t memory_bytes() const;
+
+ private:
+  std::vector<PhotonPlane> planes_;
+  std::vector<MediumId> media_;
+  // The same once more, for the loop over all, with kBlock further ones that no ray crosses.
+  std::vector<float> x_, y_, z_, length_;  // origins and lengths of flights, m
+  std::vector<float> ax_, ay_, az_;        // directions of flights
+  std::vector<float> bx_, by_, bz_;        // directions of scattered light
+};
+
+template <class Visit>
+void PhotonPlaneList::visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const {
+  Vec3 right, up;
+  const Vec3 along = ray.direction, o = ray.origin;
+  const auto [t0, t1] = interval;
+  make_frame(along, right, up);
+  for (size_t block = 0; block < planes_.size(); block += kBlock) {
+    float from[kBlock], beyond[kBlock], t[kBlock], determinant[kBlock];
+    bool crossed[kBlock];
+    for (size_t i = 0; i < kBlock; ++i) {
+      const size_t p = block + i;
+      const Vec3 d(o.x - x_[p], o.y - y_[p], o.z - z_[p]);
+      const Vec3 a(ax_[p], ay_[p], az_[p]), b(bx_[p], by_[p], bz_[p]);
+      // s a + u b = d across the ray, with the distances s along the flight and u beyond the collision.
+      const float a0 = glm::dot(a, right), a1 = glm::dot(a, up), b0 = glm::dot(b, right), b1 = glm::dot(b, up);
+      const float d0 = glm::dot(d, right), d1 = glm::dot(d, up);
+      const float volume = a0 * b1 - a1 * b0, inverse = 1.0f / volume;
+      const float s = (d0 * b1 - d1 * b0) * inverse, u = (a0 * d1 - a1 * d0) * inverse;
+      const float at = s * glm::dot(a, along) + u * glm::dot(b, along) - glm::dot(d, along);
+      from[i] = s;
+      beyond[i] = u;
+      t[i] = at;
+      determinant[i] = std::abs(volume);
+      crossed[i] = s >= 0.0f && s < length_[p] && u > 0.0f && at >= t0 && at < t1;
+    }
+    for (size_t i = 0; i < kBlock; ++i)
+      if (crossed[i])
+        visit(PlaneCrossing{planes_[block + i], media_[block + i], from[i], beyond[i], t[i], determinant[i]});
+  }
+}
+
+}  // namespace vpm
