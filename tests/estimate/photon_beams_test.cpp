@@ -28,7 +28,9 @@ struct Crossed {
   Rgb light_of(const std::vector<PhotonBeam>& beams, KernelKind kernel = KernelKind::epanechnikov,
                const std::vector<Photon>& collisions = {}) {
     const AskedGather gather{.mode = GatherMode::photon_beams, .radius = kBeamRadius, .kernel = kernel};
-    PhotonBeams estimator(scene, {{.gather = gather}});
+    VolumeMapSettings maps;
+    maps.gather = gather;
+    PhotonBeams estimator(scene, {.maps = maps});
     static_cast<BeamRecorder*>(estimator.recorders()[0])->beams[0] = beams;
     static_cast<CollisionRecorder*>(estimator.recorders()[1])->photons[0] = collisions;
     RenderStatistics statistics;
@@ -97,7 +99,7 @@ TEST(PhotonBeams, CollisionsHaveTheOtherShare) {
       const float kernel =
           with_kernel<2>(info.kind, [&](auto of) { return of(0.16f).value; }) * kernel_norm_2d(info.kind, kBeamRadius);
       const float share = 1.0f - share_of_beams(info.kind, sine, sigma_t);
-      const Rgb light = Rgb(3.0f, 2.0f, 1.0f) * std::exp(-sigma_t * 1.2f) * kernel * share / (4.0f * kPi);
+      const Rgb light = Rgb(3.0f, 2.0f, 1.0f) * std::exp(-sigma_t * 1.2f) * kernel * share * 0.5f / (4.0f * kPi);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 2e-3f * light[c]) << info.name << " " << sine;
     }
 }

@@ -48,7 +48,8 @@ TEST(Setting, HasAKeyOfItsOwnOrOfNeedsThatExcludeEachOther) {
     if (sections.empty() || sections.back() != setting.section()) sections.push_back(setting.section());
   }
   EXPECT_EQ(std::set<std::string>(sections.begin(), sections.end()).size(), sections.size()) << "a section in parts";
-  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams}) {
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams,
+                                GatherMode::photon_planes}) {
     RenderSettings s;
     s.volume.mode = mode;
     const auto all = all_settings();
@@ -61,15 +62,15 @@ TEST(Setting, HasAKeyOfItsOwnOrOfNeedsThatExcludeEachOther) {
 /// A member that is added to the settings does not compile here until it is named, and counted: then it is declared.
 TEST(Setting, IsEveryMemberOfTheSettings) {
   const RenderSettings s;
-  const auto& [integrator, seed, until, samples, emitted, stored, in_cube, flights, max_events, guide, distance,
-               transmittance, volume, surface, caustics, aimed, radii, form, floor, volume_direct, direct_samples,
-               surface_direct, indirect, gather_rays, gather_by, irradiance, step] = s;
+  const auto& [integrator, seed, until, samples, emitted, stored, in_cube, flights, planes, max_events, guide, distance,
+               transmittance, volume, surface, caustics, aimed, radii, form, floor, volume_direct, beam_length,
+               plane_use, direct_samples, surface_direct, indirect, gather_rays, gather_by, irradiance, step] = s;
   [[maybe_unused]] const auto& [passes, seconds, error] = until;
   [[maybe_unused]] const auto& [importons, aim, split, scatter] = guide;
   [[maybe_unused]] const auto& [strategy, length, optical, majorant, extinction] = distance;
   [[maybe_unused]] const auto& [estimator, march, comb] = transmittance;
   [[maybe_unused]] const auto& [mode, radius, count, kernel, boundary, beam_count] = volume;
-  constexpr size_t kOwn = 27 - 7, kOfStopRule = 3, kOfGuide = 4, kOfDistance = 5, kOfTransmittance = 3, kOfGather = 6;
+  constexpr size_t kOwn = 30 - 7, kOfStopRule = 3, kOfGuide = 4, kOfDistance = 5, kOfTransmittance = 3, kOfGather = 6;
   constexpr size_t kUndeclared = 3;  // surface.beam_count, caustics.beam_count, and caustics.boundary, the surface's
   constexpr size_t kCombined = 1;    // surface.method
   EXPECT_EQ(all_settings().size(),

@@ -34,6 +34,11 @@ const Contradiction kContradictions[] = {
     {"photons.emitted", [](S& s) { s.photons_emitted = 0; }},
     {"photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
     {"photons.flights", [](S& s) { s.flights = 100; }},
+    {"photons.planes", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.planes = 100; }},
+    {"volume.planes", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.plane_use = PlaneUse::alone; }},
+    {"volume.beams", [](S& s) { s.volume.mode = GatherMode::beam, s.beam_length = BeamLength::whole; }},
+    {"distance.strategy",
+     [](S& s) { s.volume.mode = GatherMode::photon_planes, s.distance.strategy = "mean-extinction"; }},
     {"distance.strategy",
      [](S& s) { s.volume.mode = GatherMode::photon_beams, s.distance.strategy = "mean-extinction"; }},
     {"volume.count", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.volume.beam_count = 20; }},
@@ -48,6 +53,7 @@ const Contradiction kContradictions[] = {
     {"volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
     {"surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
     {"volume.count", [](S& s) { s.volume.count = 20; }},
+    {"volume.density_floor", [](S& s) { s.density_floor = 0.2f, s.distance.strategy = "local-extinction"; }},
     {"caustics.count", [](S& s) { s.caustics.count = 20; }},
     {"volume.direct_samples", [](S& s) { s.direct_samples = 3; }},
     {"surface.direct", [](S& s) { s.surface_direct = DirectLight::equiangular; }},
@@ -78,9 +84,18 @@ const Contradiction kContradictions[] = {
     {"volume.density_floor", [](S& s) { s.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
 };
 
+TEST(Validate, LongBeamsNeedAnEnd) {
+  RenderSettings s;
+  s.volume.mode = GatherMode::photon_beams;
+  s.beam_length = BeamLength::whole;
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "");
+  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "volume.beams");
+}
+
 // The default of volume.boundary goes with everything; and beams know all its words.
 TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
-  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams})
+  for (const GatherMode mode :
+       {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams, GatherMode::photon_planes})
     for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon})
       for (const uint32_t in_cube : {0u, 4u})
         for (const BoundaryRule rule : {BoundaryRule::none, BoundaryRule::ends, BoundaryRule::corrected}) {

@@ -1,6 +1,5 @@
 // Crossings of beams and rays against their brute-force twin.
 #include "vpm/photon/photon_beam_map.h"
-#include "vpm/photon/thinning.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
+#include "vpm/photon/thinning.h"
 
 namespace vpm {
 namespace {

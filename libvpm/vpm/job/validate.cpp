@@ -68,6 +68,14 @@ void check_strategy(const RenderSettings& s, const SceneFacts& facts) {
                 strategies_that(&StrategyInfo::positive, "right for photons"));
 }
 
+void check_density_floor(const RenderSettings& s) {
+  refuse_if(s.density_floor != RenderSettings{}.density_floor && !strategy_info(s.distance.strategy).analog,
+            "volume.density_floor",
+            "photons by '" + s.distance.strategy + "' do not weigh 1/density, so that there is nothing to bound",
+            "leave out 'density_floor', or use another strategy; " +
+                strategies_that(&StrategyInfo::analog, "whose photons do"));
+}
+
 void check_estimator(const RenderSettings& s, const SceneFacts& facts) {
   const std::string& name = s.transmittance.estimator;
   refuse_if(name != TransmittanceSettings{}.estimator &&
@@ -157,6 +165,7 @@ void validate(const RenderSettings& settings, const SceneFacts& facts) {
   check_photons(settings);
   check_importance(settings);
   check_strategy(settings, facts);
+  check_density_floor(settings);
   check_photon_beams(settings, facts);
   check_borders(settings);
   check_final_gathering(settings);

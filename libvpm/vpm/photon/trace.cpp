@@ -74,7 +74,8 @@ class PhotonPath {
       drawn = settings_.guide->emission.sample(rng);
     else
       drawn.point = draw_emission_point(rng);
-    at_ = {.state = emit_photon(scene_, drawn.point), .event = {}};
+    at_ = {};
+    at_.state = emit_photon(scene_, drawn.point);
     at_.state.throughput /= drawn.density;
     emitted_power_ = sum_channels(at_.state.throughput);
     balance_ = -static_cast<double>(emitted_power_);

@@ -121,6 +121,27 @@ NamedSettings forms(const RenderSettings& base, bool media) {
   return all;
 }
 
+/// Further ways to gather flights: some of them, or as long beams; with planes, which have to find much of the light,
+/// and alone find all that is scattered twice.
+void append_flights(NamedSettings& all, const RenderSettings& base) {
+  RenderSettings beams = base;
+  beams.volume.mode = GatherMode::photon_beams;
+  beams.flights = base.photons_emitted / 2;
+  all.emplace_back("photon beams of some flights", beams);
+  beams.flights = 0;
+  beams.beam_length = BeamLength::whole;
+  all.emplace_back("long photon beams", beams);
+  RenderSettings planes = base;
+  planes.volume.mode = GatherMode::photon_planes;
+  planes.planes = 200;
+  all.emplace_back("photon planes and beams", planes);
+  planes.beam_length = BeamLength::whole;
+  all.emplace_back("photon planes and long beams", planes);
+  planes.plane_use = PlaneUse::alone;
+  planes.volume_direct = DirectLight::equiangular;
+  all.emplace_back("photon planes alone, single scattering equiangular", planes);
+}
+
 /// The ways of gathering: in all forms, also with single scattering at drawn distances; with k nearest; in media along
 /// rays; from photons that are guided; on surfaces corrected at borders, and by final gathering, whose rays are guided
 /// or not.
@@ -155,10 +176,7 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
       beams.volume_direct = DirectLight::equiangular;
       all.emplace_back(name + ", single scattering equiangular", beams);
     }
-    RenderSettings few_beams = base;
-    few_beams.volume.mode = GatherMode::photon_beams;
-    few_beams.flights = base.photons_emitted / 2;
-    all.emplace_back("photon beams of some flights", few_beams);
+    append_flights(all, base);
     RenderSettings own_radii = base;
     own_radii.volume.mode = GatherMode::beam;
     own_radii.volume.beam_count = 30;
