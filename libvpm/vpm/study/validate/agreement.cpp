@@ -137,6 +137,7 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
   all.emplace_back("photon planes and beams", planes);
   planes.beam_length = BeamLength::whole;
   all.emplace_back("photon planes and long beams", planes);
+  planes.beam_length = BeamLength::flight;
   planes.plane_use = PlaneUse::alone;
   planes.volume_direct = DirectLight::equiangular;
   all.emplace_back("photon planes alone, single scattering equiangular", planes);
@@ -217,6 +218,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   const Measured reference = by_path_tracer(scene, paths, effort.count(40'000, 300'000));
   std::vector<Check> checks;
   for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces)) {
+    if (settings.beam_length == BeamLength::whole && scene.world_medium != kVacuum) continue;  // they have no end
     settings.seed = effort.seed_of(subject.name + name);
     const int passes = static_cast<int>(effort.count(20, 64));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
@@ -293,10 +295,16 @@ std::vector<Check> combinations(const Effort& effort) {
     if (!strategy.analog) continue;
     RenderSettings beams = base;
     beams.volume.mode = GatherMode::photon_beams;
-    const std::string name = fmt::format("photon beams by {}", strategy.name);
-    beams.seed = effort.seed_of("combinations " + name);
-    const int passes = static_cast<int>(effort.count(10, 32));
-    compare(checks, name, by_photons(scene, beams, BiasOrder::smooth, passes), reference, scene.grey);
+    RenderSettings planes = beams;
+    planes.volume.mode = GatherMode::photon_planes;
+    planes.beam_length = BeamLength::whole;
+    planes.planes = 200;
+    for (auto& [what, settings] : NamedSettings{{"beams", beams}, {"planes and long beams", planes}}) {
+      const std::string name = fmt::format("photon {} by {}", what, strategy.name);
+      settings.seed = effort.seed_of("combinations " + name);
+      const int passes = static_cast<int>(effort.count(10, 32));
+      compare(checks, name, by_photons(scene, settings, BiasOrder::smooth, passes), reference, scene.grey);
+    }
   }
   return checks;
 }
