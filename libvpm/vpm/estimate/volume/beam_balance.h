@@ -18,16 +18,17 @@ struct BeamBalance {
   float disc = 0.0f;   // m^2: the size of the collisions' kernel
   float plane = 0.0f;  // the share of the flights that are kept as planes
 
-  /// Of the sine (>= 0) between the directions of light and ray and of sigma_t (1/m), at the place of the ray.
-  float of_beams(float sine, float sigma_t) const { return line * sine / (line * sine + disc * sigma_t); }
-  /// 1 - of_beams(), without rounding to 0.
+  /// The share of beams over the sine (> 0) between the directions of light and ray, which is bounded. sigma_t, 1/m, is
+  /// that of the place on the ray.
+  float of_beams_over_sine(float sine, float sigma_t) const { return line / (line * sine + disc * sigma_t); }
+  /// The rest.
   float of_collisions(float sine, float sigma_t) const { return disc * sigma_t / (line * sine + disc * sigma_t); }
-  /// Of beams beside planes, for the scattering coefficient where the flight began, 1/m, and the volume that its
+  /// The same beside planes, for the scattering coefficient where the flight began, 1/m, and the volume that its
   /// direction, the one before and the ray's span.
-  float of_beams_beside_planes(float sine, float sigma_s, float determinant) const {
-    return line * sine * sigma_s / (line * sine * sigma_s + plane * determinant);
+  float of_beams_beside_planes_over_sine(float sine, float sigma_s, float determinant) const {
+    return line * sigma_s / (line * sine * sigma_s + plane * determinant);
   }
-  /// 1 - of_beams_beside_planes() over the determinant, which is bounded.
+  /// The rest over the determinant (> 0), which is bounded.
   float of_planes_over_determinant(float sine, float sigma_s, float determinant) const {
     return plane / (line * sine * sigma_s + plane * determinant);
   }

@@ -4,7 +4,6 @@
 #include <utility>
 #include <variant>
 
-#include "vpm/estimate/volume/pass_to_eye.h"
 #include "vpm/medium/distance/mixture.h"
 #include "vpm/photon/thinning.h"
 
@@ -62,23 +61,12 @@ void PhotonBeams::build_beside(float planes, uint64_t emitted, RenderStatistics&
   }
 }
 
-float PhotonBeams::Map::share(uint32_t beam, float sine, float sigma_t, const Vec3& direction, const Vec3& ray) const {
-  if (begins.empty() || begins[beam].sigma_s == 0.0f) return balance.of_beams(sine, sigma_t);
-  const float determinant = std::abs(glm::dot(begins[beam].from, glm::cross(direction, ray)));
-  return balance.of_beams_beside_planes(sine, begins[beam].sigma_s, determinant);
-}
-
 KernelEstimate PhotonBeams::along(const EyeSegment& segment, EyeWork& work) const {
   if (!segment.medium()) return {};
   const Map& map = by_medium_[segment.number];
   KernelEstimate light = beams_along(segment, map, work);
   light += photons_beside(segment, collisions_[segment.number], settings_.maps.form, &map.balance, work);
   return light;
-}
-
-Rgb PhotonBeams::weight(const Medium& medium, const Ray& beam, const Rgb& power, float s) const {
-  return settings_.whole ? transmittance(medium, density_integral(medium, beam, {0.0f, s}).value)
-                         : weight_along(medium, beam, power, s);
 }
 
 KernelEstimate PhotonBeams::beams_along(const EyeSegment& segment, const Map& map, EyeWork& work) const {
@@ -88,11 +76,54 @@ KernelEstimate PhotonBeams::beams_along(const EyeSegment& segment, const Map& ma
   return near.empty() ? KernelEstimate() : gather(segment, region, near, map, work);
 }
 
+/// Beams beyond the region have no share.
+void PhotonBeams::pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map,
+                             const PassToEye& pass, const BeamCrossings& found, Passed& passed, float* share) const {
+  const Medium& medium = *segment.medium();
+  const PlaneDistances distances = region.distances();
+  float along[BeamCrossings::kMost], sigma_t[BeamCrossings::kMost];
+  for (size_t i = 0; i < found.size; ++i) along[i] = distances.of({found.x[i], found.y[i], found.z[i]});
+  pass({along, found.size}, passed, sigma_t);
+  for (size_t i = 0; i < found.size; ++i) share[i] = map.balance.of_beams_over_sine(found.sine[i], sigma_t[i]);
+  if (!map.begins.empty()) share_with_planes(segment.ray.direction, map, found, share);
+  const auto multiply = [&](auto&& factor) {
+    for (size_t i = 0; i < found.size; ++i) {
+      const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
+      const Vec3 crossing = segment.ray.origin + Vec3(found.x[i], found.y[i], found.z[i]);
+      const Rgb by = factor(i, crossing, direction);
+      passed.r[i] *= by.r;
+      passed.g[i] *= by.g;
+      passed.b[i] *= by.b;
+    }
+  };
+  if (settings_.whole || !is_grey(medium.sigma_t))
+    multiply([&](size_t i, const Vec3& crossing, const Vec3& direction) {
+      const Ray beam{crossing - found.s[i] * direction, direction};
+      if (settings_.whole) return transmittance(medium, density_integral(medium, beam, {0.0f, found.s[i]}).value);
+      return weight_along(medium, beam, {found.r[i], found.g[i], found.b[i]}, found.s[i]);
+    });
+  if (settings_.maps.form == VolumeForm::density_at_photon)
+    multiply([&](size_t, const Vec3& crossing, const Vec3&) { return Rgb(medium.density(crossing)); });
+  if (region.within().hold_all(found.x, found.y, found.z, found.size)) return;
+  for (size_t i = 0; i < found.size; ++i)
+    share[i] *= region.within().hold({found.x[i], found.y[i], found.z[i]}) ? 1.0f : 0.0f;
+}
+
+/// The shares of beams whose flights began at collisions.
+void PhotonBeams::share_with_planes(const Vec3& ray, const Map& map, const BeamCrossings& found, float* share) const {
+  for (size_t i = 0; i < found.size; ++i) {
+    const Begin& begin = map.begins[found.beam[i]];
+    if (begin.sigma_s == 0.0f) continue;
+    const float determinant =
+        std::abs(glm::dot(begin.from, glm::cross(Vec3(found.dx[i], found.dy[i], found.dz[i]), ray)));
+    share[i] = map.balance.of_beams_beside_planes_over_sine(found.sine[i], begin.sigma_s, determinant);
+  }
+}
+
 KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
                                    const Map& map, EyeWork& work) const {
   const Medium& medium = *segment.medium();
   const float radius = map.settings.radius, inverse = 1.0f / (radius * radius);
-  const PlaneDistances distances = region.distances();
   const bool at_photon = settings_.maps.form == VolumeForm::density_at_photon;
   const PassToEye pass(medium, medium.homogeneous() ? nullptr : &segment.integrals(work), settings_.maps.form,
                        region.mirrored());
@@ -104,24 +135,24 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
   const auto sum = [&](const auto& phase, auto profile) {
     KernelPair<Rgbd> sum_of_beams;
     const auto visit = [&](const BeamCrossings& found) {
-      float along[PhotonBatch::kMost], sigma_t[PhotonBatch::kMost];
-      for (size_t i = 0; i < found.size; ++i) along[i] = distances.of({found.x[i], found.y[i], found.z[i]});
       Passed passed;
-      pass({along, found.size}, passed, sigma_t);
-      for (size_t i = 0; i < found.size; ++i) {
-        const Vec3 place(found.x[i], found.y[i], found.z[i]);  // from the ray's origin
-        if (!region.within().hold(place)) continue;
-        ++counters.used;
+      float share[BeamCrossings::kMost];  // over the sine
+      pass_beams(segment, region, map, pass, found, passed, share);
+      LaneSums values, corrections;
+      const auto add = [&](size_t lane, size_t i) {
         const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
-        const Rgb power(found.r[i], found.g[i], found.b[i]);
-        const float share = map.share(found.beam[i], found.sine[i], sigma_t[i], direction, towards_eye);
-        const KernelPair<float> spread = profile(found.distance2[i] * inverse) * (share / found.sine[i]);
-        Rgb light = phase.value(direction, towards_eye) * power * Rgb(passed.r[i], passed.g[i], passed.b[i]);
-        const Vec3 crossing = segment.ray.origin + place;
-        light *= weight(medium, {crossing - found.s[i] * direction, direction}, power, found.s[i]);
-        if (at_photon) light *= medium.density(crossing);
-        sum_of_beams += {Rgbd(light) * double{spread.value}, Rgbd(light) * double{spread.correction}};
-      }
+        const Rgb light = Rgb(found.r[i] * passed.r[i], found.g[i] * passed.g[i], found.b[i] * passed.b[i]) *
+                          (phase.value(direction, towards_eye) * share[i]);
+        const KernelPair<float> spread = profile(found.distance2[i] * inverse);
+        values.add(lane, light * spread.value);
+        corrections.add(lane, light * spread.correction);
+      };
+      const size_t whole_blocks = found.size / kBlock * kBlock;
+      for (size_t block = 0; block < whole_blocks; block += kBlock)
+        for (size_t lane = 0; lane < kBlock; ++lane) add(lane, block + lane);
+      for (size_t i = whole_blocks; i < found.size; ++i) add(i - whole_blocks, i);
+      counters.used += found.size;
+      sum_of_beams += {values.total(), corrections.total()};
     };
     count(counters.visited, map.beams.visit_crossings(segment.ray, near, visit));
     return normed(sum_of_beams, kernel_norm_1d(map.settings.kernel, radius));

@@ -5,6 +5,7 @@
 
 #include "vpm/estimate/segment_region.h"
 #include "vpm/estimate/volume/beam_radiance.h"
+#include "vpm/estimate/volume/pass_to_eye.h"
 #include "vpm/photon/photon_beam_map.h"
 
 namespace vpm {
@@ -51,15 +52,15 @@ class PhotonBeams final : public VolumeEstimator {
     BeamBalance balance;
     PhotonBeamMap beams;
     std::vector<Begin> begins;  // of the beams; empty if there are no planes
-
-    /// The share of the light that comes from beams, for a beam of that number and direction.
-    float share(uint32_t beam, float sine, float sigma_t, const Vec3& direction, const Vec3& ray) const;
   };
 
-  Rgb weight(const Medium& medium, const Ray& beam, const Rgb& power, float s) const;
   KernelEstimate beams_along(const EyeSegment& segment, const Map& map, EyeWork& work) const;
   KernelEstimate gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near, const Map& map,
                         EyeWork& work) const;
+  /// What passes to the eye, times what is left of beams' powers where they cross; and the beams' shares over sines.
+  void pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map, const PassToEye& pass,
+                  const BeamCrossings& found, Passed& passed, float* share) const;
+  void share_with_planes(const Vec3& ray, const Map& map, const BeamCrossings& found, float* share) const;
 
   const Scene& scene_;
   PhotonBeamSettings settings_;
