@@ -142,7 +142,7 @@ constexpr int kRaysOfPass = 100;
 /// The mean of what is seen along the rays that `draw` draws.
 template <class Draw>
 RadianceByPhotons mean_along_rays(const Scene& scene, PhotonRays by, const Draw& draw) {
-  by.flights = 1;
+  by.max_events = 1;
   return estimate_along_rays(scene, by, [&](const auto& see, Rng& rng) {
     double sum = 0.0;
     for (int i = 0; i < kRaysOfPass; ++i) sum += see(draw(rng));

@@ -15,7 +15,7 @@ std::vector<double> look_at_pass(const Scene& scene, const PhotonRays& by, int p
   RenderSettings settings;
   settings.seed = by.seed;
   settings.photons_emitted = by.photons;
-  settings.max_events = by.flights;
+  settings.max_events = by.max_events;
   settings.radii = RadiusSchedule::constant;
   settings.volume.mode = by.mode;
   settings.volume.radius = static_cast<float>(radius);

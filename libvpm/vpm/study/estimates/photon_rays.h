@@ -15,7 +15,7 @@ struct PhotonRays {
   GatherMode mode = GatherMode::photon_beams;
   double radius = 0.1;        // m
   uint64_t photons = 10'000;  // of a pass
-  int flights = 100'000;      // of a photon, at the most
+  int max_events = 100'000;   // of one photon
   int passes = 20;
   uint64_t seed = 1;
 };
