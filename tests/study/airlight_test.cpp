@@ -53,6 +53,22 @@ TEST(ExactAirlight, IsTheIntegralOverTheRay) {
   }
 }
 
+// The same of a beam's closed form, from behind, aside and into a narrow peak.
+TEST(ExactAirlight, OfABeamIsTheIntegralOverTheChord) {
+  for (const auto& [g, cosine] : {std::pair(0.0, 0.9), std::pair(-0.4, 0.0), std::pair(0.999, -0.9999)}) {
+    const BeamAirlight a{0.02, 0.8, g, 0.5, cosine, 50.0, 40.0};
+    const double half = a.beam_radius / std::sqrt(1.0 - cosine * cosine);
+    const double phase = (1.0 - g * g) / (4.0 * kPiD * std::pow(1.0 + g * g + 2.0 * g * cosine, 1.5));
+    const Bounded direct = integrate(
+        [&](double t) {
+          return a.albedo * a.sigma_t * phase * std::exp(-a.sigma_t * (a.flown + t * cosine + a.seen + t));
+        },
+        -half, half);
+    const Bounded ours = solve_beam_airlight(a);
+    EXPECT_NEAR(ours.value, direct.value, ours.error + direct.error + 1e-12 * direct.value);
+  }
+}
+
 TEST(ExactAirlight, StretchesAddUp) {
   Airlight whole{2.0, 0.9, 0.99, 1e-3, 1.0, 0.0, kInfinite}, near = whole, far = whole;
   near.t1 = far.t0 = 1.0005;

@@ -47,6 +47,21 @@ TEST_F(VpmOracles, SeesAWrongNumberThatHasNoNoise) {
   EXPECT_NE(result.out.find("measure_ratio"), std::string::npos) << result.out;
 }
 
+/// A thousand photons on a line, by the kernel of order 4 of radius 0.1: its m2 is 5/2, V is 0.2.
+TEST_F(VpmOracles, ChecksDensitiesOfPhotonsOnALine) {
+  const auto line = [](const std::string& variance) {
+    return R"({"fixed_radius": [{"id": "line", "dimension": 1, "kernel": "order-4", "N": 1000, "h": 0.1, "mean": 1.0,
+      "variance_binomial": )" +
+           variance + R"(, "expected_photons": 200.0}]})";
+  };
+  oracle("s6_density.json", line("0.0115"));
+  const ProcessResult right = check();
+  EXPECT_EQ(right.status, 0) << right.out << right.err;
+  EXPECT_NE(right.out.find("1 cases, 0 unchecked;"), std::string::npos) << right.out;
+  oracle("s6_density.json", line("0.012"));
+  EXPECT_EQ(check().status, 1);
+}
+
 TEST_F(VpmOracles, ATableMustRepeatItsCases) {
   oracle("s4_slab.json", slab("0.09739"));
   write("oracles/s4_slab.csv", "id,g,albedo,tau,incidence,R\n\"hulst\",0.75,0.9,2.0,collimated_normal,0.09739\n");

@@ -27,8 +27,8 @@ CaseResult no_kernel(const std::string& name) {
   return result;
 }
 
-int read_dimension(const OracleCase& c, int lowest) {
-  const double d = c.number_in("dimension", lowest, 3.0);
+int read_dimension(const OracleCase& c) {
+  const double d = c.number_in("dimension", 1.0, 3.0);
   if (d != std::floor(d)) c.refuse("\"dimension\" must be a whole number");
   return static_cast<int>(d);
 }
@@ -36,7 +36,7 @@ int read_dimension(const OracleCase& c, int lowest) {
 CaseResult run_kernel(const OracleCase& c, const Effort&) {
   const std::optional<KernelKind> kernel = kernel_named(c.text("kernel"));
   if (!kernel) return no_kernel(c.text("kernel"));
-  const int d = read_dimension(c, 1);
+  const int d = read_dimension(c);
   const KernelIntegrals sums = integrate_kernel(d, *kernel);
   CaseResult result;
   const auto check = [&](const char* field, double found) {
@@ -46,10 +46,9 @@ CaseResult run_kernel(const OracleCase& c, const Effort&) {
   check("mean_one_factor_value", sums.volume / sums.profile);
   check("roughness_m2_value", sums.square * sums.volume / (sums.profile * sums.profile));
   check("laplacian_bias_value", sums.second_moment / sums.profile / (2.0 * d));
-  if (d == 1)
-    check("unit_integral_prefactor", 1.0 / sums.profile);
-  else
-    check("unit_integral_prefactor", d == 2 ? kernel_norm_2d(*kernel, 1.0f) : kernel_norm_3d(*kernel, 1.0f));
+  check("unit_integral_prefactor", d == 1   ? kernel_norm_1d(*kernel, 1.0f)
+                                   : d == 2 ? kernel_norm_2d(*kernel, 1.0f)
+                                            : kernel_norm_3d(*kernel, 1.0f));
   return result;
 }
 
@@ -133,7 +132,7 @@ CaseResult run_nearest(const OracleCase& c, NearestMaps& maps) {
   if (c.has("kernel")) {
     const std::optional<KernelKind> kernel = kernel_named(c.text("kernel"));
     if (!kernel) return no_kernel(c.text("kernel"));
-    check_nearest_kernel(result.checks, c, maps.facts(read_dimension(c, 2), n, k), static_cast<size_t>(*kernel));
+    check_nearest_kernel(result.checks, c, maps.facts(read_dimension(c), n, k), static_cast<size_t>(*kernel));
   } else {
     for (const int dimension : {2, 3}) check_nearest_constant(result.checks, c, maps.facts(dimension, n, k), dimension);
   }
@@ -143,7 +142,7 @@ CaseResult run_nearest(const OracleCase& c, NearestMaps& maps) {
 CaseResult run_radius(const OracleCase& c, const Effort& effort) {
   const std::optional<KernelKind> kernel = kernel_named(c.text("kernel"));
   if (!kernel) return no_kernel(c.text("kernel"));
-  const int d = read_dimension(c, 2);
+  const int d = read_dimension(c);
   const uint64_t n = c.count("N");
   const double h = c.number_in("h", 1e-6, 0.5);
   const double photons = effort.full ? 5e9 : 2.5e7;
@@ -153,7 +152,7 @@ CaseResult run_radius(const OracleCase& c, const Effort& effort) {
   result.checks.push_back(check_mean("mean", facts.mean[static_cast<size_t>(*kernel)], c.number("mean")));
   result.checks.push_back(
       check_mean("variance_binomial", facts.square_error[static_cast<size_t>(*kernel)], c.number("variance_binomial")));
-  const double volume = d == 2 ? kPiD * h * h : 4.0 / 3.0 * kPiD * h * h * h;
+  const double volume = d == 1 ? 2.0 * h : d == 2 ? kPiD * h * h : 4.0 / 3.0 * kPiD * h * h * h;
   result.checks.push_back(check_mean("expected_photons over N V", facts.mean[0],
                                      c.number("expected_photons") / (static_cast<double>(n) * volume)));
   return result;
@@ -162,7 +161,7 @@ CaseResult run_radius(const OracleCase& c, const Effort& effort) {
 CaseResult run_bias(const OracleCase& c, const Effort& effort) {
   const std::optional<KernelKind> kernel = kernel_named(c.text("kernel"));
   if (!kernel) return no_kernel(c.text("kernel"));
-  const int d = read_dimension(c, 1);
+  const int d = read_dimension(c);
   const double h = c.number_in("h", 1e-6, 0.5);
   const std::vector<double> multipliers = c.numbers("cosine_multiplier", 3);
   CaseResult result;
@@ -172,7 +171,6 @@ CaseResult run_bias(const OracleCase& c, const Effort& effort) {
   for (size_t i = 0; i < 3; ++i)
     result.checks.push_back(check_bound(fmt::format("cosine_multiplier[{}] of the profile", i),
                                         sums.cosine[i] / sums.profile, multipliers[i], 1e-6));
-  if (d == 1) return result;  // maps have two or three dimensions
   const auto found = estimate_kernel_bias(d, *kernel, h, effort.count(200, 5000), effort.seed_of(c.place()));
   const std::array<double, kBiasDensities> exact{1.0 + c.number("linear_density_bias"),
                                                  1.0 + c.number("quadratic_bias"), 1.0 + multipliers[0],
@@ -185,7 +183,7 @@ CaseResult run_bias(const OracleCase& c, const Effort& effort) {
 
 CaseResult run_progressive(const OracleCase& c, const Effort&) {
   const double a = c.number_in("alpha", 1e-6, 1.0);
-  const int d = read_dimension(c, 1), n = static_cast<int>(c.count("pass_index_1_based"));
+  const int d = read_dimension(c), n = static_cast<int>(c.count("pass_index_1_based"));
   const double measure = measure_of_pass(a, n - 1);
   CaseResult result;
   const auto check = [&](const char* field, double found) {

@@ -1,9 +1,10 @@
-// Marching towards a point light.
+// Single scattering seen along rays: by marches towards a point light, by eye paths, by photons.
 #include "vpm/study/estimates/airlight.h"
 
 #include <algorithm>
 #include <vector>
 
+#include "vpm/base/warp.h"
 #include "vpm/estimate/volume/single_equiangular.h"
 #include "vpm/estimate/volume/single_marched.h"
 #include "vpm/path/direct_light.h"
@@ -17,20 +18,26 @@ namespace {
 constexpr float kOpticalStep = 0.5f;  // of a march
 constexpr int kPairs = 8;             // of distances
 
-/// Coordinates along the ray are measured from the point next to the light, where they need their digits.
-Scene airlight_scene(const Airlight& a) {
+/// An endless medium and a light in it.
+Scene endless_scene(double sigma_t, double albedo, double g, const Light& light) {
   Scene scene;
   Medium medium;
-  medium.sigma_t = Rgb(static_cast<float>(a.sigma_t));
-  medium.sigma_s = static_cast<float>(a.albedo) * medium.sigma_t;
-  if (a.g != 0.0) medium.phase = HenyeyGreenstein{static_cast<float>(a.g)};
+  medium.sigma_t = Rgb(static_cast<float>(sigma_t));
+  medium.sigma_s = static_cast<float>(albedo) * medium.sigma_t;
+  if (g != 0.0) medium.phase = HenyeyGreenstein{static_cast<float>(g)};
   scene.media.push_back(medium);
   scene.world_medium = 0;
   scene.camera_medium = 0;
-  scene.lights.push_back(PointLight{Vec3(0.0f, static_cast<float>(a.distance), 0.0f), Rgb(1.0f)});
+  scene.lights.push_back(light);
   scene.geometry.commit();
   finish(scene);
   return scene;
+}
+
+/// Coordinates along the ray are measured from the point next to the light, where they need their digits.
+Scene airlight_scene(const Airlight& a) {
+  return endless_scene(a.sigma_t, a.albedo, a.g,
+                       PointLight{Vec3(0.0f, static_cast<float>(a.distance), 0.0f), Rgb(1.0f)});
 }
 
 const Vec3 kForward(0.0f, 0.0f, 1.0f);
@@ -126,6 +133,47 @@ Moments estimate_airlight_by_eye_path(const Airlight& a, DirectLight direct, uin
     EyeWork work{rng, counters, scratch};
     out[0] = eye_radiance(context, from(-a.t_light), work).value.r;
   })[0];
+}
+
+namespace {
+
+constexpr int kRaysOfPass = 100;
+
+/// The mean of what is seen along the rays that `draw` draws.
+template <class Draw>
+RadianceByPhotons mean_along_rays(const Scene& scene, PhotonRays by, const Draw& draw) {
+  by.max_events = 1;
+  return estimate_along_rays(scene, by, [&](const auto& see, Rng& rng) {
+    double sum = 0.0;
+    for (int i = 0; i < kRaysOfPass; ++i) sum += see(draw(rng));
+    return std::vector<double>{sum / kRaysOfPass};
+  })[0];
+}
+
+}  // namespace
+
+RadianceByPhotons estimate_airlight_by_photons(const Airlight& a, const PhotonRays& by) {
+  const Vec3d light(0.0, a.distance, 0.0);
+  return mean_along_rays(airlight_scene(a), by, [&](Rng& rng) {
+    Vec3 aside, unused;
+    const Vec3 forward = uniform_sphere(rng.uniform2());
+    make_frame(forward, aside, unused);
+    const Vec3d origin = light - a.distance * Vec3d(aside) - a.t_light * Vec3d(forward);
+    return Ray{Vec3(origin), forward};
+  });
+}
+
+RadianceByPhotons estimate_beam_airlight_by_photons(const BeamAirlight& a, const PhotonRays& by) {
+  const Vec3 axis(0.0f, -1.0f, 0.0f);
+  const double power = kPiD * a.beam_radius * a.beam_radius;
+  const BeamLight light{-static_cast<float>(a.flown) * axis, axis, static_cast<float>(a.beam_radius),
+                        Rgb(static_cast<float>(power))};
+  return mean_along_rays(endless_scene(a.sigma_t, a.albedo, a.g, light), by, [&](Rng& rng) {
+    const float turn = 2.0f * kPi * rng.uniform();
+    const auto cosine = static_cast<float>(a.cosine), sine = static_cast<float>(std::sqrt(1.0 - a.cosine * a.cosine));
+    const Vec3 forward = cosine * axis + sine * Vec3(std::cos(turn), 0.0f, std::sin(turn));
+    return Ray{-static_cast<float>(a.seen) * forward, forward};
+  });
 }
 
 }  // namespace vpm

@@ -14,9 +14,13 @@ using Densities = std::array<double, kKernels.size()>;  // by kernel
 
 Rgb kernel_estimate(int dimension, const PhotonMap& map, const Vec3& point) {
   const auto power = [](const Vec3&, const Rgb& p) { return p; };
+  if (dimension == 1) return kernel_sum<1>(map, point, AnyPhoton{}, power).value;
   return dimension == 2 ? kernel_sum<2>(map, point, AnyPhoton{}, power).value
                         : kernel_sum<3>(map, point, AnyPhoton{}, power).value;
 }
+
+/// The middle of the unit interval, square or cube; axes beyond the dimension stay at 0, as photons do.
+Vec3 middle(int dimension) { return {0.5f, dimension > 1 ? 0.5f : 0.0f, dimension > 2 ? 0.5f : 0.0f}; }
 
 /// Those of `count` uniform photons that lie within `reach` of the middle, along each axis.
 std::vector<Photon> middle_photons(int dimension, uint64_t count, float reach, Rng& rng) {
@@ -25,8 +29,8 @@ std::vector<Photon> middle_photons(int dimension, uint64_t count, float reach, R
   photon.power = Rgb(1.0f);
   std::vector<Photon> photons;
   for (uint64_t i = 0; i < count; ++i) {
-    photon.position = Vec3(rng.uniform(), rng.uniform(), dimension == 3 ? rng.uniform() : 0.0f);
-    const Vec3 off = glm::abs(photon.position - Vec3(0.5f, 0.5f, dimension == 3 ? 0.5f : 0.0f));
+    for (int axis = 0; axis < dimension; ++axis) photon.position[axis] = rng.uniform();
+    const Vec3 off = glm::abs(photon.position - middle(dimension));
     if (std::max(off.x, std::max(off.y, off.z)) < reach) photons.push_back(photon);
   }
   return photons;
@@ -42,7 +46,7 @@ Densities middle_estimates(int dimension, uint64_t photons, const GatherSettings
   Densities found{};
   for (size_t i = 0; i < kKernels.size(); ++i) {
     map.settings.kernel = kKernels[i].kind;
-    found[i] = kernel_estimate(dimension, map, Vec3(0.5f, 0.5f, dimension == 3 ? 0.5f : 0.0f)).r;
+    found[i] = kernel_estimate(dimension, map, middle(dimension)).r;
   }
   return found;
 }
@@ -80,18 +84,20 @@ DensityFacts estimate_radius_density(int dimension, uint64_t photons, double rad
 
 std::array<Moments, kBiasDensities> estimate_kernel_bias(int dimension, KernelKind kernel, double h, uint64_t shifts,
                                                          uint64_t seed) {
-  const double step = h / (dimension == 2 ? 48.0 : 10.0), cell = dimension == 2 ? step * step : step * step * step;
+  constexpr std::array kSteps{1000.0, 48.0, 10.0};  // of a radius, by dimension: lattices of some thousand photons
+  const double step = h / kSteps[static_cast<size_t>(dimension) - 1], cell = std::pow(step, dimension);
   const int reach = static_cast<int>(h / step) + 2;
+  const int reach_y = dimension > 1 ? reach : 0, reach_z = dimension > 2 ? reach : 0;
   std::array<Moments, kBiasDensities> result;
   for (uint64_t shift = 0; shift < shifts; ++shift) {
     Rng rng(seed, rng_stream(RngUse::test, 0), shift);
     const Vec3d off(rng.uniform(), rng.uniform(), rng.uniform());
     std::vector<Photon> smooth, waves;
-    for (int z = dimension == 3 ? -reach : 0; z <= (dimension == 3 ? reach : 0); ++z)
-      for (int y = -reach; y <= reach; ++y)
+    for (int z = -reach_z; z <= reach_z; ++z)
+      for (int y = -reach_y; y <= reach_y; ++y)
         for (int x = -reach; x <= reach; ++x) {
           Vec3d p = (Vec3d(x, y, z) + off) * step;
-          if (dimension == 2) p.z = 0.0;
+          for (int axis = dimension; axis < 3; ++axis) p[axis] = 0.0;
           Photon photon;
           photon.position = Vec3(p);
           photon.travel = PackedDirection(Vec3(0.0f, 0.0f, -1.0f));

@@ -1,5 +1,5 @@
-// What is known of density estimates from photons that lie uniformly in the unit cube or square: means, variances,
-// bias.
+// What is known of density estimates from photons that lie uniformly in the unit interval, square or cube: means,
+// variances, bias.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ struct DensityFacts {
   std::array<Moments, kKernels.size()> mean, square_error;  // square error: (estimate - 1)^2
   std::array<Moments, kKernels.size()>
       square_ratio;             // (estimate / that of the constant kernel)^2, at most the kernel's peak^2
-  std::vector<double> volumes;  // of the ball or disc of the estimate
+  std::vector<double> volumes;  // of the ball, disc or stretch of the estimate
 };
 
-/// By the k nearest of `photons` photons, in `dimension` 2 or 3. The ball's volume is the one whose k - 1 photons give
-/// the constant kernel's estimate.
+/// By the k nearest of `photons` photons, in `dimension` 1, 2 or 3. The ball's volume is the one whose k - 1 photons
+/// give the constant kernel's estimate.
 DensityFacts estimate_nearest_density(int dimension, uint64_t photons, uint32_t k, uint64_t maps, uint64_t seed);
 
 /// By all photons within a radius.

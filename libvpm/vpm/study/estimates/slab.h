@@ -28,14 +28,17 @@ Slab homogeneous_slab(double optical_thickness, double albedo, double g, Inciden
 /// What leaves a slab without sides is the same for both: 1 W on a spot, summed over the top; or 1 W/m^2, at any point.
 enum class SlabLight { spot, everywhere };
 
+/// How far away the mirrors that close a slab's sides are, in thicknesses.
+inline constexpr double kFarMirrors = 1e3;
+
 /// The slab between y = 0 and y = -thickness. Throws InputError where the nodes of a part without jumps lie on no
 /// common lattice, so that no grid can represent the extinction exactly.
 ///
-/// Mirrors 1000 thicknesses away close the slab's sides: what is reflected there comes from an equal slab beyond, so
-/// that sums over the top, and radiance under even light, are those of an endless slab. They are that far away so that
-/// few photons get there, and cut only those rays towards the light that make less than 1e-3 rad with the horizontal
-/// after crossing the whole slab.
-Scene slab_scene(const Slab& slab, SlabLight light);
+/// Mirrors so many thicknesses away close the slab's sides: what is reflected there comes from an equal slab beyond, so
+/// that sums over the top, and radiance under even light, are those of an endless slab. Far mirrors are so far away
+/// that few photons get there, and cut only those rays towards the light that make less than 1e-3 rad with the
+/// horizontal after crossing the whole slab.
+Scene slab_scene(const Slab& slab, SlabLight light, double mirrors = kFarMirrors);
 
 /// What to tally besides reflectance and transmittance.
 struct SlabTallies {

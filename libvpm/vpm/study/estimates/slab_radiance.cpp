@@ -1,4 +1,4 @@
-// Paths of the path tracer out of slabs, and from points inside them into all directions.
+// Paths of the path tracer out of slabs, and from points inside them into all directions; rays that gather photons.
 #include "vpm/study/estimates/slab_radiance.h"
 
 #include <algorithm>
@@ -26,6 +26,20 @@ Ray towards_exit(const Slab& slab, const SlabExit& exit) {
   return {Vec3(0.0f, depth, 0.0f), Vec3(across, -mu, 0.0f)};
 }
 
+constexpr double kCloseMirrors = 3.0;  // thicknesses from the slab's middle
+constexpr int kRaysOfExit = 128;       // in a pass
+
+/// A ray that sees the exit, turned at random about the normal, and through a random place in the slab's middle, at
+/// most a thickness from the centre: it leaves the slab more than a thickness before the mirrors.
+Ray towards_exit_between_mirrors(const Slab& slab, const SlabExit& exit, Rng& rng) {
+  const float turn = 2.0f * kPi * rng.uniform();
+  const auto mu = static_cast<float>(exit.mu), across = std::sqrt(1.0f - mu * mu);
+  const auto thickness = static_cast<float>(slab.layers.thickness());
+  const Vec3 forward(across * std::cos(turn), exit.below ? mu : -mu, across * std::sin(turn));
+  const Vec2 place = 2.0f * rng.uniform2() - 1.0f;
+  return {thickness * (Vec3(place.x, -0.5f, place.y) - 4.0f * forward), forward};
+}
+
 }  // namespace
 
 SlabRadiances estimate_slab_radiance(const Slab& slab, const std::vector<SlabExit>& exits,
@@ -50,6 +64,28 @@ SlabRadiances estimate_slab_radiance(const Slab& slab, const std::vector<SlabExi
       out[exits.size() + i] = 4.0 * kPiD * path_radiance(context, ray, media[i], rng, counters).r;
     }
   });
+  const auto split = all.begin() + static_cast<std::ptrdiff_t>(exits.size());
+  return {{all.begin(), split}, {split, all.end()}};
+}
+
+SlabSights estimate_slab_radiance_by_photons(const Slab& slab, const std::vector<SlabExit>& exits,
+                                             const std::vector<SlabRange>& ranges, const PhotonRays& by) {
+  const Scene scene = slab_scene(slab, SlabLight::everywhere, kCloseMirrors);
+  const auto look = [&](const auto& see, Rng& rng) {
+    std::vector<double> found(exits.size() + ranges.size(), 0.0);
+    for (int ray = 0; ray < kRaysOfExit; ++ray) {
+      for (size_t i = 0; i < exits.size(); ++i)
+        found[i] += see(towards_exit_between_mirrors(slab, exits[i], rng)) / kRaysOfExit;
+      for (size_t i = 0; i < ranges.size(); ++i) {
+        const auto& [from, to, below] = ranges[i];
+        const double mu = from + (to - from) * rng.uniform_double();
+        found[exits.size() + i] +=
+            2.0 * kPiD * mu * (to - from) * see(towards_exit_between_mirrors(slab, {mu, below}, rng)) / kRaysOfExit;
+      }
+    }
+    return found;
+  };
+  const std::vector<RadianceByPhotons> all = estimate_along_rays(scene, by, look);
   const auto split = all.begin() + static_cast<std::ptrdiff_t>(exits.size());
   return {{all.begin(), split}, {split, all.end()}};
 }

@@ -5,8 +5,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kHalfWidth = 1e3;  // in thicknesses
-
 /// A boundary across all of the slab; off its centre, so that the diagonal that divides the quad is far from the light.
 void add_plane(Scene& scene, double depth, double width, const Interface& media) {
   const Vec3d corner(-1.1 * width, -depth, -1.4 * width);
@@ -44,8 +42,8 @@ Slab homogeneous_slab(double optical_thickness, double albedo, double g, Inciden
   return {{{0.0, 1.0}, {optical_thickness, optical_thickness}}, albedo, g, incidence};
 }
 
-Scene slab_scene(const Slab& slab, SlabLight light) {
-  const double thickness = slab.layers.thickness(), width = kHalfWidth * thickness;
+Scene slab_scene(const Slab& slab, SlabLight light, double mirrors) {
+  const double thickness = slab.layers.thickness(), width = mirrors * thickness;
   const LayeredMedia layered = layered_media(slab.layers, 2.0 * width);
   Scene scene;
   const auto last = static_cast<MediumId>(layered.media.size()) - 1;

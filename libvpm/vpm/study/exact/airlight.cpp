@@ -39,4 +39,17 @@ AirlightSolution solve_airlight(const Airlight& a) {
   return {{value, value * relative}, std::log10(factor * integral.value) - depth / std::log(10.0)};
 }
 
+// At the distance t behind the axis, light has come flown + t cos and goes seen + t to the eye; the ray is in the beam
+// for |t| < beam_radius / sin.
+Bounded solve_beam_airlight(const BeamAirlight& a) {
+  assert(a.sigma_t > 0.0 && std::fabs(a.cosine) < 1.0 && std::fabs(a.g) < 1.0);
+  const double sine2 = (1.0 - a.cosine) * (1.0 + a.cosine), half = a.beam_radius / std::sqrt(sine2);
+  const double rate = a.sigma_t * (1.0 + a.cosine), depth = a.sigma_t * (a.flown + a.seen);
+  const double along = 2.0 * std::sinh(rate * half) / rate * std::exp(-depth);
+  const double away = 1.0 + a.g * a.g + 2.0 * a.g * a.cosine;  // light is scattered by the angle of cosine -cos
+  const double phase = (1.0 - a.g) * (1.0 + a.g) / (4.0 * kPiD * away * std::sqrt(away));
+  const double value = a.albedo * a.sigma_t * phase * along;
+  return {value, value * 1e-15 * (10.0 + depth + rate * half + 1.0 / sine2 + 3.0 / away)};
+}
+
 }  // namespace vpm::exact

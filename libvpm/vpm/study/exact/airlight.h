@@ -1,4 +1,5 @@
-// Light of an isotropic point source that a homogeneous medium scatters once into a ray of sight.
+// Light of an isotropic point source, or of a collimated beam, that a homogeneous medium scatters once into a ray of
+// sight.
 #pragma once
 
 #include "vpm/study/exact/bounded.h"
@@ -22,5 +23,19 @@ struct AirlightSolution {
 };
 
 AirlightSolution solve_airlight(const Airlight& airlight);
+
+/// A beam of light of an irradiance of 1 W/m^2 across it, in an infinite medium. A ray of sight meets its axis.
+struct BeamAirlight {
+  double sigma_t = 1.0;      // 1/m
+  double albedo = 1.0;       // in [0, 1]
+  double g = 0.0;            // of Henyey and Greenstein's phase function, in (-1, 1)
+  double beam_radius = 1.0;  // m
+  double cosine = 0.0;       // between the directions in which light and the ray of sight travel, in (-1, 1)
+  double flown = 1.0;        // m, from the light along the axis to where the ray meets it
+  double seen = 1.0;         // m, from the eye to there: both so long that light and eye are outside of what is seen
+};
+
+/// The radiance, W/(m^2 sr), in closed form.
+Bounded solve_beam_airlight(const BeamAirlight& airlight);
 
 }  // namespace vpm::exact

@@ -34,6 +34,7 @@ std::vector<Experiment> furnace_experiments();
 std::vector<Experiment> slanted_slab_experiments();
 std::vector<Experiment> convex_body_experiments();
 std::vector<Experiment> infinite_medium_experiments();
+std::vector<Experiment> track_length_experiments();
 std::vector<Experiment> balance_experiments();
 std::vector<Experiment> symmetry_experiments();
 std::vector<Experiment> medium_experiments();

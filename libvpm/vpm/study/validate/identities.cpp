@@ -5,9 +5,9 @@ namespace vpm {
 
 std::vector<Experiment> identity_experiments() {
   std::vector<Experiment> all;
-  for (const auto& group :
-       {furnace_experiments(), slanted_slab_experiments(), convex_body_experiments(), infinite_medium_experiments(),
-        balance_experiments(), symmetry_experiments(), medium_experiments(), picture_experiments()})
+  for (const auto& group : {furnace_experiments(), slanted_slab_experiments(), convex_body_experiments(),
+                            infinite_medium_experiments(), track_length_experiments(), balance_experiments(),
+                            symmetry_experiments(), medium_experiments(), picture_experiments()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }

@@ -1,4 +1,4 @@
-// The path tracer in slabs: radiance that leaves them, and fluence inside.
+// Radiance that leaves slabs, by the path tracer and by photons gathered along rays, and fluence inside.
 #include <fmt/format.h>
 
 #include "vpm/study/estimates/slab_radiance.h"
@@ -11,15 +11,15 @@ namespace {
 struct RadianceProblem {
   double tau, albedo, g;
 };
+constexpr RadianceProblem kRadianceProblems[] = {{4.0, 0.9, 0.0}, {2.0, 0.9, 0.75}};
 
 std::vector<Check> radiances(const Effort& effort) {
-  static constexpr RadianceProblem kProblems[] = {{4.0, 0.9, 0.0}, {2.0, 0.9, 0.75}};
   const std::vector<double> mus{0.1, 0.5, 1.0}, depths{0.125, 0.5, 1.0};  // over the thickness
   std::vector<SlabExit> exits;
   for (const bool below : {false, true})
     for (const double mu : mus) exits.push_back({mu, below});
   std::vector<Check> checks;
-  for (const RadianceProblem& p : kProblems) {
+  for (const RadianceProblem& p : kRadianceProblems) {
     exact::SlabPlaces places{{}, mus, {}};
     for (const double depth : depths) places.depths.push_back(depth * p.tau);
     const exact::SlabSolution s =
@@ -42,10 +42,49 @@ std::vector<Check> radiances(const Effort& effort) {
   return checks;
 }
 
+/// A slab is seen alike along parallel rays, and so through kernels of any radius: they have no bias.
+void check_radiance_by_photons(std::vector<Check>& checks, const RadianceProblem& p, GatherMode mode,
+                               const Effort& effort) {
+  const std::string name = fmt::format("tau {}, albedo {}, g {}, {}", p.tau, p.albedo, p.g,
+                                       mode == GatherMode::beam ? "photons around rays" : "photon beams");
+  const std::vector<SlabExit> exits{{0.5, false}, {0.8, false}, {0.5, true}, {0.8, true}};
+  const std::vector<SlabRange> ranges{{0.5, 1.0, false}, {0.5, 1.0, true}};
+  const exact::SlabSolution s =
+      exact::solve_slab({p.tau, p.albedo, exact::henyey_greenstein_moments(p.g), {}}, {{}, {0.5, 0.8}, {0.5, 1.0}});
+  const SlabSights found =
+      estimate_slab_radiance_by_photons(homogeneous_slab(p.tau, p.albedo, p.g, Incidence::collimated), exits, ranges,
+                                        {.mode = mode,
+                                         .radius = 0.4,
+                                         .photons = 5'000,
+                                         .passes = static_cast<int>(effort.count(60, 600)),
+                                         .seed = effort.seed_of("radiance by photons " + name)});
+  const auto check = [&](const std::string& what, const RadianceByPhotons& seen, double exact) {
+    checks.push_back(check_mean(fmt::format("{}: {}, radius 0.4", name, what), seen.wide, exact));
+    checks.push_back(check_mean(fmt::format("{}: {}, radius 0.2", name, what), seen.narrow, exact));
+  };
+  for (size_t i = 0; i < exits.size(); ++i) {
+    const auto& [mu, below] = exits[i];
+    check(fmt::format("{} radiance, mu {}", below ? "transmitted" : "reflected", mu), found.exits[i],
+          (below ? s.transmitted_radiance : s.reflected_radiance).values[i % 2]);
+  }
+  for (size_t i = 0; i < ranges.size(); ++i)
+    check(fmt::format("{} flux, mu 0.5 to 1", ranges[i].below ? "transmitted" : "reflected"), found.fluxes[i],
+          (ranges[i].below ? s.transmitted_flux : s.reflected_flux).values[0]);
+}
+
+std::vector<Check> radiances_by_photons(const Effort& effort) {
+  std::vector<Check> checks;
+  for (const RadianceProblem& p : kRadianceProblems)
+    for (const GatherMode mode : {GatherMode::beam, GatherMode::photon_beams})
+      check_radiance_by_photons(checks, p, mode, effort);
+  return checks;
+}
+
 }  // namespace
 
 std::vector<Experiment> slab_radiance_experiments() {
-  return {{2, "radiance of slabs, by the path tracer", radiances}};
+  return {{2, "radiance of slabs, by the path tracer", radiances},
+          {2, "radiance of slabs, by photons along rays", radiances_by_photons}};
 }
 
 }  // namespace vpm

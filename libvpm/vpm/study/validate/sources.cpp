@@ -1,6 +1,7 @@
-// Point sources in endless media, spheres in a uniform environment, and airlight.
+// Point sources in endless media, spheres in a uniform environment, airlight of points and of beams.
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 
 #include "vpm/study/estimates/airlight.h"
 #include "vpm/study/estimates/point_source.h"
@@ -86,6 +87,25 @@ std::vector<Check> spheres(const Effort& effort) {
   return checks;
 }
 
+constexpr std::array<std::pair<GatherMode, const char*>, 2> kAlongRays{
+    {{GatherMode::beam, "photons around rays"}, {GatherMode::photon_beams, "photon beams"}}};
+
+/// Airlight by photons that fly once, their kernels' bias extrapolated away: what is left is of the order of the fourth
+/// power of the radius, which is small against the distance over which light changes.
+template <class Estimate>
+void check_airlight_by_photons(std::vector<Check>& checks, const std::string& name, double exact, double radius,
+                               const Effort& effort, const Estimate& estimate) {
+  for (const auto& [mode, by] : kAlongRays) {
+    const std::string title = fmt::format("{}: radiance by {}", name, by);
+    const RadianceByPhotons found = estimate({.mode = mode,
+                                              .radius = radius,
+                                              .photons = 10'000,
+                                              .passes = static_cast<int>(effort.count(20, 400)),
+                                              .seed = effort.seed_of("airlight, " + title)});
+    checks.push_back(check_mean(title + ", bias extrapolated away", found.unbiased, exact));
+  }
+}
+
 std::vector<Check> airlights(const Effort& effort) {
   static constexpr Airlight kAirlights[] = {{0.5, 0.9, 0.5, 1.0, 3.0, 0.0, 10.0},
                                             {0.3, 0.8, 0.9, 1e-6, 2.0, 0.0, 4.0},
@@ -109,7 +129,22 @@ std::vector<Check> airlights(const Effort& effort) {
     checks.push_back(check_mean(name + ": radiance by the eye path, equiangular",
                                 estimate_airlight_by_eye_path(a, DirectLight::equiangular, paths, seed + 2),
                                 s.radiance.value));
+    check_airlight_by_photons(checks, name, s.radiance.value, 0.2 * a.distance, effort,
+                              [&](const PhotonRays& by) { return estimate_airlight_by_photons(a, by); });
   }
+  return checks;
+}
+
+/// A beam of light seen from ahead, aside and behind.
+std::vector<Check> beams_of_light(const Effort& effort) {
+  static constexpr BeamAirlight kBeams[] = {
+      {0.5, 0.9, 0.0, 0.5, -0.8, 2.0, 2.0}, {1.0, 0.8, 0.6, 0.3, 0.0, 1.0, 1.5}, {2.0, 1.0, -0.4, 0.2, 0.9, 1.0, 1.0}};
+  std::vector<Check> checks;
+  for (const BeamAirlight& a : kBeams)
+    check_airlight_by_photons(
+        checks, fmt::format("g {}, cosine {}", a.g, a.cosine),
+        exact::solve_beam_airlight({a.sigma_t, a.albedo, a.g, a.beam_radius, a.cosine, a.flown, a.seen}).value,
+        0.4 * a.beam_radius, effort, [&](const PhotonRays& by) { return estimate_beam_airlight_by_photons(a, by); });
   return checks;
 }
 
@@ -118,7 +153,8 @@ std::vector<Check> airlights(const Effort& effort) {
 std::vector<Experiment> source_experiments() {
   return {{2, "point sources in endless media", point_sources},
           {2, "spheres in a uniform environment", spheres},
-          {2, "airlight", airlights}};
+          {2, "airlight", airlights},
+          {2, "airlight of a collimated beam", beams_of_light}};
 }
 
 }  // namespace vpm
