@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vpm/base/parallel.h"
+#include "vpm/photon/leaf_order.h"
 
 namespace vpm {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "vpm/base/below.h"
 #include "vpm/base/count.h"
 #include "vpm/photon/box_tree.h"
-#include "vpm/photon/leaf_order.h"
 #include "vpm/photon/photon_beam.h"
 
 namespace vpm {
