@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
 #include "vpm/photon/thinning.h"
@@ -124,6 +125,37 @@ TEST(ThinFlights, KeepsAllWhereTheyAreFew) {
     ASSERT_EQ(by_medium[0].size(), 1u);
     EXPECT_EQ(by_medium[0][0].power, Rgb(2.0f));
   }
+}
+
+// Beams are cut where that makes boxes smaller, and no more finely. Leaves are full: 704 bytes of 16 pieces each, and
+// 24 of their box and those above.
+TEST(PhotonBeamMap, CutsLongBeamsOnly) {
+  constexpr int kBeams = 16384;
+  const auto leaves = [](Bundle bundle, float radius) {
+    return static_cast<double>(PhotonBeamMap(beams_of(bundle, kBeams), radius, 1.0f).memory_bytes()) / (704 + 26);
+  };
+  EXPECT_NEAR(leaves(Bundle::short_ones, 1e-4f), kBeams / 16, 8);
+  EXPECT_NEAR(leaves(Bundle::scattered, 1.0f), kBeams / 16, 8);
+  EXPECT_NEAR(leaves(Bundle::scattered, 1e-4f), 2 * kBeams / 16, 16);
+  EXPECT_NEAR(leaves(Bundle::far, 1e-4f), 8 * kBeams / 16, 64);
+}
+
+TEST(PhotonBeamMap, IsTheSameOnAnyNumberOfThreads) {
+  const std::vector<PhotonBeam> all = beams_of(Bundle::scattered, 50'000);
+  const auto found = [&](int threads) {
+    set_threads(threads);
+    const PhotonBeamMap map(all, 0.01f, 1.0f);
+    std::vector<float> numbers;
+    map.visit_crossings({Vec3(0.1f), glm::normalize(Vec3(1.0f, 2.0f, 3.0f))}, {0.0f, 1.0f}, [&](const auto& crossings) {
+      for (const float* values : {crossings.t, crossings.s, crossings.distance2, crossings.r})
+        numbers.insert(numbers.end(), values, values + crossings.size);
+    });
+    return numbers;
+  };
+  const std::vector<float> on_one = found(1), on_two = found(2);
+  set_threads(0);
+  EXPECT_GT(on_one.size(), 1000u);
+  EXPECT_EQ(on_one, on_two);
 }
 
 TEST(PhotonBeamMap, OfNoBeamsFindsNone) {

@@ -69,6 +69,7 @@ void measure_transmittance(Bench&, const Sizes&);
 void measure_radius(Bench&, const Sizes&);
 void measure_nearest(Bench&, const Sizes&);
 void measure_build(Bench&, const Sizes&);
+void measure_beams(Bench&, const Sizes&);
 void measure_scaling(Bench&, const Sizes&);
 void measure_emission(Bench&, const Sizes&);
 void measure_scattering(Bench&, const Sizes&);

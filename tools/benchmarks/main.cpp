@@ -19,6 +19,7 @@ constexpr Subject kSubjects[] = {
     {"radius", "about 50 photons within a fixed radius", measure_radius},
     {"nearest", "the 50 nearest photons", measure_nearest},
     {"build", "building photon maps", measure_build},
+    {"beams", "photon beams that rays pass, with building their map", measure_beams},
     {"scaling", "tracing, building and queries by the number of photons and of threads", measure_scaling},
     {"emission", "emitting a photon, by kind of light", measure_emission},
     {"scattering", "scattering a photon from a surface, by material", measure_scattering}};

@@ -2,90 +2,143 @@
 #include "vpm/photon/photon_beam_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "vpm/base/parallel.h"
+#include "vpm/photon/leaf_order.h"
 
 namespace vpm {
 namespace {
 
-constexpr float kShortest = 8.0f;   // a piece, in radii: the box around a shorter one is no emptier
-constexpr size_t kMostPieces = 8;   // in the mean over the beams, and less than one more
-constexpr size_t kChunk = 1 << 13;  // beams or pieces one thread takes at once
+constexpr size_t kMostPieces = 9;    // in the mean over the beams
+constexpr size_t kSample = 1 << 12;  // beams that tell how dense all are, at least
+constexpr size_t kChunk = 1 << 13;   // beams or pieces one thread takes at once
 
 /// How many pieces a beam is cut into, so that none is longer than `longest`, m.
 size_t pieces_of(const PhotonBeam& beam, double longest) {
   return static_cast<size_t>(std::max(1.0, std::ceil(double{beam.length} / longest)));
 }
 
-double total_length(const std::vector<PhotonBeam>& beams) {
-  double sum = 0.0;
-  for (const PhotonBeam& beam : beams) sum += double{beam.length};
+size_t pieces_of_all(const std::vector<PhotonBeam>& beams, double longest) {
+  size_t sum = 0;
+  for (const PhotonBeam& beam : beams) sum += pieces_of(beam, longest);
   return sum;
+}
+
+/// The least length of pieces, m, not below `shortest`, that makes at most `most` of them, a number not below that of
+/// the beams: by halving an interval, to a thousandth or so.
+double piece_length(const std::vector<PhotonBeam>& beams, double shortest, size_t most) {
+  if (pieces_of_all(beams, shortest) <= most) return shortest;
+  double sum = 0.0, largest = 0.0;
+  for (const PhotonBeam& beam : beams) {
+    sum += double{beam.length};
+    largest = std::max(largest, double{beam.length});
+  }
+  // Pieces are no fewer than sum / length, and no more than that and the beams.
+  double lo = std::max(shortest, sum / static_cast<double>(most));
+  double hi = std::min(largest, sum / static_cast<double>(most - beams.size()));
+  for (int i = 0; i < 10; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    (pieces_of_all(beams, middle) <= most ? hi : lo) = middle;
+  }
+  return hi;
+}
+
+/// The edge of a cube that holds a leaf of uncut beams, where beams are as dense as within the middle half of their
+/// middles along each axis, m.
+double leaf_edge(const std::vector<PhotonBeam>& beams) {
+  std::vector<float> places;
+  double volume = 1.0;  // m^3, of an eighth of the beams
+  for (int axis = 0; axis < 3; ++axis) {
+    places.clear();
+    for (size_t i = 0; i < beams.size(); i += 1 + beams.size() / kSample)
+      places.push_back(beams[i].origin[axis] + 0.5f * beams[i].length * beams[i].direction[axis]);
+    std::sort(places.begin(), places.end());
+    volume *= double{places[3 * places.size() / 4]} - double{places[places.size() / 4]};
+  }
+  return std::cbrt(8.0 * kBlock * volume / static_cast<double>(beams.size()));
+}
+
+/// The length that no beam is cut below, m: boxes around leaves of shorter pieces are hardly smaller, as radii and
+/// distances between the pieces remain.
+double shortest_piece(const std::vector<PhotonBeam>& beams, float radius) {
+  return std::max(8.0 * double{radius}, 2.5 * leaf_edge(beams));
+}
+
+/// How many leaves: the largest power of 2 that pieces fill, as half empty leaves cost as much as full ones.
+size_t leaves_of(const std::vector<PhotonBeam>& beams, double shortest) {
+  const size_t most = std::min(kMostPieces * beams.size(), pieces_of_all(beams, shortest));
+  return std::bit_floor(std::max(std::bit_ceil(chunk_count(beams.size(), kBlock)), most / kBlock));
+}
+
+struct Piece {
+  float half;     // of its length, m
+  float from;     // of its middle from the beam's origin, m
+  uint32_t beam;  // its number
+};
+
+Vec3 middle_of(const Piece& piece, const PhotonBeam& beam) {
+  return Vec3(Vec3d(beam.origin) + double{piece.from} * Vec3d(beam.direction));
+}
+
+std::vector<Piece> cut(const std::vector<PhotonBeam>& beams, double longest) {
+  std::vector<size_t> first(beams.size() + 1, 0);
+  for (size_t i = 0; i < beams.size(); ++i) first[i + 1] = first[i] + pieces_of(beams[i], longest);
+  std::vector<Piece> pieces(first.back());
+  parallel_for_chunks(beams.size(), kChunk, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      const double half = 0.5 * double{beams[i].length} / static_cast<double>(first[i + 1] - first[i]);
+      for (size_t p = first[i]; p < first[i + 1]; ++p)
+        pieces[p] = {static_cast<float>(half), static_cast<float>(half * static_cast<double>(2 * (p - first[i]) + 1)),
+                     static_cast<uint32_t>(i)};
+    }
+  });
+  return pieces;
+}
+
+/// The leaves of the pieces' middles.
+LeafOrder sort_pieces(const std::vector<Piece>& pieces, const std::vector<PhotonBeam>& beams) {
+  std::vector<Vec3> middles(pieces.size());
+  parallel_for_chunks(pieces.size(), kChunk, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) middles[i] = middle_of(pieces[i], beams[pieces[i].beam]);
+  });
+  return sort_into_leaves(middles, kBlock);
+}
+
+/// The box around the perpendiculars to a piece, no longer than a radius: so far they reach along each axis, and a hair
+/// more for rounding.
+Box box_around(const Vec3& middle, const Vec3& direction, float half, float radius) {
+  const Vec3 along = half * glm::abs(direction);
+  const Vec3 across = radius * glm::sqrt(glm::max(Vec3(0.0f), Vec3(1.0f) - direction * direction));
+  const Vec3 reach = 1.0001f * (along + across) + 1e-4f * radius;
+  return {middle - reach, middle + reach};
 }
 
 }  // namespace
 
 PhotonBeamMap::PhotonBeamMap(const std::vector<PhotonBeam>& beams, float radius, float scale)
     : size_(beams.size()), radius_(radius) {
-  if (!beams.empty()) cut(beams, scale);
-}
-
-void PhotonBeamMap::cut(const std::vector<PhotonBeam>& beams, float scale) {
-  const double longest = std::max(double{kShortest} * double{radius_},
-                                  total_length(beams) / static_cast<double>(kMostPieces * beams.size()));
-  std::vector<size_t> first(beams.size() + 1, 0);
-  for (size_t i = 0; i < beams.size(); ++i) first[i + 1] = first[i] + pieces_of(beams[i], longest);
-  pieces_ = first.back();
-  std::vector<Vec3> middles(pieces_);
-  std::vector<uint32_t> owner(pieces_);
-  const auto half_of = [&](size_t beam) {
-    return 0.5 * double{beams[beam].length} / static_cast<double>(first[beam + 1] - first[beam]);
-  };
-  const auto from_of = [&](size_t piece) {
-    return half_of(owner[piece]) * static_cast<double>(2 * (piece - first[owner[piece]]) + 1);
-  };
-  parallel_for_chunks(beams.size(), kChunk, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i)
-      for (size_t piece = first[i]; piece < first[i + 1]; ++piece) {
-        owner[piece] = static_cast<uint32_t>(i);
-        middles[piece] = Vec3(Vec3d(beams[i].origin) + from_of(piece) * Vec3d(beams[i].direction));
-      }
-  });
-  const LeafOrder tree = sort_into_leaves(middles, kLeaf);
-  leaves_ = tree.leaves;
-  for (std::vector<float>* values : {&x_, &y_, &z_, &dx_, &dy_, &dz_, &half_, &from_, &r_, &g_, &b_})
-    values->assign(pieces_ + kBlock, 0.0f);
-  beam_.resize(pieces_);
-  parallel_for_chunks(pieces_, kChunk, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) {
-      const uint32_t piece = tree.order[i], beam = owner[piece];
-      const Vec3 middle = middles[piece], direction = beams[beam].direction;
-      beam_[i] = beam;
-      x_[i] = middle.x;
-      y_[i] = middle.y;
-      z_[i] = middle.z;
-      dx_[i] = direction.x;
-      dy_[i] = direction.y;
-      dz_[i] = direction.z;
-      half_[i] = static_cast<float>(half_of(beam));
-      from_[i] = static_cast<float>(from_of(piece));
-      const Rgb power = scale * beams[beam].power;
-      r_[i] = power.r;
-      g_[i] = power.g;
-      b_[i] = power.b;
-    }
-  });
-  boxes_ = BoxTree(leaves_, [&](size_t leaf) {
+  if (beams.empty()) return;
+  const double shortest = shortest_piece(beams, radius);
+  const std::vector<Piece> pieces = cut(beams, piece_length(beams, shortest, kBlock * leaves_of(beams, shortest)));
+  const LeafOrder tree = sort_pieces(pieces, beams);
+  leaves_.resize(tree.leaves);
+  owners_.resize(tree.leaves);
+  boxes_ = BoxTree(tree.leaves, [&](size_t number) {
+    Leaf& leaf = leaves_[number];
+    Owners& owners = owners_[number];
+    std::fill_n(leaf.half, kBlock, -1.0f);
     Box box;
-    for (size_t i = leaf_begin(pieces_, leaves_, leaf); i < leaf_begin(pieces_, leaves_, leaf + 1); ++i) {
-      const Vec3 middle(x_[i], y_[i], z_[i]), direction(dx_[i], dy_[i], dz_[i]);
-      // Perpendiculars to the piece reach that far along each axis, and a hair more for rounding.
-      const Vec3 along = half_[i] * glm::abs(direction);
-      const Vec3 across = radius_ * glm::sqrt(glm::max(Vec3(0.0f), Vec3(1.0f) - direction * direction));
-      const Vec3 reach = 1.0001f * (along + across) + 1e-4f * radius_;
-      box.add(middle - reach);
-      box.add(middle + reach);
+    const size_t begin = leaf_begin(pieces.size(), tree.leaves, number);
+    const size_t end = leaf_begin(pieces.size(), tree.leaves, number + 1);
+    for (size_t i = 0; i < end - begin; ++i) {
+      const Piece& piece = pieces[tree.order[begin + i]];
+      const PhotonBeam& beam = beams[piece.beam];
+      const Vec3 middle = middle_of(piece, beam);
+      leaf.put(i, middle, beam.direction, piece.half);
+      owners.put(i, scale * beam.power, piece.from, piece.beam);
+      box.add(box_around(middle, beam.direction, piece.half, radius));
     }
     return box;
   });
@@ -95,9 +148,26 @@ void PhotonBeamMap::cut(const std::vector<PhotonBeam>& beams, float scale) {
   }
 }
 
+void PhotonBeamMap::Leaf::put(size_t i, const Vec3& middle, const Vec3& direction, float half_length) {
+  x[i] = middle.x;
+  y[i] = middle.y;
+  z[i] = middle.z;
+  dx[i] = direction.x;
+  dy[i] = direction.y;
+  dz[i] = direction.z;
+  half[i] = half_length;
+}
+
+void PhotonBeamMap::Owners::put(size_t i, const Rgb& power, float from_origin, uint32_t number) {
+  beam[i] = number;
+  from[i] = from_origin;
+  r[i] = power.r;
+  g[i] = power.g;
+  b[i] = power.b;
+}
+
 size_t PhotonBeamMap::memory_bytes() const {
-  return sizeof(*this) + boxes_.memory_bytes() + 11 * x_.capacity() * sizeof(float) +
-         beam_.capacity() * sizeof(uint32_t);
+  return sizeof(*this) + boxes_.memory_bytes() + leaves_.capacity() * (sizeof(Leaf) + sizeof(Owners));
 }
 
 }  // namespace vpm

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "vpm/base/below.h"
 #include "vpm/base/count.h"
 #include "vpm/photon/box_tree.h"
-#include "vpm/photon/leaf_order.h"
 #include "vpm/photon/photon_beam.h"
 
 namespace vpm {
@@ -44,35 +44,41 @@ class PhotonBeamMap {
   size_t memory_bytes() const;
 
  private:
-  static constexpr uint32_t kLeaf = kBlock;  // pieces of a leaf, at most
+  /// The pieces of a leaf; those that a leaf lacks have a length below 0 and are never met.
+  struct alignas(64) Leaf {
+    float x[kBlock], y[kBlock], z[kBlock];     // of their middles, m
+    float dx[kBlock], dy[kBlock], dz[kBlock];  // direction, unit
+    float half[kBlock];                        // of their lengths, m
 
+    void put(size_t i, const Vec3& middle, const Vec3& direction, float half_length);
+  };
+  /// The beams that the pieces of a leaf are of.
+  struct alignas(64) Owners {
+    float from[kBlock];                     // of the pieces' middles from the beam's origin, m
+    float r[kBlock], g[kBlock], b[kBlock];  // the beam's power, W
+    uint32_t beam[kBlock];                  // its number
+
+    void put(size_t i, const Rgb& power, float from_origin, uint32_t number);
+  };
   /// The axes across a ray and along it.
   struct Frame {
     Vec3 right, up, along;
   };
-  /// Finds which pieces from that place on the ray passes closely: 0 for these in `missed`, 1 for others.
-  void test(size_t place, const Ray& ray, const Frame& frame, const Interval& interval, float* missed) const;
+  /// Finds which pieces of a leaf the ray passes closely: 0 for these in `missed`, 1 for others.
+  void test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval, float* missed) const;
   void cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame, BeamCrossings& found) const;
-  void cut(const std::vector<PhotonBeam>& beams, float scale);
 
   size_t size_ = 0;
   float radius_ = 0.0f;  // m
-  // The pieces, leaf by leaf, with kBlock further ones so that whole blocks can be read.
-  size_t pieces_ = 0, leaves_ = 1;
-  std::vector<float> x_, y_, z_;     // of their middles, m
-  std::vector<float> dx_, dy_, dz_;  // direction, unit
-  std::vector<float> half_;          // of their lengths, m
-  std::vector<float> from_;          // of their middles from the beam's origin, m
-  std::vector<float> r_, g_, b_;     // the beam's power, W
-  std::vector<uint32_t> beam_;       // its number
+  std::vector<Leaf> leaves_;
+  std::vector<Owners> owners_;
   BoxTree boxes_;
   Box bounds_;
 };
 
-inline void PhotonBeamMap::test(size_t place, const Ray& ray, const Frame& frame, const Interval& interval,
+inline void PhotonBeamMap::test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval,
                                 float* missed) const {
-  const float *px = &x_[place], *py = &y_[place], *pz = &z_[place];
-  const float *dx = &dx_[place], *dy = &dy_[place], *dz = &dz_[place], *half = &half_[place];
+  const auto& [px, py, pz, dx, dy, dz, half] = leaf;
   const auto [right, up, along] = frame;
   const auto [t0, t1] = interval;
   const Vec3 o = ray.origin;
@@ -98,25 +104,33 @@ inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray
                                  BeamCrossings& found) const {
   const auto [right, up, along] = frame;
   for (size_t i = 0; i < count; ++i) {
-    const uint32_t p = pieces[i];
-    const Vec3 middle = Vec3(x_[p], y_[p], z_[p]) - ray.origin, d(dx_[p], dy_[p], dz_[p]);
+    const Leaf& leaf = leaves_[pieces[i] / kBlock];
+    const Owners& of = owners_[pieces[i] / kBlock];
+    const uint32_t p = pieces[i] % kBlock;
+    found.x[i] = leaf.x[p] - ray.origin.x;
+    found.y[i] = leaf.y[p] - ray.origin.y;
+    found.z[i] = leaf.z[p] - ray.origin.z;
+    found.dx[i] = leaf.dx[p];
+    found.dy[i] = leaf.dy[p];
+    found.dz[i] = leaf.dz[p];
+    found.s[i] = of.from[p];
+    found.r[i] = of.r[p];
+    found.g[i] = of.g[p];
+    found.b[i] = of.b[p];
+    found.beam[i] = of.beam[p];
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 middle(found.x[i], found.y[i], found.z[i]), d(found.dx[i], found.dy[i], found.dz[i]);
     const float a = glm::dot(middle, right), b = glm::dot(middle, up), da = glm::dot(d, right), db = glm::dot(d, up);
     const float sine2 = da * da + db * db, across = a * db - b * da, s = -(a * da + b * db) / sine2;
     const Vec3 place = middle + s * d;
-    found.beam[i] = beam_[p];
     found.t[i] = glm::dot(place, along);
-    found.s[i] = from_[p] + s;
+    found.s[i] += s;
     found.distance2[i] = across * across / sine2;
     found.sine[i] = std::sqrt(sine2);
     found.x[i] = place.x;
     found.y[i] = place.y;
     found.z[i] = place.z;
-    found.dx[i] = d.x;
-    found.dy[i] = d.y;
-    found.dz[i] = d.z;
-    found.r[i] = r_[p];
-    found.g[i] = g_[p];
-    found.b[i] = b_[p];
   }
   found.size = count;
 }
@@ -137,13 +151,11 @@ uint32_t PhotonBeamMap::visit_crossings(const Ray& ray, const Interval& interval
     count_found = 0;
   };
   boxes_.visit_leaves(ray, interval, [&](uint32_t leaf) {
-    const size_t begin = leaf_begin(pieces_, leaves_, leaf), end = leaf_begin(pieces_, leaves_, leaf + 1);
     float missed[kBlock];
-    test(begin, ray, frame, interval, missed);
-    const auto number = static_cast<uint32_t>(end - begin);
-    count_found += append_below(missed, number, 0.5f, static_cast<uint32_t>(begin), unused, pieces + count_found);
+    test(leaves_[leaf], ray, frame, interval, missed);
+    count_found += append_below(missed, kBlock, 0.5f, leaf * kBlock, unused, pieces + count_found);
     if (count_found > BeamCrossings::kMost - kBlock) use();
-    count(visited, number);
+    count(visited, kBlock);
   });
   if (count_found > 0) use();
   return visited;

@@ -1,0 +1,142 @@
+// Photon beams that pass the rays of a camera: the search of one pass, with building what is searched.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "benchmarks/beam_peers.h"
+#include "benchmarks/bench.h"
+#include "vpm/base/stopwatch.h"
+#include "vpm/photon/photon_beam_map.h"
+
+namespace vpm::bench {
+namespace {
+
+constexpr double kTarget = 2.0, kTolerance = 1e-4;
+
+struct Problem {
+  const char* name;
+  float sigma_t;  // 1/m
+  float radius;   // m
+};
+constexpr Problem kProblems[] = {
+    {"thick fog, half a pixel", 10.0f, 0.0015f}, {"thick fog, wide", 10.0f, 0.006f}, {"thin fog", 0.5f, 0.0015f}};
+
+Crossings cross(const PhotonBeamMap& map, float radius, const std::vector<EyeRay>& rays) {
+  const float inverse = 1.0f / (radius * radius);
+  return sum_over_rays(rays.size(), 1, [&](size_t i) {
+    Crossings all;
+    map.visit_crossings(rays[i].ray, rays[i].interval, [&](const BeamCrossings& found) {
+      all.count += found.size;
+      for (size_t k = 0; k < found.size; ++k)
+        all.sum += double{found.g[k] * (1.0f - found.distance2[k] * inverse) / found.sine[k]};
+    });
+    return all;
+  });
+}
+
+/// What is asked of every index.
+struct Pass {
+  const std::vector<PhotonBeam>& beams;
+  const std::vector<PhotonBeam>& pieces;  // of the beams
+  const std::vector<EyeRay>& rays;
+  float radius;  // m
+};
+
+/// Embree's index of the beams, or of their pieces.
+struct Peer {
+  const char* name;
+  EmbreeBeams kind;
+  bool cut;
+};
+constexpr Peer kPeers[] = {{"Embree, user geometry by 16 rays, beams", EmbreeBeams::user_packets, false},
+                           {"Embree, user geometry by 16 rays, pieces", EmbreeBeams::user_packets, true},
+                           {"Embree, user geometry, beams", EmbreeBeams::user_geometry, false},
+                           {"Embree, user geometry, pieces", EmbreeBeams::user_geometry, true},
+                           {"Embree, flat curves, beams", EmbreeBeams::flat_curves, false},
+                           {"Embree, flat curves, pieces", EmbreeBeams::flat_curves, true}};
+
+std::function<double()> ours(const Pass& pass, int threads) {
+  return [=] {
+    set_threads(threads);
+    return cross(PhotonBeamMap(pass.beams, pass.radius, 1.0f), pass.radius, pass.rays).sum;
+  };
+}
+
+std::function<double()> theirs(const Pass& pass, const Peer& peer, int threads) {
+  return [=] {
+    set_threads(threads);
+    return make_embree_beams(peer.kind, peer.cut ? pass.pieces : pass.beams, pass.radius, threads)
+        ->cross(pass.rays)
+        .sum;
+  };
+}
+
+/// How the time of a pass is spent on one thread. Throws where others find something else.
+void note_parts(Bench& bench, const Pass& pass, const std::vector<Peer>& peers) {
+  const Stopwatch building;
+  const PhotonBeamMap map(pass.beams, pass.radius, 1.0f);
+  const double built = building.seconds();
+  const Crossings found = cross(map, pass.radius, pass.rays);
+  bench.note("vpm, PhotonBeamMap, building", built, "s");
+  bench.note("vpm, PhotonBeamMap, asking", building.seconds() - built, "s");
+  bench.note("vpm, PhotonBeamMap, memory", static_cast<double>(map.memory_bytes()) / static_cast<double>(map.size()),
+             "bytes/beam");
+  const auto of_rays = static_cast<double>(pass.rays.size()), of_all = static_cast<double>(found.count);
+  bench.note("crossings of a ray", of_all / of_rays, "");
+  for (const Peer& peer : peers) {
+    const Stopwatch peer_building;
+    const auto index = make_embree_beams(peer.kind, peer.cut ? pass.pieces : pass.beams, pass.radius, 1);
+    const double peer_built = peer_building.seconds();
+    const Crossings peer_found = index->cross(pass.rays);
+    const std::string name = peer.name;
+    bench.note(name + ", building", peer_built, "s");
+    bench.note(name + ", asking", peer_building.seconds() - peer_built, "s");
+    const double more = static_cast<double>(peer_found.count) / of_all - 1.0,
+                 brighter = peer_found.sum / found.sum - 1.0;
+    bench.note(name + ", crossings found beyond ours", more, "of all");
+    bench.note(name + ", their sum beyond ours", brighter, "of all");
+    if (std::max(std::abs(more), std::abs(brighter)) > kTolerance)
+      throw std::runtime_error(name + " finds other beams");
+  }
+}
+
+void measure_problem(Bench& bench, const Problem& problem, size_t count) {
+  const Scene scene = foggy_room(problem.sigma_t);
+  Stopwatch tracing;
+  const std::vector<PhotonBeam> beams = room_beams(scene, count);
+  fmt::print("\n{}, radius {} m\n", problem.name, problem.radius);
+  bench.note("tracing, on one thread", tracing.seconds(), "s");
+  const std::vector<EyeRay> rays = room_rays(scene);
+  double length = 0.0;
+  for (const PhotonBeam& beam : beams) length += double{beam.length};
+  const double mean = length / static_cast<double>(count);
+  bench.note("mean length of a beam", mean, "m");
+  const std::vector<PhotonBeam> pieces = cut_beams(beams, std::max(8.0 * double{problem.radius}, mean / 2.0));
+  const Pass pass{beams, pieces, rays, problem.radius};
+  // The quickest of Embree's are compared, all others asked once. Where beams are long, the others take minutes.
+  std::vector<Peer> quickest(kPeers, kPeers + 2), all(std::begin(kPeers), std::end(kPeers));
+  if (mean > 0.2) all = quickest = {kPeers[1]};
+  note_parts(bench, pass, all);
+  for (const int threads : {1, 2}) {
+    Comparison comparison{fmt::format("Photon beams, {}, threads: {}", problem.name, threads),
+                          "pass",
+                          1.0,
+                          kTolerance,
+                          Clock::wall,
+                          {{"vpm, PhotonBeamMap", ours(pass, threads)}}};
+    for (const Peer& peer : quickest)
+      comparison.alternatives.push_back({peer.name, theirs(pass, peer, threads), kTarget});
+    bench.compare(comparison);
+  }
+  set_threads(1);
+}
+
+}  // namespace
+
+void measure_beams(Bench& bench, const Sizes& sizes) {
+  for (const Problem& problem : kProblems) measure_problem(bench, problem, std::min<size_t>(sizes.photons, 1'000'000));
+}
+
+}  // namespace vpm::bench
