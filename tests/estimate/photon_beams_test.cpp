@@ -45,7 +45,7 @@ struct Crossed {
 /// Crosses the ray at x = 1.2 m, 0.04 m beside it, 0.5 m from the beam's origin, at an angle of 30 degrees.
 PhotonBeam slanted(float length) {
   const Vec3 direction(std::cos(kPi / 6), std::sin(kPi / 6), 0.0f);
-  return {Vec3(1.2f, 0.0f, 0.04f) - 0.5f * direction, length, direction, Rgb(3.0f, 2.0f, 1.0f), {}, 0.0f};
+  return {Vec3(1.2f, 0.0f, 0.04f) - 0.5f * direction, length, direction, Rgb(3.0f, 2.0f, 1.0f)};
 }
 
 /// The share of light that comes from beams rather than from collisions, by integrals of squared kernels.

@@ -90,7 +90,8 @@ TEST(PlaneRecorder, RecordsEveryFlightThroughWhatScatters) {
   constexpr int kFlights = 4000;
   for (int i = 0; i < kFlights; ++i)
     for (const EventKind kind : {EventKind::collision, EventKind::surface, EventKind::escape}) {
-      const Event event{.kind = kind};
+      Event event;
+      event.kind = kind;
       recorder.flew(along, {0, state, event, true, true, false, turn}, rng);
       cosines += static_cast<double>(recorder.planes[0].back().scattered.x);
     }

@@ -15,8 +15,8 @@ struct PhotonBeam {
   Vec3 direction{0.0f};  // in which the photon travels, unit
   Rgb power{0.0f};       // of the photon at the origin, W
   // If it is recorded that the flight began at a collision, not at a light or a surface:
-  PackedDirection turned_from;   // the direction before it
-  float scattering_rate = 0.0f;  // the scattering coefficient there, the mean of its channels, 1/m; otherwise 0
+  PackedDirection turned_from{};  // the direction before it
+  float scattering_rate = 0.0f;   // the scattering coefficient there, the mean of its channels, 1/m; otherwise 0
 };
 static_assert(sizeof(PhotonBeam) <= 48);
 

@@ -88,7 +88,7 @@ struct Fluences {
 };
 
 Fluences estimate_fluences(const Scene& scene, const DistanceStrategy& strategy, const Mat4d& to_index, Rng& rng) {
-  BeamRecorder flights(scene, any_photon);
+  BeamRecorder flights(scene, any_photon, {});
   CollisionRecorder points(scene, VolumeForm::density_at_query, {0.0f, false}, any_photon);
   TraceSettings settings;
   settings.seed = rng.bits();
