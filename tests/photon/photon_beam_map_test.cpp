@@ -127,12 +127,12 @@ TEST(ThinFlights, KeepsAllWhereTheyAreFew) {
   }
 }
 
-// Beams are cut where that makes boxes smaller, and no more finely. Leaves are full: 704 bytes of 16 pieces each, and
+// Beams are cut where that makes boxes smaller, and no more finely. Leaves are full: 768 bytes of 16 pieces each, and
 // 24 of their box and those above.
 TEST(PhotonBeamMap, CutsLongBeamsOnly) {
   constexpr int kBeams = 16384;
   const auto leaves = [](Bundle bundle, float radius) {
-    return static_cast<double>(PhotonBeamMap(beams_of(bundle, kBeams), radius, 1.0f).memory_bytes()) / (704 + 26);
+    return static_cast<double>(PhotonBeamMap(beams_of(bundle, kBeams), radius, 1.0f).memory_bytes()) / (768 + 26);
   };
   EXPECT_NEAR(leaves(Bundle::short_ones, 1e-4f), kBeams / 16, 8);
   EXPECT_NEAR(leaves(Bundle::scattered, 1.0f), kBeams / 16, 8);
