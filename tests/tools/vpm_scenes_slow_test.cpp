@@ -20,6 +20,7 @@ struct FileSource {
   std::string scene, key, command, name;  // `vpm command name`; no command: the file of that name
 };
 const std::vector<FileSource> kFiles{{"smoke", "media.smoke.path", "media", "smoke"},
+                                     {"plume_room", "media.smoke.path", "media", "smoke"},
                                      {"cloud", "media.cloud.path", "media", "cloud"},
                                      {"ring_caustic", "shapes.ring.path", "mesh", "ring"},
                                      {"pool", "shapes.water.path", "mesh", "waves"},

@@ -15,6 +15,7 @@ Case = collections.namedtuple("Case", "group name arguments may_refuse")
 
 # What vpm makes for the scenes: the key that names it, and the file.
 MADE = {"smoke": ("media.smoke.path", "smoke.vdb"), "cloud": ("media.cloud.path", "cloud.vdb"),
+        "plume_room": ("media.smoke.path", "smoke.vdb"),
         "ring_caustic": ("shapes.ring.path", "ring.ply"), "pool": ("shapes.water.path", "waves.ply"),
         "street_lamp": ("shapes.pole.path", "pole.ply")}
 
