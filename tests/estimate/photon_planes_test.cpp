@@ -1,4 +1,4 @@
-// Photon planes met by a ray: one plane by hand, alone and beside beams; what stands in its way.
+// Photon planes met by a ray: one plane by hand, alone and beside beams; what stands in its way; and beams beside it.
 #include "vpm/estimate/volume/photon_planes.h"
 
 #include <gtest/gtest.h>
@@ -10,37 +10,45 @@ namespace vpm {
 namespace {
 
 constexpr float kPlaneRadius = 0.1f;  // m
-const Vec3 kEye(1.0f, 0.0f, 0.0f);
+const Vec3 kEye(1.0f, 0.0f, 0.0f), kCrossing(1.0f, 0.0f, 0.0f);
+const Rgb kPower(3.0f, 2.0f, 1.0f);
 
-/// The world of a medium; an opaque or a merely dividing square at x = 1 m may stand in it.
+/// The plane that the estimator makes of a flight: its ray meets the one along x at x = 1 m, 0.6 m after a collision
+/// that is 0.5 m along the flight.
+PhotonPlane one_plane(const Medium& medium, float length) {
+  const Vec3 direction = glm::normalize(Vec3(0.3f, 0.4f, 0.5f));
+  Rng rng(1, rng_stream(RngUse::plane, 0), 0);
+  const Vec3 scattered = phase_sample(medium.phase, direction, rng.uniform2());
+  return {kCrossing - 0.6f * scattered - 0.5f * direction, length, direction, scattered, kPower, 0};
+}
+
+/// The world of a medium. Half way between the collision and the crossing may stand an opaque cube, or a mere boundary.
 enum class Between { nothing, wall, boundary };
 Scene world_of(const Medium& medium, Between between) {
   Scene scene;
   scene.media.push_back(medium);
   scene.world_medium = 0;
   scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  const auto square = box_mesh(Vec3d(0.9, 0.2, -1.0), Vec3d(1.1, 0.3, 1.0));
+  const Vec3d middle = Vec3d(kCrossing) - 0.3 * Vec3d(one_plane(medium, 1.0f).scattered);
+  const auto cube = box_mesh(middle - Vec3d(0.1), middle + Vec3d(0.1));
   const Interface media{0, 0};
-  if (between == Between::wall) add_shape(scene, square, Lambertian{Rgb(0.5f)}, &media);
-  if (between == Between::boundary) add_shape(scene, square, Boundary{}, &media);
+  if (between == Between::wall) add_shape(scene, cube, Lambertian{Rgb(0.5f)}, &media);
+  if (between == Between::boundary) add_shape(scene, cube, Boundary{}, &media);
   scene.geometry.commit();
   finish(scene);
   return scene;
 }
 
-/// Meets the ray along x at x = 1 m: 0.5 m along a flight that comes from below, then 0.6 m along its scattered light.
-PhotonPlane one_plane(float length) {
-  const Vec3 scattered = glm::normalize(Vec3(0.1f, -1.0f, 0.3f)), direction = glm::normalize(Vec3(0.3f, 0.4f, 0.5f));
-  const Vec3 crossing(1.0f, 0.0f, 0.0f);
-  return {crossing - 0.6f * scattered - 0.5f * direction, length, direction, scattered, Rgb(3.0f, 2.0f, 1.0f)};
-}
-
-Rgb light_of(const Scene& scene, const PhotonPlane& plane, bool alone) {
+/// The light of a plane and of beams, if any.
+Rgb light_of(const Scene& scene, const PhotonPlane* plane, bool alone, const std::vector<PhotonBeam>& beams = {}) {
   VolumeMapSettings maps;
   maps.gather = {.mode = GatherMode::photon_planes, .radius = kPlaneRadius};
   PhotonPlanes estimator(scene, make_transmittance_estimator({}), {.beams = {.maps = maps}, .alone = alone});
   const Recorders recorders = estimator.recorders();
-  static_cast<PlaneRecorder*>(recorders.back())->planes[0] = {plane};
+  static_cast<BeamRecorder*>(recorders.front())->beams[0] = beams;
+  if (plane)
+    static_cast<BeamRecorder*>(recorders.back())->beams[0] = {
+        {plane->origin, plane->length, plane->direction, plane->power}};
   RenderStatistics statistics;
   estimator.build(1, statistics);
   EyeCounters counters;
@@ -51,14 +59,24 @@ Rgb light_of(const Scene& scene, const PhotonPlane& plane, bool alone) {
   return estimator.along(segment, work).value;
 }
 
-/// Its light, of all from planes, in a medium of that density everywhere.
-Rgb by_hand(const Medium& medium, const PhotonPlane& plane, float density) {
-  const Rgb sigma_s = medium.sigma_s * density, sigma_t = medium.sigma_t * density;
-  const float determinant = std::abs(glm::dot(plane.direction, glm::cross(plane.scattered, kEye)));
-  const Rgb come = glm::exp(-sigma_t * 0.5f);
+float determinant_of(const PhotonPlane& plane) {
+  return std::abs(glm::dot(plane.direction, glm::cross(plane.scattered, kEye)));
+}
+
+/// The light of a plane, of all from planes.
+Rgb by_hand(const Medium& medium, const PhotonPlane& plane) {
+  const Rgb come = glm::exp(-medium.sigma_t * 0.5f);
   const Rgb weight = come / glm::dot(plane.power / sum_channels(plane.power), come);
   const float phase = phase_value(medium.phase, plane.scattered, -kEye);
-  return plane.power * weight * sigma_s * sigma_s * glm::exp(-sigma_t * 1.6f) * phase / determinant;
+  return plane.power * weight * medium.sigma_s * medium.sigma_s * glm::exp(-medium.sigma_t * 1.6f) * phase /
+         determinant_of(plane);
+}
+
+/// The share of planes in light that beams find, too: in proportion to the densities with which the two cross the ray.
+float share_of_planes(const PhotonPlane& plane, float sigma_s) {
+  const float beams =
+      sigma_s * kernel_size_1d(KernelKind::epanechnikov, kPlaneRadius) * glm::length(glm::cross(plane.scattered, kEye));
+  return determinant_of(plane) / (determinant_of(plane) + beams);
 }
 
 TEST(PhotonPlanes, OnePlaneIsItsFactors) {
@@ -67,28 +85,64 @@ TEST(PhotonPlanes, OnePlaneIsItsFactors) {
     medium.sigma_s = Rgb(0.9f, 0.5f, 0.1f) * sigma_t;
     medium.phase = HenyeyGreenstein{0.4f};
     const Scene scene = world_of(medium, Between::nothing);
-    const Rgb found = light_of(scene, one_plane(0.51f), true), light = by_hand(medium, one_plane(0.51f), 1.0f);
+    const PhotonPlane plane = one_plane(medium, 0.51f), shorter = one_plane(medium, 0.49f);
+    const Rgb found = light_of(scene, &plane, true), light = by_hand(medium, plane);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 1e-4f * light[c]);
-    EXPECT_EQ(light_of(scene, one_plane(0.49f), true).g, 0.0f) << "the photon collides before";
+    EXPECT_EQ(light_of(scene, &shorter, true).g, 0.0f) << "the photon collides before";
   }
 }
 
 TEST(PhotonPlanes, ShareTheirLightWithBeams) {
   const Medium medium = make_medium(nullptr, Rgb(0.7f));
   const Scene scene = world_of(medium, Between::nothing);
-  const PhotonPlane plane = one_plane(0.51f);
-  const Rgb found = light_of(scene, plane, false), all = by_hand(medium, plane, 1.0f);
-  const float determinant = std::abs(glm::dot(plane.direction, glm::cross(plane.scattered, kEye)));
+  const PhotonPlane plane = one_plane(medium, 0.51f);
+  const Rgb found = light_of(scene, &plane, false), all = by_hand(medium, plane);
+  EXPECT_NEAR(found.g, all.g * share_of_planes(plane, medium.sigma_s.g), 1e-4f * all.g);
+}
+
+// The beam that begins where the plane's photon might have collided has the rest; all, if it began elsewhere.
+TEST(PhotonPlanes, LeaveTheRestToBeams) {
+  const Medium medium = make_medium(nullptr, Rgb(0.7f));
+  const Scene scene = world_of(medium, Between::nothing);
+  const PhotonPlane plane = one_plane(medium, 0.51f);
+  PhotonBeam beam{kCrossing - 0.6f * plane.scattered, 0.7f, plane.scattered, kPower};
   const float sine = glm::length(glm::cross(plane.scattered, kEye));
-  const float beams = medium.sigma_s.g * kernel_size_1d(KernelKind::epanechnikov, kPlaneRadius) * sine;
-  EXPECT_NEAR(found.g, all.g * determinant / (determinant + beams), 1e-4f * all.g);
+  const float all = kPower.g * medium.sigma_s.g * std::exp(-0.7f) *
+                    kernel_norm_1d(KernelKind::epanechnikov, kPlaneRadius) / (4.0f * kPi * sine);
+  beam.turned_from = PackedDirection(plane.direction);
+  beam.scattering_rate = medium.sigma_s.g;
+  EXPECT_NEAR(light_of(scene, nullptr, false, {beam}).g, all * (1.0f - share_of_planes(plane, medium.sigma_s.g)),
+              3e-4f * all);
+  beam.scattering_rate = 0.0f;
+  const BeamBalance balance{kernel_size_1d(KernelKind::epanechnikov, kPlaneRadius),
+                            kernel_size_2d(KernelKind::epanechnikov, kPlaneRadius), 1.0f};
+  EXPECT_NEAR(light_of(scene, nullptr, false, {beam}).g, all * sine * balance.of_beams_over_sine(sine, 0.7f),
+              1e-4f * all);
 }
 
 TEST(PhotonPlanes, DoNotPassWalls) {
   const Medium medium = make_medium(nullptr, Rgb(0.7f));
-  EXPECT_EQ(light_of(world_of(medium, Between::wall), one_plane(0.51f), true).g, 0.0f);
-  const Rgb light = by_hand(medium, one_plane(0.51f), 1.0f);
-  EXPECT_NEAR(light_of(world_of(medium, Between::boundary), one_plane(0.51f), true).g, light.g, 1e-4f * light.g);
+  const PhotonPlane plane = one_plane(medium, 0.51f);
+  EXPECT_EQ(light_of(world_of(medium, Between::wall), &plane, true).g, 0.0f);
+  const Rgb light = by_hand(medium, plane);
+  EXPECT_NEAR(light_of(world_of(medium, Between::boundary), &plane, true).g, light.g, 1e-4f * light.g);
+}
+
+// Where a ray lies along the light, or the medium ends, there is a share still.
+TEST(BeamBalance, SharesSumToOne) {
+  const BeamBalance balance{0.2f, 0.03f, 0.1f};
+  for (const float sine : {0.0f, 1e-6f, 0.3f, 1.0f})
+    for (const float sigma : {0.0f, 1e-3f, 5.0f}) {
+      const float collisions = balance.of_collisions(sine, sigma);
+      EXPECT_TRUE(collisions >= 0.0f && collisions <= 1.0f) << sine << " " << sigma;
+      if (sine == 0.0f) continue;
+      EXPECT_NEAR(sine * balance.of_beams_over_sine(sine, sigma) + collisions, 1.0f, 1e-6f);
+      if (sigma == 0.0f) continue;
+      for (const float volume : {1e-6f, 0.2f * sine, sine})
+        EXPECT_NEAR(sine * balance.of_beams_beside_planes_over_sine(sine, sigma, volume) +
+                        volume * balance.of_planes_over_determinant(sine, sigma, volume),
+                    1.0f, 1e-6f);
+    }
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
   settings.photons_stored = 50'000'000;  // tracing stops there
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
   settings.photons_stored = 0;
-  settings.photons_emitted = 10'000'000;  // 2e7 stored, 1.3 GB; as flights, of which there are more, at least 13 GB
+  settings.photons_emitted = 10'000'000;  // 2e7 stored, 1.3 GB; with flights, of which there are more, at least 12 GB
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
   settings.volume.mode = GatherMode::photon_beams;
   EXPECT_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9), InputError);

@@ -35,8 +35,9 @@ const Contradiction kContradictions[] = {
     {"photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
     {"photons.flights", [](S& s) { s.flights = 100; }},
     {"photons.planes", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.planes = 100; }},
+    {"photons.in_cube", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.photons_in_cube = 4; }},
     {"volume.planes", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.plane_use = PlaneUse::alone; }},
-    {"volume.beams", [](S& s) { s.volume.mode = GatherMode::beam, s.beam_length = BeamLength::whole; }},
+    {"volume.beams", [](S& s) { s.volume.mode = GatherMode::beam, s.beam_length = BeamLength::long_beams; }},
     {"distance.strategy",
      [](S& s) { s.volume.mode = GatherMode::photon_planes, s.distance.strategy = "mean-extinction"; }},
     {"distance.strategy",
@@ -87,9 +88,21 @@ const Contradiction kContradictions[] = {
 TEST(Validate, LongBeamsNeedAnEnd) {
   RenderSettings s;
   s.volume.mode = GatherMode::photon_beams;
-  s.beam_length = BeamLength::whole;
+  s.beam_length = BeamLength::long_beams;
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "volume.beams");
+  s.beam_length = BeamLength::short_beams;
+  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "");
+  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true, .endless_flights = true}), "volume.gather");
+}
+
+TEST(Validate, PlanesCastShadowRays) {
+  RenderSettings s;
+  s.surface_direct = DirectLight::photons;
+  s.transmittance.estimator = "ratio";
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "transmittance.estimator");
+  s.volume.mode = GatherMode::photon_planes;
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "");
 }
 
 // The default of volume.boundary goes with everything; and beams know all its words.
@@ -105,7 +118,8 @@ TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
           s.volume.boundary = rule;
           s.volume_form = form;
           s.photons_in_cube = in_cube;
-          const bool asks_merged = rule == BoundaryRule::corrected && !s.volume.along_rays() && in_cube > 0;
+          const bool asks_merged = in_cube > 0 && (s.volume.gathers_flights() ||
+                                                   (rule == BoundaryRule::corrected && !s.volume.along_rays()));
           if (!asks_merged) {
             EXPECT_NO_THROW(validate(s, {.scattering_media = true}));
           }

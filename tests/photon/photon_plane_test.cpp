@@ -1,4 +1,4 @@
-// Crossings of planes and rays against their brute-force twin, and what is recorded as a plane.
+// Crossings of planes and rays against their brute-force twin, and what planes are made of.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,15 +38,15 @@ Solution cross(const PhotonPlane& plane, const Ray& ray) {
 }
 
 TEST(PhotonPlaneList, FindsTheCrossingsOfEveryPlane) {
-  const std::vector<std::vector<PhotonPlane>> by_medium{any_planes(500), {}, any_planes(33)};
-  const PhotonPlaneList list(by_medium, 0.5f);
+  const std::vector<PhotonPlane> planes = any_planes(533);
+  const PhotonPlaneList list(planes);
   ASSERT_EQ(list.size(), 533u);
   int met = 0;
   for (uint64_t i = 0; i < 100; ++i) {
     Rng rng(8, rng_stream(RngUse::test, 22), i);
     const Ray ray{Vec3(rng.uniform(), rng.uniform(), rng.uniform()), uniform_sphere(rng.uniform2())};
     const Interval interval{0.0f, i % 3 == 0 ? kInfinity : 0.5f + rng.uniform()};
-    std::map<std::pair<MediumId, int>, int> found;
+    std::map<size_t, int> found;
     list.visit_crossings(ray, interval, [&](const PlaneCrossing& at) {
       const Solution exact = cross(at.plane, ray);
       const double error = 1e-5 / exact.volume;  // m, of floats
@@ -54,57 +54,44 @@ TEST(PhotonPlaneList, FindsTheCrossingsOfEveryPlane) {
       EXPECT_NEAR(at.beyond, exact.u, error * (1.0 + exact.u));
       EXPECT_NEAR(at.t, exact.t, error * (1.0 + exact.t));
       EXPECT_NEAR(at.determinant, exact.volume, 1e-5);
-      ++found[{at.medium, static_cast<int>(2.0f * at.plane.power.g) - 1}];
+      ++found[static_cast<size_t>(at.plane.power.g) - 1];
     });
-    for (MediumId m = 0; m < 3; ++m)
-      for (size_t p = 0; p < by_medium[m].size(); ++p) {
-        const Solution exact = cross(by_medium[m][p], ray);
-        const double inside = std::min({exact.s, double{by_medium[m][p].length} - exact.s, exact.u,
-                                        exact.t - double{interval.t0}, double{interval.t1} - exact.t});
-        const int times = found[{m, static_cast<int>(p)}];
-        met += times;
-        const double error = 1e-5 / exact.volume * (1.0 + std::abs(exact.s) + std::abs(exact.u) + std::abs(exact.t));
-        if (inside > error) {
-          EXPECT_EQ(times, 1) << m << " " << p;
-        } else if (inside < -error || p % 100 == 0) {
-          EXPECT_EQ(times, 0) << m << " " << p;
-        }
+    for (size_t p = 0; p < planes.size(); ++p) {
+      const Solution exact = cross(planes[p], ray);
+      const double inside = std::min({exact.s, double{planes[p].length} - exact.s, exact.u,
+                                      exact.t - double{interval.t0}, double{interval.t1} - exact.t});
+      met += found[p];
+      const double error = 1e-5 / exact.volume * (1.0 + std::abs(exact.s) + std::abs(exact.u) + std::abs(exact.t));
+      if (inside > error) {
+        EXPECT_EQ(found[p], 1) << p;
+      } else if (inside < -error || p % 100 == 0) {
+        EXPECT_EQ(found[p], 0) << p;
       }
+    }
   }
   EXPECT_GT(met, 1000);
 }
 
-// A flight becomes a plane whatever becomes of the photon; not where nothing scatters.
-TEST(PlaneRecorder, RecordsEveryFlightThroughWhatScatters) {
+// Every flight becomes a plane, in directions of its medium's phase function.
+TEST(PhotonPlane, IsAFlightWithADirection) {
   Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f)), PointLight{Vec3(0.0f), Rgb(1.0f)});
-  scene.media[0].phase = HenyeyGreenstein{0.9f};
-  Medium absorbing = make_medium(nullptr, Rgb(1.0f));
-  absorbing.sigma_s = Rgb(0.0f);
-  scene.media.push_back(absorbing);
-  PlaneRecorder recorder(scene);
-  const PathState state;
-  const Turn turn;
-  const Track along{{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, 0, 0.5f, 1.0f, Rgb(2.0f)};
+  scene.media.push_back(scene.media[0]);
+  scene.media[1].phase = HenyeyGreenstein{0.9f};
+  constexpr int kFlights = 10'000;
+  const PhotonBeam flight{Vec3(1.0f, 2.0f, 3.0f), 0.5f, Vec3(1.0f, 0.0f, 0.0f), Rgb(2.0f)};
   Rng rng(1, rng_stream(RngUse::test, 23), 0);
+  const std::vector<PhotonPlane> planes = planes_of({{flight}, std::vector(kFlights, flight)}, scene, 0.25f, rng);
+  ASSERT_EQ(planes.size(), size_t{kFlights} + 1);
   double cosines = 0.0;
-  constexpr int kFlights = 4000;
-  for (int i = 0; i < kFlights; ++i)
-    for (const EventKind kind : {EventKind::collision, EventKind::surface, EventKind::escape}) {
-      Event event;
-      event.kind = kind;
-      recorder.flew(along, {0, state, event, true, true, false, turn}, rng);
-      cosines += static_cast<double>(recorder.planes[0].back().scattered.x);
-    }
-  const Event event;
-  Track other = along;
-  other.medium = 1;
-  recorder.flew(other, {0, state, event, true, true, false, turn}, rng);
-  ASSERT_EQ(recorder.planes[0].size(), size_t{3 * kFlights});
-  EXPECT_TRUE(recorder.planes[1].empty());
-  EXPECT_EQ(recorder.planes[0][0].length, 0.5f);
-  EXPECT_EQ(recorder.planes[0][0].power, Rgb(2.0f));
+  for (size_t i = 1; i < planes.size(); ++i) cosines += static_cast<double>(planes[i].scattered.x);
+  EXPECT_EQ(planes[0].medium, 0);
+  EXPECT_EQ(planes[1].medium, 1);
+  EXPECT_EQ(planes[1].origin, flight.origin);
+  EXPECT_EQ(planes[1].length, 0.5f);
+  EXPECT_EQ(planes[1].direction, flight.direction);
+  EXPECT_EQ(planes[1].power, Rgb(0.5f));
   // The mean cosine is g; the standard deviation of one is below 0.25: six standard errors are one in 1e6 runs.
-  EXPECT_NEAR(cosines / (3 * kFlights), 0.9, 6.0 * 0.25 / std::sqrt(3.0 * kFlights));
+  EXPECT_NEAR(cosines / kFlights, 0.9, 6.0 * 0.25 / std::sqrt(double{kFlights}));
 }
 
 }  // namespace

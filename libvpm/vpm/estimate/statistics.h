@@ -53,7 +53,8 @@ struct RenderStatistics {
   uint64_t volume_photons = 0, surface_photons = 0, caustic_photons = 0;  // stored
   uint64_t aimed_photons = 0;                                             // of the caustic ones: those that are aimed
   uint64_t guiding_photons = 0, irradiance_points = 0;                    // stored besides, for final gathering
-  uint64_t merged_photons = 0;  // of these: those whose power others took over, see control_density()
+  uint64_t flights = 0, beams = 0, planes = 0;  // recorded flights; those of them kept as such
+  uint64_t merged_photons = 0;                  // of these: those whose power others took over, see control_density()
   uint64_t photon_map_bytes = 0, guide_bytes = 0;               // of the largest pass
   float last_volume_radius = 0.0f, last_surface_radius = 0.0f;  // m; of the last pass, the largest over media, pixels
   EyeCounters eye;
@@ -73,6 +74,9 @@ struct RenderStatistics {
                       Counter{"photons.stored_caustic_aimed", &S::aimed_photons},
                       Counter{"photons.stored_to_guide_gathering", &S::guiding_photons},
                       Counter{"photons.irradiance_points", &S::irradiance_points},
+                      Counter{"photons.flights", &S::flights},
+                      Counter{"photons.stored_beams", &S::beams},
+                      Counter{"photons.stored_planes", &S::planes},
                       Counter{"photons.merged", &S::merged_photons},
                       Counter{"memory.largest_photon_maps", &S::photon_map_bytes, CountRule::largest},
                       Counter{"memory.importance", &S::guide_bytes, CountRule::largest},

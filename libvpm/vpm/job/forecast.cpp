@@ -16,20 +16,20 @@ namespace {
 constexpr uint64_t kSafePhotons = 10'000'000;  // that fit everywhere, unless each is stored hundreds of times
 constexpr double kMapBytes = 64.0;       // a stored photon takes while maps are built (62 in scenes/street_lamp.toml)
 constexpr double kMostIndexed = 0x1p32;  // photons of a map, or pieces of beams: their numbers have 32 bits
-// Flights take more, as each is cut into up to 9 pieces in the mean (620 bytes in scenes/fog_room.toml at a radius of
-// 1 cm), unless most of them are left out.
-constexpr uint64_t kFewFlights = 1'000'000;
-constexpr double kFlightBytes = 650.0, kThinnedFlightBytes = 130.0, kPiecesOfFlight = 9.0;
+// Of flights, while they are recorded (for beams and for planes apart), and while those kept become beams, of up to 9
+// pieces in the mean: measured in scenes/fog_room.toml at a radius of 1 cm.
+constexpr double kFlightBytes = 100.0, kBeamBytes = 450.0, kPiecesOfBeam = 9.0;
 
-/// What a stored photon or flight takes of the memory while maps are built, and of the numbers that they have.
+/// What the records of a pass take of the memory while maps are made, and how many must be numbered in one map.
 struct Room {
   double bytes, numbers;
 };
-Room room_of(const Scene& scene, const RenderSettings& settings, PassOf of) {
-  const bool beams = settings.volume.gathers_flights() && of == PassOf::picture && !scene.media.empty();
-  if (!beams) return {kMapBytes, 1.0};
-  const bool thinned = settings.flights > 0 && settings.flights <= kFewFlights;
-  return thinned ? Room{kThinnedFlightBytes, 1.0} : Room{kFlightBytes, kPiecesOfFlight};
+Room room_of(const PassCost& cost, const RenderSettings& settings, double photons) {
+  const double stored = cost.stored(photons), flights = photons * cost.flights_per_photon;
+  const double recorders = settings.volume.mode == GatherMode::photon_planes ? 2.0 : 1.0;
+  const double kept = settings.flights > 0 ? std::min(flights, static_cast<double>(settings.flights)) : flights;
+  return {kMapBytes * stored + recorders * kFlightBytes * flights + kBeamBytes * kept,
+          std::max(stored, kPiecesOfBeam * kept)};
 }
 
 /// Two digits of a number of photons and then zeros, "210000000": as the setting takes it.
@@ -66,20 +66,22 @@ std::string too_long_text(const PassCost& cost, const RenderSettings& settings) 
 
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory) {
   if (settings.integrator == Integrator::path) return;
-  const Room room = room_of(scene, settings, of);
+  const double each = settings.volume.gathers_flights() ? kFlightBytes + kBeamBytes : kMapBytes;
   const auto asked =
       static_cast<double>(std::max({settings.photons_emitted, settings.photons_stored, settings.caustics_emitted}));
-  if (asked * room.bytes <= kMapBytes * static_cast<double>(kSafePhotons)) return;
+  if (asked * each <= kMapBytes * static_cast<double>(kSafePhotons)) return;
   const PassCost cost = time_photons(scene, settings, of, 0.1);
   const double photons = photons_of_pass(settings, cost.stored_per_photon), stored = cost.stored(photons);
-  const double most = std::min(memory / room.bytes, kMostIndexed / room.numbers);
-  if (stored <= most) return;
+  const Room room = room_of(cost, settings, photons);
+  const double fits = std::min(memory / room.bytes, kMostIndexed / room.numbers);
+  if (fits >= 1.0) return;
+  const double flights = photons * cost.flights_per_photon;
   throw InputError(fmt::format(
-      "{}: the maps of a pass would hold about {:.2g} {} and take {:.2g} GB of memory; this machine has {:.2g} "
+      "{}: the maps of a pass would hold about {:.2g} photons{} and take {:.2g} GB of memory; this machine has {:.2g} "
       "GB, where {}; more passes do what more photons would",
       cost.stored_caustics > 0.5 * stored ? "caustics.emitted" : "photons.emitted", stored,
-      room.bytes > kMapBytes ? "photons and flights" : "photons", room.bytes * stored * 1e-9, memory * 1e-9,
-      fitting_text(photons, settings, 0.5 * most / stored)));
+      flights > 0.0 ? fmt::format(" and {:.2g} flights", flights) : "", room.bytes * 1e-9, memory * 1e-9,
+      fitting_text(photons, settings, 0.5 * fits)));
 }
 
 double physical_memory() {

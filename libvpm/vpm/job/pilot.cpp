@@ -267,10 +267,12 @@ PassCost cost_of_photons(const RenderSettings& settings, const ReadyPass& ready)
   if (s.ledger.emitted_count == 0) return {};
   const auto emitted = static_cast<double>(s.ledger.emitted_count), aimed = static_cast<double>(s.aimed_photons);
   const double others = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons) - aimed;
-  const double sorting = s.build_seconds / std::max(1.0, others + aimed);  // s, of one photon
+  const auto flights = static_cast<double>(s.flights);
+  const double sorting = s.build_seconds / std::max(1.0, others + aimed + flights);  // s, of one photon or flight
   PassCost cost;
-  cost.photon = (s.trace_seconds + sorting * others) / emitted;
+  cost.photon = (s.trace_seconds + sorting * (others + flights)) / emitted;
   cost.stored_per_photon = others / emitted;
+  cost.flights_per_photon = flights / emitted;
   if (settings.caustics_emitted == 0) return cost;
   const uint64_t all = settings.caustics_emitted, part = ready.settings.caustics_emitted;
   cost.stored_caustics = aimed * static_cast<double>(all) / static_cast<double>(part);

@@ -40,11 +40,12 @@ double photons_of_pass(const RenderSettings& settings, double stored_per_photon)
 
 /// What a pass costs.
 struct PassCost {
-  double photon = 0.0;             // s: tracing and sorting, of one emitted photon; 0 where none is
-  double eye = 0.0;                // s: the eye pass, and learning what guides photons
-  double stored_per_photon = 0.0;  // by all maps
-  double caustics = 0.0;           // s: tracing and sorting, of all photons that are aimed for caustics
-  double stored_caustics = 0.0;    // of these
+  double photon = 0.0;              // s: tracing and sorting, of one emitted photon; 0 where none is
+  double eye = 0.0;                 // s: the eye pass, and learning what guides photons
+  double stored_per_photon = 0.0;   // by all maps
+  double caustics = 0.0;            // s: tracing and sorting, of all photons that are aimed for caustics
+  double stored_caustics = 0.0;     // of these
+  double flights_per_photon = 0.0;  // recorded, of which some become beams or planes
 
   /// s: of what does not go by the number of photons.
   double rest() const { return eye + caustics; }

@@ -54,7 +54,7 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
                photons ? "photons go where power does" : "nothing stores photons"),
           line(media, "volume photon map", settings.volume.along_rays() ? ", gathered from along rays" : "", no_medium),
           line(media && beams, "photon beams",
-               (settings.beam_length == BeamLength::whole ? ", to where media end" : "") +
+               (settings.beam_length == BeamLength::long_beams ? ", to where media end" : "") +
                    (settings.flights > 0 ? fmt::format(", at most {} in a pass", settings.flights) : ""),
                media ? "collisions are gathered, not flights" : no_medium),
           line(media && settings.volume.mode == GatherMode::photon_planes, "photon planes",

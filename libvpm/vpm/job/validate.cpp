@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 #include <vector>
 
 #include "vpm/job/declare.h"
@@ -91,7 +93,13 @@ void check_photon_beams(const RenderSettings& s, const SceneFacts& facts) {
   refuse_if(s.flights > 0 && !s.volume.gathers_flights(), "photons.flights", "no flights are kept: " + gather,
             "leave out 'flights', or write gather = \"photon-beams\"");
   if (!s.volume.gathers_flights()) return;
-  refuse_if(s.beam_length == BeamLength::whole && facts.endless, "volume.beams",
+  refuse_if(s.photons_in_cube > 0, "photons.in_cube",
+            "where flights are gathered, collisions beside rays weigh by their own directions, and must not be merged",
+            "write 0, or another 'gather' in [volume]");
+  refuse_if(facts.endless_flights, "volume.gather",
+            "flights have no end in a channel that the medium of the world does not attenuate",
+            "write \"beam\", or put the scene into a box of the medium");
+  refuse_if(s.beam_length == BeamLength::long_beams && facts.endless, "volume.beams",
             "the medium of the world has no end, and long beams would have none",
             "write \"short\", or put the scene into a box of the medium");
   refuse_if(!strategy_info(s.distance.strategy).analog, "distance.strategy",
@@ -155,7 +163,11 @@ SceneFacts facts_of(const Scene& scene) {
     facts.grids |= !medium.homogeneous();
     facts.scattering_media |= medium.scatters();
   }
-  facts.endless = scene.world_medium != kVacuum && scene.media[scene.world_medium].scatters();
+  if (scene.world_medium != kVacuum) {
+    const Medium& world = scene.media[scene.world_medium];
+    facts.endless = world.scatters();
+    facts.endless_flights = world.scatters() && std::min({world.sigma_t.r, world.sigma_t.g, world.sigma_t.b}) == 0.0f;
+  }
   for (const Shape& shape : scene.shapes) facts.rough_surfaces |= is_rough(scene.materials[shape.material]);
   return facts;
 }

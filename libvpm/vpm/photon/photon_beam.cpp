@@ -11,14 +11,8 @@ void BeamRecorder::join(PhotonRecorder& part) {
   for (size_t m = 0; m < beams.size(); ++m) join_lists(beams[m], other.beams[m]);
 }
 
-size_t BeamRecorder::stored() const {
-  size_t all = 0;
-  for (const std::vector<PhotonBeam>& of_medium : beams) all += of_medium.size();
-  return all;
-}
-
 void BeamRecorder::flew(const Track& track, const ArrivingPhoton& photon, Rng&) {
-  const float length = more_.beyond ? track.reach : track.length;
+  const float length = more_.long_beams ? track.reach : track.length;
   if (!scene_.media[track.medium].scatters() || !filter_(photon) || !(length > 0.0f)) return;
   PhotonBeam beam{track.ray.origin, length, track.ray.direction, track.throughput, {}, 0.0f};
   if (more_.turns && photon.turn) {

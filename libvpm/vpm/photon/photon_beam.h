@@ -20,14 +20,14 @@ struct PhotonBeam {
 };
 static_assert(sizeof(PhotonBeam) <= 48);
 
-/// Records the flights of photons through scattering media. A flight that crosses boundaries between media is one
-/// record in each.
+/// Records the flights of photons through scattering media. They do not count towards TraceSettings::stored. A flight
+/// that crosses boundaries between media is one record in each.
 class BeamRecorder final : public PhotonRecorder {
  public:
   /// What is recorded besides flights: that they would have gone on without a collision; the collisions that they
   /// began at.
   struct More {
-    bool beyond = false, turns = false;
+    bool long_beams = false, turns = false;
   };
   BeamRecorder(const Scene& scene, PhotonFilter filter, const More& more);
 
@@ -35,7 +35,6 @@ class BeamRecorder final : public PhotonRecorder {
     return std::make_unique<BeamRecorder>(scene_, filter_, more_);
   }
   void join(PhotonRecorder& part) override;
-  size_t stored() const override;
   RecordNeeds needs() const override { return {.collisions = false, .hits = false}; }
   bool reads_density() const override { return more_.turns; }
   void flew(const Track& track, const ArrivingPhoton& photon, Rng&) override;

@@ -17,7 +17,8 @@ constexpr size_t kChunk = 1 << 13;   // beams or pieces one thread takes at once
 
 /// How many pieces a beam is cut into, so that none is longer than `longest`, m.
 size_t pieces_of(const PhotonBeam& beam, double longest) {
-  return static_cast<size_t>(std::max(1.0, std::ceil(double{beam.length} / longest)));
+  constexpr double kMost = 1e9;  // of one beam, before a length is found that makes few of all
+  return static_cast<size_t>(std::clamp(std::ceil(double{beam.length} / longest), 1.0, kMost));
 }
 
 size_t pieces_of_all(const std::vector<PhotonBeam>& beams, double longest) {

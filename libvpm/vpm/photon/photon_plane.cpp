@@ -1,18 +1,18 @@
-// Recording planes.
+// Drawing planes' directions.
 #include "vpm/photon/photon_plane.h"
 
 namespace vpm {
 
-void PlaneRecorder::join(PhotonRecorder& part) {
-  auto& other = static_cast<PlaneRecorder&>(part);
-  for (size_t m = 0; m < planes.size(); ++m) join_lists(planes[m], other.planes[m]);
-}
-
-void PlaneRecorder::flew(const Track& track, const ArrivingPhoton&, Rng& rng) {
-  const Medium& medium = scene_.media[track.medium];
-  if (!medium.scatters() || !(track.length > 0.0f)) return;
-  const Vec3 scattered = phase_sample(medium.phase, track.ray.direction, rng.uniform2());
-  planes[track.medium].push_back({track.ray.origin, track.length, track.ray.direction, scattered, track.throughput});
+std::vector<PhotonPlane> planes_of(const std::vector<std::vector<PhotonBeam>>& flights, const Scene& scene, float scale,
+                                   Rng& rng) {
+  std::vector<PhotonPlane> planes;
+  for (size_t m = 0; m < flights.size(); ++m)
+    for (const PhotonBeam& flight : flights[m]) {
+      const Vec3 scattered = phase_sample(scene.media[m].phase, flight.direction, rng.uniform2());
+      planes.push_back(
+          {flight.origin, flight.length, flight.direction, scattered, scale * flight.power, static_cast<MediumId>(m)});
+    }
+  return planes;
 }
 
 }  // namespace vpm

@@ -1,15 +1,11 @@
 // Laying planes out for the loop over all.
 #include "vpm/photon/photon_plane_list.h"
 
+#include <utility>
+
 namespace vpm {
 
-PhotonPlaneList::PhotonPlaneList(const std::vector<std::vector<PhotonPlane>>& by_medium, float scale) {
-  for (size_t m = 0; m < by_medium.size(); ++m)
-    for (const PhotonPlane& plane : by_medium[m]) {
-      planes_.push_back(plane);
-      planes_.back().power *= scale;
-      media_.push_back(static_cast<MediumId>(m));
-    }
+PhotonPlaneList::PhotonPlaneList(std::vector<PhotonPlane> planes) : planes_(std::move(planes)) {
   for (std::vector<float>* values : {&x_, &y_, &z_, &length_, &ax_, &ay_, &az_, &bx_, &by_, &bz_})
     values->assign(planes_.size() + kBlock, 0.0f);
   for (size_t i = 0; i < planes_.size(); ++i) {
@@ -28,8 +24,7 @@ PhotonPlaneList::PhotonPlaneList(const std::vector<std::vector<PhotonPlane>>& by
 }
 
 size_t PhotonPlaneList::memory_bytes() const {
-  return sizeof(*this) + planes_.capacity() * sizeof(PhotonPlane) + media_.capacity() * sizeof(MediumId) +
-         10 * x_.capacity() * sizeof(float);
+  return sizeof(*this) + planes_.capacity() * sizeof(PhotonPlane) + 10 * x_.capacity() * sizeof(float);
 }
 
 }  // namespace vpm

@@ -13,19 +13,17 @@ namespace vpm {
 
 /// Where a ray crosses a plane.
 struct PlaneCrossing {
-  const PhotonPlane& plane;  // with its power over the photons emitted, W
-  MediumId medium;           // of the plane's flight
-  float along_flight;        // from the plane's origin to the collision, m
-  float beyond;              // from the collision to the crossing, m
-  float t;                   // along the ray, m
-  float determinant;         // of the directions of flight, scattered light and ray: the volume that they span, > 0
+  const PhotonPlane& plane;
+  float along_flight;  // from the plane's origin to the collision, m
+  float beyond;        // from the collision to the crossing, m
+  float t;             // along the ray, m
+  float determinant;   // of the directions of flight, scattered light and ray: the volume that they span, > 0
 };
 
 class PhotonPlaneList {
  public:
   PhotonPlaneList() = default;
-  /// Powers are multiplied by `scale`: 1/emitted.
-  PhotonPlaneList(const std::vector<std::vector<PhotonPlane>>& by_medium, float scale);
+  explicit PhotonPlaneList(std::vector<PhotonPlane> planes);
 
   /// Calls visit(const PlaneCrossing&) for the planes that the ray crosses in the interval, in their order.
   template <class Visit>
@@ -36,7 +34,6 @@ class PhotonPlaneList {
 
  private:
   std::vector<PhotonPlane> planes_;
-  std::vector<MediumId> media_;
   // The same once more, for the loop over all, with kBlock further ones that no ray crosses.
   std::vector<float> x_, y_, z_, length_;  // origins and lengths of flights, m
   std::vector<float> ax_, ay_, az_;        // directions of flights
@@ -69,8 +66,7 @@ void PhotonPlaneList::visit_crossings(const Ray& ray, const Interval& interval, 
       crossed[i] = s >= 0.0f && s < length_[p] && u > 0.0f && at >= t0 && at < t1;
     }
     for (size_t i = 0; i < kBlock; ++i)
-      if (crossed[i])
-        visit(PlaneCrossing{planes_[block + i], media_[block + i], from[i], beyond[i], t[i], determinant[i]});
+      if (crossed[i]) visit(PlaneCrossing{planes_[block + i], from[i], beyond[i], t[i], determinant[i]});
   }
 }
 

@@ -42,7 +42,7 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
                               pass_of_maps(settings, pass)};
   std::vector<std::unique_ptr<VolumeEstimator>> estimators;
   std::vector<std::unique_ptr<MarchedSource>> marched;
-  const PhotonBeamSettings beams{map, settings.flights, settings.seed, settings.beam_length == BeamLength::whole};
+  const PhotonBeamSettings beams{map, settings.flights, settings.seed, settings.beam_length == BeamLength::long_beams};
   if (settings.volume.mode == GatherMode::photon_planes)
     estimators.push_back(std::make_unique<PhotonPlanes>(
         scene, transmittance, PhotonPlaneSettings{beams, settings.planes, settings.plane_use == PlaneUse::alone}));
@@ -141,7 +141,8 @@ void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators
 
 bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings) {
   return settings.integrator == Integrator::path ||
-         (scattering.media && settings.volume_direct != DirectLight::photons) ||
+         (scattering.media &&
+          (settings.volume_direct != DirectLight::photons || settings.volume.mode == GatherMode::photon_planes)) ||
          (scattering.surfaces && settings.surface_direct != DirectLight::photons);
 }
 

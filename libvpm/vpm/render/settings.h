@@ -35,7 +35,7 @@ enum class GatherBy { material, photons };
 enum class EndIrradiance { estimate, precomputed };
 
 /// Where photon beams end: where the photon collides; or where its ray leaves the medium.
-enum class BeamLength { flight, whole };
+enum class BeamLength { short_beams, long_beams };
 
 /// What photon planes find of the light that they can find: their share of it, beside photon beams, or all.
 enum class PlaneUse { combined, alone };
@@ -83,7 +83,7 @@ struct RenderSettings {
   float density_floor = 0.1f;  // density at the query: where it is less, photons are also stored along flights, which
                                // bounds their weights, see CollisionRecorder; in [0, 1]; 0: at collisions alone
   DirectLight volume_direct = DirectLight::photons;  // single scattering
-  BeamLength beam_length = BeamLength::flight;
+  BeamLength beam_length = BeamLength::short_beams;
   PlaneUse plane_use = PlaneUse::combined;
   int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
   DirectLight surface_direct = DirectLight::shadow_rays;

@@ -28,7 +28,7 @@ Rgb weight_along(const Medium& medium, const Ray& beam, const Rgb& power, float 
 PhotonBeams::PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings)
     : scene_(scene),
       settings_(settings),
-      flights_(scene, settings.maps.filter(), {settings.whole, settings.planes}),
+      flights_(scene, settings.maps.filter(), {settings.long_beams, settings.planes}),
       collisions_(scene, with_beams(settings), 2) {}
 
 Recorders PhotonBeams::recorders() {
@@ -37,7 +37,7 @@ Recorders PhotonBeams::recorders() {
   return both;
 }
 
-void PhotonBeams::build_beside(float planes, uint64_t emitted, RenderStatistics& statistics) {
+void PhotonBeams::build_beside(float kept_planes, uint64_t emitted, RenderStatistics& statistics) {
   const AskedGather& gather = settings_.maps.gather;
   const PassOfMaps& pass = settings_.maps.pass;
   collisions_.build(emitted, statistics,
@@ -45,14 +45,15 @@ void PhotonBeams::build_beside(float planes, uint64_t emitted, RenderStatistics&
                         RenderStatistics& s) { return make_beam_map(photons, of_pass, shrunk, of, pass, s); });
   const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
   Rng rng(settings_.seed, rng_stream(RngUse::flight, static_cast<uint64_t>(pass.number)), 0);
+  for (const std::vector<PhotonBeam>& flights : flights_.beams) statistics.flights += flights.size();
   const float kept = thin(flights_.beams, settings_.flights, rng);
   for (size_t m = 0; m < scene_.media.size(); ++m) {
     const GatherSettings of_pass = gather_in_pass(gather, first_radius(gather, scene_, scene_.media[m]), 1, pass);
     const std::vector<PhotonBeam> beams = std::exchange(flights_.beams[m], {});
-    statistics.volume_photons += beams.size();
+    statistics.beams += beams.size();
     statistics.last_volume_radius = std::max(statistics.last_volume_radius, of_pass.radius);
     const BeamBalance balance{kept * kernel_size_1d(of_pass.kernel, of_pass.radius),
-                              kernel_size_2d(of_pass.kernel, collisions_[m].settings.radius), planes};
+                              kernel_size_2d(of_pass.kernel, collisions_[m].settings.radius), kept_planes};
     by_medium_.push_back({of_pass, balance, PhotonBeamMap(beams, of_pass.radius, scale), {}});
     Map& map = by_medium_.back();
     if (settings_.planes)
@@ -76,9 +77,9 @@ KernelEstimate PhotonBeams::beams_along(const EyeSegment& segment, const Map& ma
   return near.empty() ? KernelEstimate() : gather(segment, region, near, map, work);
 }
 
-/// Beams beyond the region have no share.
-void PhotonBeams::pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map,
-                             const PassToEye& pass, const BeamCrossings& found, Passed& passed, float* share) const {
+/// Beams beyond the region have no share. Returns how many have one.
+size_t PhotonBeams::pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map,
+                               const PassToEye& pass, const BeamCrossings& found, Passed& passed, float* share) const {
   const Medium& medium = *segment.medium();
   const PlaneDistances distances = region.distances();
   float along[BeamCrossings::kMost], sigma_t[BeamCrossings::kMost];
@@ -96,17 +97,22 @@ void PhotonBeams::pass_beams(const EyeSegment& segment, const SegmentRegion& reg
       passed.b[i] *= by.b;
     }
   };
-  if (settings_.whole || !is_grey(medium.sigma_t))
+  if (settings_.long_beams || !is_grey(medium.sigma_t))
     multiply([&](size_t i, const Vec3& crossing, const Vec3& direction) {
       const Ray beam{crossing - found.s[i] * direction, direction};
-      if (settings_.whole) return transmittance(medium, density_integral(medium, beam, {0.0f, found.s[i]}).value);
+      if (settings_.long_beams) return transmittance(medium, density_integral(medium, beam, {0.0f, found.s[i]}).value);
       return weight_along(medium, beam, {found.r[i], found.g[i], found.b[i]}, found.s[i]);
     });
   if (settings_.maps.form == VolumeForm::density_at_photon)
     multiply([&](size_t, const Vec3& crossing, const Vec3&) { return Rgb(medium.density(crossing)); });
-  if (region.within().hold_all(found.x, found.y, found.z, found.size)) return;
-  for (size_t i = 0; i < found.size; ++i)
-    share[i] *= region.within().hold({found.x[i], found.y[i], found.z[i]}) ? 1.0f : 0.0f;
+  if (region.within().hold_all(found.x, found.y, found.z, found.size)) return found.size;
+  size_t within = 0;
+  for (size_t i = 0; i < found.size; ++i) {
+    const bool holds = region.within().hold({found.x[i], found.y[i], found.z[i]});
+    share[i] *= holds ? 1.0f : 0.0f;
+    within += holds ? 1 : 0;
+  }
+  return within;
 }
 
 /// The shares of beams whose flights began at collisions.
@@ -137,7 +143,7 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
     const auto visit = [&](const BeamCrossings& found) {
       Passed passed;
       float share[BeamCrossings::kMost];  // over the sine
-      pass_beams(segment, region, map, pass, found, passed, share);
+      counters.used += pass_beams(segment, region, map, pass, found, passed, share);
       LaneSums values, corrections;
       const auto add = [&](size_t lane, size_t i) {
         const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
@@ -151,7 +157,6 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
       for (size_t block = 0; block < whole_blocks; block += kBlock)
         for (size_t lane = 0; lane < kBlock; ++lane) add(lane, block + lane);
       for (size_t i = whole_blocks; i < found.size; ++i) add(i - whole_blocks, i);
-      counters.used += found.size;
       sum_of_beams += {values.total(), corrections.total()};
     };
     count(counters.visited, map.beams.visit_crossings(segment.ray, near, visit));

@@ -16,16 +16,16 @@ Rgb weight_along(const Medium& medium, const Ray& flight, const Rgb& power, floa
 
 struct PhotonBeamSettings {
   VolumeMapSettings maps;
-  uint64_t flights = 0;  // > 0: the most beams, of all media together
-  uint64_t seed = 1;     // of which of them
-  bool whole = false;    // do beams go on to where their rays leave the medium?
-  bool planes = false;   // are there planes, too?
+  uint64_t flights = 0;     // > 0: the most beams, of all media together
+  uint64_t seed = 1;        // of which of them
+  bool long_beams = false;  // do beams go on to where their rays leave the medium?
+  bool planes = false;      // are there planes, too?
 };
 
 /// Gathers the beams of the medium that the segment is in. A beam ends where its photon collides: the photon has come
 /// as far as to a place on the beam with the probability of the transmittance to it, so that this needs no further
 /// factor in a grey medium, whatever its density. In a chromatic one the weights of the mixture of channels are left.
-/// Whole beams go on beyond the collision, and have the transmittance as a factor.
+/// Long beams go on beyond the collision, and have the transmittance as a factor.
 ///
 /// Beside planes, it gathers light whose last flight began at a collision from beams alone.
 class PhotonBeams final : public VolumeEstimator {
@@ -37,7 +37,7 @@ class PhotonBeams final : public VolumeEstimator {
   Recorders recorders() override;
   void build(uint64_t emitted, RenderStatistics& statistics) override { build_beside(0.0f, emitted, statistics); }
   /// build() beside planes, one for this share of the flights; 0: there are none.
-  void build_beside(float planes, uint64_t emitted, RenderStatistics& statistics);
+  void build_beside(float kept_planes, uint64_t emitted, RenderStatistics& statistics);
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
   const BeamBalance& balance(MediumId medium) const { return by_medium_[medium].balance; }
 
@@ -58,8 +58,8 @@ class PhotonBeams final : public VolumeEstimator {
   KernelEstimate gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near, const Map& map,
                         EyeWork& work) const;
   /// What passes to the eye, times what is left of beams' powers where they cross; and the beams' shares over sines.
-  void pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map, const PassToEye& pass,
-                  const BeamCrossings& found, Passed& passed, float* share) const;
+  size_t pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map, const PassToEye& pass,
+                    const BeamCrossings& found, Passed& passed, float* share) const;
   void share_with_planes(const Vec3& ray, const Map& map, const BeamCrossings& found, float* share) const;
 
   const Scene& scene_;

@@ -26,21 +26,21 @@ PhotonPlanes::PhotonPlanes(const Scene& scene, std::shared_ptr<const Transmittan
       transmittance_(std::move(transmittance)),
       settings_(settings),
       beams_(scene, beside_planes(settings)),
-      recorder_(scene) {}
+      flights_(scene, any_photon, {}) {}
 
 Recorders PhotonPlanes::recorders() {
   Recorders all = beams_.recorders();
-  all.push_back(&recorder_);
+  all.push_back(&flights_);
   return all;
 }
 
 void PhotonPlanes::build(uint64_t emitted, RenderStatistics& statistics) {
   const auto number = static_cast<uint64_t>(settings_.beams.maps.pass.number);
   Rng rng(settings_.beams.seed, rng_stream(RngUse::plane, number), 0);
-  const float kept = thin(recorder_.planes, settings_.planes, rng);
-  planes_ =
-      PhotonPlaneList(std::exchange(recorder_.planes, {}), static_cast<float>(1.0 / static_cast<double>(emitted)));
-  statistics.volume_photons += planes_.size();
+  const float kept = thin(flights_.beams, settings_.planes, rng);
+  const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
+  planes_ = PhotonPlaneList(planes_of(std::exchange(flights_.beams, {}), scene_, scale, rng));
+  statistics.planes += planes_.size();
   statistics.photon_map_bytes += planes_.memory_bytes();
   beams_.build_beside(kept, emitted, statistics);
 }
@@ -62,6 +62,7 @@ Rgb PhotonPlanes::planes_along(const EyeSegment& segment, EyeWork& work) const {
   const auto sum = [&](const auto& phase) {
     Rgbd sum_of_planes(0.0);
     planes_.visit_crossings(segment.ray, interval, [&](const PlaneCrossing& crossing) {
+      ++work.counters.gather.used;
       const DensityIntegralsAlong::Place place = integrals.at(crossing.t);
       if (!(place.density > 0.0)) return;
       const Rgb seen = beam_transmittance(medium.sigma_t, static_cast<float>(place.integral)) *
@@ -75,14 +76,14 @@ Rgb PhotonPlanes::planes_along(const EyeSegment& segment, EyeWork& work) const {
 
 Rgb PhotonPlanes::arriving(const PlaneCrossing& crossing, const EyeSegment& segment, EyeWork& work) const {
   const PhotonPlane& plane = crossing.plane;
-  const Medium& around = scene_.media[crossing.medium];
+  const Medium& around = scene_.media[plane.medium];
   const Ray flight{plane.origin, plane.direction};
   const Vec3 collision = flight.at(crossing.along_flight);
   const float density = around.density(collision);
   if (!(density > 0.0f)) return Rgb(0.0f);
   count(work.counters.shadow_rays);
   const ShadowRays rays{scene_, *transmittance_, work.rng, work.counters.walk};
-  const Rgb passed = visibility(rays, {collision, plane.scattered}, crossing.beyond, crossing.medium);
+  const Rgb passed = visibility(rays, {collision, plane.scattered}, crossing.beyond, plane.medium);
   if (is_black(passed)) return Rgb(0.0f);
   float share = 1.0f / crossing.determinant;
   if (!settings_.alone) {

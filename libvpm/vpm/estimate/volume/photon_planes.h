@@ -41,7 +41,7 @@ class PhotonPlanes final : public VolumeEstimator {
   std::shared_ptr<const TransmittanceEstimator> transmittance_;
   PhotonPlaneSettings settings_;
   PhotonBeams beams_;
-  PlaneRecorder recorder_;
+  BeamRecorder flights_;
   PhotonPlaneList planes_;
 };
 

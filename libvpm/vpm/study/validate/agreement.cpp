@@ -129,15 +129,15 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
   beams.flights = base.photons_emitted / 2;
   all.emplace_back("photon beams of some flights", beams);
   beams.flights = 0;
-  beams.beam_length = BeamLength::whole;
+  beams.beam_length = BeamLength::long_beams;
   all.emplace_back("long photon beams", beams);
   RenderSettings planes = base;
   planes.volume.mode = GatherMode::photon_planes;
   planes.planes = 200;
   all.emplace_back("photon planes and beams", planes);
-  planes.beam_length = BeamLength::whole;
+  planes.beam_length = BeamLength::long_beams;
   all.emplace_back("photon planes and long beams", planes);
-  planes.beam_length = BeamLength::flight;
+  planes.beam_length = BeamLength::short_beams;
   planes.plane_use = PlaneUse::alone;
   planes.volume_direct = DirectLight::equiangular;
   all.emplace_back("photon planes alone, single scattering equiangular", planes);
@@ -218,7 +218,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   const Measured reference = by_path_tracer(scene, paths, effort.count(40'000, 300'000));
   std::vector<Check> checks;
   for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces)) {
-    if (settings.beam_length == BeamLength::whole && scene.world_medium != kVacuum) continue;  // they have no end
+    if (settings.beam_length == BeamLength::long_beams && scene.world_medium != kVacuum) continue;  // they have no end
     settings.seed = effort.seed_of(subject.name + name);
     const int passes = static_cast<int>(effort.count(20, 64));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
@@ -297,7 +297,7 @@ std::vector<Check> combinations(const Effort& effort) {
     beams.volume.mode = GatherMode::photon_beams;
     RenderSettings planes = beams;
     planes.volume.mode = GatherMode::photon_planes;
-    planes.beam_length = BeamLength::whole;
+    planes.beam_length = BeamLength::long_beams;
     planes.planes = 200;
     for (auto& [what, settings] : NamedSettings{{"beams", beams}, {"planes and long beams", planes}}) {
       const std::string name = fmt::format("photon {} by {}", what, strategy.name);
