@@ -129,6 +129,12 @@ TEST_F(VpmWarnings, PhotonsThatNoGatherFindsAreToldOf) {
   EXPECT_EQ(surfaces.find("in media"), std::string::npos) << surfaces;
 }
 
+TEST_F(VpmWarnings, PlanesAloneHaveInfiniteVariance) {
+  const std::string planes = "volume.gather=photon-planes", word = "infinite variance";
+  expect_words(warnings({planes, "volume.planes=alone"}), {word});
+  EXPECT_EQ(warnings({planes}).find(word), std::string::npos);
+}
+
 TEST_F(VpmWarnings, EmptyMapsAreToldOfWhereThePictureIsMadeOfThem) {
   const std::vector<std::string> aside{"lights.lamp.target=[1, 9, 1]"};
   const auto with = [&](std::vector<std::string> more) {

@@ -48,6 +48,8 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
   if (settings.integrator == Integrator::photon) {
     warn_of_empty_maps(shown, settings, s, warnings);
     warn_of_unfound_photons(s, warnings);
+    if (shown.media && settings.plane_use == PlaneUse::alone)
+      warnings.emplace_back("photon planes alone have infinite variance: the error may be larger than is stated");
   }
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
