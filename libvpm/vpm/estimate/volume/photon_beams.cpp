@@ -43,6 +43,7 @@ void PhotonBeams::build_beside(float kept_planes, uint64_t emitted, RenderStatis
   collisions_.build(emitted, statistics,
                     [&](std::vector<Photon>& photons, const GatherSettings& of_pass, float shrunk, uint64_t of,
                         RenderStatistics& s) { return make_beam_map(photons, of_pass, shrunk, of, pass, s); });
+  statistics.last_volume_radius = 0.0f;  // that of beams is told
   const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
   Rng rng(settings_.seed, rng_stream(RngUse::flight, static_cast<uint64_t>(pass.number)), 0);
   for (const std::vector<PhotonBeam>& flights : flights_.beams) statistics.flights += flights.size();
