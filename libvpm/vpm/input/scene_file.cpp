@@ -58,6 +58,7 @@ SceneFacts facts_of(const ScenePlan& plan) {
     facts.grids |= medium.grid.has_value();
     facts.scattering_media |= medium.part.medium.scatters();
   }
+  if (plan.world_medium != kVacuum) facts.add_world(plan.media[plan.world_medium].part.medium);
   for (const ShapePlan& shape : plan.shapes)
     facts.rough_surfaces |= is_rough(plan.materials[shape.part.material].part.material);
   return facts;

@@ -157,17 +157,18 @@ SettingError::SettingError(std::string key, std::string wrong, std::string right
       wrong_(std::move(wrong)),
       right_(std::move(right)) {}
 
+void SceneFacts::add_world(const Medium& medium) {
+  endless = medium.scatters();
+  endless_flights = endless && std::min({medium.sigma_t.r, medium.sigma_t.g, medium.sigma_t.b}) == 0.0f;
+}
+
 SceneFacts facts_of(const Scene& scene) {
   SceneFacts facts;
   for (const Medium& medium : scene.media) {
     facts.grids |= !medium.homogeneous();
     facts.scattering_media |= medium.scatters();
   }
-  if (scene.world_medium != kVacuum) {
-    const Medium& world = scene.media[scene.world_medium];
-    facts.endless = world.scatters();
-    facts.endless_flights = world.scatters() && std::min({world.sigma_t.r, world.sigma_t.g, world.sigma_t.b}) == 0.0f;
-  }
+  if (scene.world_medium != kVacuum) facts.add_world(scene.media[scene.world_medium]);
   for (const Shape& shape : scene.shapes) facts.rough_surfaces |= is_rough(scene.materials[shape.material]);
   return facts;
 }

@@ -14,6 +14,9 @@ struct SceneFacts {
   bool rough_surfaces = false;    // surfaces that store photons; mirrors and glass do not
   bool endless = false;           // the medium of the world, which scatters ...
   bool endless_flights = false;   // ... and does not attenuate one of the channels
+
+  /// What the medium of the world adds.
+  void add_world(const Medium& medium);
 };
 SceneFacts facts_of(const Scene& scene);
 
