@@ -94,5 +94,23 @@ TEST(PhotonPlane, IsAFlightWithADirection) {
   EXPECT_NEAR(cosines / kFlights, 0.9, 6.0 * 0.25 / std::sqrt(double{kFlights}));
 }
 
+// Planes find light whose flight began at a collision: the recorder tells which did, and where.
+TEST(BeamRecorder, KnowsTheCollisionThatAFlightBeganAt) {
+  Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f)), PointLight{Vec3(0.0f), Rgb(1.0f)});
+  scene.media[0].sigma_s = Rgb(0.1f, 0.2f, 0.6f);
+  BeamRecorder with(scene, any_photon, {.turns = true}), without(scene, any_photon, {});
+  const PathState state;
+  const Event event;
+  const Turn turn{Vec3(0.6f, 0.0f, 0.8f), 0, 2.0f}, none;
+  const Track track{{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, 0, 0.5f, 1.0f, Rgb(2.0f)};
+  Rng rng(1, rng_stream(RngUse::test, 24), 0);
+  for (BeamRecorder* recorder : {&with, &without})
+    for (const Turn* each : {&turn, &none}) recorder->flew(track, {0, state, event, false, false, false, *each}, rng);
+  EXPECT_FLOAT_EQ(with.beams[0][0].scattering_rate, 0.6f);  // the mean of the channels, at twice the density
+  EXPECT_NEAR(glm::length(with.beams[0][0].turned_from.unpack() - turn.from), 0.0f, 1e-3f);
+  for (const float rate : {with.beams[0][1].scattering_rate, without.beams[0][0].scattering_rate})
+    EXPECT_EQ(rate, 0.0f);
+}
+
 }  // namespace
 }  // namespace vpm

@@ -133,7 +133,8 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
   all.emplace_back("long photon beams", beams);
   RenderSettings planes = base;
   planes.volume.mode = GatherMode::photon_planes;
-  planes.planes = 200;
+  planes.photons_emitted = base.photons_emitted / 4;  // few, so that many of their flights become planes
+  planes.planes = 1000;
   all.emplace_back("photon planes and beams", planes);
   planes.beam_length = BeamLength::long_beams;
   all.emplace_back("photon planes and long beams", planes);
