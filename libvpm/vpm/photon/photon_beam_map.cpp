@@ -149,6 +149,8 @@ PhotonBeamMap::PhotonBeamMap(const std::vector<PhotonBeam>& beams, float radius,
   }
 }
 
+PhotonBeamMap::Frame::Frame(const Vec3& direction) : along(direction) { make_frame(direction, right, up); }
+
 void PhotonBeamMap::Leaf::put(size_t i, const Vec3& middle, const Vec3& direction, float half_length) {
   x[i] = middle.x;
   y[i] = middle.y;

@@ -62,6 +62,8 @@ class PhotonBeamMap {
   };
   /// The axes across a ray and along it.
   struct Frame {
+    explicit Frame(const Vec3& direction);
+
     Vec3 right, up, along;
   };
   /// Finds which pieces of a leaf the ray passes closely: 0 for these in `missed`, 1 for others.
@@ -79,7 +81,7 @@ class PhotonBeamMap {
 inline void PhotonBeamMap::test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval,
                                 float* missed) const {
   const auto& [px, py, pz, dx, dy, dz, half] = leaf;
-  const auto [right, up, along] = frame;
+  const Vec3 right = frame.right, up = frame.up, along = frame.along;
   const auto [t0, t1] = interval;
   const Vec3 o = ray.origin;
   const float radius2 = radius_ * radius_;
@@ -102,7 +104,7 @@ inline void PhotonBeamMap::test(const Leaf& leaf, const Ray& ray, const Frame& f
 
 inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame,
                                  BeamCrossings& found) const {
-  const auto [right, up, along] = frame;
+  const Vec3 right = frame.right, up = frame.up, along = frame.along;
   for (size_t i = 0; i < count; ++i) {
     const Leaf& leaf = leaves_[pieces[i] / kBlock];
     const Owners& of = owners_[pieces[i] / kBlock];
@@ -138,8 +140,7 @@ inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray
 template <class Visit>
 uint32_t PhotonBeamMap::visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const {
   if (size_ == 0) return 0;
-  Frame frame{{}, {}, ray.direction};
-  make_frame(ray.direction, frame.right, frame.up);
+  const Frame frame(ray.direction);
   uint32_t pieces[BeamCrossings::kMost + kBlock];
   float unused[kBlock];
   size_t count_found = 0;

@@ -23,6 +23,12 @@ PhotonPlaneList::PhotonPlaneList(std::vector<PhotonPlane> planes) : planes_(std:
   }
 }
 
+std::pair<Vec3, Vec3> PhotonPlaneList::across(const Vec3& direction) {
+  std::pair<Vec3, Vec3> axes;
+  make_frame(direction, axes.first, axes.second);
+  return axes;
+}
+
 size_t PhotonPlaneList::memory_bytes() const {
   return sizeof(*this) + planes_.capacity() * sizeof(PhotonPlane) + 10 * x_.capacity() * sizeof(float);
 }

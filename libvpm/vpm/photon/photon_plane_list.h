@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "vpm/base/below.h"
@@ -33,6 +34,9 @@ class PhotonPlaneList {
   size_t memory_bytes() const;
 
  private:
+  /// Two unit axes across a direction.
+  static std::pair<Vec3, Vec3> across(const Vec3& direction);
+
   std::vector<PhotonPlane> planes_;
   // The same once more, for the loop over all, with kBlock further ones that no ray crosses.
   std::vector<float> x_, y_, z_, length_;  // origins and lengths of flights, m
@@ -42,10 +46,9 @@ class PhotonPlaneList {
 
 template <class Visit>
 void PhotonPlaneList::visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const {
-  Vec3 right, up;
+  const auto [right, up] = across(ray.direction);
   const Vec3 along = ray.direction, o = ray.origin;
   const auto [t0, t1] = interval;
-  make_frame(along, right, up);
   for (size_t block = 0; block < planes_.size(); block += kBlock) {
     float from[kBlock], beyond[kBlock], t[kBlock], determinant[kBlock];
     bool crossed[kBlock];
