@@ -96,6 +96,22 @@ TEST(Validate, LongBeamsNeedAnEnd) {
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true, .endless_flights = true}), "volume.gather");
 }
 
+TEST(Validate, FactsTellWhetherFlightsEnd) {
+  Medium medium;
+  medium.sigma_s = Rgb(0.1f, 0.2f, 0.0f);
+  for (const float blue : {0.0f, 1e-6f}) {
+    medium.sigma_t = Rgb(0.1f, 0.2f, blue);
+    SceneFacts facts;
+    facts.add_world(medium);
+    EXPECT_TRUE(facts.endless);
+    EXPECT_EQ(facts.endless_flights, blue == 0.0f);
+  }
+  SceneFacts facts;
+  medium.sigma_s = Rgb(0.0f);
+  facts.add_world(medium);
+  EXPECT_FALSE(facts.endless || facts.endless_flights) << "nothing scatters";
+}
+
 TEST(Validate, PlanesCastShadowRays) {
   RenderSettings s;
   s.surface_direct = DirectLight::photons;

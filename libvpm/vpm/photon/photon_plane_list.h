@@ -1,5 +1,5 @@
-// The photon planes of a pass, met by rays. Planes reach so far that a ray crosses a good part of them. So it looks at
-// all of them: that takes a small part of the time of asking what light comes from those that it crosses.
+// The photon planes of a pass, met by rays. Planes reach so far that a ray crosses a good part of them, and asks for a
+// shadow ray at each of these. So it looks at all of them.
 #pragma once
 
 #include <cmath>
