@@ -1,5 +1,5 @@
-// Photon beams at their ends: the narrowest peaks, media from next to nothing to opaque, beams a thousand kilometres
-// long, and beams that run nearly or exactly along the ray.
+// Photon beams at their ends, along rays and around points: the narrowest peaks, media from next to nothing to opaque,
+// beams a thousand kilometres long, and beams that run nearly or exactly along the ray.
 #include "hard/hard_scenes.h"
 #include "vpm/study/estimates/airlight.h"
 #include "vpm/study/estimates/slab_radiance.h"
@@ -8,6 +8,8 @@
 
 namespace vpm {
 namespace {
+
+constexpr GatherMode kOfBeams[] = {GatherMode::photon_beams, GatherMode::beams_points};
 
 /// Student's test of the mean over passes. It says something: the standard error is at most a tenth of the exact value.
 void expect_radiance(const Moments& found, double exact, Worst& worst, const std::string& what) {
@@ -24,14 +26,15 @@ double exact_radiance(const BeamAirlight& a) {
 TEST(BeamsExtremes, TheNarrowestPeakIsSeenExactly) {
   // From ahead the eye looks into the peak, 0.01 rad beside its middle: 1e5 times as bright as from behind.
   Worst worst("relative error of photon beams, g = +-0.999");
-  for (const double g : {0.999, -0.999})
-    for (const double sine : {0.01, 0.1, 1.0}) {
-      const double cosine = -std::copysign(std::sqrt(1.0 - sine * sine), g), half = 0.5 / sine;
-      const BeamAirlight seen{0.2 / half, 1.0, g, 0.5, cosine, 2.0 + half, 2.0 + half};
-      const PhotonRays by{.radius = 0.2, .photons = 2'000, .passes = 20, .seed = 1};
-      expect_radiance(estimate_beam_airlight_by_photons(seen, by).unbiased, exact_radiance(seen), worst,
-                      "g " + std::to_string(g) + ", sine " + std::to_string(sine));
-    }
+  for (const GatherMode mode : kOfBeams)
+    for (const double g : {0.999, -0.999})
+      for (const double sine : {0.01, 0.1, 1.0}) {
+        const double cosine = -std::copysign(std::sqrt(1.0 - sine * sine), g), half = 0.5 / sine;
+        const BeamAirlight seen{0.2 / half, 1.0, g, 0.5, cosine, 2.0 + half, 2.0 + half};
+        const PhotonRays by{.mode = mode, .radius = 0.2, .photons = 2'000, .passes = 20, .seed = 1};
+        expect_radiance(estimate_beam_airlight_by_photons(seen, by).unbiased, exact_radiance(seen), worst,
+                        "g " + std::to_string(g) + ", sine " + std::to_string(sine));
+      }
 }
 
 TEST(BeamsExtremes, BeamsNearlyAlongTheRayAreWeighedBySineAlone) {
@@ -65,13 +68,16 @@ TEST(BeamsExtremes, BeamsAlongTheRayAreFiniteAndNothingIsDropped) {
   }
 }
 
-TEST(BeamsExtremes, LightExactlyAlongTheRayComesFromCollisions) {
-  // In the midst of beams that leave the eye: lines without a common perpendicular.
+TEST(BeamsExtremes, LightExactlyAlongTheRayIsFound) {
+  // In the midst of beams that leave the eye: lines without a common perpendicular. It comes from collisions, or from
+  // beams around points.
   Worst worst("relative error of photon beams exactly along the ray");
   const BeamAirlight along{1.0, 1.0, 0.0, 0.1, 1.0, 1.0, 1.0};
-  const PhotonRays by{.radius = 0.04, .photons = 2'000, .passes = 20, .seed = 3};
   const double exact = 1.0 / (8.0 * kPiD);  // the integral of exp(-2 t) / (4 pi)
-  expect_radiance(estimate_beam_airlight_by_photons(along, by).unbiased, exact, worst, "along the ray");
+  for (const GatherMode mode : kOfBeams) {
+    const PhotonRays by{.mode = mode, .radius = 0.04, .photons = 2'000, .passes = 20, .seed = 3};
+    expect_radiance(estimate_beam_airlight_by_photons(along, by).unbiased, exact, worst, "along the ray");
+  }
 }
 
 TEST(BeamsExtremes, BeamsAThousandKilometresLongAreMetWhereTheyBegin) {
@@ -91,20 +97,26 @@ TEST(BeamsExtremes, SlabsFromNextToNothingToOpaqueAreSeenExactly) {
   // In the thin slab, one photon in 10000 collides, but all of them fly. In the thick one, flights are a ten thousandth
   // of the radius long.
   Worst worst("relative error of photon beams, tau 1e-4 to 1e4");
-  for (const double tau : {1e-4, 1.0, 1e4}) {
-    const exact::SlabSolution exact = exact::solve_slab({tau < 1e3 ? tau : HUGE_VAL, 0.5, {1.0}, {}}, {{}, {0.6}, {}});
-    const bool opaque = tau > 1e3;
-    const PhotonRays by{
-        .radius = opaque ? 1.0 : 0.2, .photons = opaque ? 8'000u : 1'000u, .passes = opaque ? 100 : 20, .seed = 5};
-    const SlabSights found = estimate_slab_radiance_by_photons(homogeneous_slab(tau, 0.5, 0.0, Incidence::collimated),
-                                                               {{0.6, false}, {0.6, true}}, {}, by);
-    const std::string what = "tau " + std::to_string(tau);
-    expect_radiance(found.exits[0].wide, exact.reflected_radiance.values[0], worst, what + ", reflected");
-    if (opaque)
-      EXPECT_EQ(found.exits[1].wide.mean(), 0.0) << what;
-    else
-      expect_radiance(found.exits[1].wide, exact.transmitted_radiance.values[0], worst, what + ", transmitted");
-  }
+  for (const GatherMode mode : kOfBeams)
+    for (const double tau : {1e-4, 1.0, 1e4}) {
+      const exact::SlabSolution exact =
+          exact::solve_slab({tau < 1e3 ? tau : HUGE_VAL, 0.5, {1.0}, {}}, {{}, {0.6}, {}});
+      const bool opaque = tau > 1e3;
+      if (opaque && mode == GatherMode::beams_points) continue;  // steps of half a flight: 10 minutes
+      const PhotonRays by{.mode = mode,
+                          .radius = opaque ? 1.0 : 0.2,
+                          .photons = opaque ? 8'000u : 1'000u,
+                          .passes = opaque ? 100 : 20,
+                          .seed = 5};
+      const SlabSights found = estimate_slab_radiance_by_photons(homogeneous_slab(tau, 0.5, 0.0, Incidence::collimated),
+                                                                 {{0.6, false}, {0.6, true}}, {}, by);
+      const std::string what = "tau " + std::to_string(tau);
+      expect_radiance(found.exits[0].wide, exact.reflected_radiance.values[0], worst, what + ", reflected");
+      if (opaque)
+        EXPECT_EQ(found.exits[1].wide.mean(), 0.0) << what;
+      else
+        expect_radiance(found.exits[1].wide, exact.transmitted_radiance.values[0], worst, what + ", transmitted");
+    }
 }
 
 }  // namespace

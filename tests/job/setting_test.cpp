@@ -49,7 +49,7 @@ TEST(Setting, HasAKeyOfItsOwnOrOfNeedsThatExcludeEachOther) {
   }
   EXPECT_EQ(std::set<std::string>(sections.begin(), sections.end()).size(), sections.size()) << "a section in parts";
   for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams,
-                                GatherMode::photon_planes}) {
+                                GatherMode::photon_planes, GatherMode::beams_points}) {
     RenderSettings s;
     s.volume.mode = mode;
     const auto all = all_settings();

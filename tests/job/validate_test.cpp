@@ -36,6 +36,8 @@ const Contradiction kContradictions[] = {
     {"photons.flights", [](S& s) { s.flights = 100; }},
     {"photons.planes", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.planes = 100; }},
     {"photons.in_cube", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.photons_in_cube = 4; }},
+    {"photons.stored", [](S& s) { s.volume.mode = GatherMode::beams_points, s.photons_stored = 1000; }},
+    {"volume.density_floor", [](S& s) { s.volume.mode = GatherMode::beams_points, s.density_floor = 0.2f; }},
     {"volume.planes", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.plane_use = PlaneUse::alone; }},
     {"volume.beams", [](S& s) { s.volume.mode = GatherMode::beam, s.beam_length = BeamLength::long_beams; }},
     {"distance.strategy",
@@ -123,8 +125,8 @@ TEST(Validate, PlanesCastShadowRays) {
 
 // The default of volume.boundary goes with everything; and beams know all its words.
 TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
-  for (const GatherMode mode :
-       {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams, GatherMode::photon_planes})
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams,
+                                GatherMode::photon_planes, GatherMode::beams_points})
     for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon})
       for (const uint32_t in_cube : {0u, 4u})
         for (const BoundaryRule rule : {BoundaryRule::none, BoundaryRule::ends, BoundaryRule::corrected}) {

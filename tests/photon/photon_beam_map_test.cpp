@@ -96,6 +96,46 @@ TEST(PhotonBeamMap, FindsEachCrossingOnce) {
   EXPECT_GT(met, 10'000u);
 }
 
+TEST(PhotonBeamMap, FindsEachBeamNearAPointOnce) {
+  uint64_t met = 0;
+  for (const Bundle bundle : {Bundle::scattered, Bundle::parallel, Bundle::far, Bundle::short_ones})
+    for (const float radius : {0.01f, 0.1f, 2.0f}) {
+      const std::vector<PhotonBeam> all = beams_of(bundle, 2000);
+      const PhotonBeamMap map(all, radius, 0.5f);
+      const double resolved = bundle == Bundle::far ? 3e-3 : 3e-5;  // m: of floats, 1 km from the origin
+      for (uint64_t i = 0; i < 100; ++i) {
+        Rng rng(8, rng_stream(RngUse::test, 4), i);
+        const Vec3 point(rng.uniform(), rng.uniform(), rng.uniform());
+        std::map<uint32_t, int> found;
+        map.visit_near(point, [&](const BeamPlaces& places) {
+          for (size_t k = 0; k < places.size; ++k) {
+            const auto number = static_cast<uint32_t>(2.0f * places.r[k] - 1.0f);  // its power is half of that and 1
+            const PhotonBeam& beam = all.at(number);
+            const Vec3d place = Vec3d(beam.origin) - Vec3d(point) + double{places.s[k]} * Vec3d(beam.direction);
+            EXPECT_EQ(places.beam[k], number);
+            EXPECT_NEAR(glm::length(place - Vec3d(places.x[k], places.y[k], places.z[k])), 0.0, resolved);
+            EXPECT_NEAR(glm::dot(place, Vec3d(beam.direction)), 0.0, resolved);
+            EXPECT_NEAR(std::sqrt(places.distance2[k]), glm::length(place), resolved);
+            EXPECT_EQ(Vec3(places.dx[k], places.dy[k], places.dz[k]), beam.direction);
+            EXPECT_EQ(Rgb(places.r[k], places.g[k], places.b[k]), 0.5f * beam.power);
+            ++found[number];
+          }
+        });
+        for (uint32_t b = 0; b < all.size(); ++b) {
+          const Vec3d from = Vec3d(all[b].origin) - Vec3d(point), d(all[b].direction);
+          const double s = -glm::dot(from, d), distance = glm::length(from + s * d);
+          const double depth = std::min({s, double{all[b].length} - s, double{radius} - distance});
+          EXPECT_LE(found[b], 1);
+          if (std::abs(depth) > resolved) {
+            EXPECT_EQ(found[b], depth > 0.0 ? 1 : 0) << b;
+          }
+          met += static_cast<uint64_t>(found[b]);
+        }
+      }
+    }
+  EXPECT_GT(met, 100'000u);
+}
+
 // Each flight is kept as often, with the power of those that it stands for.
 TEST(ThinFlights, KeepsSumsInTheMean) {
   constexpr int kBeams = 1000, kMost = 37, kDraws = 4000;

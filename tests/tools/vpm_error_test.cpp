@@ -153,6 +153,25 @@ TEST_F(VpmError, FitsHowASeriesConverges) {
     EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
 }
 
+// A reference whose noise is as large as its variance, in other pixels than the error, which falls as one over passes.
+TEST_F(VpmError, TakesTheReferencesNoiseOffASeries) {
+  for (const int passes : {1, 4, 16})
+    write_member(std::to_string(passes) + ".exr", 1.0f / std::sqrt(static_cast<float>(passes)), std::to_string(passes));
+  Image variance(3, 2);
+  for (size_t i = 1; i < variance.pixels.size(); ++i) {
+    variance.pixels[i] = Rgb(0.04f);
+    reference_.pixels[i] += Rgb(0.2f, -0.2f, 0.2f);
+  }
+  write_exr(path("noisy.exr"), reference_, {{"variance", &variance}}, {});
+  const Json report = json({"--series", "1.exr", "4.exr", "16.exr", "noisy.exr"});
+  EXPECT_NEAR(report.at("noise_of_reference").at("mse").get<double>(), 0.04 * 5 / 6, 1e-8);
+  for (const char* error : {"mse", "relative_mse"})
+    EXPECT_NEAR(report.at("over_passes").at(error).at("slope").get<double>(), -1.0, 1e-4) << error;
+  EXPECT_TRUE(json({"--series", "1.exr", "reference.exr"}).at("noise_of_reference").at("mse").is_null());
+  const std::string text = vpm_succeeds({"error", "--series", "1.exr", "4.exr", "16.exr", "noisy.exr"}).out;
+  EXPECT_NE(text.find("are noise of the reference"), std::string::npos) << text;
+}
+
 TEST_F(VpmError, SaysWhyASeriesHasNoSlope) {
   write_member("a.exr", 1.0f, "2");
   write_member("b.exr", 0.5f, "2");

@@ -124,6 +124,8 @@ TEST_F(VpmWarnings, PhotonsThatNoGatherFindsAreToldOf) {
     expect_words(warnings({"volume.radius=1e-9", "volume.gather=" + std::string(gather)}),
                  {"photons in media: a larger volume.radius ("});
   expect_words(warnings({"volume.radius=1e-9", "volume.form=density-at-photon"}), {"no gather found any of the "});
+  expect_words(warnings({"volume.radius=1e-9", "volume.gather=beams-points"}),
+               {"photon beams: a larger volume.radius ("});
   const std::string surfaces = warnings({"surface.radius=1e-9"});
   expect_words(surfaces, {"photons on surfaces: a larger surface.radius ("});
   EXPECT_EQ(surfaces.find("in media"), std::string::npos) << surfaces;
@@ -142,6 +144,7 @@ TEST_F(VpmWarnings, EmptyMapsAreToldOfWhereThePictureIsMadeOfThem) {
     return warnings(more);
   };
   expect_words(with({"surface.direct=photons"}), {"the volume photon map is empty", "the surface photon map is empty"});
+  expect_words(with({"volume.gather=beams-points"}), {"there are no photon beams"});
   EXPECT_EQ(with({"volume.direct=shadow-rays"}), "");
   EXPECT_EQ(with({"volume.direct=equiangular"}), "");
   // The camera sees no surface.

@@ -10,8 +10,9 @@
 namespace vpm {
 
 /// Around points, by radius or by count; in media also around whole segments of rays, by radius: photons
-/// (beam_estimate.h), the beams of their flights (volume/photon_beams.h), or these and planes (volume/photon_planes.h).
-enum class GatherMode { radius, nearest, beam, photon_beams, photon_planes };
+/// (beam_estimate.h), the beams of their flights (volume/photon_beams.h), or these and planes (volume/photon_planes.h);
+/// or beams around points (volume/beams_around_points.h).
+enum class GatherMode { radius, nearest, beam, photon_beams, photon_planes, beams_points };
 
 /// What is done where a disc or a ball reaches beyond the places that photons can come to. `none`: nothing, so that
 /// estimates are too dark there and light leaks through walls. `corrected`: each disc or ball by itself, by BoundedMap.
@@ -48,9 +49,11 @@ struct GatherRule {
                             // many photons, between a hundredth of `radius` and `radius`; 0: all have `radius`
 
   /// Is the light of a whole segment of a ray gathered at once?
-  bool along_rays() const { return mode == GatherMode::beam || gathers_flights(); }
-  /// Are flights gathered, besides collisions?
-  bool gathers_flights() const { return mode == GatherMode::photon_beams || mode == GatherMode::photon_planes; }
+  bool along_rays() const { return mode == GatherMode::beam || crosses_beams(); }
+  /// Are rays crossed with flights, beside which collisions are gathered?
+  bool crosses_beams() const { return mode == GatherMode::photon_beams || mode == GatherMode::photon_planes; }
+  /// Are flights gathered?
+  bool gathers_flights() const { return crosses_beams() || mode == GatherMode::beams_points; }
   /// Does a count of photons decide the radius of a gather, so that `radius` is only the largest allowed?
   bool goes_by_count() const { return mode == GatherMode::nearest || (mode == GatherMode::beam && beam_count > 0); }
   /// Is each ball in a medium corrected by itself, and not the segment of the ray as a whole? With radii that go by

@@ -6,8 +6,8 @@
 namespace vpm {
 
 /// The measure (length, area or volume) of the kernel in pass number `pass` (from 0) over that in the first:
-/// measure_{i+1} / measure_i = (i + A) / (i + 1), i = 1, 2, ... [Knaus2011, sec. 4]. The product of the factors up to
-/// i = pass is Gamma(pass + 1 + A) / (Gamma(1 + A) Gamma(pass + 2)).
+/// measure_{i+1} / measure_i = (i + A) / (i + 1), i = 1, 2, ... [Knaus2011, sec. 4; Jarosz2011b]. The product of the
+/// factors up to i = pass is Gamma(pass + 1 + A) / (Gamma(1 + A) Gamma(pass + 2)).
 inline double measure_of_pass(double a, int pass) {
   return std::exp(std::lgamma(pass + 1.0 + a) - std::lgamma(1.0 + a) - std::lgamma(pass + 2.0));
 }

@@ -34,7 +34,8 @@ double distance_within(KernelKind kernel, int dimension, double part, double les
   return more;
 }
 
-Offsets make_offsets(KernelKind kernel, int dimension) {
+/// `dimension` of the kernel; `everywhere`: in all directions, not just across the ray.
+Offsets make_offsets(KernelKind kernel, int dimension, bool everywhere) {
   constexpr int kPairs = kLines / 2;
   constexpr int kApart = 3;      // the distances of neighbours in direction are as many steps apart
   constexpr float kTurn = 0.5f;  // rad: no line lies straight beside or above the ray
@@ -45,9 +46,9 @@ Offsets make_offsets(KernelKind kernel, int dimension) {
   const int positive = crest < 1.0 ? kPairs - 1 : kPairs;
   Offsets offsets;
   for (int i = 0; i < kPairs; ++i) {
-    const float along = dimension < 3 ? 0.0f : (static_cast<float>(i) + 0.5f) / kPairs;
+    const float along = everywhere ? (static_cast<float>(i) + 0.5f) / kPairs : 0.0f;
     const float across = std::sqrt(1.0f - along * along), turn = golden * static_cast<float>(i) + kTurn;
-    const int ring = dimension < 3 ? i : i * kApart % kPairs;
+    const int ring = everywhere ? i * kApart % kPairs : i;
     const double distance = ring < positive
                                 ? distance_within(kernel, dimension, before * (ring + 0.5) / positive, 0.0, crest)
                                 : distance_within(kernel, dimension, 0.5 * (before + 1.0), 1.0, crest);
@@ -59,16 +60,48 @@ Offsets make_offsets(KernelKind kernel, int dimension) {
   return offsets;
 }
 
-/// Of all kernels, in one, two and three dimensions. Lines across a ray lie all around it.
+constexpr std::array kSpreads{Spread::discs, Spread::balls_as_discs, Spread::balls, Spread::lines,
+                              Spread::turned_discs};
+
+Offsets offsets_of(KernelKind kernel, Spread spread) {
+  switch (spread) {
+    case Spread::lines:  // they lie all around a ray
+      return make_offsets(kernel, 1, false);
+    case Spread::discs:
+      return make_offsets(kernel, 2, false);
+    case Spread::turned_discs:
+      return make_offsets(kernel, 2, true);
+    case Spread::balls_as_discs:
+    case Spread::balls:
+      break;
+  }
+  return make_offsets(kernel, 3, true);
+}
+
+/// Of all kernels and spreads.
 const auto kOffsets = [] {
-  std::array<std::array<Offsets, 3>, kKernels.size()> all;
+  std::array<std::array<Offsets, kSpreads.size()>, kKernels.size()> all;
   for (const KernelInfo& info : kKernels)
-    for (const int dimension : {1, 2, 3})
-      all[static_cast<size_t>(info.kind)][dimension - 1] = make_offsets(info.kind, dimension);
+    for (const Spread spread : kSpreads)
+      all[static_cast<size_t>(info.kind)][static_cast<size_t>(spread)] = offsets_of(info.kind, spread);
   return all;
 }();
 
-int dimension_of(Spread spread) { return spread == Spread::lines ? 1 : spread == Spread::discs ? 2 : 3; }
+/// Places on discs across beams of all directions, each of which counts with the phase function from its direction to
+/// the ray's. Beams along the ray have discs across it: if they count for more, the places lie nearer to the plane
+/// across the ray than those in a ball do. Returns how much nearer they are, in the root of the mean square.
+float thickness_of(Spread spread, const Phase& phase) {
+  if (spread != Spread::turned_discs) return 1.0f;
+  const float along = std::visit([](const auto& p) { return p.mean_square_cosine(); }, phase);
+  return std::sqrt(std::min(1.0f, 1.5f * (1.0f - along)));
+}
+
+/// The place at the same distance from the middle, nearer to the plane.
+Vec3 flattened(const Vec3& place, float thickness) {
+  const float z = thickness * place.z, distance2 = glm::dot(place, place);
+  const float wider = std::sqrt((distance2 - z * z) / (distance2 - place.z * place.z));
+  return {wider * place.x, wider * place.y, z};
+}
 
 float tangent(float cosine) { return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) / cosine; }
 
@@ -101,7 +134,8 @@ SegmentRegion::SegmentRegion(const EyeSegment& segment, const GatherSettings& ga
       spread_(spread),
       radius_(gather.radius),
       reach_(segment.interval),
-      anchor_(segment.interval.t0) {
+      anchor_(segment.interval.t0),
+      thickness_(thickness_of(spread, segment.medium()->phase)) {
   if (gather.boundary == BoundaryRule::none) return;
   const auto [t0, t1] = segment.interval;
   const Vec3 w = segment.ray.direction;
@@ -260,8 +294,8 @@ Rgb SegmentRegion::share_by_lines(float radius, const SeenAlong& seen, float tur
   make_frame(segment_.ray.direction, s, t);
   const Vec3 right = std::cos(turn) * s + std::sin(turn) * t, up = std::cos(turn) * t - std::sin(turn) * s;
   Rgbd found(0.0);
-  for (const Offset& offset : kOffsets[static_cast<size_t>(kernel_)][static_cast<size_t>(dimension_of(spread_) - 1)]) {
-    const Vec3 place = radius * offset.place;
+  for (const Offset& offset : kOffsets[static_cast<size_t>(kernel_)][static_cast<size_t>(spread_)]) {
+    const Vec3 place = radius * flattened(offset.place, thickness_);
     found += offset.part * seen_of_line(place.x * right + place.y * up, place.z, radius, seen);
   }
   Rgb share(1.0f);

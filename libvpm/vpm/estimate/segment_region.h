@@ -44,14 +44,15 @@ struct Mirrored {
 
 /// What photons are spread over: discs across the ray; balls whose projections are such discs, as each photon has its
 /// own transmittance; balls about points of the ray, with the transmittance of the point; or, of photon beams, lines
-/// across the ray.
-enum class Spread { discs, balls_as_discs, balls, lines };
+/// across the ray, or discs across the beams, which have all directions, with the transmittances of their own middles.
+enum class Spread { discs, balls_as_discs, balls, lines, turned_discs };
 
 /// The region of a segment: the places of its medium in the tube around the ray, on the near side of the planes that
 /// touch the borders at both its ends and of flat walls beside it.
 class SegmentRegion {
  public:
   /// Under BoundaryRule::none the region is the whole tube between the segment's ends.
+  /// The segment is in a medium.
   SegmentRegion(const EyeSegment& segment, const GatherSettings& gather, Spread spread);
 
   /// Where, along the ray, photons of the region project to or (`balls`) balls that reach into it have their centres,
@@ -96,6 +97,7 @@ class SegmentRegion {
   float radius_;       // m
   Interval reach_;     // m
   float anchor_;       // m: of the place on the ray from which lines are found
+  float thickness_;    // of what photons are spread over, along the ray, relative to that of a ball
   HalfSpaces within_;  // from the ray's origin
   bool near_ = false;  // does a shape come within the radius of the anchor?
   bool whole_ = true;

@@ -29,7 +29,8 @@ struct WordsOf<RadiusSchedule> {
 };
 template <>
 struct WordsOf<GatherMode> {
-  static constexpr std::array<std::string_view, 5> words{"radius", "nearest", "beam", "photon-beams", "photon-planes"};
+  static constexpr std::array<std::string_view, 6> words{"radius",       "nearest",       "beam",
+                                                         "photon-beams", "photon-planes", "beams-points"};
 };
 template <>
 struct WordsOf<BeamLength> {

@@ -22,13 +22,14 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
   return {
       {.key = section + ".gather",
        .member = at<Gather, &G::mode>(),
-       .domain = words_of<GatherMode>(in_media ? 5 : 2),
+       .domain = words_of<GatherMode>(in_media ? 6 : 2),
        .meaning =
            in_media
                ? "photons within a `\"radius\"`, or the `\"nearest\"` few, or by `\"beam\"` those within "
                  "the radius of a whole stretch of the eye's ray, in one query; `\"photon-beams\"`: all flights of "
                  "photons that pass it within the radius, and the photons beside it where flights run along it; "
-                 "`\"photon-planes\"`: these, and planes without a radius for light that media scatter twice in turn"
+                 "`\"photon-planes\"`: these, and planes without a radius for light that media scatter twice in "
+                 "turn; `\"beams-points\"`: flights within the radius of points of a march"
                : "photons within a `\"radius\"`, or the `\"nearest\"` few"},
       {.key = section + ".radius",
        .member = at<Gather, &G::radius>(),
@@ -98,10 +99,9 @@ std::vector<Setting> declare_volume() {
       {.key = "volume.beams",
        .member = at<&S::beam_length>(),
        .domain = words_of<BeamLength>(),
-       .meaning =
-           "with `\"photon-beams\"` and `\"photon-planes\"`: a beam is a photon's flight, `\"short\"`, or goes on "
-           "to where the ray leaves the medium, `\"long\"`, and counts with the transmittance: less noise in thin "
-           "media; more time, most of all in grids",
+       .meaning = "with `\"photon-beams\"`, `\"photon-planes\"` and `\"beams-points\"`: a beam is a photon's flight, "
+                  "`\"short\"`, or goes on to where the ray leaves the medium, `\"long\"`, and counts with the "
+                  "transmittance: less noise in thin media; more time, most of all in grids",
        .need = {[](const S& s) { return s.volume.gathers_flights(); },
                 [](const S&) { return std::string("there are no beams: 'gather' of [volume] asks for none"); },
                 "leave out 'beams', or write gather = \"photon-beams\""}},

@@ -16,8 +16,10 @@ namespace {
 void warn_of_empty_maps(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& s,
                         std::vector<std::string>& warnings) {
   const bool gathers = settings.surface_indirect == IndirectLight::final_gather;
-  if (shown.media && s.volume_photons == 0 && settings.volume_direct == DirectLight::photons)
-    warnings.emplace_back("the volume photon map is empty: no photon scattered in a medium");
+  const bool flights = settings.volume.mode == GatherMode::beams_points;
+  if (shown.media && settings.volume_direct == DirectLight::photons && (flights ? s.flights : s.volume_photons) == 0)
+    warnings.emplace_back(flights ? "there are no photon beams: no photon flew through a medium"
+                                  : "the volume photon map is empty: no photon scattered in a medium");
   if (shown.surfaces && s.surface_photons == 0 && s.eye.surface_queries > 0 &&
       (gathers || settings.surface_direct == DirectLight::photons))
     warnings.emplace_back("the surface photon map is empty: no photon to store met a diffuse or rough surface");
@@ -25,16 +27,17 @@ void warn_of_empty_maps(const Scattering& shown, const RenderSettings& settings,
 
 /// Of maps whose photons no gather has found.
 void warn_of_unfound_photons(const RenderStatistics& s, std::vector<std::string>& warnings) {
-  const auto warn = [&](uint64_t stored, uint64_t queries, uint64_t used, const char* where, float radius,
+  const auto warn = [&](uint64_t stored, uint64_t queries, uint64_t used, const char* what, float radius,
                         const char* section) {
     if (stored > 0 && queries > 0 && used == 0)
       warnings.push_back(fmt::format(
-          "no gather found any of the {} photons {}: a larger {}.radius ({:.2g} m in the last pass) or more "
-          "photons may help",
-          stored, where, section, radius));
+          "no gather found any of the {} {}: a larger {}.radius ({:.2g} m in the last pass) or more photons may help",
+          stored, what, section, radius));
   };
-  warn(s.volume_photons, s.eye.volume_queries, s.eye.used_in_media, "in media", s.last_volume_radius, "volume");
-  warn(s.surface_photons, s.eye.surface_queries, s.eye.gather.used - s.eye.used_in_media, "on surfaces",
+  const bool photons = s.volume_photons > 0;
+  warn(photons ? s.volume_photons : s.beams, s.eye.volume_queries, s.eye.used_in_media,
+       photons ? "photons in media" : "photon beams", s.last_volume_radius, "volume");
+  warn(s.surface_photons, s.eye.surface_queries, s.eye.gather.used - s.eye.used_in_media, "photons on surfaces",
        s.last_surface_radius, "surface");
 }
 

@@ -82,8 +82,9 @@ std::vector<Setting> declare_photons() {
       {.key = "photons.flights",
        .member = at<&S::flights>(),
        .domain = Integers{0, kAnyInteger},
-       .meaning = "with `gather = \"photon-beams\"` or `\"photon-planes\"`: at most so many flights of a pass become "
-                  "beams, drawn evenly from all and with the power of all; 0: all"},
+       .meaning =
+           "with `gather = \"photon-beams\"`, `\"photon-planes\"` or `\"beams-points\"`: at most so many flights "
+           "of a pass become beams, drawn evenly from all and with the power of all; 0: all"},
       {.key = "photons.planes",
        .member = at<&S::planes>(),
        .domain = Integers{1, 1'000'000},

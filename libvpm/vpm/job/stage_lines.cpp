@@ -52,9 +52,12 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   return {line(photons, "photon tracing", distances, "nothing stores photons"),
           line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                photons ? "photons go where power does" : "nothing stores photons"),
-          line(media, "volume photon map", settings.volume.along_rays() ? ", gathered from along rays" : "", no_medium),
+          line(media && settings.volume.mode != GatherMode::beams_points, "volume photon map",
+               settings.volume.along_rays() ? ", gathered from along rays" : "",
+               media ? "flights are gathered, not collisions" : no_medium),
           line(media && beams, "photon beams",
-               (settings.beam_length == BeamLength::long_beams ? ", to where media end" : "") +
+               std::string(settings.volume.along_rays() ? "" : ", around points of rays") +
+                   (settings.beam_length == BeamLength::long_beams ? ", to where media end" : "") +
                    (settings.flights > 0 ? fmt::format(", at most {} in a pass", settings.flights) : ""),
                media ? "collisions are gathered, not flights" : no_medium),
           line(media && settings.volume.mode == GatherMode::photon_planes, "photon planes",

@@ -76,6 +76,10 @@ void check_density_floor(const RenderSettings& s) {
             "photons by '" + s.distance.strategy + "' do not weigh 1/density, so that there is nothing to bound",
             "leave out 'density_floor', or use another strategy; " +
                 strategies_that(&StrategyInfo::analog, "whose photons do"));
+  refuse_if(s.density_floor != RenderSettings{}.density_floor && s.volume.mode == GatherMode::beams_points,
+            "volume.density_floor",
+            "no collisions are gathered whose weights it would bound: 'gather' is \"" + word_of(s.volume.mode) + "\"",
+            "leave out 'density_floor', or write another 'gather' in [volume]");
 }
 
 void check_estimator(const RenderSettings& s, const SceneFacts& facts) {
@@ -96,6 +100,9 @@ void check_photon_beams(const RenderSettings& s, const SceneFacts& facts) {
   refuse_if(s.photons_in_cube > 0, "photons.in_cube",
             "where flights are gathered, collisions beside rays weigh by their own directions, and must not be merged",
             "write 0, or another 'gather' in [volume]");
+  refuse_if(s.photons_stored > 0 && s.volume.mode == GatherMode::beams_points, "photons.stored",
+            "no collisions are stored that would end the tracing of photons: " + gather,
+            "write 'emitted' instead, or another 'gather' in [volume]");
   refuse_if(facts.endless_flights, "volume.gather",
             "flights have no end in a channel that the medium of the world does not attenuate",
             "write \"beam\", or put the scene into a box of the medium");

@@ -1,5 +1,5 @@
-// Phase functions: how a medium scatters. Each offers value, sample and mean cosine; all are normalised over the
-// sphere.
+// Phase functions: how a medium scatters. Each offers value, sample, mean cosine and mean square of the cosine; all are
+// normalised over the sphere.
 //
 // Convention: `cosine` is the dot product of the directions of TRAVEL before and after scattering, so g > 0 is forward.
 #pragma once
@@ -18,6 +18,7 @@ struct Isotropic {
   /// A direction of travel after scattering, distributed as value().
   Vec3 sample(const Vec3& travel, const Vec2& u) const;
   float mean_cosine() const { return 0.0f; }
+  float mean_square_cosine() const { return 1.0f / 3.0f; }
 };
 
 /// The one-parameter phase function of [Henyey1941]; mean cosine g in (-1, 1).
@@ -34,6 +35,7 @@ struct HenyeyGreenstein {
   }
   Vec3 sample(const Vec3& travel, const Vec2& u) const;
   float mean_cosine() const { return g; }
+  float mean_square_cosine() const { return (1.0f + 2.0f * g * g) / 3.0f; }
 
  private:
   /// By `away` = 1 - sign(g) cos. The bracket is computed as (1 - |g|)^2 + 2 |g| away, because the printed form cancels
@@ -51,6 +53,7 @@ struct Rayleigh {
   float value(const Vec3& before, const Vec3& after) const { return value(glm::dot(before, after)); }
   Vec3 sample(const Vec3& travel, const Vec2& u) const;
   float mean_cosine() const { return 0.0f; }
+  float mean_square_cosine() const { return 0.4f; }
 };
 
 using Phase = std::variant<Isotropic, HenyeyGreenstein, Rayleigh>;

@@ -1,5 +1,5 @@
-// A hierarchy of boxes over leaves, for rays. The sixteen boxes below a box are met at once: four levels of the binary
-// tree that leaves are sorted by (leaf_order.h).
+// A hierarchy of boxes over leaves, for rays and for points. The sixteen boxes below a box are met at once: four levels
+// of the binary tree that leaves are sorted by (leaf_order.h).
 #pragma once
 
 #include <algorithm>
@@ -24,6 +24,9 @@ class BoxTree {
   /// Calls visit(leaf) for the leaves whose boxes the interval of the ray meets, in a fixed order.
   template <class Visit>
   void visit_leaves(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  /// The same for the leaves whose boxes hold the point.
+  template <class Visit>
+  void visit_leaves(const Vec3& point, Visit&& visit) const;
 
   size_t memory_bytes() const { return 6 * lo_[0].capacity() * sizeof(float); }
 
@@ -48,6 +51,11 @@ class BoxTree {
   /// Appends to `met` which of the `count` boxes from that place on the beam meets, numbered from `first` on. Returns
   /// how many it does.
   uint32_t meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
+  /// Likewise, for the boxes that hold the point.
+  uint32_t meet(const Vec3& point, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
+  /// Visits the leaves that meet() finds.
+  template <class Where, class Visit>
+  void descend(const Where& where, Visit&& visit) const;
   void allocate(size_t leaves);
   void set(size_t place, const Box& box);
   void join_boxes();
@@ -85,9 +93,32 @@ inline uint32_t BoxTree::meet(const Beam& beam, size_t place, uint32_t count, ui
   return append_below(missed, count, 0.5f, first, unused, met);
 }
 
+inline uint32_t BoxTree::meet(const Vec3& point, size_t place, uint32_t count, uint32_t first, uint32_t* met) const {
+  const float *lo_x = lo_[0].data() + place, *lo_y = lo_[1].data() + place, *lo_z = lo_[2].data() + place;
+  const float *hi_x = hi_[0].data() + place, *hi_y = hi_[1].data() + place, *hi_z = hi_[2].data() + place;
+  const Vec3 at = point;
+  float missed[kBlock], unused[kBlock];
+  for (uint32_t i = 0; i < kBlock; ++i) {
+    const float x = std::max(lo_x[i] - at.x, at.x - hi_x[i]);
+    const float y = std::max(lo_y[i] - at.y, at.y - hi_y[i]);
+    const float z = std::max(lo_z[i] - at.z, at.z - hi_z[i]);
+    missed[i] = std::max(x, std::max(y, z)) <= 0.0f ? 0.0f : 1.0f;
+  }
+  return append_below(missed, count, 0.5f, first, unused, met);
+}
+
 template <class Visit>
 void BoxTree::visit_leaves(const Ray& ray, const Interval& interval, Visit&& visit) const {
-  const Beam beam = make_beam(ray, interval);
+  descend(make_beam(ray, interval), visit);
+}
+
+template <class Visit>
+void BoxTree::visit_leaves(const Vec3& point, Visit&& visit) const {
+  descend(point, visit);
+}
+
+template <class Where, class Visit>
+void BoxTree::descend(const Where& where, Visit&& visit) const {
   struct Group {
     uint32_t begin, end;  // of `met`
   };
@@ -107,7 +138,7 @@ void BoxTree::visit_leaves(const Ray& ray, const Interval& interval, Visit&& vis
       continue;
     }
     const auto [first, below] = children(depth, box);
-    const uint32_t begin = group.end, hits = meet(beam, begin_[depth + 1] + first, below, first, met + begin);
+    const uint32_t begin = group.end, hits = meet(where, begin_[depth + 1] + first, below, first, met + begin);
     waiting[++depth] = {begin, begin + hits};
   }
 }

@@ -1,6 +1,7 @@
-// The photon beams of a medium, searched along rays: where does a ray pass closely by which of them? Beams are cut into
-// pieces, since a box around a long beam is mostly empty; the pieces lie in leaves of a hierarchy of boxes. Each beam
-// is met once, wherever its pieces lie, as the place nearest to the ray is in one of them.
+// The photon beams of a medium, searched along rays and around points: which of them does a ray pass closely, and
+// where? Beams are cut into pieces, since a box around a long beam is mostly empty; the pieces lie in leaves of a
+// hierarchy of boxes. Each beam is met once, wherever its pieces lie, as the place nearest to the ray or point is in
+// one of them.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +14,23 @@
 
 namespace vpm {
 
-/// Beams that pass a ray more closely than a radius, with the ends of the common perpendicular of the two lines.
-struct BeamCrossings {
+/// Places on beams, those nearest to a ray or to a point that the beams pass more closely than a radius.
+struct BeamPlaces {
   static constexpr size_t kMost = 256;
 
   size_t size = 0;
   uint32_t beam[kMost];                   // its number in the list that the map was made of
-  float t[kMost];                         // along the ray, m
   float s[kMost];                         // along the beam, m from its origin
-  float distance2[kMost];                 // between the two lines, m^2
-  float sine[kMost];                      // of the angle between them, > 0
-  float x[kMost], y[kMost], z[kMost];     // of the place on the beam from the ray's origin, m
+  float distance2[kMost];                 // from the ray's line or the point, m^2
+  float x[kMost], y[kMost], z[kMost];     // of the place from the ray's origin or from the point, m
   float dx[kMost], dy[kMost], dz[kMost];  // the beam's direction, unit
   float r[kMost], g[kMost], b[kMost];     // its power at its origin, W
+};
+
+/// Those nearest to a ray, with the other end of the common perpendicular of the two lines.
+struct BeamCrossings : BeamPlaces {
+  float t[kMost];     // along the ray, m
+  float sine[kMost];  // of the angle between the two, > 0
 };
 
 class PhotonBeamMap {
@@ -38,6 +43,10 @@ class PhotonBeamMap {
   /// the ray in the interval; some at a time, in a fixed order. Returns how many pieces of beams it looked at.
   template <class Visit>
   uint32_t visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  /// Calls visit(const BeamPlaces&) for the beams that have a perpendicular to the point, no longer than the radius; in
+  /// the same way.
+  template <class Visit>
+  uint32_t visit_near(const Vec3& point, Visit&& visit) const;
 
   size_t size() const { return size_; }
   const Box& bounds() const { return bounds_; }
@@ -68,7 +77,16 @@ class PhotonBeamMap {
   };
   /// Finds which pieces of a leaf the ray passes closely: 0 for these in `missed`, 1 for others.
   void test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval, float* missed) const;
+  /// The same for a point.
+  void test(const Leaf& leaf, const Vec3& point, float* missed) const;
+  /// Calls search(use_leaf), which calls use_leaf(leaf, missed) for leaves that may have pieces nearby, and
+  /// use(pieces, count) for the pieces that are, some at a time.
+  template <class Search, class Use>
+  uint32_t collect(Search&& search, Use&& use) const;
+  /// What pieces and their beams say of themselves; their middles as places.
+  void read(const uint32_t* pieces, size_t count, const Vec3& from, BeamPlaces& found) const;
   void cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame, BeamCrossings& found) const;
+  void stand_beside(const uint32_t* pieces, size_t count, const Vec3& point, BeamPlaces& found) const;
 
   size_t size_ = 0;
   float radius_ = 0.0f;  // m
@@ -102,16 +120,28 @@ inline void PhotonBeamMap::test(const Leaf& leaf, const Ray& ray, const Frame& f
   }
 }
 
-inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame,
-                                 BeamCrossings& found) const {
-  const Vec3 right = frame.right, up = frame.up, along = frame.along;
+inline void PhotonBeamMap::test(const Leaf& leaf, const Vec3& point, float* missed) const {
+  const auto& [px, py, pz, dx, dy, dz, half] = leaf;
+  const Vec3 p = point;
+  const float radius2 = radius_ * radius_;
+  for (uint32_t i = 0; i < kBlock; ++i) {
+    const float x = px[i] - p.x, y = py[i] - p.y, z = pz[i] - p.z;
+    const float s = -(x * dx[i] + y * dy[i] + z * dz[i]);
+    const float across_x = x + s * dx[i], across_y = y + s * dy[i], across_z = z + s * dz[i];
+    const bool near = across_x * across_x + across_y * across_y + across_z * across_z < radius2;
+    const bool on_piece = s >= -half[i] && s < half[i];
+    missed[i] = near && on_piece ? 0.0f : 1.0f;
+  }
+}
+
+inline void PhotonBeamMap::read(const uint32_t* pieces, size_t count, const Vec3& from, BeamPlaces& found) const {
   for (size_t i = 0; i < count; ++i) {
     const Leaf& leaf = leaves_[pieces[i] / kBlock];
     const Owners& of = owners_[pieces[i] / kBlock];
     const uint32_t p = pieces[i] % kBlock;
-    found.x[i] = leaf.x[p] - ray.origin.x;
-    found.y[i] = leaf.y[p] - ray.origin.y;
-    found.z[i] = leaf.z[p] - ray.origin.z;
+    found.x[i] = leaf.x[p] - from.x;
+    found.y[i] = leaf.y[p] - from.y;
+    found.z[i] = leaf.z[p] - from.z;
     found.dx[i] = leaf.dx[p];
     found.dy[i] = leaf.dy[p];
     found.dz[i] = leaf.dz[p];
@@ -121,6 +151,13 @@ inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray
     found.b[i] = of.b[p];
     found.beam[i] = of.beam[p];
   }
+  found.size = count;
+}
+
+inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame,
+                                 BeamCrossings& found) const {
+  read(pieces, count, ray.origin, found);
+  const Vec3 right = frame.right, up = frame.up, along = frame.along;
   for (size_t i = 0; i < count; ++i) {
     const Vec3 middle(found.x[i], found.y[i], found.z[i]), d(found.dx[i], found.dy[i], found.dz[i]);
     const float a = glm::dot(middle, right), b = glm::dot(middle, up), da = glm::dot(d, right), db = glm::dot(d, up);
@@ -134,32 +171,74 @@ inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray
     found.y[i] = place.y;
     found.z[i] = place.z;
   }
-  found.size = count;
+}
+
+inline void PhotonBeamMap::stand_beside(const uint32_t* pieces, size_t count, const Vec3& point,
+                                        BeamPlaces& found) const {
+  read(pieces, count, point, found);
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 middle(found.x[i], found.y[i], found.z[i]), d(found.dx[i], found.dy[i], found.dz[i]);
+    const float s = -glm::dot(middle, d);
+    const Vec3 place = middle + s * d;
+    found.s[i] += s;
+    found.distance2[i] = glm::dot(place, place);
+    found.x[i] = place.x;
+    found.y[i] = place.y;
+    found.z[i] = place.z;
+  }
+}
+
+template <class Search, class Use>
+uint32_t PhotonBeamMap::collect(Search&& search, Use&& use) const {
+  uint32_t pieces[BeamPlaces::kMost + kBlock];
+  float unused[kBlock];
+  size_t count_found = 0;
+  uint32_t visited = 0;
+  search([&](uint32_t leaf, const float* missed) {
+    count_found += append_below(missed, kBlock, 0.5f, leaf * kBlock, unused, pieces + count_found);
+    if (count_found > BeamPlaces::kMost - kBlock) {
+      use(pieces, count_found);
+      count_found = 0;
+    }
+    count(visited, kBlock);
+  });
+  if (count_found > 0) use(pieces, count_found);
+  return visited;
 }
 
 template <class Visit>
 uint32_t PhotonBeamMap::visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const {
   if (size_ == 0) return 0;
   const Frame frame(ray.direction);
-  uint32_t pieces[BeamCrossings::kMost + kBlock];
-  float unused[kBlock];
-  size_t count_found = 0;
-  uint32_t visited = 0;
   BeamCrossings found;
-  const auto use = [&] {
-    cross(pieces, count_found, ray, frame, found);
-    visit(std::as_const(found));
-    count_found = 0;
+  const auto search = [&](auto&& use_leaf) {
+    boxes_.visit_leaves(ray, interval, [&](uint32_t leaf) {
+      float missed[kBlock];
+      test(leaves_[leaf], ray, frame, interval, missed);
+      use_leaf(leaf, missed);
+    });
   };
-  boxes_.visit_leaves(ray, interval, [&](uint32_t leaf) {
-    float missed[kBlock];
-    test(leaves_[leaf], ray, frame, interval, missed);
-    count_found += append_below(missed, kBlock, 0.5f, leaf * kBlock, unused, pieces + count_found);
-    if (count_found > BeamCrossings::kMost - kBlock) use();
-    count(visited, kBlock);
+  return collect(search, [&](const uint32_t* pieces, size_t number) {
+    cross(pieces, number, ray, frame, found);
+    visit(std::as_const(found));
   });
-  if (count_found > 0) use();
-  return visited;
+}
+
+template <class Visit>
+uint32_t PhotonBeamMap::visit_near(const Vec3& point, Visit&& visit) const {
+  if (size_ == 0) return 0;
+  BeamPlaces found;
+  const auto search = [&](auto&& use_leaf) {
+    boxes_.visit_leaves(point, [&](uint32_t leaf) {
+      float missed[kBlock];
+      test(leaves_[leaf], point, missed);
+      use_leaf(leaf, missed);
+    });
+  };
+  return collect(search, [&](const uint32_t* pieces, size_t number) {
+    stand_beside(pieces, number, point, found);
+    visit(std::as_const(found));
+  });
 }
 
 }  // namespace vpm

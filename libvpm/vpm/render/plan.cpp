@@ -9,6 +9,7 @@
 #include "vpm/estimate/surface/progressive.h"
 #include "vpm/estimate/surface/visualise.h"
 #include "vpm/estimate/volume/beam_radiance.h"
+#include "vpm/estimate/volume/beams_around_points.h"
 #include "vpm/estimate/volume/photon_planes.h"
 #include "vpm/estimate/volume/points_at_photon.h"
 #include "vpm/estimate/volume/points_at_query.h"
@@ -48,6 +49,8 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
         scene, transmittance, PhotonPlaneSettings{beams, settings.planes, settings.plane_use == PlaneUse::alone}));
   else if (settings.volume.mode == GatherMode::photon_beams)
     estimators.push_back(std::make_unique<PhotonBeams>(scene, beams));
+  else if (settings.volume.mode == GatherMode::beams_points)
+    estimators.push_back(std::make_unique<BeamsAroundPoints>(scene, beams, settings.max_optical_step));
   else if (settings.volume.mode == GatherMode::beam)
     estimators.push_back(std::make_unique<BeamRadiance>(scene, map));
   else if (settings.volume_form == VolumeForm::density_at_photon)

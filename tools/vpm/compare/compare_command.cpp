@@ -45,8 +45,9 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
   return first;
 }
 
-std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::vector<std::string>& settings,
-                                      const std::string& purpose) {
+/// `who` it is for, as messages name it.
+std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::string& who,
+                                      const std::vector<std::string>& settings, const std::string& purpose) {
   try {
     auto entrant = std::make_unique<Entrant>(Entrant{load_scene(scene.file, joined(scene.settings, settings)), ""});
     refuse_automatic(entrant->loaded, "vpm compare");
@@ -54,7 +55,7 @@ std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::vec
                                     settings_line(entrant->loaded.settings), purpose);
     return entrant;
   } catch (const InputError& error) {
-    throw InputError(fmt::format("scene '{}': {}", scene.name, error.what()));
+    throw InputError(fmt::format("scene '{}', {}: {}", scene.name, who, error.what()));
   }
 }
 
@@ -75,7 +76,7 @@ void check_size(const Image& reference, const Camera& camera, const ComparedScen
 }
 
 Reference exact_reference(const ComparedScene& scene) {
-  const std::unique_ptr<Entrant> entrant = make_entrant(scene, {}, "");
+  const std::unique_ptr<Entrant> entrant = make_entrant(scene, "exact picture", {}, "");
   try {
     const Image picture = exact_picture(entrant->loaded.scene);
     return {picture, Image(picture.width, picture.height)};
@@ -91,13 +92,14 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
     Contest contest;
     contest.compared = &scene;
     for (const Method& method : plan.methods)
-      contest.methods.push_back(make_entrant(scene, method.settings, run_purpose(plan)));
+      contest.methods.push_back(
+          make_entrant(scene, fmt::format("method '{}'", method.name), method.settings, run_purpose(plan)));
     if (scene.source == ReferenceSource::exact) {
       contest.reference = exact_reference(scene);
     } else if (scene.source == ReferenceSource::rendered) {
       const std::string seed = fmt::format("render.seed={}", reference_seed(plan));
       contest.reference_entrant =
-          make_entrant(scene, joined(plan.reference_settings, {seed}),
+          make_entrant(scene, "reference", joined(plan.reference_settings, {seed}),
                        fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
       const Camera& camera = contest.reference_entrant->loaded.scene.camera;
       contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);

@@ -15,6 +15,7 @@
 #include "vpm/base/count.h"
 #include "vpm/base/rng.h"
 #include "vpm/medium/density_integrals_along.h"
+#include "vpm/photon/kernel_pair.h"
 
 namespace vpm {
 
@@ -94,6 +95,27 @@ void march_evenly(const SeenThrough& seen, const Interval& interval, float lengt
     add(seen.ray.at(static_cast<float>(t)), glm::exp(-seen.sigma_t * integral) * static_cast<float>(width));
     t = interval.t0 + (++next + rng.uniform_double()) * width;
   }
+}
+
+/// The sum of length times sum_at(point) over points of an interval of a ray, one drawn uniformly in each of its equal
+/// parts of at most `length` m: of light, W/(m^3 sr), that is attenuated to the eye already. most_seen(t) is no less
+/// than the share of light that comes to the eye from the surroundings of the distance t, m. Where it is below 1 %, the
+/// march goes on by Russian roulette.
+template <class MostSeen, class SumAt>
+KernelEstimate march_seen(const Ray& ray, const Interval& interval, float length, Rng& rng, MostSeen&& most_seen,
+                          SumAt&& sum_at) {
+  constexpr float kRouletteBelow = 0.01f;
+  const auto strata = static_cast<uint32_t>(std::max(1.0f, std::ceil(interval.length() / length)));
+  const float width = interval.length() / static_cast<float>(strata);
+  KernelPair<Rgbd> sum;
+  float scale = width;  // of what survived roulette, m
+  for (uint32_t i = 0; i < strata && scale > 0.0f; ++i) {
+    const float t = interval.t0 + (static_cast<float>(i) + rng.uniform()) * width;
+    const KernelEstimate seen = sum_at(ray.at(t));
+    sum += {Rgbd(scale * seen.value), Rgbd(scale * seen.correction)};
+    if (most_seen(t) * scale < kRouletteBelow * width) scale = rng.uniform() < 0.5f ? 2.0f * scale : 0.0f;
+  }
+  return {Rgb(sum.value), Rgb(sum.correction)};
 }
 
 inline double Marcher::extend(const DensityPiece& piece, double s, double length, double most_integral) {

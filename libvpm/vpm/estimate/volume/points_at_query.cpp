@@ -18,7 +18,7 @@ MarchedSource::Reach PointsAtQuery::reach(const EyeSegment& segment) const {
   Reach reach{{0.0f, 0.0f}, kInfinity, PointsOfSegment(segment, map, VolumeForm::density_at_query)};
   if (reach.points->seen_one_by_one()) return reach;
   reach.interval = reach.points->reach();
-  reach.step = step_among(map, reach.interval);
+  reach.step = step_among(map.settings.radius, reach.interval);
   return reach;
 }
 

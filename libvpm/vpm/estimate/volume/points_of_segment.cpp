@@ -100,27 +100,17 @@ KernelEstimate PointsOfSegment::sum_of_seen(const Vec3& point, EyeWork& work) co
   return std::visit(by_kernel, medium.phase);
 }
 
-/// Goes on by Russian roulette where less than 1 % of the light of the nearest photon comes to the eye.
 KernelEstimate PointsOfSegment::march_seen(EyeWork& work) const {
-  constexpr float kRouletteBelow = 0.01f;
   const Rgb& sigma_t = segment_.medium()->sigma_t;
   const float thinnest = std::min({sigma_t.r, sigma_t.g, sigma_t.b});
   const PlaneDistances distances = region_.distances();
   const float deeper = map_.settings.radius * glm::length(distances.slope);  // a point is, than photons around it
-  const float step = step_among(map_, reach_);
-  const auto strata = static_cast<uint32_t>(std::max(1.0f, std::ceil(reach_.length() / step)));
-  const float width = reach_.length() / static_cast<float>(strata);
-  KernelPair<Rgbd> sum;
-  float scale = width;  // of what survived roulette, m
-  for (uint32_t i = 0; i < strata && scale > 0.0f; ++i) {
-    const Vec3 point = segment_.ray.at(reach_.t0 + (static_cast<float>(i) + work.rng.uniform()) * width);
-    const KernelEstimate seen = sum_of_seen(point, work);
-    sum += {Rgbd(scale * seen.value), Rgbd(scale * seen.correction)};
-    const float passed = distances.of(point - segment_.ray.origin) - segment_.interval.t0 - deeper;
-    if (std::exp(-thinnest * passed) * scale < kRouletteBelow * width)
-      scale = work.rng.uniform() < 0.5f ? 2.0f * scale : 0.0f;
-  }
-  return {Rgb(sum.value), Rgb(sum.correction)};
+  const auto most_seen = [&](float t) {
+    const Vec3 from_origin = t * segment_.ray.direction;
+    return std::exp(-thinnest * (distances.of(from_origin) - segment_.interval.t0 - deeper));
+  };
+  return vpm::march_seen(segment_.ray, reach_, step_among(map_.settings.radius, reach_), work.rng, most_seen,
+                         [&](const Vec3& point) { return sum_of_seen(point, work); });
 }
 
 KernelEstimate PointsOfSegment::march_evenly(EyeWork& work) const {
@@ -129,7 +119,7 @@ KernelEstimate PointsOfSegment::march_evenly(EyeWork& work) const {
   KernelEstimate all;
   const auto add = [&](const Vec3& point, const Rgb& weight) { all += weight * sum(point, work); };
   const SeenThrough seen{segment_.ray, segment_.integrals(work), segment_.medium()->sigma_t};
-  vpm::march_evenly(seen, reach_, step_among(map_, reach_), work.rng, add,
+  vpm::march_evenly(seen, reach_, step_among(map_.settings.radius, reach_), work.rng, add,
                     [mirrored = mirrored()](double t) { return mirrored(static_cast<float>(t)); });
   return all;
 }

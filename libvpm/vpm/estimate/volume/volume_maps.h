@@ -64,12 +64,12 @@ class VolumeMaps {
   std::vector<Map> by_medium_;
 };
 
-/// The length of steps among photons, m: a gather radius, so that no photon is passed by. Where that would make too
-/// many steps in a segment (thin media that extend very far), steps are longer; the result is then noisier, but no less
-/// right.
-inline float step_among(const PhotonMap& map, const Interval& interval) {
+/// The length of steps among photons that are gathered within `radius`, m: that radius, so that no photon is passed by.
+/// Where it would make too many steps in a segment (thin media that extend very far), steps are longer; the result is
+/// then noisier, but no less right.
+inline float step_among(float radius, const Interval& interval) {
   constexpr float kMostSteps = 10'000.0f;  // in one segment of a ray
-  return std::max(map.settings.radius, interval.length() / kMostSteps);
+  return std::max(radius, interval.length() / kMostSteps);
 }
 
 }  // namespace vpm

@@ -131,6 +131,8 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
   beams.flights = 0;
   beams.beam_length = BeamLength::long_beams;
   all.emplace_back("long photon beams", beams);
+  beams.volume.mode = GatherMode::beams_points;
+  all.emplace_back("long photon beams around points", beams);
   RenderSettings planes = base;
   planes.volume.mode = GatherMode::photon_planes;
   planes.photons_emitted = base.photons_emitted / 4;  // few, so that many of their flights become planes
@@ -166,7 +168,9 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
          {std::tuple("photons around rays", GatherMode::beam, VolumeForm::density_at_query),
           {"photons around rays", GatherMode::beam, VolumeForm::density_at_photon},
           {"photon beams", GatherMode::photon_beams, VolumeForm::density_at_query},
-          {"photon beams", GatherMode::photon_beams, VolumeForm::density_at_photon}}) {
+          {"photon beams", GatherMode::photon_beams, VolumeForm::density_at_photon},
+          {"photon beams around points", GatherMode::beams_points, VolumeForm::density_at_query},
+          {"photon beams around points", GatherMode::beams_points, VolumeForm::density_at_photon}}) {
       RenderSettings beams = base;
       beams.volume.mode = mode;
       beams.volume_form = form;
@@ -296,11 +300,14 @@ std::vector<Check> combinations(const Effort& effort) {
     if (!strategy.analog) continue;
     RenderSettings beams = base;
     beams.volume.mode = GatherMode::photon_beams;
+    RenderSettings around_points = beams;
+    around_points.volume.mode = GatherMode::beams_points;
     RenderSettings planes = beams;
     planes.volume.mode = GatherMode::photon_planes;
     planes.beam_length = BeamLength::long_beams;
     planes.planes = 200;
-    for (auto& [what, settings] : NamedSettings{{"beams", beams}, {"planes and long beams", planes}}) {
+    for (auto& [what, settings] :
+         NamedSettings{{"beams", beams}, {"beams around points", around_points}, {"planes and long beams", planes}}) {
       const std::string name = fmt::format("photon {} by {}", what, strategy.name);
       settings.seed = effort.seed_of("combinations " + name);
       const int passes = static_cast<int>(effort.count(10, 32));

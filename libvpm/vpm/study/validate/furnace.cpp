@@ -310,8 +310,10 @@ Medium box_of_voxels() {
 }
 
 std::vector<Check> check_borders(const Effort& effort) {
-  const std::pair<const char*, GatherMode> spreads[] = {
-      {"balls", GatherMode::radius}, {"discs", GatherMode::beam}, {"photon beams", GatherMode::photon_beams}};
+  const std::pair<const char*, GatherMode> spreads[] = {{"balls", GatherMode::radius},
+                                                        {"discs", GatherMode::beam},
+                                                        {"photon beams", GatherMode::photon_beams},
+                                                        {"photon beams around points", GatherMode::beams_points}};
   const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
   const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
   std::vector<Check> checks =

@@ -45,6 +45,10 @@ std::vector<Check> check_radii(const Effort& effort) {
     beams.volume.mode = GatherMode::photon_beams;
     check("radius of photon beams", render_photon_pass(scene, beams, pass, kNeverStopped).statistics.last_volume_radius,
           settings.volume.radius.metres(), 1.0);
+    beams.volume.mode = GatherMode::beams_points;
+    check("radius of beams around points",
+          render_photon_pass(scene, beams, pass, kNeverStopped).statistics.last_volume_radius,
+          settings.volume.radius.metres(), 2.0);
   }
   settings.radii = RadiusSchedule::constant;
   const RenderStatistics found = render_photon_pass(scene, settings, 30, kNeverStopped).statistics;

@@ -28,9 +28,9 @@ std::vector<NamedPhase> phases() {
 /// The integral over the sphere of a phase function, summed from the side its peak is on.
 struct PhaseLaw {
   bool backward = false;
-  std::vector<double> away;        // 1 - |cosine to the peak|, at the ends of the pieces
-  std::vector<double> cumulative;  // probability up to there
-  double mean_cosine = 0.0;
+  std::vector<double> away;                     // 1 - |cosine to the peak|, at the ends of the pieces
+  std::vector<double> cumulative;               // probability up to there
+  double mean_cosine = 0.0, mean_square = 0.0;  // of the cosine
 };
 
 PhaseLaw phase_law(const NamedPhase& named) {
@@ -46,6 +46,7 @@ PhaseLaw phase_law(const NamedPhase& named) {
     law.away.push_back(2.0 * end * end * end * end);
     law.cumulative.push_back(sum += share);
     law.mean_cosine += share * cosine;
+    law.mean_square += share * cosine * cosine;
   }
   return law;
 }
@@ -77,10 +78,12 @@ std::vector<Check> check_phase(const NamedPhase& named, const Effort& effort) {
       });
   std::vector<double> probabilities;
   for (const double share : shares) probabilities.insert(probabilities.end(), kSectors, share / kSectors);
+  const double mean_square = std::visit([](const auto& p) { return double{p.mean_square_cosine()}; }, named.phase);
   return {check_weights(named.name + ", directions", {samples.begin(), samples.end() - 1}, probabilities),
           check_mean(named.name + ", mean cosine", samples.back(), named.mean_cosine),
           check_bound(named.name + ", integral of values", total, 1.0, 1e-5),
-          check_bound(named.name + ", mean cosine of values", law.mean_cosine, named.mean_cosine, 1e-5)};
+          check_bound(named.name + ", mean cosine of values", law.mean_cosine, named.mean_cosine, 1e-5),
+          check_bound(named.name + ", mean square of the cosine", law.mean_square, mean_square, 1e-5)};
 }
 
 }  // namespace

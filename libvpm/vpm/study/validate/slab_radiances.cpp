@@ -75,7 +75,7 @@ void check_radiance_by_photons(std::vector<Check>& checks, const RadianceProblem
 std::vector<Check> radiances_by_photons(const Effort& effort) {
   std::vector<Check> checks;
   for (const RadianceProblem& p : kRadianceProblems)
-    for (const GatherMode mode : {GatherMode::beam, GatherMode::photon_beams})
+    for (const GatherMode mode : {GatherMode::beam, GatherMode::photon_beams, GatherMode::beams_points})
       check_radiance_by_photons(checks, p, mode, effort);
   return checks;
 }

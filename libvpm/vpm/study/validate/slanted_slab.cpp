@@ -63,10 +63,13 @@ Check check_slab(const std::string& name, bool voxels, GatherMode mode, const Ef
 }
 
 std::vector<Check> check_slabs(const Effort& effort) {
-  return {check_slab("balls", false, GatherMode::radius, effort), check_slab("discs", false, GatherMode::beam, effort),
+  return {check_slab("balls", false, GatherMode::radius, effort),
+          check_slab("discs", false, GatherMode::beam, effort),
           check_slab("voxels, discs", true, GatherMode::beam, effort),
           check_slab("photon beams", false, GatherMode::photon_beams, effort),
-          check_slab("voxels, photon beams", true, GatherMode::photon_beams, effort)};
+          check_slab("voxels, photon beams", true, GatherMode::photon_beams, effort),
+          check_slab("photon beams around points", false, GatherMode::beams_points, effort),
+          check_slab("voxels, photon beams around points", true, GatherMode::beams_points, effort)};
 }
 
 }  // namespace
