@@ -94,11 +94,20 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
   return choices;
 }
 
-/// Costs a pass under radii as they would be: they are the same for any number of photons but where they are given.
-Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
-                      RenderSettings& settings) {
+/// For points, whose eye pass takes about as long under radii that are chosen for any number of photons.
+ChosenCount choose_count_of_points(double seconds, const std::function<PassCost(uint64_t)>& cost_of) {
   constexpr uint64_t kFirst = 20'000;    // photons
   constexpr uint64_t kMost = 1'000'000;  // of a pilot that asks again with the number found
+  ChosenCount chosen{kFirst, ""};
+  for (int round = 0; round < 2; ++round) chosen = choose_count(cost_of(std::min(chosen.count, kMost)), seconds);
+  if (seconds == 0.0) return chosen;
+  return make_fit(chosen, seconds,
+                  [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
+}
+
+/// Costs a pass under radii as they would be.
+Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
+                      RenderSettings& settings) {
   const double seconds = settings.until.seconds, limit = seconds > 0.0 ? kTimingShare * seconds : kInfinity;
   RenderSettings tried = settings;
   const auto cost_of = [&](uint64_t photons) {
@@ -106,12 +115,8 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
     choose_radii(scene, automatic, densities, tried);
     return time_pass(scene, tried, limit);
   };
-  ChosenCount chosen{kFirst, ""};
-  for (int round = 0; round < 2; ++round)
-    chosen = choose_count(cost_of(std::min(chosen.count, kMost)), kPassesShare * seconds);
-  if (seconds > 0.0)
-    chosen = make_fit(chosen, kPassesShare * seconds,
-                      [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
+  const ChosenCount chosen = (settings.volume.gathers_flights() ? choose_count_of_flights : choose_count_of_points)(
+      kPassesShare * seconds, cost_of);
   settings.photons_emitted = chosen.count;
   return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
 }
@@ -122,13 +127,13 @@ ChosenRadius choose_radius(const MapDensity& density, double emitted, double dia
   const double share = kPhotonsWithin / density.within * density.emitted / emitted;
   const double wanted = density.reach * std::pow(share, 1.0 / density.dimension);
   const double least = kLeastRadius * density.footprint, most = kLargestRadius * diagonal;
-  const std::string would =
-      fmt::format("{:.3g} m would hold {:g} photons at a typical place of the picture", wanted, kPhotonsWithin);
+  const std::string would = fmt::format("{:.3g} m would hold {:g} {} at a typical place of the picture", wanted,
+                                        kPhotonsWithin, density.records);
   if (wanted > most) return {rounded_radius(most), "a twentieth of the scene; " + would};
   if (wanted < least) return {rounded_radius(least), "half a pixel; " + would};
-  return {
-      rounded_radius(wanted),
-      fmt::format("{:g} photons of the first pass lie within it at a typical place of the picture", kPhotonsWithin)};
+  return {rounded_radius(wanted),
+          fmt::format("{:g} {} of the first pass are within it at a typical place of the picture", kPhotonsWithin,
+                      density.records)};
 }
 
 ChosenCount choose_count(const PassCost& cost, double seconds) {
@@ -172,6 +177,31 @@ ChosenCount make_fit(ChosenCount chosen, double seconds, const std::function<dou
     taken = less;
   }
   return chosen;
+}
+
+ChosenCount choose_count_of_flights(double seconds, const std::function<PassCost(uint64_t)>& cost_of) {
+  constexpr uint64_t kMore = 4;
+  const double limit = seconds > 0.0 ? seconds / kLeastPasses : kInfinity;
+  uint64_t count = kLeastCount;
+  for (double before = 0.0;; count *= kMore) {
+    const PassCost cost = cost_of(count);
+    const auto photons = static_cast<double>(count);
+    const double taken = cost.seconds(photons);
+    if (taken > limit && count == kLeastCount)
+      return {count, fmt::format("the least; a pass takes {:.2g} s, and {} do not fit into {:g} s", taken, kLeastPasses,
+                                 seconds)};
+    if (taken > limit) {  // between two numbers a pass goes by a power of them
+      const double power = std::log(limit / before) / std::log(taken / before);
+      return {static_cast<uint64_t>(rounded(photons / kMore * std::pow(double{kMore}, power), 2)),
+              fmt::format("{} passes fit into {:g} s; most of their time goes with the flights that eye rays cross",
+                          kLeastPasses, seconds)};
+    }
+    if (photons * cost.photon >= cost.rest())
+      return {count, fmt::format("tracing and sorting them takes as long as the eye pass, {:.2g} s", cost.rest())};
+    if (kMore * photons * (cost.stored_per_photon + kStoredOfFlight * cost.flights_per_photon) > kMostStored)
+      return {count, fmt::format("maps that take the memory of {:g} photons, the most", kMostStored)};
+    before = taken;
+  }
 }
 
 StrategyCost cheapest(std::span<const StrategyCost> costs) {

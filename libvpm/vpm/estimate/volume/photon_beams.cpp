@@ -31,6 +31,13 @@ PhotonBeams::PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings)
       flights_(scene, settings.maps.filter(), {settings.long_beams, settings.planes}),
       collisions_(scene, with_beams(settings), 2) {}
 
+std::vector<MapInfo> PhotonBeams::maps() const {
+  MapInfo map = collisions_.maps().front();
+  map.dimension = 1;
+  map.flights = &flights_.beams;
+  return {map};
+}
+
 Recorders PhotonBeams::recorders() {
   Recorders both{&flights_};
   for (PhotonRecorder* recorder : collisions_.recorders()) both.push_back(recorder);
