@@ -7,8 +7,10 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
+#include "vpm/job/declare.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
+#include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
 #include "vpm/job/setting.h"
@@ -187,7 +189,7 @@ TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
   AutomaticSettings all;
   for (const Setting& setting : all_settings())
     if (setting.automatic) all.keys.insert(setting.key);
-  EXPECT_EQ(all.keys.size(), 5u);
+  EXPECT_EQ(all.keys.size(), 6u);
   const std::vector<Choice> choices = choose_settings(scene, all, settings);
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(settings.distance.strategy, "homogeneous");
@@ -310,6 +312,88 @@ TEST(SlowAutomatic, BeamsLeaveTimeForPasses) {
     fits = result.seconds < longest_time(kSeconds) && result.film.passes() >= kLeastPasses;
   }
   EXPECT_TRUE(fits);
+}
+
+/// A pilot's error is that of passes, as the film tells it, whether it has time or renders a ray of each block among a
+/// twentieth of the photons: the film's own scale is that of pixels, so that the two differ.
+TEST(Automatic, TellsTheErrorOfAPass) {
+  const RenderJob job = make_job(foggy_room(0.5f));
+  RenderSettings settings;
+  settings.volume.mode = GatherMode::beam;
+  settings.volume.radius = 0.1f;
+  settings.surface.radius = 0.2f;
+  settings.photons_emitted = 20'000;
+  settings.radii = RadiusSchedule::constant;
+  settings.until.passes = 8;
+  const FilmErrors film = render(job.scene, settings, nothing_rendered(job.scene.camera)).errors.value();
+  const PassCost cost = time_pass(job.scene, settings);
+  for (const double seconds : {double{kInfinity}, 0.0}) {
+    const PassError error = error_of_pass(job.scene, settings, cost, seconds);
+    EXPECT_NEAR(error.variance / (8.0 * film.variance_part.value), 1.0, 0.4) << seconds;
+    EXPECT_LT(error.bias2, error.variance);
+  }
+  const PassError error{4e-3, 1e-3};
+  EXPECT_DOUBLE_EQ(error_after(error, job.scene, settings, 8.0), 1.5e-3);
+  settings.radii = RadiusSchedule::per_pass;
+  EXPECT_DOUBLE_EQ(error_after(error, job.scene, settings, 8.0), 1.25e-3);  // 8^(-2/3)
+}
+
+/// What is chosen for volume.gather, with its reason, and a radius for it; photons are given.
+Choice chosen_gather(const Scene& scene, RenderSettings settings) {
+  settings.photons_emitted = 20'000;
+  settings.surface.radius = 0.1f;
+  const std::vector<Choice> choices = choose_settings(scene, {{"volume.gather", "volume.radius"}}, settings);
+  EXPECT_EQ(choices.size(), 2u);
+  EXPECT_EQ(choices.at(0).key, "volume.gather");
+  EXPECT_EQ(choices.at(0).value, word_of(settings.volume.mode));
+  EXPECT_EQ(choices.at(1).key, "volume.radius");
+  return choices.at(0);
+}
+
+/// In thin air few photons collide, but all fly.
+TEST(Automatic, BeamsAreGatheredWhereFewPhotonsCollide) {
+  const Choice choice = chosen_gather(lit_evenly(0.01f), {});
+  EXPECT_EQ(choice.value, "photon-beams") << choice.reason;
+  for (const char* part : {"least error in a pilot", " beam ", " photon-beams "})
+    EXPECT_NE(choice.reason.find(part), std::string::npos) << choice.reason;
+}
+
+/// In a dense medium photons collide often, and a flight says little more than the collision at its end.
+TEST(Automatic, PointsAreGatheredWherePhotonsCollideOften) {
+  const Choice choice = chosen_gather(foggy_room(5.0f).scene, {});
+  EXPECT_EQ(choice.value, "beam") << choice.reason;
+}
+
+TEST(Automatic, GathersThatTheSettingsRefuseAreNotTried) {
+  const Scene thin = lit_evenly(0.01f);
+  RenderSettings merged;
+  merged.photons_in_cube = 10;
+  RenderSettings biased;
+  biased.distance.strategy = "mean-extinction";
+  for (const RenderSettings& settings : {merged, biased}) {
+    const Choice choice = chosen_gather(thin, settings);
+    EXPECT_EQ(choice.value, "beam");
+    EXPECT_NE(choice.reason.find("not photon-beams: "), std::string::npos) << choice.reason;
+  }
+  RenderSettings ball_by_ball;
+  ball_by_ball.volume.boundary = BoundaryRule::corrected;
+  EXPECT_EQ(chosen_gather(thin, ball_by_ball).value, "radius");
+}
+
+/// A gather that is given stays, and so does that of a scene without media.
+TEST(Automatic, KeepsGathersThatAreGiven) {
+  RenderSettings settings;
+  settings.volume.mode = GatherMode::nearest;
+  choose_settings(lit_evenly(0.01f), {{"volume.radius"}}, settings);
+  EXPECT_EQ(settings.volume.mode, GatherMode::nearest);
+  EXPECT_TRUE(choose_settings(lit_evenly(0.0f), {{"volume.gather"}}, settings).empty());
+}
+
+TEST(Automatic, TheLeastErrorIsTheFirstsUnlessAnotherIsClearlyLess) {
+  EXPECT_EQ(least_error(std::vector<double>{1.0, 0.95}), 0u);
+  EXPECT_EQ(least_error(std::vector<double>{1.0, 0.85}), 1u);
+  EXPECT_EQ(least_error(std::vector<double>{1.0, 0.85, 0.8}), 1u);
+  EXPECT_EQ(least_error(std::vector<double>{1.0, 2.0}), 0u);
 }
 
 /// A timing in a hurry asks for fewer photons, and tells about the same of each; and paths have a pass to time, too.

@@ -15,9 +15,9 @@
 namespace vpm {
 
 /// Chooses what is asked for, after a short pilot, and puts it into the settings. Radii and the strategy are a pure
-/// function of scene and settings: the strategy's cost is counted, not timed. The number of photons is not, it rests on
-/// times; radii go by it. What the scene has no use for is left alone. Throws InputError where this program counts
-/// nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
+/// function of scene and settings: the strategy's cost is counted, not timed. The number of photons and the gather in
+/// media are not, they rest on times; radii go by them. What the scene has no use for is left alone. Throws InputError
+/// where this program counts nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings);
 
 /// Puts a choice made earlier into the settings. Throws InputError where it is none: a setting that is not declared
@@ -56,6 +56,9 @@ ChosenCount make_fit(ChosenCount chosen, double seconds, const std::function<dou
 /// are full.
 ChosenCount choose_count_of_flights(double seconds, const std::function<PassCost(uint64_t)>& cost_of);
 inline constexpr double kStoredOfFlight = 9.0;  // photons of kMostStored, for the memory that a flight takes
+
+/// Which is least; of those that differ by less than a tenth the first.
+size_t least_error(std::span<const double> errors);
 
 /// The cheapest; of equals the first.
 StrategyCost cheapest(std::span<const StrategyCost> costs);
