@@ -7,8 +7,12 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
+#include "vpm/job/declare.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
+#include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
+#include "vpm/job/render_job.h"
 #include "vpm/job/setting.h"
 
 namespace vpm {
@@ -69,6 +73,23 @@ TEST(Automatic, FewerPhotonsMakeAPassFitWhereTheyMakeItShorter) {
   EXPECT_EQ(make_fit({640'000, ""}, 4.0, wide).count, 80'000u);                           // 8 s, 2.8 s
   EXPECT_EQ(make_fit({640'000, ""}, 0.1, wide).count, 1'300u);                            // as few as there may be
   EXPECT_EQ(make_fit({640'000, ""}, 4.0, [](uint64_t) { return 8.0; }).count, 640'000u);  // radii that are given
+}
+
+/// Eye rays cross flights in proportion to the root of the photons' number, under radii that 50 flights pass within.
+TEST(Automatic, FlightsAreAsManyAsLetPassesFit) {
+  std::vector<uint64_t> timed;
+  const auto cost_of = [&](uint64_t photons) {
+    timed.push_back(photons);
+    return PassCost{.photon = 1e-7, .eye = 1e-3 * std::sqrt(static_cast<double>(photons)), .flights_per_photon = 4.0};
+  };
+  EXPECT_NEAR(choose_count_of_flights(1.6, cost_of).count, 38'000, 2000);  // 0.2 s a pass, 4 % for photons
+  EXPECT_EQ(timed, (std::vector<uint64_t>{1000, 4000, 16'000, 64'000}));
+  const ChosenCount least = choose_count_of_flights(0.16, cost_of);
+  EXPECT_EQ(least.count, kLeastCount);
+  EXPECT_EQ(least.reason.substr(0, 9), "the least");
+  EXPECT_EQ(choose_count_of_flights(0.0, cost_of).count, 256'000u);  // memory: four times as many have 4e7 / 9 flights
+  const auto even = [](uint64_t) { return PassCost{.photon = 1e-5, .eye = 0.1}; };
+  EXPECT_EQ(choose_count_of_flights(0.0, even).count, 16'000u);
 }
 
 TEST(Automatic, TheCheapestStrategyIsTheFirstOfEquals) {
@@ -168,7 +189,7 @@ TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
   AutomaticSettings all;
   for (const Setting& setting : all_settings())
     if (setting.automatic) all.keys.insert(setting.key);
-  EXPECT_EQ(all.keys.size(), 5u);
+  EXPECT_EQ(all.keys.size(), 6u);
   const std::vector<Choice> choices = choose_settings(scene, all, settings);
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(settings.distance.strategy, "homogeneous");
@@ -185,17 +206,22 @@ TEST(Automatic, CountsTheExactStrategies) {
   EXPECT_EQ(costs[0].cost, std::max({costs[0].cost, costs[1].cost, costs[2].cost, costs[3].cost}));
 }
 
-/// As many photons lie within the radius chosen as the rule says, in a medium lit evenly: an endless parallel light
-/// through air so thin that it stays what it is.
-TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
+/// A box of 2 m of a medium, and a parallel light through all of its height.
+Scene lit_evenly(float sigma_t) {
   Scene scene;
-  scene.media.push_back(make_medium(nullptr, Rgb(0.01f), 1.0f));
+  scene.media.push_back(make_medium(nullptr, Rgb(sigma_t), 1.0f));
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
   scene.lights.push_back(BeamLight{Vec3(0.0f, 2.0f, 0.0f), Vec3(0.0f, -1.0f, 0.0f), 0.9f, Rgb(1.0f)});
   scene.camera = make_camera(Vec3(0.0f, 0.0f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 10.0f, {64, 64});
   scene.geometry.commit();
   finish(scene);
+  return scene;
+}
+
+/// As many photons lie within the radius chosen as the rule says, in air so thin that light stays what it is.
+TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
+  const Scene scene = lit_evenly(0.01f);
   RenderSettings settings;
   settings.volume_direct = DirectLight::photons;
   settings.photons_emitted = 1'000'000;
@@ -204,6 +230,17 @@ TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
   const double collisions = -std::expm1(-0.02) * settings.photons_emitted;
   const double share = 4.0 / 3.0 * std::pow(settings.volume.radius.metres(), 3.0) / (0.9 * 0.9 * 2.0);
   EXPECT_NEAR(share * collisions, kPhotonsWithin, 0.15 * kPhotonsWithin);
+}
+
+/// Flights pass within the radius chosen as the rule says: all through the same box, along one direction.
+TEST(Automatic, TheRadiusOfBeamsHoldsTheFlightsThatItPromises) {
+  const Scene scene = lit_evenly(0.01f);
+  RenderSettings settings;
+  settings.volume.mode = GatherMode::photon_beams;
+  settings.photons_emitted = 1'000'000;
+  choose_settings(scene, {{"volume.radius"}}, settings);
+  const double share = std::pow(settings.volume.radius.metres() / 0.9, 2.0);  // of the photons
+  EXPECT_NEAR(share * settings.photons_emitted, kPhotonsWithin, 0.15 * kPhotonsWithin);
 }
 
 /// The photons within the radius chosen, at a place that is lit evenly and seen straight, are as many as the rule says:
@@ -242,6 +279,121 @@ TEST(Automatic, TimesNoPhotonsWhereThereIsNoMap) {
   EXPECT_LT(timing.seconds(), 2.0);  // where others work beside
   EXPECT_EQ(cost.photon, 0.0);
   EXPECT_GT(cost.eye, 0.0);
+}
+
+/// A closed room full of fog with a lamp, as in scenes/fog_room.toml, seen from within.
+AssembledScene foggy_room(float sigma_t) {
+  AssembledScene parts;
+  Scene& scene = parts.scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(sigma_t), 0.9f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Lambertian{Rgb(0.5f)}, &media);
+  scene.lights.push_back(PointLight{Vec3(0.0f, 0.9f, 0.0f), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 0.0f, 0.95f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 75.0f, {128, 128});
+  scene.camera_medium = 0;
+  scene.geometry.commit();
+  finish(scene);
+  return parts;
+}
+
+/// Where other work comes and goes, a pass takes now longer, now shorter than the pilot's: one try of three is to do.
+TEST(SlowAutomatic, BeamsLeaveTimeForPasses) {
+  constexpr double kSeconds = 4.0;
+  bool fits = false;
+  for (int attempt = 0; attempt < 3 && !fits; ++attempt) {
+    RenderJob job = make_job(foggy_room(0.5f));
+    job.settings.volume.mode = GatherMode::photon_beams;
+    job.settings.until.seconds = kSeconds;
+    job.automatic.keys = {"photons.emitted", "volume.radius", "surface.radius"};
+    choose(job);
+    RenderResult nothing = nothing_rendered(job.scene.camera);
+    nothing.seconds = job.pilot_seconds;
+    const RenderResult result = render(job.scene, job.settings, std::move(nothing));
+    fits = result.seconds < longest_time(kSeconds) && result.film.passes() >= kLeastPasses;
+  }
+  EXPECT_TRUE(fits);
+}
+
+/// A pilot's error is that of passes, as the film tells it, whether it has time or renders a ray of each block among a
+/// twentieth of the photons: the film's own scale is that of pixels, so that the two differ.
+TEST(Automatic, TellsTheErrorOfAPass) {
+  const RenderJob job = make_job(foggy_room(0.5f));
+  RenderSettings settings;
+  settings.volume.mode = GatherMode::beam;
+  settings.volume.radius = 0.1f;
+  settings.surface.radius = 0.2f;
+  settings.photons_emitted = 20'000;
+  settings.radii = RadiusSchedule::constant;
+  settings.until.passes = 8;
+  const FilmErrors film = render(job.scene, settings, nothing_rendered(job.scene.camera)).errors.value();
+  const PassCost cost = time_pass(job.scene, settings);
+  for (const double seconds : {double{kInfinity}, 0.0}) {
+    const PassError error = error_of_pass(job.scene, settings, cost, seconds);
+    EXPECT_NEAR(error.variance / (8.0 * film.variance_part.value), 1.0, 0.4) << seconds;
+    EXPECT_LT(error.bias2, error.variance);
+  }
+  const PassError error{4e-3, 1e-3};
+  EXPECT_DOUBLE_EQ(error_after(error, job.scene, settings, 8.0), 1.5e-3);
+  settings.radii = RadiusSchedule::per_pass;
+  EXPECT_DOUBLE_EQ(error_after(error, job.scene, settings, 8.0), 1.25e-3);  // 8^(-2/3)
+}
+
+/// What is chosen for volume.gather, with its reason, and a radius for it; photons are given.
+Choice chosen_gather(const Scene& scene, RenderSettings settings) {
+  settings.photons_emitted = 20'000;
+  settings.surface.radius = 0.1f;
+  const std::vector<Choice> choices = choose_settings(scene, {{"volume.gather", "volume.radius"}}, settings);
+  EXPECT_EQ(choices.size(), 2u);
+  EXPECT_EQ(choices.at(0).key, "volume.gather");
+  EXPECT_EQ(choices.at(0).value, word_of(settings.volume.mode));
+  EXPECT_EQ(choices.at(1).key, "volume.radius");
+  return choices.at(0);
+}
+
+/// In thin air few photons collide, but all fly.
+TEST(Automatic, BeamsAreGatheredWhereFewPhotonsCollide) {
+  const Choice choice = chosen_gather(lit_evenly(0.01f), {});
+  EXPECT_EQ(choice.value, "photon-beams") << choice.reason;
+  for (const char* part : {"least error in a pilot", " beam ", " photon-beams "})
+    EXPECT_NE(choice.reason.find(part), std::string::npos) << choice.reason;
+}
+
+/// In a dense medium photons collide often, and a flight says little more than the collision at its end.
+TEST(Automatic, PointsAreGatheredWherePhotonsCollideOften) {
+  const Choice choice = chosen_gather(foggy_room(5.0f).scene, {});
+  EXPECT_EQ(choice.value, "beam") << choice.reason;
+}
+
+TEST(Automatic, GathersThatTheSettingsRefuseAreNotTried) {
+  const Scene thin = lit_evenly(0.01f);
+  RenderSettings merged;
+  merged.photons_in_cube = 10;
+  RenderSettings biased;
+  biased.distance.strategy = "mean-extinction";
+  for (const RenderSettings& settings : {merged, biased}) {
+    const Choice choice = chosen_gather(thin, settings);
+    EXPECT_EQ(choice.value, "beam");
+    EXPECT_NE(choice.reason.find("not photon-beams: "), std::string::npos) << choice.reason;
+  }
+  RenderSettings ball_by_ball;
+  ball_by_ball.volume.boundary = BoundaryRule::corrected;
+  EXPECT_EQ(chosen_gather(thin, ball_by_ball).value, "radius");
+}
+
+/// A gather that is given stays, and so does that of a scene without media.
+TEST(Automatic, KeepsGathersThatAreGiven) {
+  RenderSettings settings;
+  settings.volume.mode = GatherMode::nearest;
+  choose_settings(lit_evenly(0.01f), {{"volume.radius"}}, settings);
+  EXPECT_EQ(settings.volume.mode, GatherMode::nearest);
+  EXPECT_TRUE(choose_settings(lit_evenly(0.0f), {{"volume.gather"}}, settings).empty());
+}
+
+TEST(Automatic, TheLeastErrorIsTheFirstsUnlessAnotherIsClearlyLess) {
+  EXPECT_EQ(least_error(std::vector<double>{1.0, 0.95}), 0u);
+  EXPECT_EQ(least_error(std::vector<double>{1.0, 0.85}), 1u);
+  EXPECT_EQ(least_error(std::vector<double>{1.0, 0.85, 0.8}), 1u);
+  EXPECT_EQ(least_error(std::vector<double>{1.0, 2.0}), 0u);
 }
 
 /// A timing in a hurry asks for fewer photons, and tells about the same of each; and paths have a pass to time, too.

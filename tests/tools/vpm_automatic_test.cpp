@@ -28,15 +28,15 @@ class VpmAutomatic : public VpmRender {
 
 TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
   const std::string told_errors = vpm_succeeds({"render", "open.toml", "--auto", "-o", "auto.exr"}).err;
-  for (const char* key : {"distance.strategy", "photons.emitted", "volume.radius", "surface.radius"})
+  for (const char* key : {"distance.strategy", "volume.gather", "photons.emitted", "volume.radius", "surface.radius"})
     EXPECT_NE(told_errors.find(std::string("note: chosen ") + key), std::string::npos) << told_errors;
   std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
   for (const std::string& word : told(told_errors)) again.push_back(word);
-  ASSERT_EQ(again.size(), 4u + 8u) << told_errors;
+  ASSERT_EQ(again.size(), 4u + 10u) << told_errors;
   vpm_succeeds(again);
   EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
   EXPECT_EQ(report("auto.json")["settings"], report("again.json")["settings"]);
-  EXPECT_EQ(report("auto.json")["notes"].size(), 6u);
+  EXPECT_EQ(report("auto.json")["notes"].size(), 7u);
   EXPECT_EQ(report("again.json")["notes"].size(), 0u);
   const std::string line = read_exr_channels(path("auto.exr")).metadata.at("vpm.settings");
   EXPECT_EQ(line, read_exr_channels(path("again.exr")).metadata.at("vpm.settings"));
@@ -47,7 +47,8 @@ TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
 
 TEST_F(VpmAutomatic, WhatIsGivenIsRenderedAsEver) {
   vpm_succeeds({"render", "scene.toml", "-o", "given.exr"});
-  vpm_succeeds({"render", "scene.toml", "-o", "auto.exr", "--auto", "--set", "distance.strategy=regular"});
+  vpm_succeeds({"render", "scene.toml", "-o", "auto.exr", "--auto", "--set", "distance.strategy=regular", "--set",
+                "volume.gather=radius"});
   EXPECT_TRUE(read_exr(path("given.exr")).pixels == read_exr(path("auto.exr")).pixels);
   EXPECT_EQ(report("given.json")["settings"], report("auto.json")["settings"]);
 }
@@ -56,6 +57,24 @@ TEST_F(VpmAutomatic, AWordInTheFileAsksForOneChoice) {
   const std::string errors = vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "volume.radius=auto"}).err;
   EXPECT_EQ(told(errors).size(), 2u) << errors;
   EXPECT_EQ(told(errors).back().substr(0, 14), "volume.radius=");
+}
+
+TEST_F(VpmAutomatic, TheGatherInMediaIsChosenUnlessGiven) {
+  const auto line_of = [](const std::string& errors) {
+    const size_t at = errors.find("chosen volume.gather = ");
+    return at == std::string::npos ? "" : errors.substr(at, errors.find('\n', at) - at);
+  };
+  const std::string chosen =
+      line_of(vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "volume.gather=auto"}).err);
+  expect_words(chosen, {"least error in a pilot", " beam ", " photon-beams ", " s each)"});
+  const auto given = [&](const char* mode) {
+    return vpm_succeeds(
+        {"render", "open.toml", "--auto", "-o", "b.exr", "--set", std::string("volume.gather=") + mode});
+  };
+  for (const char* mode : {"nearest", "photon-beams"}) {
+    EXPECT_EQ(line_of(given(mode).err), "");
+    EXPECT_EQ(report("b.json")["settings"]["volume.gather"], mode);
+  }
 }
 
 TEST_F(VpmAutomatic, AResumedRenderKeepsItsChoices) {

@@ -11,6 +11,8 @@
 
 namespace vpm {
 
+struct PhotonBeam;
+
 /// A photon map that an estimator gathers from in a pass.
 struct MapInfo {
   std::string_view section;                                 // of the scene file, that holds its settings
@@ -19,6 +21,8 @@ struct MapInfo {
   const std::vector<std::vector<Photon>>* media = nullptr;  // its photons before build(), by medium ...
   const std::vector<Photon>* surfaces = nullptr;            // ... or on surfaces; W, of `emitted` photons
   uint64_t emitted = 0;                                     // for this map alone; 0: as many as in the ledger
+  /// What is gathered besides, before build(), by medium.
+  const std::vector<std::vector<PhotonBeam>>* flights = nullptr;
 };
 
 /// The photon tracing of a pass, once it is over.

@@ -1,17 +1,21 @@
-// The rules, and the order in which they are asked: the strategy, the photons, the radii.
+// The rules, and the order in which they are asked: the strategy, the gather in media, the photons, the radii.
 #include "vpm/job/automatic.h"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
 #include "vpm/base/count.h"
 #include "vpm/base/error.h"
 #include "vpm/estimate/pass_map.h"
+#include "vpm/job/declare.h"
 #include "vpm/job/pilot.h"
+#include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
 #include "vpm/job/setting.h"
+#include "vpm/job/validate.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -22,6 +26,10 @@ constexpr double kLeastRadius = 0.5;     // pixels
 constexpr double kLeastShare = 0.125;    // of what the eye pass costs, for photons
 constexpr double kTimingShare = 0.04;    // of the seconds of a render, for each of a few timings of a pass
 constexpr double kPassesShare = 0.75;    // of these seconds, that a pilot leaves to passes
+
+constexpr std::string_view kGatherKey = "volume.gather";
+/// What volume.gather may be chosen to be: of equals the first.
+constexpr std::array kGathersToTry{GatherMode::beam, GatherMode::photon_beams};
 
 /// Of so many decimal digits: enough for a choice, and short to write down.
 double rounded(double value, int digits) {
@@ -94,26 +102,128 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
   return choices;
 }
 
-/// Costs a pass under radii as they would be: they are the same for any number of photons but where they are given.
-Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
-                      RenderSettings& settings) {
+/// For points, whose eye pass takes about as long under radii that are chosen for any number of photons.
+ChosenCount choose_count_of_points(double seconds, const std::function<PassCost(uint64_t)>& cost_of) {
   constexpr uint64_t kFirst = 20'000;    // photons
   constexpr uint64_t kMost = 1'000'000;  // of a pilot that asks again with the number found
-  const double seconds = settings.until.seconds, limit = seconds > 0.0 ? kTimingShare * seconds : kInfinity;
+  ChosenCount chosen{kFirst, ""};
+  for (int round = 0; round < 2; ++round) chosen = choose_count(cost_of(std::min(chosen.count, kMost)), seconds);
+  if (seconds == 0.0) return chosen;
+  return make_fit(chosen, seconds,
+                  [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
+}
+
+/// How long a timing of a pass may take, s.
+double limit_of_timing(const AutomaticSettings& automatic, const RenderSettings& settings) {
+  constexpr double kUnhurried = 1.0;  // where gathers are tried, and the time is not limited
+  const double seconds = settings.until.seconds;
+  if (!automatic.has(kGatherKey)) return seconds > 0.0 ? kTimingShare * seconds : kInfinity;
+  return seconds > 0.0 ? kTimingShare / kGathersToTry.size() * seconds : kUnhurried;
+}
+
+/// Costs a pass under radii as they would be.
+Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
+                      RenderSettings& settings) {
+  const double seconds = settings.until.seconds, limit = limit_of_timing(automatic, settings);
   RenderSettings tried = settings;
   const auto cost_of = [&](uint64_t photons) {
     tried.photons_emitted = photons;
     choose_radii(scene, automatic, densities, tried);
     return time_pass(scene, tried, limit);
   };
-  ChosenCount chosen{kFirst, ""};
-  for (int round = 0; round < 2; ++round)
-    chosen = choose_count(cost_of(std::min(chosen.count, kMost)), kPassesShare * seconds);
-  if (seconds > 0.0)
-    chosen = make_fit(chosen, kPassesShare * seconds,
-                      [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
+  const ChosenCount chosen = (settings.volume.gathers_flights() ? choose_count_of_flights : choose_count_of_points)(
+      kPassesShare * seconds, cost_of);
   settings.photons_emitted = chosen.count;
   return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
+}
+
+/// The photons and the radii that are to be chosen, for the settings' gathers.
+std::vector<Choice> choose_photons_and_radii(const Scene& scene, const AutomaticSettings& automatic,
+                                             RenderSettings& settings) {
+  const bool photons = automatic.has("photons.emitted");
+  const bool radii =
+      automatic.has("volume.radius") || automatic.has("surface.radius") || automatic.has("caustics.radius");
+  if (plan_estimators(scene, settings, 0).maps().empty() || !(radii || photons)) return {};
+  std::vector<Choice> choices;
+  const MapDensities densities = map_densities(scene, settings);
+  if (photons) choices.push_back(choose_photons(scene, automatic, densities, settings));
+  for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
+  return choices;
+}
+
+/// A way to gather photons in media, with the photons and radii that it would have.
+struct GatherTrial {
+  RenderSettings settings;
+  std::vector<Choice> choices{};
+  double pass_seconds = 0.0;
+  PassError error{};  // of a pass
+};
+
+/// The ways that the settings and the scene allow, and what is wrong with the others.
+struct OpenGathers {
+  std::vector<GatherTrial> trials;
+  std::string refused;
+};
+OpenGathers open_gathers(const Scene& scene, const RenderSettings& settings) {
+  OpenGathers open;
+  for (const GatherMode mode : kGathersToTry) {
+    GatherTrial trial{.settings = settings};
+    trial.settings.volume.mode = mode;
+    try {
+      validate(trial.settings, facts_of(scene));
+      open.trials.push_back(std::move(trial));
+    } catch (const SettingError& error) {
+      open.refused += fmt::format("; not {}: {}", word_of(mode), error.wrong());
+    }
+  }
+  return open;
+}
+
+/// Chooses what else is to be chosen, and then measures what a pass costs and what error it leaves.
+void run_trial(const Scene& scene, const AutomaticSettings& automatic, GatherTrial& trial) {
+  trial.choices = choose_photons_and_radii(scene, automatic, trial.settings);
+  const double limit = limit_of_timing(automatic, trial.settings);
+  const PassCost cost = time_pass(scene, trial.settings, limit);
+  trial.pass_seconds = cost.seconds(photons_of_pass(trial.settings, cost.stored_per_photon));
+  trial.error = error_of_pass(scene, trial.settings, cost, limit);
+}
+
+/// The time after which trials are compared, s: that of the render, or else what the least number of the longer passes
+/// takes.
+double seconds_to_compare(const std::vector<GatherTrial>& trials) {
+  double seconds = trials.front().settings.until.seconds;
+  if (seconds > 0.0) return seconds;
+  for (const GatherTrial& trial : trials) seconds = std::max(seconds, kLeastPasses * trial.pass_seconds);
+  return seconds;
+}
+
+/// Takes the trial that leaves the least error, with all that it chose.
+std::vector<Choice> choose_of_trials(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
+  OpenGathers open = open_gathers(scene, settings);
+  assert(!open.trials.empty());  // nothing refuses "beam" that does not refuse "radius"
+  for (GatherTrial& trial : open.trials) run_trial(scene, automatic, trial);
+  const double seconds = seconds_to_compare(open.trials);
+  std::vector<double> errors;
+  std::string reason = fmt::format("least error in a pilot, as relative MSE after {:.2g} s of passes:", seconds);
+  for (const GatherTrial& trial : open.trials) {
+    errors.push_back(error_after(trial.error, scene, trial.settings, std::max(1.0, seconds / trial.pass_seconds)));
+    reason += fmt::format(" {} {:.2g} ({:.2g} s each)", word_of(trial.settings.volume.mode), errors.back(),
+                          trial.pass_seconds);
+  }
+  GatherTrial& best = open.trials[least_error(errors)];
+  settings = best.settings;
+  best.choices.insert(best.choices.begin(),
+                      {std::string(kGatherKey), word_of(settings.volume.mode), reason + open.refused});
+  return best.choices;
+}
+
+/// What is tried gathers along rays, which "corrected" does not correct ball by ball.
+std::vector<Choice> choose_gather(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
+  if (settings.volume.boundary != BoundaryRule::corrected) return choose_of_trials(scene, automatic, settings);
+  std::vector<Choice> choices = choose_photons_and_radii(scene, automatic, settings);
+  choices.insert(choices.begin(), {std::string(kGatherKey), word_of(settings.volume.mode),
+                                   "only balls are corrected one by one, as 'boundary' asks for"});
+  return choices;
 }
 
 }  // namespace
@@ -122,13 +232,13 @@ ChosenRadius choose_radius(const MapDensity& density, double emitted, double dia
   const double share = kPhotonsWithin / density.within * density.emitted / emitted;
   const double wanted = density.reach * std::pow(share, 1.0 / density.dimension);
   const double least = kLeastRadius * density.footprint, most = kLargestRadius * diagonal;
-  const std::string would =
-      fmt::format("{:.3g} m would hold {:g} photons at a typical place of the picture", wanted, kPhotonsWithin);
+  const std::string would = fmt::format("{:.3g} m would hold {:g} {} at a typical place of the picture", wanted,
+                                        kPhotonsWithin, density.records);
   if (wanted > most) return {rounded_radius(most), "a twentieth of the scene; " + would};
   if (wanted < least) return {rounded_radius(least), "half a pixel; " + would};
-  return {
-      rounded_radius(wanted),
-      fmt::format("{:g} photons of the first pass lie within it at a typical place of the picture", kPhotonsWithin)};
+  return {rounded_radius(wanted),
+          fmt::format("{:g} {} of the first pass are within it at a typical place of the picture", kPhotonsWithin,
+                      density.records)};
 }
 
 ChosenCount choose_count(const PassCost& cost, double seconds) {
@@ -174,6 +284,39 @@ ChosenCount make_fit(ChosenCount chosen, double seconds, const std::function<dou
   return chosen;
 }
 
+ChosenCount choose_count_of_flights(double seconds, const std::function<PassCost(uint64_t)>& cost_of) {
+  constexpr uint64_t kMore = 4;
+  const double limit = seconds > 0.0 ? seconds / kLeastPasses : kInfinity;
+  uint64_t count = kLeastCount;
+  for (double before = 0.0;; count *= kMore) {
+    const PassCost cost = cost_of(count);
+    const auto photons = static_cast<double>(count);
+    const double taken = cost.seconds(photons);
+    if (taken > limit && count == kLeastCount)
+      return {count, fmt::format("the least; a pass takes {:.2g} s, and {} do not fit into {:g} s", taken, kLeastPasses,
+                                 seconds)};
+    if (taken > limit) {  // between two numbers a pass goes by a power of them
+      const double power = std::log(limit / before) / std::log(taken / before);
+      return {static_cast<uint64_t>(rounded(photons / kMore * std::pow(double{kMore}, power), 2)),
+              fmt::format("{} passes fit into {:g} s; most of their time goes with the flights that eye rays cross",
+                          kLeastPasses, seconds)};
+    }
+    if (photons * cost.photon >= cost.rest())
+      return {count, fmt::format("tracing and sorting them takes as long as the eye pass, {:.2g} s", cost.rest())};
+    if (kMore * photons * (cost.stored_per_photon + kStoredOfFlight * cost.flights_per_photon) > kMostStored)
+      return {count, fmt::format("maps that take the memory of {:g} photons, the most", kMostStored)};
+    before = taken;
+  }
+}
+
+size_t least_error(std::span<const double> errors) {
+  constexpr double kClearlyLess = 0.9;
+  size_t best = 0;
+  for (size_t i = 1; i < errors.size(); ++i)
+    if (errors[i] < kClearlyLess * errors[best]) best = i;
+  return best;
+}
+
 StrategyCost cheapest(std::span<const StrategyCost> costs) {
   assert(!costs.empty());
   return *std::min_element(costs.begin(), costs.end(),
@@ -183,13 +326,9 @@ StrategyCost cheapest(std::span<const StrategyCost> costs) {
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
   std::vector<Choice> choices;
   if (automatic.has("distance.strategy") && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
-  const bool photons = automatic.has("photons.emitted");
-  const bool radii =
-      automatic.has("volume.radius") || automatic.has("surface.radius") || automatic.has("caustics.radius");
-  if (plan_estimators(scene, settings, 0).maps().empty() || !(radii || photons)) return choices;
-  const MapDensities densities = map_densities(scene, settings);
-  if (photons) choices.push_back(choose_photons(scene, automatic, densities, settings));
-  for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
+  const bool gather = automatic.has(kGatherKey) && !plan_estimators(scene, settings, 0).volume.empty();
+  std::vector<Choice> more = (gather ? choose_gather : choose_photons_and_radii)(scene, automatic, settings);
+  for (Choice& choice : more) choices.push_back(std::move(choice));
   return choices;
 }
 

@@ -15,9 +15,9 @@
 namespace vpm {
 
 /// Chooses what is asked for, after a short pilot, and puts it into the settings. Radii and the strategy are a pure
-/// function of scene and settings: the strategy's cost is counted, not timed. The number of photons is not, it rests on
-/// times; radii go by it. What the scene has no use for is left alone. Throws InputError where this program counts
-/// nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
+/// function of scene and settings: the strategy's cost is counted, not timed. The number of photons and the gather in
+/// media are not, they rest on times; radii go by them. What the scene has no use for is left alone. Throws InputError
+/// where this program counts nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings);
 
 /// Puts a choice made earlier into the settings. Throws InputError where it is none: a setting that is not declared
@@ -30,8 +30,8 @@ struct ChosenRadius {
   float radius = 0.0f;  // m, of three digits
   std::string reason;
 };
-/// The radius within which kPhotonsWithin of `emitted` photons lie, but no less than half a pixel, as finer kernels
-/// show as noise, and no more than a twentieth of `diagonal` (m), as wider ones blur the scene.
+/// The radius within which kPhotonsWithin of `emitted` photons or of their flights lie, but no less than half a pixel,
+/// as finer kernels show as noise, and no more than a twentieth of `diagonal` (m), as wider ones blur the scene.
 ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal);
 inline constexpr double kPhotonsWithin = 50.0;
 
@@ -49,6 +49,16 @@ inline constexpr double kMostStored = 2e7;
 /// Fewer photons where a pass takes longer than `seconds` and less with fewer, as radii that hold so many photons are
 /// wider then; an eighth of them, and again, until a pass fits or gains no more. `pass_seconds`(photons) times a pass.
 ChosenCount make_fit(ChosenCount chosen, double seconds, const std::function<double(uint64_t)>& pass_seconds);
+
+/// How many photons there are where flights are gathered. Eye rays cross more flights where there are more photons,
+/// also under radii that are chosen for their number. So a pass is timed with ever more photons, by `cost_of`(photons),
+/// until kLeastPasses passes would not fit into `seconds` (0: no limit), photons cost what the eye pass costs, or maps
+/// are full.
+ChosenCount choose_count_of_flights(double seconds, const std::function<PassCost(uint64_t)>& cost_of);
+inline constexpr double kStoredOfFlight = 9.0;  // photons of kMostStored, for the memory that a flight takes
+
+/// Which is least; of those that differ by less than a tenth the first.
+size_t least_error(std::span<const double> errors);
 
 /// The cheapest; of equals the first.
 StrategyCost cheapest(std::span<const StrategyCost> costs);

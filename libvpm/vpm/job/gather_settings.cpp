@@ -30,7 +30,8 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
                  "photons that pass it within the radius, and the photons beside it where flights run along it; "
                  "`\"photon-planes\"`: these, and planes without a radius for light that media scatter twice in "
                  "turn; `\"beams-points\"`: flights within the radius of points of a march"
-               : "photons within a `\"radius\"`, or the `\"nearest\"` few"},
+               : "photons within a `\"radius\"`, or the `\"nearest\"` few",
+       .automatic = in_media},
       {.key = section + ".radius",
        .member = at<Gather, &G::radius>(),
        // Kernels, 1 over its cube, must be floats; and coordinates are at most 1e9 m.

@@ -8,9 +8,11 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
 #include "vpm/base/stopwatch.h"
+#include "vpm/job/eye_blocks.h"
 #include "vpm/path/follow.h"
 #include "vpm/photon/caustics.h"
 #include "vpm/photon/nearest_map.h"
+#include "vpm/photon/photon_beam.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/render/path_tracer.h"
@@ -19,13 +21,13 @@
 namespace vpm {
 namespace {
 
-constexpr uint64_t kFlights = 20'000;       // photons that compare strategies
-constexpr uint64_t kPhotons = 100'000;      // that tell of densities
-constexpr uint64_t kStored = 1'000'000;     // of these, at the most
-constexpr size_t kEyePaths = 4096;          // that find where the eye gathers
-constexpr size_t kProbes = 512;             // places, of these
-constexpr uint32_t kNeighbours = 16;        // counted at a place: the density there is known to a quarter
-constexpr int kBlocks = 8, kBlockEdge = 8;  // timed rays come from that many blocks of pixels in either direction
+constexpr uint64_t kFlights = 20'000;      // photons that compare strategies
+constexpr uint64_t kPhotons = 100'000;     // that tell of densities
+constexpr uint64_t kStored = 1'000'000;    // of these, at the most
+constexpr size_t kEyePaths = 4096;         // that find where the eye gathers
+constexpr size_t kProbes = 512;            // places, of these
+constexpr size_t kFlightsAround = 32'000;  // that tell how near to these flights pass, at the most
+constexpr uint32_t kNeighbours = 16;       // counted at a place: the density there is known to a quarter
 
 // What flights cost, in look-ups of density at random places: fitted to the CPU time of photons in the grids of
 // scenes/smoke.toml and scenes/cloud.toml (2026-11-23: 31 ns a cell of regular tracking, 36 a look-up, 18 a brick).
@@ -95,6 +97,41 @@ std::optional<MapDensity> density_around(const std::vector<Probe>& all, const st
   return MapDensity{median(reaches), kNeighbours, emitted, dimension, median(pixels)};
 }
 
+float distance2_from(const PhotonBeam& flight, const Vec3& place) {  // m^2
+  const Vec3 from = place - flight.origin;
+  const Vec3 across = from - std::clamp(glm::dot(from, flight.direction), 0.0f, flight.length) * flight.direction;
+  return glm::dot(across, across);
+}
+
+/// The distance from the place within which kNeighbours of the flights pass, m.
+double reach_among(const std::vector<PhotonBeam>& flights, const Vec3& place) {
+  Neighbours neighbours;
+  neighbours.start(kNeighbours, kInfinity);
+  for (size_t first = 0; first < flights.size(); first += kBlock) {
+    const size_t number = std::min<size_t>(kBlock, flights.size() - first);
+    float distances2[kBlock] = {};
+    for (size_t i = 0; i < number; ++i) distances2[i] = distance2_from(flights[first + i], place);
+    neighbours.add(distances2, static_cast<uint32_t>(number), static_cast<uint32_t>(first), [](auto) { return true; });
+  }
+  neighbours.finish();
+  return std::sqrt(neighbours.limit());
+}
+
+/// How near to places flights pass; nothing where either are too few. As many pass within a radius as go through a disc
+/// of it: where flights are much shorter than the radius there are more, by the ends that lie within it.
+std::optional<MapDensity> density_of_flights(const std::vector<Probe>& all, const std::vector<PhotonBeam>& flights,
+                                             double emitted) {
+  const std::vector<Probe> probes = thinned(all, kProbes);
+  const std::vector<PhotonBeam> some = thinned(flights, kFlightsAround);
+  if (probes.size() < kNeighbours || some.size() < 2 * kNeighbours) return std::nullopt;
+  std::vector<double> reaches(probes.size()), pixels;
+  parallel_for_chunks(probes.size(), 1,
+                      [&](size_t i, size_t, size_t) { reaches[i] = reach_among(some, probes[i].place); });
+  for (const Probe& probe : probes) pixels.push_back(probe.pixel);
+  const double share = static_cast<double>(some.size()) / static_cast<double>(flights.size());
+  return MapDensity{median(reaches), kNeighbours, share * emitted, 2, median(pixels), "flights"};
+}
+
 /// Places on caustics: where the photons are, seen straight.
 std::vector<Probe> places_of(const Camera& camera, const std::vector<Photon>& photons) {
   std::vector<Probe> places;
@@ -122,12 +159,18 @@ RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
   return settings;
 }
 
-/// A map's photons before it is sorted, those of media together.
+/// The records of all media together.
+template <class Record>
+std::vector<Record> of_all_media(const std::vector<std::vector<Record>>& by_medium) {
+  std::vector<Record> all;
+  for (const std::vector<Record>& medium : by_medium) all.insert(all.end(), medium.begin(), medium.end());
+  return all;
+}
+
+/// A map's photons before it is sorted, those of media together; none where flights alone are gathered.
 std::vector<Photon> photons_of(const MapInfo& map) {
   if (map.surfaces) return *map.surfaces;
-  std::vector<Photon> all;
-  for (const std::vector<Photon>& medium : *map.media) all.insert(all.end(), medium.begin(), medium.end());
-  return all;
+  return map.media ? of_all_media(*map.media) : std::vector<Photon>();
 }
 
 /// Counts collisions alone, so that tracing ends once there are many.
@@ -171,23 +214,15 @@ PilotPass trace(const Scene& scene, const RenderSettings& settings) {
   return {std::move(estimators), statistics.ledger};
 }
 
-/// Renders the rays of one block of pixels of many, cut at the borders of small pictures; the first of them, and others
-/// until so many seconds are over.
+/// Renders the rays of one block of pixels; the first of them, and others until so many seconds are over.
 EyeCounters render_block(const Scene& scene, const RayRadiance& radiance, uint64_t seed, size_t block, double seconds) {
-  const Camera& camera = scene.camera;
   EyeCounters counters;
   EyeScratch scratch;
-  const auto pixel_of = [](int pixels, size_t part, int i) {
-    const auto middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocks;
-    return std::clamp(middle + static_cast<float>(i) - 0.5f * kBlockEdge + 0.5f, 0.0f, static_cast<float>(pixels));
-  };
   const Stopwatch rendering;
-  for (int i = 0; i < kBlockEdge * kBlockEdge && (i == 0 || rendering.seconds() < seconds); ++i) {
-    const Vec2 film(pixel_of(camera.width, block % kBlocks, i % kBlockEdge),
-                    pixel_of(camera.height, block / kBlocks, i / kBlockEdge));
-    Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kBlockEdge * kBlockEdge + i);
+  for (size_t i = 0; i < kRaysOfBlock && (i == 0 || rendering.seconds() < seconds); ++i) {
+    Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kRaysOfBlock + i);
     EyeWork work{rng, counters, scratch};
-    radiance(camera.ray(film), work);
+    radiance(ray_of_block(scene.camera, block, i), work);
     ++counters.rays;
   }
   return counters;
@@ -200,12 +235,11 @@ struct EyeCost {
 };
 /// Takes about so many seconds.
 EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const RayRadiance& radiance, double seconds) {
-  constexpr size_t kAll = size_t{kBlocks} * kBlocks;
   constexpr double kSearch = 25.0;  // photons that are as dear as a search without any (papers/performance.md)
-  std::array<EyeCounters, kAll> blocks;
+  std::array<EyeCounters, kEyeBlocks> blocks;
   const Stopwatch rendering;
-  parallel_for_chunks(kAll, 1, [&](size_t block, size_t, size_t) {
-    blocks[block] = render_block(scene, radiance, settings.seed, block, seconds / kAll);
+  parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
+    blocks[block] = render_block(scene, radiance, settings.seed, block, seconds / kEyeBlocks);
   });
   const double taken = rendering.seconds();
   EyeCounters sum;
@@ -300,8 +334,6 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
   RenderSettings pilot = pilot_settings(settings, in_a_hurry(kPhotons, settings));
   pilot.caustics_emitted = std::min(pilot.caustics_emitted, pilot.photons_emitted);
-  // Photons tell the density of beams as well: beams have none at a place.
-  if (pilot.volume.gathers_flights()) pilot.volume.mode = GatherMode::beam;
   const PilotPass pass = trace(scene, pilot);
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Probes probes;
@@ -317,7 +349,9 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
     densities.stored_per_photon =
         std::max(densities.stored_per_photon,
                  static_cast<double>(photons.size()) / static_cast<double>(pass.ledger.emitted_count));
-    if (map.section == "volume") densities.volume = density_around(probes.volume, photons, emitted, 3);
+    if (map.section == "volume")
+      densities.volume = map.flights ? density_of_flights(probes.volume, of_all_media(*map.flights), emitted)
+                                     : density_around(probes.volume, photons, emitted, 3);
     if (map.section == "surface") densities.surface = density_around(probes.surface, photons, emitted, 2);
   }
   return densities;

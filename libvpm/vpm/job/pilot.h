@@ -19,13 +19,14 @@ struct StrategyCost {
 /// of scene and settings, as map_densities(): where a time is asked for, fewer photons fly.
 std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSettings& settings);
 
-/// How dense photons lie where they are gathered.
+/// How dense photons lie where they are gathered, or how near to there flights pass, where these are gathered.
 struct MapDensity {
-  double reach = 0.0;      // m: at a typical place as many photons as `within` lie within it ...
+  double reach = 0.0;      // m: at a typical place as many photons or flights as `within` lie within it ...
   double within = 0.0;     // > 0
-  double emitted = 0.0;    // ... of this many emitted
-  int dimension = 3;       // of the kernel
+  double emitted = 0.0;    // ... of this many photons emitted
+  int dimension = 3;       // of what holds them: a ball; a disc on a surface, or across flights
   double footprint = 0.0;  // m: of a pixel at a typical place
+  const char* records = "photons";
 };
 /// Of the maps that the render uses; none where the pilot says too little of one.
 struct MapDensities {

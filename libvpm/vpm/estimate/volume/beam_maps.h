@@ -71,7 +71,9 @@ class BeamMaps {
         flights_(scene, settings.maps.filter(), {settings.long_beams, settings.planes}) {}
 
   ScatteredLight finds() const { return {settings_.maps.once, true}; }
-  std::vector<MapInfo> maps() const { return {{.section = "volume", .dimension = dimension_}}; }
+  std::vector<MapInfo> maps() const {
+    return {{.section = "volume", .dimension = dimension_, .flights = &flights_.beams}};
+  }
   PhotonRecorder* recorder() { return &flights_; }
   const PhotonBeamSettings& settings() const { return settings_; }
   const Map& operator[](MediumId medium) const { return by_medium_[medium]; }

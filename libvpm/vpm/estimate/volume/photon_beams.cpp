@@ -18,6 +18,12 @@ VolumeMapSettings with_beams(const PhotonBeamSettings& settings) {
 PhotonBeams::PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings)
     : beams_(scene, settings, 1), collisions_(scene, with_beams(settings), 2) {}
 
+std::vector<MapInfo> PhotonBeams::maps() const {
+  MapInfo map = beams_.maps().front();
+  map.media = collisions_.maps().front().media;
+  return {map};
+}
+
 Recorders PhotonBeams::recorders() {
   Recorders both{beams_.recorder()};
   for (PhotonRecorder* recorder : collisions_.recorders()) both.push_back(recorder);

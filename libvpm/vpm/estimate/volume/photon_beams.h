@@ -17,7 +17,7 @@ class PhotonBeams final : public VolumeEstimator {
   PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings);
 
   ScatteredLight finds() const override { return collisions_.finds(); }
-  std::vector<MapInfo> maps() const override { return beams_.maps(); }
+  std::vector<MapInfo> maps() const override;
   Recorders recorders() override;
   void build(uint64_t emitted, RenderStatistics& statistics) override { build_beside(0.0f, emitted, statistics); }
   /// build() beside planes, one for this share of the flights; 0: there are none.

@@ -1,0 +1,25 @@
+// Blocks around the middles of the parts that a grid cuts the picture into.
+#include "vpm/job/eye_blocks.h"
+
+#include <algorithm>
+
+namespace vpm {
+namespace {
+
+constexpr size_t kBlocksOfEdge = 8, kPixelsOfEdge = 8;
+static_assert(kBlocksOfEdge * kBlocksOfEdge == kEyeBlocks && kPixelsOfEdge * kPixelsOfEdge == kRaysOfBlock);
+
+/// A place along an edge of the picture, pixels; cut off at the borders of small pictures.
+float place_along(int pixels, size_t part, size_t i) {
+  const float middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocksOfEdge;
+  return std::clamp(middle + static_cast<float>(i) - 0.5f * kPixelsOfEdge + 0.5f, 0.0f, static_cast<float>(pixels));
+}
+
+}  // namespace
+
+Ray ray_of_block(const Camera& camera, size_t block, size_t i) {
+  return camera.ray({place_along(camera.width, block % kBlocksOfEdge, i % kPixelsOfEdge),
+                     place_along(camera.height, block / kBlocksOfEdge, i / kPixelsOfEdge)});
+}
+
+}  // namespace vpm

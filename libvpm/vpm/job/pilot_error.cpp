@@ -1,0 +1,143 @@
+// Differences between passes and between rays of a pass tell the noise of photons and that of rays; products of
+// corrections of different passes tell bias.
+#include "vpm/job/pilot_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
+#include "vpm/estimate/radius_schedule.h"
+#include "vpm/image/metrics.h"
+#include "vpm/job/eye_blocks.h"
+#include "vpm/render/eye_path.h"
+#include "vpm/render/photon_pass.h"
+
+namespace vpm {
+namespace {
+
+constexpr int kSmallPasses = 4;
+
+/// What two rays through the same place find in a pass.
+using Twins = std::array<KernelEstimate, 2>;
+using FoundByPass = std::vector<std::vector<Twins>>;  // block by block
+
+struct SmallPasses {
+  RenderSettings settings;
+  double share = 1.0;          // of the photons of a whole pass
+  size_t rays = kRaysOfBlock;  // of each block, and as many twins
+};
+
+/// Half of the time is for photons, half for rays.
+SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const PassCost& cost, double seconds) {
+  constexpr double kFewest = 1000.0;  // photons
+  const double half = 0.5 * seconds / kSmallPasses, photons = photons_of_pass(settings, cost.stored_per_photon);
+  const double all_rays = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
+  const double affordable = half / (cost.eye / all_rays * double{2 * kEyeBlocks});
+  SmallPasses small{settings};
+  small.share = std::clamp(half / (cost.photon * photons + cost.caustics), std::min(1.0, kFewest / photons), 1.0);
+  small.rays = static_cast<size_t>(std::clamp(affordable, 1.0, double{kRaysOfBlock}));
+  small.settings.seed = ~settings.seed;
+  small.settings.radii = RadiusSchedule::constant;
+  const auto part = [&](double count) { return static_cast<uint64_t>(std::ceil(small.share * count)); };
+  small.settings.photons_emitted = part(photons);
+  small.settings.photons_stored = 0;
+  small.settings.caustics_emitted = part(static_cast<double>(settings.caustics_emitted));
+  small.settings.guide.importons = part(static_cast<double>(settings.guide.importons));
+  return small;
+}
+
+std::vector<Twins> render_small(const Scene& scene, const SmallPasses& small, int pass) {
+  const Estimators estimators = plan_estimators(scene, small.settings, pass);
+  RenderStatistics unused;
+  prepare_pass(scene, small.settings, estimators, {.pass = pass, .stop = kNeverStopped}, unused);
+  const EyeContext context{scene, estimators, small.settings.max_events};
+  std::vector<Twins> found(kEyeBlocks * small.rays);
+  parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
+    EyeCounters counters;
+    EyeScratch scratch;
+    for (size_t i = 0; i < small.rays; ++i) {
+      const size_t number = block * small.rays + i;
+      Rng rng(small.settings.seed, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), number);
+      EyeWork work{rng, counters, scratch};
+      const Ray ray = ray_of_block(scene.camera, block, i * kRaysOfBlock / small.rays);
+      for (KernelEstimate& twin : found[number])
+        twin = mean_of_samples(1, counters, [&](int) { return eye_radiance(context, ray, work); });
+    }
+  });
+  return found;
+}
+
+/// The mean of a channel over the places from `begin` to `end`.
+double mean_among(const FoundByPass& found, size_t begin, size_t end, int channel) {
+  double sum = 0.0;
+  for (const std::vector<Twins>& pass : found)
+    for (size_t i = begin; i < end; ++i) sum += double{pass[i][0].value[channel]} + double{pass[i][1].value[channel]};
+  return sum / static_cast<double>(2 * found.size() * (end - begin));
+}
+
+/// Parts of the relative MSE of a small pass.
+struct SmallError {
+  double rays = 0.0;     // variance of what a ray finds among the same photons
+  double photons = 0.0;  // variance of what their rays find in the mean
+  double bias2 = 0.0;
+};
+
+/// Adds unbiased estimates of one place. Rays differ between twins, photons between passes: what twins have in common
+/// is due to photons.
+void add_place(const FoundByPass& found, size_t place, int channel, double scale, SmallError& sum) {
+  const auto n = static_cast<double>(found.size());
+  double a = 0.0, b = 0.0, products = 0.0, differences2 = 0.0, corrections = 0.0, corrections2 = 0.0;
+  for (const std::vector<Twins>& pass : found) {
+    const auto& [first, second] = pass[place];
+    const double x = double{first.value[channel]}, y = double{second.value[channel]};
+    const double correction = 0.5 * (double{first.correction[channel]} + double{second.correction[channel]});
+    a += x;
+    b += y;
+    products += x * y;
+    differences2 += (x - y) * (x - y);
+    corrections += correction;
+    corrections2 += correction * correction;
+  }
+  sum.rays += 0.5 * differences2 / n / scale;
+  sum.photons += (products - a * b / n) / (n - 1.0) / scale;
+  sum.bias2 += (corrections * corrections - corrections2) / (n * (n - 1.0)) / scale;
+}
+
+/// Relative to the means of blocks, as single values are noisy.
+SmallError relative_errors(const FoundByPass& found, size_t rays) {
+  SmallError sum;
+  for (int channel = 0; channel < 3; ++channel) {
+    const double mean = mean_among(found, 0, kEyeBlocks * rays, channel);
+    if (mean == 0.0) continue;
+    for (size_t block = 0; block < kEyeBlocks; ++block) {
+      const size_t begin = block * rays, end = begin + rays;
+      const double scale = relative_scale(mean_among(found, begin, end, channel), mean);
+      for (size_t i = begin; i < end; ++i) add_place(found, i, channel, scale, sum);
+    }
+  }
+  const double each = 1.0 / static_cast<double>(3 * kEyeBlocks * rays);
+  return {each * sum.rays, each * std::max(0.0, sum.photons), each * std::max(0.0, sum.bias2)};
+}
+
+}  // namespace
+
+PassError error_of_pass(const Scene& scene, const RenderSettings& settings, const PassCost& cost, double seconds) {
+  const SmallPasses small = plan_small(scene, settings, cost, seconds);
+  FoundByPass found;
+  for (int pass = 0; pass < kSmallPasses; ++pass) found.push_back(render_small(scene, small, pass));
+  const SmallError error = relative_errors(found, small.rays);
+  return {error.rays / settings.samples_per_pixel + small.share * error.photons, error.bias2};
+}
+
+double error_after(const PassError& error, const Scene& scene, const RenderSettings& settings, double passes) {
+  if (settings.radii == RadiusSchedule::constant) return error.variance / passes + error.bias2;
+  int dimension = 3;
+  for (const MapInfo& map : plan_estimators(scene, settings, 0).maps())
+    if (map.section == "volume") dimension = map.dimension;
+  return (error.variance + error.bias2) * std::pow(passes, -best_a(dimension, kernel_order(settings.volume.kernel)));
+}
+
+}  // namespace vpm
