@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "support/grids.h"
 #include "support/scenes.h"
 
 namespace vpm {
@@ -39,10 +38,9 @@ MarchedMean marched_light(const Scene& scene, const PhotonBeamSettings& settings
   return {mean, glm::sqrt(glm::max(Rgbd(0.0), squares / n - mean * mean) / n)};
 }
 
-PhotonBeamSettings settings_of(KernelKind kernel, VolumeForm form = VolumeForm::density_at_query) {
+PhotonBeamSettings settings_of(KernelKind kernel) {
   PhotonBeamSettings settings;
   settings.maps.gather = {.mode = GatherMode::beams_points, .radius = kDiscRadius, .kernel = kernel};
-  settings.maps.form = form;
   return settings;
 }
 
@@ -110,6 +108,16 @@ TEST(BeamsAroundPoints, ChromaticBeamsCarryTheWeightsOfTheirMixture) {
   const Rgb light = power * weight * sigma_t * glm::exp(-sigma_t * 0.5f);
   EXPECT_NEAR(found.r / found.g, light.r / light.g, 1e-4f * light.r / light.g);
   EXPECT_NEAR(found.b / found.g, light.b / light.g, 1e-4f * light.b / light.g);
+}
+
+// A long beam goes on, and is what the transmittance leaves of it.
+TEST(BeamsAroundPoints, LongBeamsAreAttenuated) {
+  const Scene scene = endless(make_medium(nullptr, Rgb(0.7f)));
+  PhotonBeamSettings settings = settings_of(KernelKind::epanechnikov);
+  const PhotonBeam beam{Vec3(0.5f, 0.0f, -0.5f), 2.0f, Vec3(0.0f, 0.0f, 1.0f), Rgb(1.0f)};
+  const double whole = marched_light(scene, settings, {beam}, {0.0f, 1.0f}, 100).mean.g;
+  settings.long_beams = true;
+  EXPECT_NEAR(marched_light(scene, settings, {beam}, {0.0f, 1.0f}, 100).mean.g / whole, std::exp(-0.35), 1e-5);
 }
 
 }  // namespace

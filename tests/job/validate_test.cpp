@@ -136,8 +136,8 @@ TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
           s.volume.boundary = rule;
           s.volume_form = form;
           s.photons_in_cube = in_cube;
-          const bool asks_merged = in_cube > 0 && (s.volume.gathers_flights() ||
-                                                   (rule == BoundaryRule::corrected && !s.volume.along_rays()));
+          const bool asks_merged =
+              in_cube > 0 && (s.volume.crosses_beams() || (rule == BoundaryRule::corrected && !s.volume.along_rays()));
           if (!asks_merged) {
             EXPECT_NO_THROW(validate(s, {.scattering_media = true}));
           }

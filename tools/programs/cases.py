@@ -108,7 +108,9 @@ def add_gathers(cases):
     """All ways to gather from maps of media, and all from those of surfaces."""
     radii = choices("render.radii", "per-pass", "per-pixel", "constant")
     volume = [["volume.gather=radius", "volume.gather=nearest volume.count=20", "volume.gather=beam",
-               "volume.gather=beam volume.count=10"],
+               "volume.gather=beam volume.count=10", "volume.gather=photon-beams",
+               "volume.gather=photon-beams volume.beams=long photons.flights=500",
+               "volume.gather=photon-planes photons.planes=50", "volume.gather=beams-points"],
               choices("volume.form", "density-at-query", "density-at-photon"), choices("volume.boundary", "none", "ends", "corrected"),
               choices("volume.direct", "photons", "shadow-rays", "equiangular"), radii]
     light = [*choices("surface.method", "visualise", "progressive"),

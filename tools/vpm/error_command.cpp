@@ -332,8 +332,7 @@ void print_series(const std::vector<Member>& series, const std::string& to, cons
 }
 
 void print_series_json(const std::vector<Member>& series, const std::string& to, const NoisyImage& reference,
-                       const Convergence& of_mse, const Convergence& of_relative) {
-  const ReferenceNoise noise = noise_of(reference);
+                       const ReferenceNoise& noise, const Convergence& of_mse, const Convergence& of_relative) {
   Json members = Json::array();
   for (const Member& m : series)
     members.push_back({{"image", m.path},
@@ -368,7 +367,7 @@ int compare_series(const ErrorOptions& options) {
   const Convergence of_mse = convergence_of(series, noise, &Member::mse_less);
   const Convergence of_relative = convergence_of(series, noise, &Member::relative_mse_less);
   if (options.json) {
-    print_series_json(series, to, reference, of_mse, of_relative);
+    print_series_json(series, to, reference, noise, of_mse, of_relative);
     return 0;
   }
   print_series(series, to, reference.image, noise);

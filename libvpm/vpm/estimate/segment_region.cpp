@@ -295,7 +295,7 @@ Rgb SegmentRegion::share_by_lines(float radius, const SeenAlong& seen, float tur
   const Vec3 right = std::cos(turn) * s + std::sin(turn) * t, up = std::cos(turn) * t - std::sin(turn) * s;
   Rgbd found(0.0);
   for (const Offset& offset : kOffsets[static_cast<size_t>(kernel_)][static_cast<size_t>(spread_)]) {
-    const Vec3 place = radius * flattened(offset.place, thickness_);
+    const Vec3 place = radius * (thickness_ < 1.0f ? flattened(offset.place, thickness_) : offset.place);
     found += offset.part * seen_of_line(place.x * right + place.y * up, place.z, radius, seen);
   }
   Rgb share(1.0f);

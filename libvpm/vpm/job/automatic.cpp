@@ -113,18 +113,20 @@ ChosenCount choose_count_of_points(double seconds, const std::function<PassCost(
                   [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
 }
 
-/// How long a timing of a pass may take, s.
-double limit_of_timing(const AutomaticSettings& automatic, const RenderSettings& settings) {
-  constexpr double kUnhurried = 1.0;  // where gathers are tried, and the time is not limited
+/// How long a timing of a pass may take, s: of one way to gather, or of several that are tried.
+double limit_of_timing(const RenderSettings& settings) {
   const double seconds = settings.until.seconds;
-  if (!automatic.has(kGatherKey)) return seconds > 0.0 ? kTimingShare * seconds : kInfinity;
-  return seconds > 0.0 ? kTimingShare / kGathersToTry.size() * seconds : kUnhurried;
+  return seconds > 0.0 ? kTimingShare * seconds : kInfinity;
+}
+double limit_of_trial(const RenderSettings& settings) {
+  constexpr double kUnhurried = 1.0;  // where the time is not limited
+  return settings.until.seconds > 0.0 ? limit_of_timing(settings) / kGathersToTry.size() : kUnhurried;
 }
 
-/// Costs a pass under radii as they would be.
+/// Costs a pass under radii as they would be, in timings of `limit` s at the most.
 Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
-                      RenderSettings& settings) {
-  const double seconds = settings.until.seconds, limit = limit_of_timing(automatic, settings);
+                      double limit, RenderSettings& settings) {
+  const double seconds = settings.until.seconds;
   RenderSettings tried = settings;
   const auto cost_of = [&](uint64_t photons) {
     tried.photons_emitted = photons;
@@ -137,8 +139,8 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
   return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
 }
 
-/// The photons and the radii that are to be chosen, for the settings' gathers.
-std::vector<Choice> choose_photons_and_radii(const Scene& scene, const AutomaticSettings& automatic,
+/// The photons and the radii that are to be chosen, for the settings' gathers, by timings of `limit` s at the most.
+std::vector<Choice> choose_photons_and_radii(const Scene& scene, const AutomaticSettings& automatic, double limit,
                                              RenderSettings& settings) {
   const bool photons = automatic.has("photons.emitted");
   const bool radii =
@@ -146,7 +148,7 @@ std::vector<Choice> choose_photons_and_radii(const Scene& scene, const Automatic
   if (plan_estimators(scene, settings, 0).maps().empty() || !(radii || photons)) return {};
   std::vector<Choice> choices;
   const MapDensities densities = map_densities(scene, settings);
-  if (photons) choices.push_back(choose_photons(scene, automatic, densities, settings));
+  if (photons) choices.push_back(choose_photons(scene, automatic, densities, limit, settings));
   for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
   return choices;
 }
@@ -181,8 +183,8 @@ OpenGathers open_gathers(const Scene& scene, const RenderSettings& settings) {
 
 /// Chooses what else is to be chosen, and then measures what a pass costs and what error it leaves.
 void run_trial(const Scene& scene, const AutomaticSettings& automatic, GatherTrial& trial) {
-  trial.choices = choose_photons_and_radii(scene, automatic, trial.settings);
-  const double limit = limit_of_timing(automatic, trial.settings);
+  const double limit = limit_of_trial(trial.settings);
+  trial.choices = choose_photons_and_radii(scene, automatic, limit, trial.settings);
   const PassCost cost = time_pass(scene, trial.settings, limit);
   trial.pass_seconds = cost.seconds(photons_of_pass(trial.settings, cost.stored_per_photon));
   trial.error = error_of_pass(scene, trial.settings, cost, limit);
@@ -199,14 +201,16 @@ double seconds_to_compare(const std::vector<GatherTrial>& trials) {
 
 /// Takes the trial that leaves the least error, with all that it chose.
 std::vector<Choice> choose_of_trials(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
+  constexpr double kMostPasses = 10'000.0;  // that errors are compared after
   OpenGathers open = open_gathers(scene, settings);
-  assert(!open.trials.empty());  // nothing refuses "beam" that does not refuse "radius"
+  if (open.trials.empty()) throw InputError(fmt::format("{}: nothing can be chosen{}", kGatherKey, open.refused));
   for (GatherTrial& trial : open.trials) run_trial(scene, automatic, trial);
   const double seconds = seconds_to_compare(open.trials);
   std::vector<double> errors;
   std::string reason = fmt::format("least error in a pilot, as relative MSE after {:.2g} s of passes:", seconds);
   for (const GatherTrial& trial : open.trials) {
-    errors.push_back(error_after(trial.error, scene, trial.settings, std::max(1.0, seconds / trial.pass_seconds)));
+    const double passes = std::clamp(seconds / trial.pass_seconds, 1.0, kMostPasses);
+    errors.push_back(error_after(trial.error, trial.settings, static_cast<int>(passes)));
     reason += fmt::format(" {} {:.2g} ({:.2g} s each)", word_of(trial.settings.volume.mode), errors.back(),
                           trial.pass_seconds);
   }
@@ -220,7 +224,7 @@ std::vector<Choice> choose_of_trials(const Scene& scene, const AutomaticSettings
 /// What is tried gathers along rays, which "corrected" does not correct ball by ball.
 std::vector<Choice> choose_gather(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
   if (settings.volume.boundary != BoundaryRule::corrected) return choose_of_trials(scene, automatic, settings);
-  std::vector<Choice> choices = choose_photons_and_radii(scene, automatic, settings);
+  std::vector<Choice> choices = choose_photons_and_radii(scene, automatic, limit_of_timing(settings), settings);
   choices.insert(choices.begin(), {std::string(kGatherKey), word_of(settings.volume.mode),
                                    "only balls are corrected one by one, as 'boundary' asks for"});
   return choices;
@@ -302,9 +306,11 @@ ChosenCount choose_count_of_flights(double seconds, const std::function<PassCost
                           kLeastPasses, seconds)};
     }
     if (photons * cost.photon >= cost.rest())
-      return {count, fmt::format("tracing and sorting them takes as long as the eye pass, {:.2g} s", cost.rest())};
+      return {count,
+              fmt::format("tracing and sorting them takes as long as the eye pass, {:.2g} s, or longer", cost.rest())};
     if (kMore * photons * (cost.stored_per_photon + kStoredOfFlight * cost.flights_per_photon) > kMostStored)
-      return {count, fmt::format("maps that take the memory of {:g} photons, the most", kMostStored)};
+      return {count, fmt::format("maps of {} times as many would take the memory of more than {:g} photons, the most",
+                                 kMore, kMostStored)};
     before = taken;
   }
 }
@@ -327,7 +333,8 @@ std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings&
   std::vector<Choice> choices;
   if (automatic.has("distance.strategy") && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
   const bool gather = automatic.has(kGatherKey) && !plan_estimators(scene, settings, 0).volume.empty();
-  std::vector<Choice> more = (gather ? choose_gather : choose_photons_and_radii)(scene, automatic, settings);
+  std::vector<Choice> more = gather ? choose_gather(scene, automatic, settings)
+                                    : choose_photons_and_radii(scene, automatic, limit_of_timing(settings), settings);
   for (Choice& choice : more) choices.push_back(std::move(choice));
   return choices;
 }

@@ -16,7 +16,7 @@ namespace {
 void warn_of_empty_maps(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& s,
                         std::vector<std::string>& warnings) {
   const bool gathers = settings.surface_indirect == IndirectLight::final_gather;
-  const bool flights = settings.volume.mode == GatherMode::beams_points;
+  const bool flights = settings.volume.gathers_flights() && settings.plane_use == PlaneUse::combined;
   if (shown.media && settings.volume_direct == DirectLight::photons && (flights ? s.flights : s.volume_photons) == 0)
     warnings.emplace_back(flights ? "there are no photon beams: no photon flew through a medium"
                                   : "the volume photon map is empty: no photon scattered in a medium");

@@ -56,7 +56,8 @@ std::vector<Setting> declare_render() {
        .domain = Numbers{{1e-4, kNoLimit, false, true}},
        .meaning =
            "longest step of the eye rays' march, in optical thickness; photons of homogeneous media are summed in "
-           "steps of a radius where `boundary` is `\"ends\"`"},
+           "steps of a radius where `boundary` is `\"ends\"`; with `\"beams-points\"` that of the densest place counts "
+           "everywhere"},
   };
 }
 

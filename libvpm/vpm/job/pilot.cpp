@@ -167,11 +167,8 @@ std::vector<Record> of_all_media(const std::vector<std::vector<Record>>& by_medi
   return all;
 }
 
-/// A map's photons before it is sorted, those of media together; none where flights alone are gathered.
-std::vector<Photon> photons_of(const MapInfo& map) {
-  if (map.surfaces) return *map.surfaces;
-  return map.media ? of_all_media(*map.media) : std::vector<Photon>();
-}
+/// A map's photons before it is sorted, those of media together.
+std::vector<Photon> photons_of(const MapInfo& map) { return map.surfaces ? *map.surfaces : of_all_media(*map.media); }
 
 /// Counts collisions alone, so that tracing ends once there are many.
 class CollisionCount final : public PhotonRecorder {
@@ -334,6 +331,8 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
   RenderSettings pilot = pilot_settings(settings, in_a_hurry(kPhotons, settings));
   pilot.caustics_emitted = std::min(pilot.caustics_emitted, pilot.photons_emitted);
+  // Collisions end the tracing where they are many; flights do not.
+  if (pilot.volume.mode == GatherMode::beams_points) pilot.volume.mode = GatherMode::photon_beams;
   const PilotPass pass = trace(scene, pilot);
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Probes probes;
@@ -383,9 +382,10 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
   const EyeCost eye = time_eye_pass(scene, ready.settings, radiance, 0.5 * seconds);
   const RenderStatistics& s = ready.statistics;
   PassCost cost = cost_of_photons(settings, ready);
-  const auto stored = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons);
-  const double whole = cost.stored(photons_of_pass(settings, cost.stored_per_photon));
-  const double more = std::max(1.0, whole / std::max(1.0, stored));
+  const auto found = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons + s.flights);
+  const double photons = photons_of_pass(settings, cost.stored_per_photon);
+  const double whole = cost.stored(photons) + photons * cost.flights_per_photon;
+  const double more = std::max(1.0, whole / std::max(1.0, found));
   cost.eye = s.guide_seconds + eye.seconds * (1.0 + eye.of_photons * (more - 1.0));
   return cost;
 }

@@ -46,6 +46,7 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   small.settings.photons_stored = 0;
   small.settings.caustics_emitted = part(static_cast<double>(settings.caustics_emitted));
   small.settings.guide.importons = part(static_cast<double>(settings.guide.importons));
+  small.settings.flights = part(static_cast<double>(settings.flights));
   return small;
 }
 
@@ -78,16 +79,9 @@ double mean_among(const FoundByPass& found, size_t begin, size_t end, int channe
   return sum / static_cast<double>(2 * found.size() * (end - begin));
 }
 
-/// Parts of the relative MSE of a small pass.
-struct SmallError {
-  double rays = 0.0;     // variance of what a ray finds among the same photons
-  double photons = 0.0;  // variance of what their rays find in the mean
-  double bias2 = 0.0;
-};
-
 /// Adds unbiased estimates of one place. Rays differ between twins, photons between passes: what twins have in common
 /// is due to photons.
-void add_place(const FoundByPass& found, size_t place, int channel, double scale, SmallError& sum) {
+void add_place(const FoundByPass& found, size_t place, int channel, double scale, PassError& sum) {
   const auto n = static_cast<double>(found.size());
   double a = 0.0, b = 0.0, products = 0.0, differences2 = 0.0, corrections = 0.0, corrections2 = 0.0;
   for (const std::vector<Twins>& pass : found) {
@@ -107,8 +101,8 @@ void add_place(const FoundByPass& found, size_t place, int channel, double scale
 }
 
 /// Relative to the means of blocks, as single values are noisy.
-SmallError relative_errors(const FoundByPass& found, size_t rays) {
-  SmallError sum;
+PassError relative_errors(const FoundByPass& found, size_t rays) {
+  PassError sum;
   for (int channel = 0; channel < 3; ++channel) {
     const double mean = mean_among(found, 0, kEyeBlocks * rays, channel);
     if (mean == 0.0) continue;
@@ -128,16 +122,24 @@ PassError error_of_pass(const Scene& scene, const RenderSettings& settings, cons
   const SmallPasses small = plan_small(scene, settings, cost, seconds);
   FoundByPass found;
   for (int pass = 0; pass < kSmallPasses; ++pass) found.push_back(render_small(scene, small, pass));
-  const SmallError error = relative_errors(found, small.rays);
-  return {error.rays / settings.samples_per_pixel + small.share * error.photons, error.bias2};
+  PassError error = relative_errors(found, small.rays);
+  error.rays /= settings.samples_per_pixel;
+  error.photons *= small.share;
+  return error;
 }
 
-double error_after(const PassError& error, const Scene& scene, const RenderSettings& settings, double passes) {
-  if (settings.radii == RadiusSchedule::constant) return error.variance / passes + error.bias2;
-  int dimension = 3;
-  for (const MapInfo& map : plan_estimators(scene, settings, 0).maps())
-    if (map.section == "volume") dimension = map.dimension;
-  return (error.variance + error.bias2) * std::pow(passes, -best_a(dimension, kernel_order(settings.volume.kernel)));
+double error_after(const PassError& error, const RenderSettings& settings, int passes) {
+  constexpr int kDimension = 2;
+  const int order = kernel_order(settings.volume.kernel);
+  double noise = 0.0, bias = 0.0;  // summed over passes, relative to those of the first
+  for (int pass = 0; pass < passes; ++pass) {
+    const bool shrinks = settings.radii != RadiusSchedule::constant;
+    const double measure = shrinks ? measure_of_pass(best_a(kDimension, order), pass) : 1.0;
+    noise += 1.0 / measure;
+    bias += std::pow(measure, double(order) / kDimension);
+  }
+  const double n = passes;
+  return error.rays / n + error.photons * noise / (n * n) + error.bias2 * (bias / n) * (bias / n);
 }
 
 }  // namespace vpm

@@ -97,11 +97,11 @@ void check_photon_beams(const RenderSettings& s, const SceneFacts& facts) {
   refuse_if(s.flights > 0 && !s.volume.gathers_flights(), "photons.flights", "no flights are kept: " + gather,
             "leave out 'flights', or write gather = \"photon-beams\"");
   if (!s.volume.gathers_flights()) return;
-  refuse_if(s.photons_in_cube > 0, "photons.in_cube",
-            "where flights are gathered, collisions beside rays weigh by their own directions, and must not be merged",
+  refuse_if(s.photons_in_cube > 0 && s.volume.crosses_beams(), "photons.in_cube",
+            "where beams cross rays, collisions beside these weigh by their own directions, and must not be merged",
             "write 0, or another 'gather' in [volume]");
   refuse_if(s.photons_stored > 0 && s.volume.mode == GatherMode::beams_points, "photons.stored",
-            "no collisions are stored that would end the tracing of photons: " + gather,
+            "flights do not count towards the photons stored, and in media nothing else is: " + gather,
             "write 'emitted' instead, or another 'gather' in [volume]");
   refuse_if(facts.endless_flights, "volume.gather",
             "flights have no end in a channel that the medium of the world does not attenuate",

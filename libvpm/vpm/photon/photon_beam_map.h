@@ -79,8 +79,8 @@ class PhotonBeamMap {
   void test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval, float* missed) const;
   /// The same for a point.
   void test(const Leaf& leaf, const Vec3& point, float* missed) const;
-  /// Calls search(use_leaf), which calls use_leaf(leaf, missed) for leaves that may have pieces nearby, and
-  /// use(pieces, count) for the pieces that are, some at a time.
+  /// `search` hands the number of each leaf that it visits, and which pieces of it are missed, to its argument; `use`
+  /// takes the pieces that are not, up to BeamPlaces::kMost at a time. Returns how many pieces were looked at.
   template <class Search, class Use>
   uint32_t collect(Search&& search, Use&& use) const;
   /// What pieces and their beams say of themselves; their middles as places.

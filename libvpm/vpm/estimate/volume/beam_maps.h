@@ -42,6 +42,7 @@ inline Rgb scattering_of_beams(const Medium& medium, VolumeForm form) {
 template <class P, class Profile>
 KernelPair<Rgbd> sum_beams(const BeamPlaces& found, const Passed& passed, const float* share, const P& phase,
                            const Vec3& towards_eye, const Profile& profile, float inverse) {
+  static_assert(BeamPlaces::kMost <= PhotonBatch::kMost);  // a Passed has room for them
   LaneSums values, corrections;
   const auto add = [&](size_t lane, size_t i) {
     const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
@@ -58,8 +59,8 @@ KernelPair<Rgbd> sum_beams(const BeamPlaces& found, const Passed& passed, const 
   return {values.total(), corrections.total()};
 }
 
-/// A Map is what `make`(beams, settings in this pass, the share of flights that are kept as beams, scale of powers)
-/// returns, see build().
+/// A Map is what `make`(number of the medium, beams, settings in this pass, the share of flights that are kept as
+/// beams, scale of powers) returns, see build().
 template <class Map>
 class BeamMaps {
  public:
@@ -92,7 +93,7 @@ class BeamMaps {
       const std::vector<PhotonBeam> beams = std::exchange(flights_.beams[m], {});
       statistics.beams += beams.size();
       statistics.last_volume_radius = std::max(statistics.last_volume_radius, of_pass.radius);
-      by_medium_.push_back(make(beams, of_pass, kept, scale));
+      by_medium_.push_back(make(static_cast<MediumId>(m), beams, of_pass, kept, scale));
       statistics.photon_map_bytes += by_medium_.back().memory_bytes();
     }
   }

@@ -11,7 +11,7 @@ namespace vpm {
 namespace {
 
 /// The largest share of light, in any channel, that comes to the eye from places within a radius of a point of the
-/// segment: from the nearest of them.
+/// segment. Optical thickness rises up to the end and is mirrored there: it is least at one end of these places.
 class MostSeen {
  public:
   MostSeen(const EyeSegment& segment, const SegmentRegion& region, const PassToEye& pass, float radius)
@@ -19,13 +19,14 @@ class MostSeen {
         distances_(region.distances()),
         mirrored_(region.mirrored()),
         integrals_(pass.integrals()),
-        deeper_(radius * glm::length(distances_.slope)) {
+        apart_(radius * glm::length(distances_.slope)) {
     const Rgb& sigma_t = segment.medium()->sigma_t;
     thinnest_ = std::min({sigma_t.r, sigma_t.g, sigma_t.b});
   }
 
   float operator()(float t) const {
-    const float from = std::max(mirrored_.t0, distances_.of(t * ray_.direction) - deeper_), at = mirrored_(from);
+    const float middle = distances_.of(t * ray_.direction);
+    const float at = std::min(mirrored_(std::max(mirrored_.t0, middle - apart_)), mirrored_(middle + apart_));
     return std::exp(-thinnest_ * (integrals_ ? static_cast<float>(integrals_->at(at).integral) : at - mirrored_.t0));
   }
 
@@ -34,7 +35,7 @@ class MostSeen {
   PlaneDistances distances_;
   Mirrored mirrored_;
   const DensityIntegralsAlong* integrals_;  // null in a homogeneous medium
-  float deeper_;                            // m: how much farther the point may lie
+  float apart_;                             // m: along the ray, places and the point
   float thinnest_ = 0.0f;                   // 1/m at density 1
 };
 
@@ -42,7 +43,7 @@ class MostSeen {
 
 void BeamsAroundPoints::build(uint64_t emitted, RenderStatistics& statistics) {
   beams_.build(emitted, statistics,
-               [](const std::vector<PhotonBeam>& beams, const GatherSettings& of_pass, float, float scale) {
+               [](MediumId, const std::vector<PhotonBeam>& beams, const GatherSettings& of_pass, float, float scale) {
                  return Map{of_pass, PhotonBeamMap(beams, of_pass.radius, scale)};
                });
 }
@@ -60,25 +61,27 @@ KernelEstimate BeamsAroundPoints::along(const EyeSegment& segment, EyeWork& work
   const VolumeForm form = beams_.settings().maps.form;
   const PassToEye pass(medium, medium.homogeneous() ? nullptr : &segment.integrals(work), form, region.mirrored());
   const KernelEstimate light =
-      segment.throughput * scattering_of_beams(medium, form) * march(segment, region, near, pass, map, work);
+      segment.throughput * scattering_of_beams(medium, form) * march({segment, region, pass, map}, near, work);
   if (region.whole() || is_black(light.value)) return light;
   const SeenAlong seen(medium.sigma_t, segment.interval, pass.integrals());
   return over_share(light, region.share(radius, seen, work.rng), work.counters.gather);
 }
 
-KernelEstimate BeamsAroundPoints::march(const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
-                                        const PassToEye& pass, const Map& map, EyeWork& work) const {
+KernelEstimate BeamsAroundPoints::march(const Sight& sight, const Interval& near, EyeWork& work) const {
+  const auto& [segment, region, pass, map] = sight;
   const float radius = map.settings.radius;
   const MostSeen most_seen(segment, region, pass, radius);
   const float free_path = 1.0f / std::max(max_channel(segment.medium()->majorant()), 1e-30f);  // m, the shortest
   const float step = step_among(std::min(radius, max_optical_step_ * free_path), near);
   return march_seen(segment.ray, near, step, work.rng, most_seen,
-                    [&](const Vec3& point) { return sum(point, segment, region, pass, map, work); });
+                    [&](const Vec3& point) { return sum(point, sight, work); });
 }
 
 /// Of beams whose places nearest to the point lie in the region.
-KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const EyeSegment& segment, const SegmentRegion& region,
-                                      const PassToEye& pass, const Map& map, EyeWork& work) const {
+KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const Sight& sight, EyeWork& work) const {
+  const EyeSegment& segment = sight.segment;
+  const SegmentRegion& region = sight.region;
+  const Map& map = sight.map;
   const Ray& ray = segment.ray;
   const Medium& medium = *segment.medium();
   const float radius = map.settings.radius, inverse = 1.0f / (radius * radius);
@@ -87,8 +90,8 @@ KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const EyeSegment& segme
   GatherCounters& counters = work.counters.gather;
   count(work.counters.volume_queries);
   count(counters.searches);
-  const auto sum = [&](const auto& phase, auto profile) {
-    KernelPair<Rgbd> sum_of_beams;
+  const auto sum_for = [&](const auto& phase, auto profile) {
+    KernelPair<Rgbd> light;
     const auto visit = [&](const BeamPlaces& found) {
       Passed passed;
       float along[BeamPlaces::kMost], share[BeamPlaces::kMost];
@@ -100,16 +103,16 @@ KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const EyeSegment& segme
         counters.used += counts ? 1 : 0;
         along[i] = distances.of(place);
       }
-      pass({along, found.size}, passed);
+      sight.pass({along, found.size}, passed);
       multiply_by_left(medium, beams_.settings(), point, found, passed);
-      sum_of_beams += sum_beams(found, passed, share, phase, towards_eye, profile, inverse);
+      light += sum_beams(found, passed, share, phase, towards_eye, profile, inverse);
     };
     count(counters.visited, map.beams.visit_near(point, visit));
-    return normed(sum_of_beams, kernel_norm_2d(map.settings.kernel, radius));
+    return normed(light, kernel_norm_2d(map.settings.kernel, radius));
   };
   return std::visit(
       [&](const auto& phase) {
-        return with_kernel<2>(map.settings.kernel, [&](auto profile) { return sum(phase, profile); });
+        return with_kernel<2>(map.settings.kernel, [&](auto profile) { return sum_for(phase, profile); });
       },
       medium.phase);
 }

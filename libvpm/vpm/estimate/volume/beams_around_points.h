@@ -11,8 +11,9 @@ namespace vpm {
 /// Marches evenly among the beams of the medium that the segment is in. Each beam has the transmittance to the eye of
 /// its place nearest to the point of the march.
 ///
-/// Steps are no longer than the radius, so that no beam is passed by across it, and have no more than
-/// `max_optical_step` of optical thickness where the medium is densest, so that few are passed by along it.
+/// Steps are no longer than the radius, so that few beams are passed by between two points, and have no more than
+/// `max_optical_step` of optical thickness where the medium is densest, so that few of the short ones there are: that
+/// is noise, and no bias.
 class BeamsAroundPoints final : public VolumeEstimator {
  public:
   BeamsAroundPoints(const Scene& scene, const PhotonBeamSettings& settings, float max_optical_step)
@@ -32,10 +33,16 @@ class BeamsAroundPoints final : public VolumeEstimator {
     size_t memory_bytes() const { return beams.memory_bytes(); }
   };
 
-  KernelEstimate march(const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
-                       const PassToEye& pass, const Map& map, EyeWork& work) const;
-  KernelEstimate sum(const Vec3& point, const EyeSegment& segment, const SegmentRegion& region, const PassToEye& pass,
-                     const Map& map, EyeWork& work) const;
+  /// A segment, and what is gathered for it.
+  struct Sight {
+    const EyeSegment& segment;
+    const SegmentRegion& region;
+    const PassToEye& pass;
+    const Map& map;
+  };
+
+  KernelEstimate march(const Sight& sight, const Interval& near, EyeWork& work) const;
+  KernelEstimate sum(const Vec3& point, const Sight& sight, EyeWork& work) const;
 
   BeamMaps<Map> beams_;
   float max_optical_step_;

@@ -36,11 +36,11 @@ void PhotonBeams::build_beside(float kept_planes, uint64_t emitted, RenderStatis
       [&](std::vector<Photon>& photons, const GatherSettings& of_pass, float shrunk, uint64_t of, RenderStatistics& s) {
         return make_beam_map(photons, of_pass, shrunk, of, collisions_.settings().pass, s);
       });
-  MediumId number = 0;
   beams_.build(emitted, statistics,
-               [&](const std::vector<PhotonBeam>& beams, const GatherSettings& of_pass, float kept, float scale) {
+               [&](MediumId number, const std::vector<PhotonBeam>& beams, const GatherSettings& of_pass, float kept,
+                   float scale) {
                  const BeamBalance balance{kept * kernel_size_1d(of_pass.kernel, of_pass.radius),
-                                           kernel_size_2d(of_pass.kernel, collisions_[number++].settings.radius),
+                                           kernel_size_2d(of_pass.kernel, collisions_[number].settings.radius),
                                            kept_planes};
                  Map map{of_pass, balance, PhotonBeamMap(beams, of_pass.radius, scale), {}};
                  if (beams_.settings().planes)
@@ -106,7 +106,6 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
   count(work.counters.volume_queries);
   count(counters.searches);
   const Vec3 towards_eye = -segment.ray.direction;
-  static_assert(BeamCrossings::kMost <= PhotonBatch::kMost);
   const auto sum = [&](const auto& phase, auto profile) {
     KernelPair<Rgbd> sum_of_beams;
     const auto visit = [&](const BeamCrossings& found) {

@@ -64,7 +64,7 @@ class VolumeMaps {
   std::vector<Map> by_medium_;
 };
 
-/// The length of steps among photons that are gathered within `radius`, m: that radius, so that no photon is passed by.
+/// The length of steps among photons that are gathered within `radius`, m: that radius, so that few are passed by.
 /// Where it would make too many steps in a segment (thin media that extend very far), steps are longer; the result is
 /// then noisier, but no less right.
 inline float step_among(float radius, const Interval& interval) {
