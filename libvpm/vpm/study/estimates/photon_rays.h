@@ -10,6 +10,15 @@
 
 namespace vpm {
 
+/// Ways to look at photons along rays, with the names that checks have for them.
+struct NamedGather {
+  GatherMode mode;
+  const char* name;
+};
+inline constexpr NamedGather kAlongRays[] = {{GatherMode::beam, "photons around rays"},
+                                             {GatherMode::photon_beams, "photon beams"},
+                                             {GatherMode::beams_points, "beams around points"}};
+
 /// How photons are gathered, and how many of them there are.
 struct PhotonRays {
   GatherMode mode = GatherMode::photon_beams;

@@ -43,17 +43,16 @@ std::vector<Check> radiances(const Effort& effort) {
 }
 
 /// A slab is seen alike along parallel rays, and so through kernels of any radius: they have no bias.
-void check_radiance_by_photons(std::vector<Check>& checks, const RadianceProblem& p, GatherMode mode,
+void check_radiance_by_photons(std::vector<Check>& checks, const RadianceProblem& p, const NamedGather& by,
                                const Effort& effort) {
-  const std::string name = fmt::format("tau {}, albedo {}, g {}, {}", p.tau, p.albedo, p.g,
-                                       mode == GatherMode::beam ? "photons around rays" : "photon beams");
+  const std::string name = fmt::format("tau {}, albedo {}, g {}, {}", p.tau, p.albedo, p.g, by.name);
   const std::vector<SlabExit> exits{{0.5, false}, {0.8, false}, {0.5, true}, {0.8, true}};
   const std::vector<SlabRange> ranges{{0.5, 1.0, false}, {0.5, 1.0, true}};
   const exact::SlabSolution s =
       exact::solve_slab({p.tau, p.albedo, exact::henyey_greenstein_moments(p.g), {}}, {{}, {0.5, 0.8}, {0.5, 1.0}});
   const SlabSights found =
       estimate_slab_radiance_by_photons(homogeneous_slab(p.tau, p.albedo, p.g, Incidence::collimated), exits, ranges,
-                                        {.mode = mode,
+                                        {.mode = by.mode,
                                          .radius = 0.4,
                                          .photons = 5'000,
                                          .passes = static_cast<int>(effort.count(60, 600)),
@@ -75,8 +74,7 @@ void check_radiance_by_photons(std::vector<Check>& checks, const RadianceProblem
 std::vector<Check> radiances_by_photons(const Effort& effort) {
   std::vector<Check> checks;
   for (const RadianceProblem& p : kRadianceProblems)
-    for (const GatherMode mode : {GatherMode::beam, GatherMode::photon_beams, GatherMode::beams_points})
-      check_radiance_by_photons(checks, p, mode, effort);
+    for (const NamedGather& by : kAlongRays) check_radiance_by_photons(checks, p, by, effort);
   return checks;
 }
 

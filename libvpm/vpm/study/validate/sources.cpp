@@ -1,7 +1,6 @@
 // Point sources in endless media, spheres in a uniform environment, airlight of points and of beams.
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 
 #include "vpm/study/estimates/airlight.h"
 #include "vpm/study/estimates/point_source.h"
@@ -86,11 +85,6 @@ std::vector<Check> spheres(const Effort& effort) {
   }
   return checks;
 }
-
-constexpr std::array<std::pair<GatherMode, const char*>, 3> kAlongRays{
-    {{GatherMode::beam, "photons around rays"},
-     {GatherMode::photon_beams, "photon beams"},
-     {GatherMode::beams_points, "beams around points"}}};
 
 /// Airlight by photons that fly once, their kernels' bias extrapolated away: what is left is of the order of the fourth
 /// power of the radius, which is small against the distance over which light changes.
