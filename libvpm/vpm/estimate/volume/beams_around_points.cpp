@@ -72,7 +72,10 @@ KernelEstimate BeamsAroundPoints::march(const Sight& sight, const Interval& near
   const float radius = map.settings.radius;
   const MostSeen most_seen(segment, region, pass, radius);
   const float free_path = 1.0f / std::max(max_channel(segment.medium()->majorant()), 1e-30f);  // m, the shortest
-  const float step = step_among(std::min(radius, max_optical_step_ * free_path), near);
+  // As many steps as the beams' own part of the ray has: radii far larger than that ask for no more.
+  const Interval among = clip(segment.ray, region.reach(), map.beams.bounds(), 0.0f);
+  const float stretched = among.empty() ? kInfinity : near.length() / among.length();
+  const float step = step_among(std::min(radius, max_optical_step_ * free_path * stretched), near);
   return march_seen(segment.ray, near, step, work.rng, most_seen,
                     [&](const Vec3& point) { return sum(point, sight, work); });
 }

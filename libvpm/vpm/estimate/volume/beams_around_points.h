@@ -13,7 +13,7 @@ namespace vpm {
 ///
 /// Steps are no longer than the radius, so that few beams are passed by between two points, and have no more than
 /// `max_optical_step` of optical thickness where the medium is densest, so that few of the short ones there are: that
-/// is noise, and no bias.
+/// is noise, and no bias. Where the radius reaches far beyond the beams, steps are as many as among these.
 class BeamsAroundPoints final : public VolumeEstimator {
  public:
   BeamsAroundPoints(const Scene& scene, const PhotonBeamSettings& settings, float max_optical_step)
