@@ -162,10 +162,10 @@ TEST(SceneFile, AutoIsReadWhereItIsWritten) {
 TEST(SceneFile, WhatIsLeftOutMayBeAutomatic) {
   const std::string path = write_scene(kCamera + kLight + "[surface]\nradius = 2\n[photons]\nstored = 70\n");
   const RenderJob loaded = load_scene(path, {"distance.strategy=delta"}, LeftOut::automatic);
-  EXPECT_EQ(loaded.automatic.keys, (Keys{"caustics.radius", "volume.gather", "volume.radius"}));
+  EXPECT_EQ(loaded.automatic.keys, (Keys{"caustics.radius", "volume.radius"}));
   EXPECT_EQ(loaded.settings.surface.radius.metres(), 2.0f);
   EXPECT_EQ(loaded.settings.distance.strategy, "delta");
-  EXPECT_FALSE(load_scene(path, {"volume.gather=nearest"}, LeftOut::automatic).automatic.has("volume.gather"));
+  EXPECT_TRUE(load_scene(path, {"volume.gather=auto"}, LeftOut::automatic).automatic.has("volume.gather"));
   EXPECT_TRUE(load_scene(path, {"photons.stored=9"}, LeftOut::automatic).automatic.has("distance.strategy"));
   EXPECT_TRUE(load_scene(write_scene(kCamera + kLight), {}, LeftOut::automatic).automatic.has("photons.emitted"));
   EXPECT_NE(load_scene(path, {}, LeftOut::automatic).hash, load_scene(path).hash);

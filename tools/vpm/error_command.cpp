@@ -292,8 +292,9 @@ Convergence convergence_of(const std::vector<Member>& series, const ReferenceNoi
       return {std::nullopt, fmt::format("{} has another scene or other settings than {}", member.path, series[0].path)};
     const double value = (member.*error)(noise);
     if (!(value > 0.0) || std::isinf(value))
-      return {std::nullopt, fmt::format("the error of {} is {}{}", member.path, value,
-                                        noise.mse > 0.0 ? ", less the noise of the reference" : "")};
+      return {std::nullopt,
+              fmt::format("the error of {} is {:.4g}{}", member.path, value,
+                          noise.mse > 0.0 ? ", less the noise of the reference: render that longer" : "")};
     x.push_back(std::log(static_cast<double>(*origin.passes)));
     y.push_back(std::log(value));
   }

@@ -102,9 +102,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->excludes(passes);
   command->add_option("--reference", options.reference,
                       "EXR image of the truth: log error against time to a CSV file next to the image");
-  command->add_flag(
-      "--auto", options.automatic,
-      "Choose what the scene leaves out of radii, photons, their gather in media and distance strategy, and tell why");
+  command->add_flag("--auto", options.automatic,
+                    "Choose what the scene leaves out of radii, photons and distance strategy, and tell why");
   CLI::Option* checkpoint =
       command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint next to the image after each pass");
   CLI::Option* overwrite =

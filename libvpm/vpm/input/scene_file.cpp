@@ -91,7 +91,7 @@ std::vector<std::string> left_to_choose(const Document& document) {
   };
   std::vector<std::string> options;
   for (const Setting& setting : all_settings())
-    if (setting.automatic && !has(setting.key) && !has(std::string(setting.decided_by.key)))
+    if (setting.automatic && !setting.left_out_stays && !has(setting.key) && !has(std::string(setting.decided_by.key)))
       options.push_back(fmt::format("{}={}", setting.key, kAuto));
   return options;
 }

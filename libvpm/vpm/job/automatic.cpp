@@ -211,8 +211,8 @@ std::vector<Choice> choose_of_trials(const Scene& scene, const AutomaticSettings
   for (const GatherTrial& trial : open.trials) {
     const double passes = std::clamp(seconds / trial.pass_seconds, 1.0, kMostPasses);
     errors.push_back(error_after(trial.error, trial.settings, static_cast<int>(passes)));
-    reason += fmt::format(" {} {:.2g} ({:.2g} s each)", word_of(trial.settings.volume.mode), errors.back(),
-                          trial.pass_seconds);
+    reason += fmt::format("{} {} {:.2g} ({:.2g} s each)", errors.size() > 1 ? "," : "",
+                          word_of(trial.settings.volume.mode), errors.back(), trial.pass_seconds);
   }
   GatherTrial& best = open.trials[least_error(errors)];
   settings = best.settings;

@@ -31,7 +31,8 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
                  "`\"photon-planes\"`: these, and planes without a radius for light that media scatter twice in "
                  "turn; `\"beams-points\"`: flights within the radius of points of a march"
                : "photons within a `\"radius\"`, or the `\"nearest\"` few",
-       .automatic = in_media},
+       .automatic = in_media,
+       .left_out_stays = true},
       {.key = section + ".radius",
        .member = at<Gather, &G::radius>(),
        // Kernels, 1 over its cube, must be floats; and coordinates are at most 1e9 m.

@@ -67,6 +67,7 @@ struct Setting {
   std::string_view unit = "";                  // "": none
   std::string_view default_text = "";          // for people, where the default's value says little
   bool automatic = false;                      // may it be kAuto?
+  bool left_out_stays = false;                 // keeps its default where kAuto is made of what is left out
   bool of_passes = false;                      // does it say which passes are rendered, not what each estimates?
   Need need = {};                              // by default none
   DecidedBy decided_by = {};                   // by default nothing but itself
