@@ -310,10 +310,15 @@ Medium box_of_voxels() {
 }
 
 std::vector<Check> check_borders(const Effort& effort) {
-  const std::pair<const char*, GatherMode> spreads[] = {{"balls", GatherMode::radius},
-                                                        {"discs", GatherMode::beam},
-                                                        {"photon beams", GatherMode::photon_beams},
-                                                        {"photon beams around points", GatherMode::beams_points}};
+  struct NamedSpread {
+    const char* name;
+    GatherMode mode;
+    uint64_t passes = 24;
+  };
+  const NamedSpread spreads[] = {{"balls", GatherMode::radius},
+                                 {"discs", GatherMode::beam},
+                                 {"photon beams", GatherMode::photon_beams},
+                                 {"photon beams around points", GatherMode::beams_points, 96}};
   const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
   const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
   std::vector<Check> checks =
@@ -327,9 +332,10 @@ std::vector<Check> check_borders(const Effort& effort) {
   append(checks, check_picture("picture of a box", box_of(white), each_ball, 0.005, effort));
   append(checks, check_picture("picture of a ball of voxels", box_of(ball_of_voxels()),
                                {.radius = 0.4f, .boundary = BoundaryRule::corrected}, 0.01, effort));
-  for (const auto& [name, mode] : spreads)
-    append(checks, check_picture(fmt::format("picture of a box, {} past ends of segments", name), box_of(white),
-                                 {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
+  for (const auto& [name, mode, passes] : spreads)
+    append(checks,
+           check_picture(fmt::format("picture of a box, {} past ends of segments", name), box_of(white),
+                         {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort, passes));
   append(checks,
          check_picture("picture of balls in a box, discs past ends of segments", box_around_balls(white),
                        {.mode = GatherMode::beam, .radius = 0.4f, .boundary = BoundaryRule::ends}, 0.005, effort, 100));
@@ -341,10 +347,10 @@ std::vector<Check> check_borders(const Effort& effort) {
                        {.mode = GatherMode::nearest, .radius = 0.6f, .count = 100, .boundary = BoundaryRule::ends},
                        0.01, effort));
   const Medium voxels = box_of_voxels();
-  for (const auto& [name, mode] : spreads)
+  for (const auto& [name, mode, passes] : spreads)
     append(checks,
            check_picture(fmt::format("picture of a box of voxels, {} past ends of segments", name), box_of(voxels),
-                         {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort));
+                         {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort, passes));
   return checks;
 }
 
