@@ -13,15 +13,15 @@ struct DensityPiece {
   double t1 = 0.0;  // m
   double c0 = 0.0, c1 = 0.0, c2 = 0.0, c3 = 0.0;
 
-  double length() const { return t1 - t0; }  // infinite only where uniform()
-  bool uniform() const { return c1 == 0.0 && c2 == 0.0 && c3 == 0.0; }
+  [[gnu::always_inline]] double length() const { return t1 - t0; }  // infinite only where uniform()
+  [[gnu::always_inline]] bool uniform() const { return c1 == 0.0 && c2 == 0.0 && c3 == 0.0; }
   [[gnu::always_inline]] double density(double s) const { return c0 + s * (c1 + s * (c2 + s * c3)); }
   /// The density integral from t0 to t0 + s, m (times sigma_t: optical depth). Densities are not negative, so neither
   /// is the integral, except by rounding.
   [[gnu::always_inline]] double integral(double s) const {
     return uniform() ? s * c0 : s * (c0 + s * (c1 / 2 + s * (c2 / 3 + s * (c3 / 4))));
   }
-  double integral() const { return integral(length()); }
+  [[gnu::always_inline]] double integral() const { return integral(length()); }
 
   /// The s in [0, length()] at which integral(s) reaches `target`, 0 <= target <= integral(). Uses Newton's iteration
   /// inside a shrinking bracket, because the density may vanish at corners of a cell.
