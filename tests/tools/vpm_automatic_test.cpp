@@ -88,7 +88,7 @@ TEST_F(VpmAutomatic, AResumedRenderKeepsItsChoices) {
 
 TEST_F(VpmAutomatic, OtherCommandsRefuseToChoose) {
   vpm_refuses({"bake", "scene.toml", "--mesh", "shape 0", "--set", "surface.radius=auto"},
-              {"vpm bake chooses no settings", "name a value"});
+              {"vpm bake chooses no settings", "name a value of surface.radius"});
   write("two.toml", R"(
 title = "Two radii"
 unit = "passes"
@@ -104,7 +104,7 @@ file = "scene.toml"
 )");
   const auto result = vpm({"compare", "two.toml", "-o", "out"});
   EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.err.find("vpm compare chooses no settings"), std::string::npos) << result.err;
+  expect_words(result.err, {"vpm compare chooses no settings", "name a value of volume.radius"});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "pass_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <csignal>
 #include <cstdio>
 
@@ -87,7 +88,8 @@ void apply_options(const PassOptions& options, RenderSettings& settings) {
 void refuse_automatic(const RenderJob& job, const std::string& command) {
   if (job.automatic.any())
     throw InputError(fmt::format(
-        "{} chooses no settings: name a value where one is \"auto\"; vpm render tells those that it chooses", command));
+        "{} chooses no settings: name a value of {} where it is \"auto\"; vpm render tells those that it chooses",
+        command, fmt::join(job.automatic.keys, ", ")));
 }
 
 }  // namespace vpm::tools

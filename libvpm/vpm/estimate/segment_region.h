@@ -51,8 +51,7 @@ enum class Spread { discs, balls_as_discs, balls, lines, turned_discs };
 /// touch the borders at both its ends and of flat walls beside it.
 class SegmentRegion {
  public:
-  /// Under BoundaryRule::none the region is the whole tube between the segment's ends.
-  /// The segment is in a medium.
+  /// The segment is in a medium. Under BoundaryRule::none the region is the whole tube between the segment's ends.
   SegmentRegion(const EyeSegment& segment, const GatherSettings& gather, Spread spread);
 
   /// Where, along the ray, photons of the region project to or (`balls`) balls that reach into it have their centres,

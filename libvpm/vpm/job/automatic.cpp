@@ -11,6 +11,7 @@
 #include "vpm/base/error.h"
 #include "vpm/estimate/pass_map.h"
 #include "vpm/job/declare.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
@@ -290,6 +291,7 @@ ChosenCount make_fit(ChosenCount chosen, double seconds, const std::function<dou
 
 ChosenCount choose_count_of_flights(double seconds, const std::function<PassCost(uint64_t)>& cost_of) {
   constexpr uint64_t kMore = 4;
+  constexpr double kStoredOfFlight = (kFlightBytes + kBeamBytes) / kMapBytes;  // photons that take as much memory
   const double limit = seconds > 0.0 ? seconds / kLeastPasses : kInfinity;
   uint64_t count = kLeastCount;
   for (double before = 0.0;; count *= kMore) {

@@ -55,7 +55,6 @@ ChosenCount make_fit(ChosenCount chosen, double seconds, const std::function<dou
 /// until kLeastPasses passes would not fit into `seconds` (0: no limit), photons cost what the eye pass costs, or maps
 /// are full.
 ChosenCount choose_count_of_flights(double seconds, const std::function<PassCost(uint64_t)>& cost_of);
-inline constexpr double kStoredOfFlight = 9.0;  // photons of kMostStored, for the memory that a flight takes
 
 /// Which is least; of those that differ by less than a tenth the first.
 size_t least_error(std::span<const double> errors);

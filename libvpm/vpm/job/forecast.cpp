@@ -14,11 +14,8 @@ namespace vpm {
 namespace {
 
 constexpr uint64_t kSafePhotons = 10'000'000;  // that fit everywhere, unless each is stored hundreds of times
-constexpr double kMapBytes = 64.0;       // a stored photon takes while maps are built (62 in scenes/street_lamp.toml)
-constexpr double kMostIndexed = 0x1p32;  // photons of a map, or pieces of beams: their numbers have 32 bits
-// Of flights, while they are recorded (for beams and for planes apart), and while those kept become beams, of up to 9
-// pieces in the mean: measured in scenes/fog_room.toml at a radius of 1 cm.
-constexpr double kFlightBytes = 100.0, kBeamBytes = 450.0, kPiecesOfBeam = 9.0;
+constexpr double kMostIndexed = 0x1p32;        // photons of a map, or pieces of beams: their numbers have 32 bits
+constexpr double kPiecesOfBeam = 9.0;          // in the mean, at the most
 
 /// What the records of a pass take of the memory while maps are made, and how many must be numbered in one map.
 struct Room {

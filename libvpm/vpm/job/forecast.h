@@ -20,6 +20,10 @@ std::string too_long_text(const PassCost& cost, const RenderSettings& settings);
 /// does it trace some.
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory);
 
+// Bytes while maps are made: of a stored photon (62 in scenes/street_lamp.toml); of a flight, while it is recorded; and
+// of one that is kept, while it becomes a beam (both in scenes/fog_room.toml, with a radius of 1 cm).
+inline constexpr double kMapBytes = 64.0, kFlightBytes = 100.0, kBeamBytes = 450.0;
+
 /// Bytes of the machine.
 double physical_memory();
 
