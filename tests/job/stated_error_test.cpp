@@ -65,6 +65,30 @@ TEST(StatedError, CoversTheTruth) {
   EXPECT_GE(below, 0.80 * kFilms);
 }
 
+/// The same claim where a noise that all pixels have in common is most of the error, as where few photons bring most of
+/// the light: the pixels of one picture do not show it.
+TEST(StatedError, CoversAnErrorThatAllPixelsHaveInCommon) {
+  constexpr int kFilms = 500;
+  int covered = 0, below = 0;
+  for (uint64_t seed = 0; seed < kFilms; ++seed) {
+    Film film(kSide, kSide);
+    for (int pass = 0; pass < 16; ++pass) {
+      Rng rng(seed, static_cast<uint64_t>(pass), 0);
+      const double level = 1.0 + 0.2 * noise(rng);
+      Image image(kSide, kSide);
+      for (Rgb& pixel : image.pixels) pixel = Rgb(static_cast<float>(level + 0.05 * noise(rng)));
+      film.add(pass, image);
+    }
+    const StatedError stated = stated_error(film.errors());
+    const double truth = true_error(film);
+    covered += std::fabs(truth - stated.total.value) <= 1.96 * stated.total.standard_error;
+    below += truth <= stated.highest;
+  }
+  EXPECT_GE(covered, 0.90 * kFilms);
+  EXPECT_LE(covered, 0.98 * kFilms);
+  EXPECT_GE(below, 0.80 * kFilms);
+}
+
 TEST(StatedError, IsNeverNegativeAndTellsABiasThatIsSeen) {
   int seen = 0;
   for (uint64_t seed = 0; seed < 20; ++seed) {

@@ -14,6 +14,7 @@ void append(std::vector<Setting>& all, std::vector<Setting> more) {
 
 std::string not_counted(const S&) { return "photons within a radius are not counted"; }
 constexpr std::string_view kCountInstead = "leave out 'count', or set gather = \"nearest\"";
+constexpr std::string_view kCountInMedia = "leave out 'count', or set gather = \"nearest\" or \"beam\"";
 
 /// How photons are gathered from the map of a section, whose settings are the member `Gather`.
 template <auto Gather>
@@ -45,7 +46,8 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
        .member = at<Gather, &G::count>(),
        .domain = Integers{2, 1'000'000},
        .meaning = "how many are nearest; refused with `\"radius\"`, which counts none",
-       .need = {[](const S& s) { return (s.*Gather).mode == GatherMode::nearest; }, not_counted, kCountInstead}},
+       .need = {[](const S& s) { return (s.*Gather).mode == GatherMode::nearest; }, not_counted,
+                in_media ? kCountInMedia : kCountInstead}},
       {.key = section + ".kernel",
        .member = at<Gather, &G::kernel>(),
        .domain = words_of<KernelKind>(),
@@ -62,7 +64,7 @@ Setting declare_beam_count() {
           .meaning =
               "with `\"beam\"`, where > 0: each photon has a radius of its own, of a ball of about so many "
               "photons, from a hundredth of `radius` to `radius`",
-          .need = {[](const S& s) { return s.volume.mode == GatherMode::beam; }, not_counted, kCountInstead}};
+          .need = {[](const S& s) { return s.volume.mode == GatherMode::beam; }, not_counted, kCountInMedia}};
 }
 
 constexpr const char* kBorders =

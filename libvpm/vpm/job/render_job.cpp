@@ -20,7 +20,7 @@ void note_choices(RenderJob& job) {
     job.notes.push_back(fmt::format("chosen {} = {}: {}", choice.key, choice.value, choice.reason));
     again += fmt::format(" --set {}={}", choice.key, choice.value);
   }
-  job.notes.push_back("the same picture again without choosing:" + again);
+  job.notes.push_back("the same settings again without choosing:" + again);
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ void choose(RenderJob& job) {
   job.choices = choose_settings(job.scene, job.automatic, job.settings);
   const double seconds = choosing.seconds();
   job.pilot_seconds += seconds;
-  job.notes.push_back(fmt::format("choosing settings took {:.2g} s", seconds));
+  if (!job.choices.empty()) job.notes.push_back(fmt::format("choosing settings took {:.2g} s", seconds));
   note_choices(job);
 }
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
@@ -97,16 +98,36 @@ Rgbd mean_of_neighbours(const Image& image, int x, int y) {
   return count > 0 ? sum / static_cast<double>(count) : Rgbd(image.at(x, y));
 }
 
+/// The least of the means over the three pixels on each of the four sides of one; infinite where it has no neighbour.
+Rgbd mean_of_darkest_side(const Image& image, int x, int y) {
+  constexpr std::pair<int, int> kSides[] = {{-1, 0}, {0, -1}, {1, 0}, {0, 1}};
+  Rgbd least(std::numeric_limits<double>::infinity());
+  for (const auto& [right, down] : kSides) {
+    Rgbd sum(0.0);
+    int count = 0;
+    for (int along = -1; along <= 1; ++along) {
+      const int u = x + right + along * down, v = y + down + along * right;
+      if (u < 0 || v < 0 || u >= image.width || v >= image.height) continue;
+      sum += Rgbd(image.at(u, v));
+      ++count;
+    }
+    if (count > 0) least = glm::min(least, glm::abs(sum / static_cast<double>(count)));
+  }
+  return least;
+}
+
 /// What squares of errors of a pixel are divided by, as FilmErrors says; 0 in a channel that is black everywhere.
-std::vector<Rgbd> relative_scales(const Image& means) {
+std::vector<Rgbd> relative_scales(const Image& means, const Image& variances) {
   const Rgbd channels = channel_means(means);
   std::vector<Rgbd> scales(means.pixels.size());
   parallel_for_chunks(scales.size(), kPixelChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       const auto x = static_cast<int>(i % means.width), y = static_cast<int>(i / means.width);
-      const Rgbd own(means.at(x, y)), around = mean_of_neighbours(means, x, y);
-      for (int c = 0; c < 3; ++c)
-        scales[i][c] = relative_scale(std::min(std::abs(own[c]), std::abs(around[c])), channels[c]);
+      const Rgbd own = glm::abs(Rgbd(means.pixels[i]));
+      const Rgbd least = own - glm::sqrt(glm::max(Rgbd(0.0), Rgbd(variances.pixels[i])));
+      const Rgbd of_all = glm::max(least, glm::min(own, glm::abs(mean_of_neighbours(means, x, y))));
+      const Rgbd of_side = glm::max(least, glm::min(own, mean_of_darkest_side(means, x, y)));
+      for (int c = 0; c < 3; ++c) scales[i][c] = relative_scale(std::sqrt(of_all[c] * of_side[c]), channels[c]);
     }
   });
   return scales;
@@ -125,6 +146,12 @@ Estimated variance_part_of(const Image& variances, const std::vector<Rgbd>& scal
     part.add(mean_over_channels(Rgbd(variances.pixels[i]), scales[i]));
   });
   return {parts.mean(), scales.size() > 1 ? std::sqrt(parts.variance_of_mean()) : parts.mean()};
+}
+
+/// The standard deviation of the part of a squared error that all pixels have in common: it is the square of one nearly
+/// normal number, a chi-square of one degree of freedom, whose standard deviation is sqrt(2) times its mean.
+double spread_of_level(const Rgbd& variance_of_channel_means, const Rgbd& channels) {
+  return std::sqrt(2.0) * mean_over_channels(variance_of_channel_means, channels * channels);
 }
 
 // --- Bias
@@ -239,11 +266,13 @@ FilmErrors Film::errors() const {
   FilmErrors errors;
   errors.variance = variance_of_mean();
   errors.bias = Image(width_, height_);
-  const std::vector<Rgbd> scales = relative_scales(mean());
+  const std::vector<Rgbd> scales = relative_scales(mean(), errors.variance);
   errors.variance_part = variance_part_of(errors.variance, scales);
   const ExactSums::Totals means = sums_.channel_means.totals();
   for (int c = 0; c < 3; ++c)
     errors.variance_of_channel_means[c] = variance_of_mean_of(passes(), means[c], means[c + 3]);
+  const double of_level = spread_of_level(errors.variance_of_channel_means, channel_means(mean()));
+  errors.variance_part.standard_error = std::hypot(errors.variance_part.standard_error, of_level);
   if (!shows_bias()) return errors;
   GroupMeans groups;
   std::vector<const Image*> filled;

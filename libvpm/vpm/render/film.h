@@ -20,12 +20,15 @@ struct Estimated {
 
 /// Estimates of the variance and of the bias of a film's mean. Relative parts are those in relative_mse(): means over
 /// pixels and channels, over R^2 + 0.01 (mean R)^2. A pixel's own value is too noisy to stand for R where its error is
-/// large, as a sample that makes the error makes it seem small, too: so R is the smaller of the pixel's value and the
-/// mean of its neighbours.
+/// large, as a sample that makes the error makes it seem small, too. So R^2 is the product of two values: the pixel's
+/// own, but no more than the mean of its neighbours, and no more than the mean of its darkest side; and neither is less
+/// than the pixel's own less its standard deviation.
 struct FilmErrors {
   Image variance;           // of the mean, from the differences between passes
   Image bias;               // of the mean, were it to go as r^2: an unbiased estimate, but full of noise
-  Estimated variance_part;  // relative MSE due to variance
+  /// Relative MSE due to variance. Its standard error is by how much the squared error of this picture is off from
+  /// its mean, were pixels independent but for a factor that all have in common.
+  Estimated variance_part;
   /// Relative MSE due to bias, were it to go as r^2 everywhere; four times as much were it to go as r. Estimated by
   /// products of corrections of different passes, whose noise is independent: without bias, so that it may come out
   /// below 0. Its standard error is that of a jackknife over Film::kGroups groups of passes, which is rather too large
