@@ -126,7 +126,7 @@ TEST(Forecast, CountsThePhotonsOfEitherKindThatAPassStores) {
   const RenderJob job = glass_over_floor(20'000, 400'000);
   const Pass pass = render_photon_pass(job.scene, job.settings, 0, kNeverStopped);
   const RenderStatistics& s = pass.statistics;
-  const PassCost cost = time_photons(job.scene, job.settings, PassOf::picture, 0.05);
+  const PassCost cost = time_photons(job.scene, job.settings, PassOf::picture, 1.0);
   const auto aimed = static_cast<double>(s.aimed_photons);
   const double stored = static_cast<double>(s.surface_photons + s.caustic_photons);
   EXPECT_GT(aimed, 0.5 * stored);

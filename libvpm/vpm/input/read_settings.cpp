@@ -1,4 +1,5 @@
 // The sections about how to render: [camera] and [film], and those of the settings, which their declarations read.
+#include <algorithm>
 #include <map>
 
 #include "vpm/input/sections.h"
@@ -28,6 +29,15 @@ Words with_auto(Words words) {
   return words;
 }
 
+/// An array of words, in the order of the set.
+std::string read_word_set(TableReader& table, const std::string& key, const WordSet& set) {
+  const std::vector<std::string> given = table.words(key, set.words);
+  std::string joined;
+  for (const std::string& word : set.words)
+    if (std::find(given.begin(), given.end(), word) != given.end()) joined += (joined.empty() ? "" : "+") + word;
+  return joined;
+}
+
 /// The value of a key that the table has, checked against the setting's domain; nothing where it is kAuto.
 std::optional<SettingValue> read_value(TableReader& table, const Setting& setting) {
   const std::string key = setting.name();
@@ -38,6 +48,7 @@ std::optional<SettingValue> read_value(TableReader& table, const Setting& settin
     const std::string word = table.choice<std::string>(key, allowed);
     return setting.automatic && word == kAuto ? std::nullopt : std::optional<SettingValue>(word);
   }
+  if (const auto* set = std::get_if<WordSet>(&setting.domain)) return read_word_set(table, key, *set);
   if (setting.automatic && table.says_auto(key)) return std::nullopt;
   if (const auto* integers = std::get_if<Integers>(&setting.domain))
     return table.integer(key, integers->lo, std::min(integers->hi, kLargestOfToml));

@@ -149,6 +149,24 @@ Rgb TableReader::rgb(const std::string& key, const Range& range, std::optional<R
   return Rgb(v[0], v[1], v[2]);
 }
 
+std::vector<std::string> TableReader::words(const std::string& key, const std::vector<std::string>& allowed) {
+  const Node& node = require(key);
+  if (!node.array() || node.array()->empty())
+    fail(key, quoted(key, title_) + " must be an array of words, not " + (node.array() ? "empty" : kind_of(node)),
+         suggest("", allowed, "it can hold"));
+  std::vector<std::string> found;
+  for (const Node& element : *node.array()) {
+    const auto* word = std::get_if<std::string>(&element.value);
+    if (!word || std::find(allowed.begin(), allowed.end(), *word) == allowed.end())
+      fail_at(element.place, quoted(key, title_) + " cannot hold " + (word ? "'" + *word + "'" : kind_of(element)),
+              suggest(word ? *word : "", allowed, "it can hold"));
+    if (std::find(found.begin(), found.end(), *word) != found.end())
+      fail_at(element.place, quoted(key, title_) + " holds '" + *word + "' twice");
+    found.push_back(*word);
+  }
+  return found;
+}
+
 std::optional<TableReader> TableReader::table(const std::string& key, const std::string& title) {
   const Node* node = find(key);
   return node ? std::optional<TableReader>(TableReader(*node, title, *files_)) : std::nullopt;

@@ -44,6 +44,9 @@ class TableReader {
   template <class T>
   T choice(const std::string& key, const std::vector<std::pair<std::string, T>>& words, std::optional<T> fallback = {});
 
+  /// An array of some of these words, not empty, each at most once.
+  std::vector<std::string> words(const std::string& key, const std::vector<std::string>& allowed);
+
   /// The node of a key; null where it is missing. Marks the key as known.
   const Node* find(const std::string& key);
   const Node& require(const std::string& key);

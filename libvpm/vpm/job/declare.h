@@ -21,7 +21,11 @@ template <class Enum>
 struct WordsOf;
 template <>
 struct WordsOf<Integrator> {
-  static constexpr std::array<std::string_view, 2> words{"photon", "path"};
+  static constexpr std::array<std::string_view, 3> words{"photon", "path", "combined"};
+};
+template <>
+struct WordsOf<Heuristic> {
+  static constexpr std::array<std::string_view, 2> words{"balance", "power"};
 };
 template <>
 struct WordsOf<RadiusSchedule> {
@@ -133,9 +137,10 @@ Member at() {
 }
 
 /// The declarations of the sections [render], [photons], [importance]; [distance], [transmittance]; [volume],
-/// [surface], [caustics].
+/// [surface], [caustics]; [combined].
 std::vector<Setting> pass_settings();
 std::vector<Setting> flight_settings();
 std::vector<Setting> gather_settings();
+std::vector<Setting> combined_settings();
 
 }  // namespace vpm

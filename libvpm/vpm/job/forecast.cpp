@@ -9,6 +9,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/job/automatic.h"
+#include "vpm/render/combined_pass.h"
 
 namespace vpm {
 namespace {
@@ -44,6 +45,22 @@ std::string fitting_text(double photons, const RenderSettings& settings, double 
   return text + " would fit";
 }
 
+/// Light sub-paths are kept whole, and sorted beside themselves: told by the first of them.
+void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& settings, double memory) {
+  constexpr uint64_t kFew = 1000;
+  RenderSettings few = settings;
+  few.photons_emitted = std::min(kFew, settings.photons_emitted);
+  const std::atomic<bool> never{false};
+  const CombinedPass pass(scene, few, 0, never);
+  const auto paths = static_cast<double>(settings.photons_emitted);
+  const double each = 2.0 * static_cast<double>(pass.statistics().photon_map_bytes) / static_cast<double>(kFew);
+  if (paths * each <= memory) return;
+  throw InputError(fmt::format(
+      "photons.emitted: the light sub-paths of a pass would take {:.2g} GB of memory; this machine has {:.2g} GB, where "
+      "about {} photons.emitted would fit; more passes do what more light sub-paths would",
+      paths * each * 1e-9, memory * 1e-9, photons_text(0.5 * memory / each)));
+}
+
 }  // namespace
 
 double longest_time(double seconds) { return 1.3 * seconds + 1.0; }
@@ -63,6 +80,7 @@ std::string too_long_text(const PassCost& cost, const RenderSettings& settings) 
 
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory) {
   if (settings.integrator == Integrator::path) return;
+  if (settings.integrator == Integrator::combined) return check_memory_of_sub_paths(scene, settings, memory);
   const double each = settings.volume.gathers_flights() ? kFlightBytes + kBeamBytes : kMapBytes;
   const auto asked =
       static_cast<double>(std::max({settings.photons_emitted, settings.photons_stored, settings.caustics_emitted}));

@@ -14,7 +14,7 @@ std::vector<Setting> declare_render() {
       {.key = "render.integrator",
        .member = at<&S::integrator>(),
        .domain = words_of<Integrator>(),
-       .meaning = "photon mapping, or the unbiased reference path tracer"},
+       .meaning = "photon mapping, the unbiased reference path tracer, or all techniques `\"combined\"`, see below"},
       {.key = "render.passes",
        .member = at<&S::until, &StopRule::passes>(),
        .domain = Integers{1, kMostPasses},

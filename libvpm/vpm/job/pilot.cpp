@@ -14,6 +14,7 @@
 #include "vpm/photon/nearest_map.h"
 #include "vpm/photon/photon_beam.h"
 #include "vpm/photon/trace.h"
+#include "vpm/render/combined_pass.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -246,6 +247,22 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
   return {taken * all / static_cast<double>(sum.rays), used / std::max(1.0, used + kSearch * searches)};
 }
 
+/// By a part of the light sub-paths.
+PassCost time_combined_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
+  constexpr uint64_t kPaths = 2000;
+  RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
+  pilot.photons_emitted = std::min(kPaths, settings.photons_emitted);
+  const std::atomic<bool> never{false};
+  const CombinedPass ready(scene, pilot, 0, never);
+  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return ready.radiance(ray, work); };
+  const EyeCost eye = time_eye_pass(scene, pilot, radiance, seconds);
+  const auto paths = static_cast<double>(pilot.photons_emitted), all = static_cast<double>(settings.photons_emitted);
+  const RenderStatistics& s = ready.statistics();
+  return {.photon = (s.trace_seconds + s.build_seconds) / paths,
+          .eye = eye.seconds * (1.0 + eye.of_photons * (all / paths - 1.0)),
+          .stored_per_photon = static_cast<double>(s.volume_photons + s.surface_photons) / paths};
+}
+
 /// A part of a pass made ready, and what that took.
 struct ReadyPass {
   RenderSettings settings;
@@ -376,6 +393,7 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
     };
     return {.eye = time_eye_pass(scene, pilot, radiance, seconds).seconds};
   }
+  if (settings.integrator == Integrator::combined) return time_combined_pass(scene, settings, 0.5 * seconds);
   const ReadyPass ready = make_ready_within(scene, settings, PassOf::picture, 0.5 * seconds);
   const EyeContext context{scene, ready.estimators, settings.max_events};
   const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); };

@@ -9,6 +9,7 @@
 #include "vpm/base/stopwatch.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/validate.h"
+#include "vpm/render/combined_pass.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
 
@@ -100,9 +101,15 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
   check_size(result, scene.camera);
   const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
     const int pass = so_far.film.next_pass();
-    return settings.integrator == Integrator::path
-               ? render_path_pass(scene, settings, pass, control.stop, shown)
-               : render_photon_pass_after(so_far.discs, scene, settings, {pass, control.stop, shown});
+    switch (settings.integrator) {
+      case Integrator::path:
+        return render_path_pass(scene, settings, pass, control.stop, shown);
+      case Integrator::combined:
+        return render_combined_pass(scene, settings, pass, control.stop, shown);
+      case Integrator::photon:
+        return render_photon_pass_after(so_far.discs, scene, settings, {pass, control.stop, shown});
+    }
+    __builtin_unreachable();
   };
   return run_passes(settings.until, {make, tile_count(scene.camera)}, std::move(result), control);
 }

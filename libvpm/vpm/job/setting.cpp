@@ -29,7 +29,7 @@ bool is_in(const Range& range, Number number) {
 }
 
 std::optional<SettingValue> value_in(const Setting& setting, const std::string& text) {
-  if (std::holds_alternative<Words>(setting.domain)) return text;
+  if (std::holds_alternative<Words>(setting.domain) || std::holds_alternative<WordSet>(setting.domain)) return text;
   if (std::holds_alternative<Integers>(setting.domain)) return number_in<uint64_t>(text);
   if (std::holds_alternative<Numbers>(setting.domain))
     return std::holds_alternative<float>(setting.member.get({})) ? number_in<float>(text) : number_in<double>(text);
@@ -39,6 +39,16 @@ std::optional<SettingValue> value_in(const Setting& setting, const std::string& 
 
 }  // namespace
 
+std::vector<std::string> words_in(const std::string& value) {
+  std::vector<std::string> words;
+  for (size_t begin = 0; begin <= value.size();) {
+    const size_t end = std::min(value.find('+', begin), value.size());
+    words.push_back(value.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
 std::string text_of(const SettingValue& value) {
   return std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
 }
@@ -46,7 +56,7 @@ std::string text_of(const SettingValue& value) {
 std::span<const Setting> all_settings() {
   static const std::vector<Setting> all = [] {
     std::vector<Setting> joined;
-    for (auto declare : {pass_settings, flight_settings, gather_settings})
+    for (auto declare : {pass_settings, flight_settings, gather_settings, combined_settings})
       for (Setting& setting : declare()) joined.push_back(std::move(setting));
     return joined;
   }();
@@ -73,12 +83,18 @@ std::string outside_of(const Domain& domain, const SettingValue& value) {
           [&](const Numbers& of) {
             const auto* single = std::get_if<float>(&value);
             const bool inside = single ? is_in(of.range, *single) : is_in(of.range, std::get<double>(value));
-            return inside ? "" : must(text_of(of.range));
+            return inside ? std::string() : must(text_of(of.range));
           },
           [&](const Words& of) {
             const bool known =
                 std::find(of.words.begin(), of.words.end(), std::get<std::string>(value)) != of.words.end();
             return known ? "" : must(fmt::format("one of {}", fmt::join(of.words, ", ")));
+          },
+          [&](const WordSet& of) {
+            for (const std::string& word : words_in(std::get<std::string>(value)))
+              if (std::find(of.words.begin(), of.words.end(), word) == of.words.end())
+                return must(fmt::format("some of {}", fmt::join(of.words, ", ")));
+            return std::string();
           },
       },
       domain);

@@ -36,7 +36,14 @@ struct Numbers {
 struct Words {
   std::vector<std::string> words;
 };
-using Domain = std::variant<Flags, Integers, Numbers, Words>;
+/// Some of these words, one at least: "a+b" in their order.
+struct WordSet {
+  std::vector<std::string> words;
+};
+using Domain = std::variant<Flags, Integers, Numbers, Words, WordSet>;
+
+/// The words of the value of a WordSet.
+std::vector<std::string> words_in(const std::string& value);
 
 /// Where a setting stands in RenderSettings. `set` expects a value of the setting's domain; a number of either
 /// precision serves for both.

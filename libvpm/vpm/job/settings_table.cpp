@@ -26,6 +26,7 @@ std::string text_of_domain(const Words& domain) {
   for (const std::string& each : domain.words) words.push_back(word(each));
   return fmt::format("{}", fmt::join(words, ", "));
 }
+std::string text_of_domain(const WordSet& domain) { return "some of " + text_of_domain(Words{domain.words}); }
 std::string text_of_domain(const Flags&) { return "`true`, `false`"; }
 std::string text_of_domain(const Integers& domain) {
   constexpr uint64_t kTellsNothing = 1'000'000'000;

@@ -25,6 +25,16 @@ std::string guided(const GuideSettings& guide) {
   return ways.empty() ? "left as they are" : fmt::format("{} by importance", fmt::join(ways, ", "));
 }
 
+std::vector<std::string> stages_of_combined(const RenderSettings& settings, const std::string& distances,
+                                            const std::string& channels) {
+  std::vector<std::string> lines{"runs sub-paths from the lights and from the eye" + distances};
+  for (const TechniqueInfo& info : kTechniques)
+    lines.push_back(fmt::format("{} {}: {}", settings.combined.techniques.has(info.technique) ? "runs" : "skips",
+                                info.name, info.summary));
+  lines.push_back(channels);
+  return lines;
+}
+
 }  // namespace
 
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Scattering& shown) {
@@ -45,6 +55,7 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   if (settings.integrator == Integrator::path)
     return {line(true, "path tracing", distances + transmittance, ""),
             line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
+  if (settings.integrator == Integrator::combined) return stages_of_combined(settings, distances, channels);
   const bool beams = settings.volume.gathers_flights();
   const bool photons = media || surfaces,
              gathers = surfaces && settings.surface_indirect == IndirectLight::final_gather;

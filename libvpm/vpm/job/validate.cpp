@@ -156,6 +156,30 @@ void check_radii_of_pixels(const RenderSettings& s) {
             "write \"none\", or other radii");
 }
 
+/// The combined estimator must know the density of each sub-path.
+void check_combined(const RenderSettings& s, const SceneFacts& facts) {
+  if (s.integrator != Integrator::combined) return;
+  const std::string combined = "where render.integrator is \"combined\" ";
+  const StrategyInfo& info = strategy_info(s.distance.strategy);
+  refuse_if(!info.analog || !info.unbiased, "distance.strategy",
+            combined + "flights have the density that the transmittance says, and those by '" + s.distance.strategy +
+                "' do not",
+            "use \"regular\", which is exact in any medium");
+  refuse_if(s.transmittance.estimator != TransmittanceSettings{}.estimator, "transmittance.estimator",
+            combined + "transmittance is exact", "leave out 'estimator'");
+  refuse_if(s.guide.importons > 0, "importance.importons", combined + "sub-paths go where power does",
+            "leave out [importance]");
+  refuse_if(s.photons_emitted == 0 || s.photons_stored > 0, "photons.stored",
+            combined + "the number of light sub-paths is that of 'emitted'", "write 'emitted' instead");
+  refuse_if(s.photons_in_cube > 0, "photons.in_cube", combined + "each vertex has a weight of its own",
+            "leave out 'in_cube'");
+  refuse_if(s.radii == RadiusSchedule::per_pixel, "render.radii", combined + "all pixels share their radii",
+            "write \"per-pass\" or \"constant\"");
+  refuse_if(facts.endless_flights && s.combined.techniques.has(Technique::short_beams), "combined.techniques",
+            "flights have no end in a channel that the medium of the world does not attenuate",
+            "leave out \"short-beams\", or put the scene into a box of the medium");
+}
+
 }  // namespace
 
 SettingError::SettingError(std::string key, std::string wrong, std::string right)
@@ -187,6 +211,7 @@ void validate(const RenderSettings& settings, const SceneFacts& facts) {
   check_strategy(settings, facts);
   check_density_floor(settings);
   check_photon_beams(settings, facts);
+  check_combined(settings, facts);
   check_borders(settings);
   check_final_gathering(settings);
   check_radii_of_pixels(settings);
@@ -196,7 +221,7 @@ void validate(const RenderSettings& settings, const SceneFacts& facts) {
 void validate_light_map(const RenderSettings& settings, const SceneFacts& facts) {
   validate(settings, facts);
   refuse_if(settings.integrator != Integrator::photon, "render.integrator",
-            "light maps are made of photon maps, but render.integrator is \"path\"",
+            "light maps are made of photon maps, but render.integrator is \"" + word_of(settings.integrator) + "\"",
             "write \"photon\", or add --set render.integrator=photon");
   refuse_if(settings.radii == RadiusSchedule::per_pixel, "render.radii",
             "texels of a light map have no radii of their own, but render.radii is \"per-pixel\"",

@@ -9,7 +9,7 @@ std::optional<Incident> incident_by_area(const Rgb& radiance, const LightPoint& 
   if (!(facing > 0.0f)) return std::nullopt;
   const float square = glm::dot(towards, towards), distance = std::sqrt(square);
   const float pdf = square * distance / (from.area * facing);
-  return Incident{towards / distance, distance, radiance / pdf, pdf};
+  return Incident{towards / distance, distance, radiance / pdf, pdf, from.normal};
 }
 
 float pdf_by_area(float area, const SeenLight& seen) {

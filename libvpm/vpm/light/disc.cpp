@@ -24,7 +24,7 @@ Emission emit_from(const DiscLight& light, const Box& scene, const EmissionNumbe
   const Vec3 p = uniform_point(light, u.place);
   const Vec3 direction = cosine_hemisphere(light.normal, u.direction);
   const float slack = disc_slack({light.centre, light.normal, light.radius});
-  return {Ray{leave_surface_at(p, light.normal, direction, slack), direction}, power_of(light, scene)};
+  return {Ray{leave_surface_at(p, light.normal, direction, slack), direction}, power_of(light, scene), light.normal};
 }
 
 std::optional<Incident> incident_from(const DiscLight& light, const Vec3& point, Rng& rng) {

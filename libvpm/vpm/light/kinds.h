@@ -68,6 +68,9 @@ std::optional<Incident> incident_by_area(const Rgb& radiance, const LightPoint& 
 /// The density of incident_by_area() at what was seen, 1/sr: distance^2 / (area cos).
 float pdf_by_area(float area, const SeenLight& seen);
 
+/// The density with which emit() draws a direction of travel, 1/sr.
+double spot_density(const SpotLight& light, const Vec3& travel);
+
 /// The areas of a box's faces perpendicular to the x, y and z axes, m^2.
 Vec3d face_areas(const Box& box);
 /// The area of the box projected along `direction`, m^2: sum |direction_i| face_areas_i.

@@ -186,7 +186,8 @@ EmissionNumbers draw_emission_numbers(Rng& rng);
 /// could meet. Photons of lights at infinity start where they enter the box.
 struct Emission {
   Ray ray;
-  Rgb power{0.0f};  // W
+  Rgb power{0.0f};    // W
+  Vec3 normal{0.0f};  // of an area light where the photon starts, unit, outward
 };
 Emission emit(const Light& light, const Box& scene, const EmissionNumbers& u);
 inline Emission emit(const Light& light, const Box& scene, Rng& rng) {
@@ -200,6 +201,7 @@ struct Incident {
   Rgb irradiance{0.0f};        // on a surface that faces the light, W/m^2: an estimate whose mean over samples is the
                                // integral of radiance
   float pdf = 0.0f;            // of the direction, 1/sr; 0 where the light has one direction only
+  Vec3 normal{0.0f};           // of an area light where the light comes from, unit, outward
 };
 /// Samples the light that reaches `point`; nothing if none can. A point inside a sphere light receives nothing.
 /// Occlusion by other parts of a mesh light is not tested.

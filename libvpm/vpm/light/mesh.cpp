@@ -54,7 +54,8 @@ Rgb power_of(const MeshLight& light, const Box&) { return kPi * area_of(light) *
 Emission emit_from(const MeshLight& light, const Box& scene, const EmissionNumbers& u) {
   const EmittingMesh::Sample from = light.mesh->sample(u.choice, u.place);
   const Vec3 direction = cosine_hemisphere(from.normal, u.direction);
-  return {Ray{leave_surface_at(from.position, from.normal, direction, from.slack), direction}, power_of(light, scene)};
+  return {Ray{leave_surface_at(from.position, from.normal, direction, from.slack), direction}, power_of(light, scene),
+          from.normal};
 }
 
 std::optional<Incident> incident_from(const MeshLight& light, const Vec3& point, Rng& rng) {

@@ -63,6 +63,11 @@ Rgb power_of(const SpotLight& light, const Box&) {
   return 2.0f * kPi * (parts.inner + parts.rim) * light.intensity;
 }
 
+double spot_density(const SpotLight& light, const Vec3& travel) {
+  const SpotParts parts = spot_parts(light);
+  return falloff(light, glm::dot(travel, light.direction)) / (2.0 * kPiD * (parts.inner + parts.rim));
+}
+
 Emission emit_from(const SpotLight& light, const Box& scene, const EmissionNumbers& u) {
   return {Ray{light.position, spot_direction(light, u)}, power_of(light, scene)};
 }

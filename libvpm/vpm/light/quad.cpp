@@ -31,7 +31,7 @@ Emission emit_from(const QuadLight& light, const Box& scene, const EmissionNumbe
   const Vec3 p = uniform_point(light, u.place);
   const Vec3 direction = cosine_hemisphere(normal, u.direction);
   const float slack = flat_slack(normal, reach_from(light, p), glm::length(across));
-  return {Ray{leave_surface_at(p, normal, direction, slack), direction}, power_of(light, scene)};
+  return {Ray{leave_surface_at(p, normal, direction, slack), direction}, power_of(light, scene), normal};
 }
 
 std::optional<Incident> incident_from(const QuadLight& light, const Vec3& point, Rng& rng) {

@@ -23,7 +23,7 @@ Emission emit_from(const SphereLight& light, const Box& scene, const EmissionNum
   const Vec3 direction = cosine_hemisphere(normal, u.direction);
   const SphereShape shape{light.centre, light.radius};
   const Vec3 origin = leave_surface_at(point_on(shape, normal), normal, direction, sphere_slack(shape));
-  return {Ray{origin, direction}, power_of(light, scene)};
+  return {Ray{origin, direction}, power_of(light, scene), normal};
 }
 
 std::optional<Incident> incident_from(const SphereLight& light, const Vec3& point, Rng& rng) {
@@ -38,7 +38,8 @@ std::optional<Incident> incident_from(const SphereLight& light, const Vec3& poin
   const double half_chord =
       std::sqrt(std::max(0.0, double{light.radius} * light.radius - glm::dot(off_axis, off_axis)));
   const float pdf = 1.0f / (2.0f * kPi * away);
-  return Incident{direction, static_cast<float>(along - half_chord), light.radiance / pdf, pdf};
+  const Vec3 normal(glm::normalize((along - half_chord) * Vec3d(direction) - to_centre));
+  return Incident{direction, static_cast<float>(along - half_chord), light.radiance / pdf, pdf, normal};
 }
 
 float pdf_of(const SphereLight& light, const Vec3& point, const SeenLight&) {

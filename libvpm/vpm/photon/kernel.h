@@ -20,17 +20,18 @@ struct KernelInfo {
   const char* name;
   float line;        // what the profile is multiplied by for its integral from -1 to 1 to be 1
   float disc, ball;  // pi times what it is multiplied by for its integral over the unit disc, or ball, to be 1
-  float line_size, disc_size;  // 1 over the integral of the square of the kernel, and that over pi, at the radius 1
+  float line_size, disc_size, ball_size;  // 1 over the integral of the square of the kernel at the radius 1; of the
+                                          // last two, over pi
 };
 
 /// All kernels, in the order of KernelKind.
 inline constexpr std::array<KernelInfo, 6> kKernels{
-    {{KernelKind::constant, "constant", 0.5f, 1.0f, 0.75f, 2.0f, 1.0f},
-     {KernelKind::cone, "cone", 1.0f, 3.0f, 3.0f, 1.5f, 2.0f / 3},
-     {KernelKind::epanechnikov, "epanechnikov", 0.75f, 2.0f, 1.875f, 5.0f / 3, 0.75f},
-     {KernelKind::biweight, "biweight", 0.9375f, 3.0f, 3.28125f, 1.4f, 5.0f / 9},
-     {KernelKind::triweight, "triweight", 1.09375f, 4.0f, 4.921875f, 429.0f / 350, 0.4375f},
-     {KernelKind::order_4, "order-4", 1.40625f, 6.0f, 8.203125f, 0.8f, 5.0f / 24}}};
+    {{KernelKind::constant, "constant", 0.5f, 1.0f, 0.75f, 2.0f, 1.0f, 4.0f / 3},
+     {KernelKind::cone, "cone", 1.0f, 3.0f, 3.0f, 1.5f, 2.0f / 3, 5.0f / 6},
+     {KernelKind::epanechnikov, "epanechnikov", 0.75f, 2.0f, 1.875f, 5.0f / 3, 0.75f, 14.0f / 15},
+     {KernelKind::biweight, "biweight", 0.9375f, 3.0f, 3.28125f, 1.4f, 5.0f / 9, 22.0f / 35},
+     {KernelKind::triweight, "triweight", 1.09375f, 4.0f, 4.921875f, 429.0f / 350, 0.4375f, 143.0f / 315},
+     {KernelKind::order_4, "order-4", 1.40625f, 6.0f, 8.203125f, 0.8f, 5.0f / 24, 88.0f / 525}}};
 
 inline const KernelInfo& kernel_info(KernelKind kind) { return kKernels[static_cast<size_t>(kind)]; }
 
@@ -74,10 +75,11 @@ inline float kernel_norm_1d(KernelKind kind, float r) { return kernel_info(kind)
 inline float kernel_norm_2d(KernelKind kind, float r) { return kernel_info(kind).disc / (kPi * r * r); }
 inline float kernel_norm_3d(KernelKind kind, float r) { return kernel_info(kind).ball / (kPi * r * r * r); }
 
-/// The length (m) or area (m^2) of a constant kernel that has the variance of this one: 1 over the integral of the
+/// The length (m), area (m^2) or volume (m^3) of a constant kernel that has the variance of this one: 1 over the integral of the
 /// square of the normalised kernel.
 inline float kernel_size_1d(KernelKind kind, float r) { return kernel_info(kind).line_size * r; }
 inline float kernel_size_2d(KernelKind kind, float r) { return kernel_info(kind).disc_size * kPi * r * r; }
+inline float kernel_size_3d(KernelKind kind, float r) { return kernel_info(kind).ball_size * kPi * r * r * r; }
 
 /// The integral of the normalised kernel over the interval, disc, or ball of `t` <= 1 times its radius; 1 at 1,
 /// exactly. It is never negative, and above 1 for order 4 where its negative rim is cut off.

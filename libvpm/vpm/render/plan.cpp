@@ -15,6 +15,7 @@
 #include "vpm/estimate/volume/points_at_query.h"
 #include "vpm/estimate/volume/single_equiangular.h"
 #include "vpm/estimate/volume/single_marched.h"
+#include "vpm/render/combined_pass.h"
 
 namespace vpm {
 namespace {
@@ -120,7 +121,7 @@ Scattering scattering_of(const Scene& scene) {
 }
 
 Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs) {
-  if (settings.integrator == Integrator::path) return {};
+  if (settings.integrator != Integrator::photon) return {};
   const auto [media, surfaces] = scattering_of(scene);
   const SharedTransmittance transmittance = make_transmittance_estimator(settings.transmittance);
   Estimators estimators;
@@ -143,13 +144,14 @@ void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators
 }
 
 bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings) {
-  return settings.integrator == Integrator::path ||
+  return settings.integrator != Integrator::photon ||
          (scattering.media &&
           (settings.volume_direct != DirectLight::photons || settings.volume.mode == GatherMode::photon_planes)) ||
          (scattering.surfaces && settings.surface_direct != DirectLight::photons);
 }
 
 bool gathers(const Scene& scene, const RenderSettings& settings) {
+  if (settings.integrator == Integrator::combined) return merges(settings.combined.techniques);
   return !plan_estimators(scene, settings, 0).maps().empty();
 }
 

@@ -35,7 +35,7 @@ Scattering scattering_of(const Scene& scene);
 
 /// Plans pass number `pass` of a render of photon maps. `discs` are those that earlier passes have left: none before
 /// the first pass, and where pixels have no radii of their own. Nothing is traced or built yet, so a plan also serves
-/// to ask what a render would do. The path tracer has no estimators.
+/// to ask what a render would do. Only a render of photon maps has estimators.
 Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs = {});
 /// The same for surfaces alone.
 Estimators plan_surface_estimators(const Scene& scene, const RenderSettings& settings, int pass);
@@ -43,7 +43,7 @@ Estimators plan_surface_estimators(const Scene& scene, const RenderSettings& set
 /// Throws std::logic_error where two estimators find the same light, so that it would be counted twice.
 void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators);
 
-/// Does such a render cast shadow rays? The path tracer always does.
+/// Does such a render cast shadow rays? Other integrators always do.
 bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings);
 
 /// Does such a render gather by kernels, so that it may be biased?

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "vpm/estimate/combined/technique.h"
 #include "vpm/estimate/gather.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
@@ -40,8 +41,14 @@ enum class BeamLength { short_beams, long_beams };
 /// What photon planes find of the light that they can find: their share of it, beside photon beams, or all.
 enum class PlaneUse { combined, alone };
 
-/// What estimates radiance: photon maps, or the unbiased reference path tracer.
-enum class Integrator { photon, path };
+/// What estimates radiance: photon maps, the unbiased reference path tracer, or all techniques combined.
+enum class Integrator { photon, path, combined };
+
+/// The combined estimator: which techniques it uses, and how these share the paths that several of them find.
+struct CombinedSettings {
+  TechniqueSet techniques;
+  Heuristic heuristic = Heuristic::balance;
+};
 
 /// When a render ends: once `passes` are done; or, where `seconds` or `error` are asked for, once the first of these
 /// two is reached.
@@ -69,6 +76,8 @@ struct RenderSettings {
   int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
   GuideSettings guide;  // of photons, by importance
+
+  CombinedSettings combined;
 
   DistanceSettings distance;            // how photons fly
   TransmittanceSettings transmittance;  // towards lights

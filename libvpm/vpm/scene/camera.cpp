@@ -16,6 +16,19 @@ Ray Camera::ray(const Vec2& film) const {
   return {position, glm::normalize(forward + x * right + y * up)};
 }
 
+std::optional<Vec2> Camera::film_of(const Vec3& towards) const {
+  const float ahead = glm::dot(towards, forward);
+  if (!(ahead > 0.0f)) return std::nullopt;
+  const auto w = static_cast<float>(width), h = static_cast<float>(height);
+  const float x = glm::dot(towards, right) / (ahead * tan_half_fov), y = glm::dot(towards, up) / (ahead * tan_half_fov);
+  return Vec2(0.5f * (x * h + w), 0.5f * (h - y * h));
+}
+
+double Camera::film_per_angle(const Vec3& towards) const {
+  const double ahead = glm::dot(towards, forward), scale = 0.5 * height / tan_half_fov;
+  return scale * scale / (ahead * ahead * ahead);
+}
+
 Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, const FilmFormat& film) {
   const auto& [width, height, filter] = film;
   if (!is_finite(position) || !is_finite(target) || !is_finite(up))

@@ -1,6 +1,8 @@
 // The perspective camera and the pixel filters.
 #pragma once
 
+#include <optional>
+
 #include "vpm/base/vec.h"
 
 namespace vpm {
@@ -16,6 +18,8 @@ struct Filter {
 /// An offset from the pixel's centre in pixels, distributed as the filter over the square |x|, |y| <= radius. `u` is
 /// uniform in [0, 1)^2.
 Vec2 sample_filter(const Filter& filter, const Vec2& u);
+/// The density of such an offset, 1/pixel^2.
+double filter_value(const Filter& filter, const Vec2& offset);
 
 /// Films have at most so many pixels a side.
 inline constexpr int kLargestFilm = 32768;
@@ -36,6 +40,11 @@ struct Camera {
   /// The ray through film coordinates in pixels: (0, 0) is the image's upper left corner, (width, height) the lower
   /// right.
   Ray ray(const Vec2& film) const;
+  /// The film coordinates where light that comes along `towards`, a direction from the camera (unit), meets the film;
+  /// nothing for directions that do not point ahead.
+  std::optional<Vec2> film_of(const Vec3& towards) const;
+  /// The area of the film, pixels^2, for each solid angle about that direction, 1/sr.
+  double film_per_angle(const Vec3& towards) const;
 };
 
 /// A camera at `position` (m) that looks at `target`. `fov` is the full vertical angle in degrees, in (0, 180). Throws

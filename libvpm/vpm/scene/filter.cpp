@@ -38,7 +38,27 @@ float sample_curve(FilterKind kind, float u) {
   __builtin_unreachable();
 }
 
+/// The density of sample_curve() at x in [-1, 1].
+double curve(FilterKind kind, double x) {
+  static const double kGaussian = 3.0 / (std::sqrt(2.0 * kPiD) * std::erf(3.0 / std::sqrt(2.0)));
+  switch (kind) {
+    case FilterKind::box:
+      return 0.5;
+    case FilterKind::tent:
+      return 1.0 - std::abs(x);
+    case FilterKind::gaussian:
+      return kGaussian * std::exp(-4.5 * x * x);
+  }
+  __builtin_unreachable();
+}
+
 }  // namespace
+
+double filter_value(const Filter& filter, const Vec2& offset) {
+  const Vec2 at = offset / filter.radius;
+  if (std::max(std::abs(at.x), std::abs(at.y)) > 1.0f) return 0.0;
+  return curve(filter.kind, at.x) * curve(filter.kind, at.y) / (double{filter.radius} * filter.radius);
+}
 
 Vec2 sample_filter(const Filter& filter, const Vec2& u) {
   return filter.radius * Vec2(sample_curve(filter.kind, u.x), sample_curve(filter.kind, u.y));

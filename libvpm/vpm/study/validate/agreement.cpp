@@ -9,8 +9,10 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
 #include "vpm/image/metrics.h"
+#include "vpm/render/combined_pass.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
+#include "vpm/render/plan.h"
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"
@@ -45,7 +47,12 @@ Measured by_path_tracer(const Scene& scene, const RenderSettings& settings, uint
 /// How a kernel's bias vanishes with its radius, for the extrapolation to radius 0.
 enum class BiasOrder { edges = 1, smooth = 2 };
 
-/// Photon maps: extrapolated passes.
+Pass render_pass(const Scene& scene, const RenderSettings& settings, int pass) {
+  const auto render = settings.integrator == Integrator::combined ? render_combined_pass : render_photon_pass;
+  return render(scene, settings, pass, kNeverStopped, {});
+}
+
+/// Photon maps, and combined techniques: extrapolated passes.
 Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order, int passes) {
   const double half = order == BiasOrder::smooth ? 4.0 / 3.0 : 2.0;  // the weight of half the radius
   settings.radii = RadiusSchedule::constant;
@@ -56,8 +63,8 @@ Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order
   std::vector<double> effective(means.size());
   parallel_for_chunks(means.size(), 1, [&](size_t i, size_t, size_t) {
     const int pass = static_cast<int>(i);
-    const Pass coarse = render_photon_pass(scene, settings, 2 * pass, kNeverStopped);
-    const Pass fine = render_photon_pass(scene, halved, 2 * pass + 1, kNeverStopped);
+    const Pass coarse = render_pass(scene, settings, 2 * pass);
+    const Pass fine = render_pass(scene, halved, 2 * pass + 1);
     means[i] = half * channel_means(fine.image) + (1.0 - half) * channel_means(coarse.image);
     const Ledger& ledger = fine.statistics.ledger;
     effective[i] = ledger.weights.sum > 0.0 ? ledger.weights.effective_sample_size() : kLeastSampleSize;
@@ -146,6 +153,40 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
   all.emplace_back("photon planes alone, single scattering equiangular", planes);
 }
 
+/// Sets of techniques that find all light together: each technique in one that has few others.
+void append_combined(NamedSettings& all, const RenderSettings& base, bool media, bool surfaces) {
+  using T = Technique;
+  std::vector<std::vector<T>> sets{{T::connections, T::light_tracing}};
+  if (surfaces) sets.push_back({T::connections, T::light_tracing, T::surface_merging});
+  if (media) {
+    sets.push_back({T::connections, T::light_tracing, T::points_3d});
+    sets.push_back({T::connections, T::light_tracing, T::points_2d});
+    sets.push_back({T::connections, T::light_tracing, T::short_beams});
+    sets.push_back({T::light_tracing, T::surface_merging, T::points_3d});
+    sets.push_back({T::surface_merging, T::points_2d});
+    sets.push_back({T::surface_merging, T::short_beams});
+    sets.push_back({T::surface_merging, T::points_3d, T::points_2d, T::short_beams});
+  } else {
+    sets.push_back({T::surface_merging});
+  }
+  std::vector<T> every;
+  for (const TechniqueInfo& info : kTechniques) every.push_back(info.technique);
+  sets.push_back(every);
+  RenderSettings settings = base;
+  settings.integrator = Integrator::combined;
+  for (const std::vector<T>& set : sets) {
+    std::string names;
+    for (const TechniqueInfo& info : kTechniques) {
+      const bool in = std::find(set.begin(), set.end(), info.technique) != set.end();
+      settings.combined.techniques.set(info.technique, in);
+      if (in) names += fmt::format("{}{}", names.empty() ? "" : ", ", info.name);
+    }
+    all.emplace_back("combined: " + names, settings);
+  }
+  settings.combined.heuristic = Heuristic::power;
+  all.emplace_back("combined by the power heuristic", settings);
+}
+
 /// The ways of gathering: in all forms, also with single scattering at drawn distances; with k nearest; in media along
 /// rays; from photons that are guided; on surfaces corrected at borders, and by final gathering, whose rays are guided
 /// or not.
@@ -198,6 +239,7 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
   all.emplace_back("photons guided by importance, where they scatter, too", guided);
   guided.guide.split = false;
   all.emplace_back("photons guided by importance, where they scatter, too, but not split", guided);
+  append_combined(all, base, media, surfaces);
   if (surfaces) {
     RenderSettings corrected = base;
     corrected.volume.boundary = corrected.surface.boundary = corrected.caustics.boundary = BoundaryRule::corrected;

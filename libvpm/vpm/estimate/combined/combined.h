@@ -1,0 +1,66 @@
+// The combined estimator: sub-paths from the eye meet those from the lights in every way there is, and each way has that
+// share in a path that its density has among those of all. It finds all light, each path once.
+#pragma once
+
+#include <vector>
+
+#include "vpm/estimate/combined/light_sub_paths.h"
+#include "vpm/estimate/combined/vertex_map.h"
+#include "vpm/estimate/eye_work.h"
+#include "vpm/photon/photon_beam_map.h"
+
+namespace vpm {
+
+/// The kernels that merge sub-paths in one pass. Radii are in m, > 0.
+struct MergeKernels {
+  KernelKind surface_kernel = KernelKind::epanechnikov, volume_kernel = KernelKind::epanechnikov;
+  float surface = 0.0f;
+  float beams = 0.0f, points_2d = 0.0f, points_3d = 0.0f;
+};
+
+/// The light sub-paths of one pass, sorted for eye sub-paths.
+class SortedLight {
+ public:
+  SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels, LightSubPaths paths);
+
+  const std::vector<LightVertex>& vertices() const { return paths_.vertices; }
+  /// Of the beams of a medium, in the order of their map.
+  const std::vector<LightBeam>& starts(MediumId medium) const { return paths_.starts[medium]; }
+  const PhotonBeamMap& beams(MediumId medium) const { return beams_[medium]; }
+  /// The vertices on surfaces, and in a medium around points and beside rays; of_surfaces() and of_medium() tell which.
+  const VertexMap& on_surfaces() const { return on_surfaces_; }
+  const VertexMap& around_points(MediumId medium) const { return around_points_[medium]; }
+  const VertexMap& beside_rays(MediumId medium) const { return beside_rays_[medium]; }
+  const LightVertex& of_surfaces(uint32_t number) const { return paths_.vertices[of_surfaces_[number]]; }
+  const LightVertex& of_medium(MediumId medium, uint32_t number) const {
+    return paths_.vertices[of_media_[medium][number]];
+  }
+  size_t surface_vertices() const { return of_surfaces_.size(); }
+  size_t beam_count() const;
+  size_t memory_bytes() const;
+
+ private:
+  LightSubPaths paths_;
+  std::vector<uint32_t> of_surfaces_;            // numbers of vertices
+  std::vector<std::vector<uint32_t>> of_media_;  // by medium
+  VertexMap on_surfaces_;
+  std::vector<VertexMap> around_points_, beside_rays_;
+  std::vector<PhotonBeamMap> beams_;
+};
+
+/// What eye sub-paths read. Immutable while they run.
+struct CombinedContext {
+  const Scene& scene;
+  const DistanceStrategy& strategy;
+  const TransmittanceEstimator& transmittance;  // exact
+  const TechniqueCounts& counts;
+  const MergeKernels& kernels;
+  const SortedLight& light;
+  double light_paths = 1.0;  // how many there are
+  int max_events = 100'000;  // of one eye sub-path
+};
+
+/// One sample of the radiance along a camera ray, W/(m^2 sr), without the share of light tracing.
+KernelEstimate combined_radiance(const CombinedContext& context, const Ray& camera_ray, EyeWork& work);
+
+}  // namespace vpm

@@ -1,0 +1,386 @@
+// One sub-path from the eye, event by event, and what it meets of those from the lights.
+#include <cmath>
+#include <optional>
+
+#include "vpm/base/count.h"
+#include "vpm/estimate/combined/combined.h"
+#include "vpm/estimate/eye_segment.h"
+#include "vpm/estimate/kernel_sum.h"
+#include "vpm/estimate/surface_estimate.h"
+#include "vpm/medium/distance/mixture.h"
+#include "vpm/path/direct_light.h"
+#include "vpm/path/stretches.h"
+
+namespace vpm {
+namespace {
+
+Rgb times(const Rgb& value, double factor) { return value * static_cast<float>(factor); }
+
+float sine_of(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(a, b)); }
+
+/// A normalised kernel and its correction, of a squared distance, m^2.
+template <int Dimension>
+auto kernel_of(KernelKind kind, float radius) {
+  const float norm = kernel_norm<Dimension>(kind, radius), inverse = 1.0f / (radius * radius);
+  return [kind, norm, inverse](float distance2) {
+    return with_kernel<Dimension>(kind, [&](auto profile) { return profile(distance2 * inverse); }) * norm;
+  };
+}
+
+class EyeSubPath {
+ public:
+  EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work)
+      : c_(context),
+        work_(work),
+        state_{ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)},
+        from_(depart_from_camera(context.counts, ray, density_of(ray))) {}
+
+  KernelEstimate follow() {
+    for (int events = 0; events < c_.max_events; ++events) {
+      merge_along();
+      const std::optional<PathVertex> vertex = fly();
+      if (!vertex || is_black(state_.throughput)) return radiance_;
+      if (!vertex->specular) meet_light(*vertex);
+      if (!go_on(*vertex)) return radiance_;
+      only_specular_ &= vertex->specular;
+    }
+    ++work_.counters.cut_paths;
+    return radiance_;
+  }
+
+ private:
+  /// The density with which the pixel draws the direction, 1/sr.
+  double density_of(const Ray& ray) const {
+    const Camera& camera = c_.scene.camera;
+    const std::optional<Vec2> film = camera.film_of(ray.direction);
+    if (!film) return 0.0;
+    const auto width = static_cast<size_t>(camera.width);
+    const Vec2 pixel(static_cast<float>(work_.pixel % width) + 0.5f, static_cast<float>(work_.pixel / width) + 0.5f);
+    // Rounding may put the place of the film a hair outside of the filter.
+    const float r = camera.filter.radius;
+    const Vec2 offset = glm::clamp(*film - pixel, Vec2(-r), Vec2(r));
+    return filter_value(camera.filter, offset) * camera.film_per_angle(ray.direction);
+  }
+
+  // --- Merges along rays
+
+  /// The visitor of a ray on its way to the surface that ends it.
+  struct Along {
+    EyeSubPath& path;
+    Ray ray;
+    MediumId medium;
+    Rgb passed{1.0f};  // from the last vertex to the start of the stretch
+
+    bool pass(const Stretch& stretch) {
+      if (medium == kVacuum) return true;
+      const Medium& around = path.c_.scene.media[medium];
+      const Interval interval{0.0f, stretch.length};
+      DensityIntegralsAlong& integrals = path.work_.scratch.integrals;
+      count(path.work_.counters.walk.lookups, integrals.walk(&around, ray, interval));
+      if (around.scatters()) {
+        path.merge_points_2d(*this, interval);
+        path.merge_beams(*this, interval);
+      }
+      passed *= transmittance(around, integrals.integral());
+      return !is_black(passed);
+    }
+    /// The transmittance from the last vertex to a place on the ray, m.
+    Rgb to(double t) const {
+      return passed * transmittance(path.c_.scene.media[medium], path.work_.scratch.integrals.at(t).integral);
+    }
+  };
+
+  void merge_along() {
+    if (c_.counts.points_2d == 0.0 && c_.counts.beams == 0.0) return;
+    Along along{*this, state_.ray, state_.medium};
+    each_stretch(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
+  }
+
+  void merge_points_2d(const Along& along, const Interval& interval) {
+    const VertexMap& map = c_.light.beside_rays(along.medium);
+    if (map.size() == 0) return;
+    const Medium& medium = c_.scene.media[along.medium];
+    const auto kernel = kernel_of<2>(c_.kernels.volume_kernel, map.radius());
+    count(work_.counters.volume_queries);
+    count(work_.counters.gather.searches);
+    const uint32_t visited = map.visit_near_ray(along.ray, interval, [&](uint32_t number, float distance2) {
+      const LightVertex& light = c_.light.of_medium(along.medium, number);
+      const double t = glm::dot(light.vertex.point - along.ray.origin, along.ray.direction);
+      const Leg leg = leg_to(from_, light.vertex.point, along.to(t));
+      const double phase = phase_value(medium.phase, light.vertex.travel, -along.ray.direction);
+      const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg,
+                                                 sine_of(light.vertex.travel, along.ray.direction));
+      const SubPathSums eye = arrive(c_.counts, from_, leg, light.junction, light.vertex.point);
+      const double share = merges.points_2d / all_at_merge(c_.counts, merges, light.sums, phase, eye, phase);
+      const Rgb value = state_.throughput * leg.transmittance * medium.albedo() * light.power;
+      add_merged(times(value, phase * share / c_.light_paths), kernel(distance2));
+    });
+    count(work_.counters.gather.visited, visited);
+  }
+
+  void merge_beams(const Along& along, const Interval& interval) {
+    const PhotonBeamMap& map = c_.light.beams(along.medium);
+    if (map.size() == 0) return;
+    const auto kernel = kernel_of<1>(c_.kernels.volume_kernel, c_.kernels.beams);
+    count(work_.counters.volume_queries);
+    count(work_.counters.gather.searches);
+    const Interval near = clip(along.ray, interval, map.bounds(), c_.kernels.beams);
+    if (near.empty()) return;
+    const uint32_t visited = map.visit_crossings(along.ray, near, [&](const BeamCrossings& found) {
+      for (size_t i = 0; i < found.size; ++i) merge_beam(along, found, i, kernel);
+    });
+    count(work_.counters.gather.visited, visited);
+  }
+
+  template <class Kernel>
+  void merge_beam(const Along& along, const BeamCrossings& found, size_t i, const Kernel& kernel) {
+    const Medium& medium = c_.scene.media[along.medium];
+    const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
+    const Vec3 place = along.ray.origin + Vec3(found.x[i], found.y[i], found.z[i]);
+    const float density = medium.density(place);
+    if (density == 0.0f) return;
+    const Ray flight{place - found.s[i] * direction, direction};
+    const DensityIntegral integral = density_integral(medium, flight, {0.0f, std::max(0.0f, found.s[i])});
+    count(work_.counters.walk.lookups, integral.lookups + 1);
+    const LightBeam& beam = c_.light.starts(along.medium)[found.beam[i]];
+    const Rgb power(found.r[i], found.g[i], found.b[i]);
+    const Rgb left = analog_weight(medium, channel_shares(power), integral.value, false);
+    const Leg to_light = leg_to(beam.start, place, beam.before * transmittance(medium, integral.value));
+    const Leg to_eye = leg_to(from_, place, along.to(found.t[i]));
+    const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
+    const double phase = phase_value(medium.phase, direction, -along.ray.direction);
+    const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, to_light, to_eye, found.sine[i]);
+    const SubPathSums light = arrive(c_.counts, beam.start, to_light, there, place);
+    const SubPathSums eye = arrive(c_.counts, from_, to_eye, there, place);
+    const double share = merges.beams / all_at_merge(c_.counts, merges, light, phase, eye, phase);
+    const Rgb value = state_.throughput * to_eye.transmittance * medium.sigma_s * density * power * left;
+    add_merged(times(value, phase * share / found.sine[i]), kernel(found.distance2[i]));
+  }
+
+  // --- Vertices
+
+  /// Flies to the next vertex, and sees the lights that the flight runs into.
+  std::optional<PathVertex> fly() {
+    tracks_.clear();
+    const Event event =
+        next_event(c_.scene, c_.strategy, state_, work_.rng, work_.counters.walk, kInfinity, &tracks_);
+    Rgb passed(1.0f);
+    for (const Track& track : tracks_) {
+      const Medium& medium = c_.scene.media[track.medium];
+      const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
+      count(work_.counters.walk.lookups, integral.lookups);
+      passed *= transmittance(medium, integral.value);
+    }
+    if (event.kind == EventKind::escape) see_environment(passed);
+    if (event.kind != EventKind::collision && event.kind != EventKind::surface) return std::nullopt;
+    const PathVertex vertex = vertex_at(c_.scene, event, state_);
+    leg_ = leg_to(from_, vertex.point, passed);
+    if (vertex.on_surface) see_emitter(vertex);
+    junction_ = junction_of(c_.scene, vertex);
+    sums_ = arrive(c_.counts, from_, leg_, junction_, vertex.point);
+    return vertex;
+  }
+
+  void see_environment(const Rgb& passed) {
+    const Vec3 direction = state_.ray.direction;
+    for (size_t i = 0; i < c_.scene.lights.size(); ++i) {
+      const Rgb seen = environment_radiance(c_.scene.lights[i], direction);
+      if (!is_black(seen)) run_into(static_cast<int>(i), {passed, 1.0}, from_.point, Vec3(0.0f), seen);
+    }
+  }
+
+  void see_emitter(const PathVertex& vertex) {
+    const int light = c_.scene.shapes[vertex.hit.shape].light;
+    if (light < 0) return;
+    const Rgb emitted = surface_radiance(c_.scene.lights[light], vertex.hit.normal, vertex.travel);
+    if (!is_black(emitted)) run_into(light, leg_, vertex.hit.position, vertex.hit.normal, emitted);
+  }
+
+  /// Adds the light that the sub-path has run into, at a point with that normal.
+  void run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted) {
+    const Rgb seen = state_.throughput * emitted;
+    if (only_specular_) {  // no other technique can find it
+      radiance_ += KernelEstimate(seen);
+      return;
+    }
+    if (!c_.counts.light) return;
+    const Light& light = c_.scene.lights[number];
+    const EmissionDensity emission =
+        emission_density(light, c_.scene.bounds, normal, -state_.ray.direction);
+    const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
+                                              {point, -state_.ray.direction}, normal);
+    const Junction at_light{is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, normal};
+    const SubPathSums at_eye = arrive(c_.counts, start, leg, from_.from, from_.point);
+    const SubPathSums further = arrive(c_.counts, from_, leg, at_light, point);
+    radiance_ += KernelEstimate(times(seen, shares_of_connection(c_.counts, start, at_eye, from_, further).run_into));
+  }
+
+  /// What light is found at a vertex.
+  void meet_light(const PathVertex& vertex) {
+    if (c_.counts.light) sample_light(vertex);
+    if (c_.counts.connections > 0.0) connect(vertex);
+    if (vertex.on_surface)
+      merge_surface(vertex);
+    else
+      merge_points_3d(vertex);
+  }
+
+  void sample_light(const PathVertex& vertex) {
+    const PickedLight picked = pick_light(c_.scene, work_.rng.uniform_double());
+    const Light& light = c_.scene.lights[picked.number];
+    count(work_.counters.shadow_rays);
+    const std::optional<Incident> incident = sample_towards(light, vertex.point, work_.rng);
+    if (!incident) return;
+    const Scattered scattered = scattered_into(c_.scene, vertex, incident->direction, SubPath::eye);
+    if (is_black(scattered.value)) return;
+    const Leaving leaving = leave(c_.scene, vertex, incident->direction);
+    const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
+    const Rgb passed = visibility(rays, {leaving.origin, incident->direction}, incident->distance, picked.number,
+                                  leaving.medium);
+    if (is_black(passed)) return;
+    const Vec3 point = is_infinite(light) ? vertex.point : vertex.point + incident->distance * incident->direction;
+    const EmissionDensity emission =
+        emission_density(light, c_.scene.bounds, incident->normal, -incident->direction);
+    const Departure start = depart_from_light(c_.counts, light, picked.probability, emission,
+                                              {point, -incident->direction}, incident->normal);
+    const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
+    const Departure eye = depart(c_.counts, junction_, vertex, sums_, leg_, incident->direction, scattered.forward,
+                                 scattered.reverse, SubPath::eye);
+    const Junction at_light{start.from.kind, incident->normal};
+    const double share = shares_of_connection(c_.counts, start, arrive(c_.counts, start, leg, junction_, vertex.point),
+                                              eye, arrive(c_.counts, eye, leg, at_light, point))
+                             .connected;
+    const Rgb value = state_.throughput * scattered.value * incident->irradiance * passed;
+    radiance_ += KernelEstimate(times(value, share / picked.probability));
+  }
+
+  /// Connects the vertex to some vertices of light sub-paths, drawn from all.
+  void connect(const PathVertex& vertex) {
+    const std::vector<LightVertex>& all = c_.light.vertices();
+    const double number = c_.counts.connections * static_cast<double>(all.size()) / c_.light_paths;
+    const auto whole = static_cast<size_t>(number + work_.rng.uniform_double());
+    for (size_t i = 0; i < whole && !all.empty(); ++i) {
+      const auto pick = static_cast<size_t>(work_.rng.uniform_double() * static_cast<double>(all.size()));
+      connect_to(vertex, all[pick]);
+    }
+  }
+
+  void connect_to(const PathVertex& vertex, const LightVertex& light) {
+    const Vec3d offset = Vec3d(light.vertex.point) - Vec3d(vertex.point);
+    const double distance = glm::length(offset);
+    if (!(distance > 0.0)) return;
+    const Vec3 direction(offset / distance);
+    const Scattered here = scattered_into(c_.scene, vertex, direction, SubPath::eye);
+    if (is_black(here.value)) return;
+    const Scattered there = scattered_into(c_.scene, light.vertex, -direction, SubPath::light);
+    if (is_black(there.value)) return;
+    count(work_.counters.shadow_rays);
+    const Leaving from = leave(c_.scene, vertex, direction), to = leave(c_.scene, light.vertex, -direction);
+    const Vec3 way = to.origin - from.origin;
+    const float length = glm::length(way);
+    const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
+    const Rgb passed = visibility(rays, {from.origin, way / length}, length, from.medium);
+    if (is_black(passed)) return;
+    const Leg leg{passed, distance};
+    const Departure eye = depart(c_.counts, junction_, vertex, sums_, leg_, direction, here.forward, here.reverse,
+                                 SubPath::eye);
+    const Departure departure = depart(c_.counts, light.junction, light.vertex, light.sums, light.arrived, -direction,
+                                       there.forward, there.reverse, SubPath::light);
+    const double share =
+        shares_of_connection(c_.counts, departure, arrive(c_.counts, departure, leg, junction_, vertex.point), eye,
+                             arrive(c_.counts, eye, leg, light.junction, light.vertex.point))
+            .connected;
+    const Rgb value = state_.throughput * here.value * there.value * light.power * passed;
+    radiance_ += KernelEstimate(times(value, share * leg.per_square() / c_.counts.connections));
+  }
+
+  void merge_surface(const PathVertex& vertex) {
+    const VertexMap& map = c_.light.on_surfaces();
+    if (map.size() == 0) return;
+    const auto kernel = kernel_of<2>(c_.kernels.surface_kernel, map.radius());
+    const Vec3 side = glm::dot(vertex.hit.normal, vertex.travel) < 0.0f ? vertex.hit.normal : -vertex.hit.normal;
+    const Arrives arrives{side, kFlatness * map.radius(), scatters_through(vertex.material)};
+    count(work_.counters.surface_queries);
+    count(work_.counters.gather.searches);
+    const uint32_t visited = map.visit_near(vertex.point, [&](uint32_t number, float distance2) {
+      const LightVertex& light = c_.light.of_surfaces(number);
+      const Vec3& travel = light.vertex.travel;
+      const bool faces = arrives.from_both_sides || glm::dot(travel, side) < 0.0f;
+      if (!faces || !arrives.near_plane(light.vertex.point - vertex.point)) return;
+      const Scattered scattered = scattered_into(c_.scene, vertex, -travel, SubPath::eye);
+      const float cosine = std::abs(glm::dot(vertex.hit.normal, travel));
+      if (is_black(scattered.value) || cosine == 0.0f) return;
+      const MergeTerms merges{.surface = c_.counts.weigh(c_.counts.surfaces)};
+      const double share = merges.surface / all_at_merge(c_.counts, merges, light.sums, scattered.forward, sums_,
+                                                         scattered.reverse);
+      const Rgb value = state_.throughput * scattered.value * light.power;
+      add_merged(times(value, share / cosine / c_.light_paths), kernel(distance2));
+    });
+    count(work_.counters.gather.visited, visited);
+  }
+
+  void merge_points_3d(const PathVertex& vertex) {
+    const VertexMap& map = c_.light.around_points(vertex.medium);
+    if (map.size() == 0) return;
+    const Medium& medium = c_.scene.media[vertex.medium];
+    const auto kernel = kernel_of<3>(c_.kernels.volume_kernel, map.radius());
+    count(work_.counters.volume_queries);
+    count(work_.counters.gather.searches);
+    const uint32_t visited = map.visit_near(vertex.point, [&](uint32_t number, float distance2) {
+      const LightVertex& light = c_.light.of_medium(vertex.medium, number);
+      const double phase = phase_value(medium.phase, light.vertex.travel, -vertex.travel);
+      const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg_,
+                                                 sine_of(light.vertex.travel, vertex.travel));
+      const double share = merges.points_3d / all_at_merge(c_.counts, merges, light.sums, phase, sums_, phase);
+      const Rgb value = state_.throughput * medium.albedo() * light.power / junction_.sigma_t;
+      add_merged(times(value, phase * share / c_.light_paths), kernel(distance2));
+    });
+    count(work_.counters.gather.visited, visited);
+  }
+
+  /// Draws how the sub-path goes on.
+  bool go_on(const PathVertex& vertex) {
+    double forward = 1.0, reverse = 1.0;
+    if (!vertex.on_surface) {
+      const Medium& medium = c_.scene.media[vertex.medium];
+      if (!scatter_in_medium(medium, state_, work_.rng)) return false;
+      forward = reverse = phase_value(medium.phase, vertex.travel, state_.ray.direction);
+    } else {
+      Scatter scatter;
+      if (!scatter_at_surface(c_.scene, vertex.hit, state_, work_.rng, scatter)) return false;
+      state_.throughput *= scatter.radiance_scale;
+      reverse = scatter.radiance_scale;
+      if (!vertex.specular) {
+        forward = scatter.pdf;
+        reverse = scatter_value(vertex.material, vertex.hit, -state_.ray.direction, -vertex.travel).pdf;
+      }
+    }
+    from_ = depart(c_.counts, junction_, vertex, sums_, leg_, state_.ray.direction, forward, reverse, SubPath::eye);
+    return true;
+  }
+
+  void add_merged(const Rgb& value, const KernelPair<float>& kernel) {
+    radiance_ += KernelEstimate(value * kernel.value, value * kernel.correction);
+    count(work_.counters.gather.used);
+  }
+
+  const CombinedContext& c_;
+  EyeWork& work_;
+  PathState state_;
+  Departure from_;
+  bool only_specular_ = true;  // are there no other vertices yet?
+  // Of the last vertex:
+  Leg leg_;
+  Junction junction_;
+  SubPathSums sums_;
+  std::vector<Track> tracks_;
+  KernelEstimate radiance_;
+};
+
+}  // namespace
+
+KernelEstimate combined_radiance(const CombinedContext& context, const Ray& camera_ray, EyeWork& work) {
+  return EyeSubPath(context, camera_ray, work).follow();
+}
+
+}  // namespace vpm

@@ -1,0 +1,61 @@
+// The sub-paths from the lights of one pass: their vertices and flights, with the sums that weigh techniques.
+#pragma once
+
+#include <vector>
+
+#include "vpm/estimate/combined/mis_weights.h"
+#include "vpm/medium/distance/strategy.h"
+#include "vpm/medium/transmittance/estimator.h"
+#include "vpm/photon/ledger.h"
+#include "vpm/photon/photon_beam.h"
+
+namespace vpm {
+
+/// A vertex of a light sub-path that is not specular.
+struct LightVertex {
+  PathVertex vertex;
+  Junction junction;
+  Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
+  Leg arrived;      // to the vertex
+  SubPathSums sums;
+};
+
+/// The part of a flight through one medium.
+struct LightBeam {
+  Departure start;   // of the flight
+  Rgb before{1.0f};  // the transmittance of the flight up to the beam
+};
+
+/// What a light sub-path brings to a pixel by light tracing.
+struct Splat {
+  uint32_t pixel = 0;  // numbered row by row
+  Rgb radiance{0.0f};  // W/(m^2 sr), for each light sub-path
+};
+
+struct LightSubPaths {
+  std::vector<LightVertex> vertices;
+  std::vector<std::vector<PhotonBeam>> beams;  // by medium
+  std::vector<std::vector<LightBeam>> starts;  // of the beams
+  std::vector<Splat> splats;
+  Ledger ledger;  // emitted, counts of events, look-ups
+
+  explicit LightSubPaths(size_t media = 0) : beams(media), starts(media) {}
+  /// Takes over what a part has, which comes next.
+  void join(LightSubPaths& part);
+};
+
+/// What tracing needs.
+struct LightTracing {
+  const Scene& scene;
+  const DistanceStrategy& strategy;
+  const TransmittanceEstimator& transmittance;  // exact
+  const TechniqueCounts& counts;
+  uint64_t seed = 1;
+  uint64_t pass = 0;
+  int max_events = 100'000;  // of one sub-path
+};
+
+/// Traces the light sub-paths of these numbers one after another. Sub-path i depends on (seed, pass, i) alone.
+void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths);
+
+}  // namespace vpm

@@ -1,0 +1,144 @@
+// Sums over techniques, from vertex to vertex.
+#include "vpm/estimate/combined/mis_weights.h"
+
+#include <cmath>
+
+namespace vpm {
+namespace {
+
+/// How many photons a leg brings to a place over how many collide there, m: a beam passes where its photon need not
+/// collide.
+double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) {
+  return leg.mean() / mean_channel(sigma_t * leg.transmittance);
+}
+double colliding(const Rgb& sigma_t, const Leg& leg) { return mean_channel(sigma_t * leg.transmittance); }
+
+MergeTerms merge_terms(const TechniqueCounts& counts, double passing_light, double colliding_eye, double sine) {
+  MergeTerms terms;
+  terms.points_3d = counts.weigh(counts.points_3d);
+  terms.points_2d = counts.weigh(counts.points_2d / colliding_eye);
+  terms.beams = counts.weigh(counts.beams * sine * passing_light / colliding_eye);
+  return terms;
+}
+
+double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }
+
+}  // namespace
+
+Junction junction_of(const Scene& scene, const PathVertex& vertex) {
+  if (vertex.specular) return {};
+  if (vertex.on_surface) return {Junction::Kind::surface, vertex.hit.normal};
+  return {Junction::Kind::medium, Vec3(0.0f), scene.media[vertex.medium].sigma_t * vertex.density};
+}
+
+double arrival(const Junction& at, const Vec3& direction, const Leg& leg) {
+  switch (at.kind) {
+    case Junction::Kind::surface:
+      return std::abs(glm::dot(at.normal, direction)) * leg.mean();
+    case Junction::Kind::medium:
+      return colliding(at.sigma_t, leg);
+    case Junction::Kind::free:
+      return leg.mean();
+  }
+  __builtin_unreachable();
+}
+
+Departure depart_from_light(const TechniqueCounts& counts, const Light& light, double chosen,
+                            const EmissionDensity& emission, const Ray& ray, const Vec3& normal) {
+  Departure start;
+  if (!is_infinite(light) && can_be_hit(light)) start.from = {Junction::Kind::surface, normal};
+  start.point = ray.origin;
+  start.direction = ray.direction;
+  start.forward = emission.flight;
+  if (counts.light && can_be_hit(light)) start.behind = 1.0 / counts.weigh(chosen * emission.place);
+  start.light = counts.light ? &light : nullptr;
+  start.place = emission.place;
+  start.parallel = emission.parallel;
+  return start;
+}
+
+Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, double forward) {
+  Departure start;
+  start.point = ray.origin;
+  start.direction = ray.direction;
+  start.forward = forward;
+  start.adjacent = counts.splats;
+  start.way = SubPath::eye;
+  return start;
+}
+
+Departure depart(const TechniqueCounts& counts, const Junction& at, const PathVertex& vertex, const SubPathSums& sums,
+                 const Leg& arrived, const Vec3& direction, double forward, double reverse, SubPath way) {
+  Departure departure;
+  departure.from = at;
+  departure.point = vertex.point;
+  departure.direction = direction;
+  departure.forward = forward;
+  departure.behind =
+      (counts.weigh(sums.adjacent) + counts.weigh(reverse) * sums.further) / counts.weigh(sums.density);
+  if (at.kind == Junction::Kind::surface) departure.behind += counts.weigh(counts.surfaces);
+  departure.adjacent = at.kind == Junction::Kind::free ? 0.0 : counts.connections;
+  departure.way = way;
+  if (at.kind != Junction::Kind::medium) return departure;
+  departure.merges = true;
+  departure.sine = sine_between(vertex.travel, direction);
+  departure.arrived =
+      way == SubPath::light ? passing_over_colliding(at.sigma_t, arrived) : colliding(at.sigma_t, arrived);
+  return departure;
+}
+
+Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance) {
+  if (departure.parallel) return {transmittance, 1.0};
+  return {transmittance, glm::distance(Vec3d(departure.point), Vec3d(point))};
+}
+
+SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
+                   const Vec3& point) {
+  double behind = departure.behind;
+  if (departure.merges) {
+    const Rgb& sigma_t = departure.from.sigma_t;
+    const bool light = departure.way == SubPath::light;
+    behind += merge_terms(counts, light ? departure.arrived : passing_over_colliding(sigma_t, leg),
+                          light ? colliding(sigma_t, leg) : departure.arrived, departure.sine)
+                  .sum();
+  }
+  SubPathSums sums;
+  sums.density = departure.forward * arrival(at, departure.direction, leg) * leg.per_square();
+  sums.further = counts.weigh(arrival(departure.from, departure.direction, leg) * leg.per_square()) * behind;
+  if (at.kind == Junction::Kind::free) return sums;
+  sums.adjacent = departure.adjacent;
+  if (departure.light)
+    sums.adjacent = sampled_density(*departure.light, point,
+                                    {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
+                    departure.place;
+  return sums;
+}
+
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
+                            const Leg& from_eye, double sine) {
+  return merge_terms(counts, passing_over_colliding(sigma_t, from_light), colliding(sigma_t, from_eye), sine);
+}
+
+double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
+                    double back_to_light, const SubPathSums& eye, double back_to_eye) {
+  const auto others = [&](const SubPathSums& sums, double back) {
+    return (counts.weigh(sums.adjacent) + counts.weigh(back) * sums.further) / counts.weigh(sums.density);
+  };
+  return merges.sum() + others(light, back_to_light) + others(eye, back_to_eye);
+}
+
+ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Departure& light, const SubPathSums& at_eye,
+                                      const Departure& eye, const SubPathSums& at_light) {
+  const double connected = counts.weigh(at_eye.adjacent);
+  const double behind = counts.weigh(eye.forward) * at_eye.further;
+  const double before = counts.weigh(light.forward) * at_light.further;
+  const double all = connected + behind + before;
+  return {connected / all, behind / all};
+}
+
+double share_of_splat(const TechniqueCounts& counts, const SubPathSums& at_camera, double camera_density) {
+  const double splats = counts.weigh(counts.splats);
+  return splats / (splats + counts.weigh(camera_density) * at_camera.further);
+}
+
+}  // namespace vpm

@@ -1,0 +1,133 @@
+// The weights of the techniques that find one path, from sums that sub-paths carry.
+//
+// Number the vertices of a path from the light, x_0, to the eye, x_k. Let f_i be the density with which a sub-path from
+// the light continues to x_i, r_i that with which one from the eye continues to x_i from x_{i+1}: per area on surfaces,
+// per volume in media. Connecting x_i to x_{i+1} finds the path with the density
+//   C_i = c_i f_0 ... f_i r_{i+1} ... r_k,
+// where c_i is how many such connections are made for each light sub-path: C_{-1} is the eye sub-path that runs into
+// the light, C_0 the light that is sampled, C_{k-1} the connection to the camera. Merging at x_i finds it with
+//   M_i = N m_i f_0 ... f_i r_i ... r_k
+// for N light sub-paths and a kernel of the size m_i, with a factor for each sub-path that need not end there.
+//
+// A sub-path from the light carries S_i, the sum of all C_j, j < i, and M_j, j <= i, over C_i / c_i. From vertex to
+// vertex,
+//   S_i = r_i ((c_{i-1} + S_{i-1}) / f_i + N m_i),
+// and in the same way from the eye. Of S_{i-1}, at x_i only its last factor r_{i-1} is not known, and of that only the
+// density of the direction, which depends on where the path goes on to: this is why SubPathSums has three members.
+// With the power heuristic all terms are squared. See [Georgiev2012] for connections and merges on surfaces, and
+// [Krivanek2014] for all merges in media, where media are homogeneous. In grids no factor changes, as the transmittance
+// of each leg is known exactly.
+#pragma once
+
+#include "vpm/estimate/combined/technique.h"
+#include "vpm/estimate/combined/path_vertex.h"
+#include "vpm/light/emission_density.h"
+
+namespace vpm {
+
+/// What each technique is worth in one pass: how many samples it takes for each light sub-path.
+struct TechniqueCounts {
+  double connections = 0.0;  // of a vertex of a light sub-path, for each vertex of an eye sub-path; 0: none
+  bool light = false;        // are lights sampled, and run into?
+  double splats = 0.0;       // light sub-paths for each eye sub-path of a pixel; 0: no light tracing
+  // The light sub-paths times the sizes of kernels, 1 over the integrals of their squares; 0: not merged.
+  double surfaces = 0.0;   // m^2
+  double points_3d = 0.0;  // m^3
+  double points_2d = 0.0;  // m^2
+  double beams = 0.0;      // m
+  Heuristic heuristic = Heuristic::balance;
+
+  /// A density, or a number, as the heuristic weighs it.
+  double weigh(double x) const { return heuristic == Heuristic::power ? x * x : x; }
+};
+
+/// A part of a path between two vertices.
+struct Leg {
+  Rgb transmittance{1.0f};
+  double distance = 0.0;  // m; 1 where light is parallel, as it does not spread
+
+  double mean() const { return mean_channel(transmittance); }
+  double per_square() const { return 1.0 / (distance * distance); }
+};
+
+/// A place of a path as densities see it.
+struct Junction {
+  enum class Kind { surface, medium, free };  // free: a specular vertex, a point, or infinity
+  Kind kind = Kind::free;
+  Vec3 normal{0.0f};  // of a surface, unit
+  Rgb sigma_t{0.0f};  // in a medium, at the place, 1/m
+};
+Junction junction_of(const Scene& scene, const PathVertex& vertex);
+
+/// The density of coming to a place along `direction` through a leg, over that of the direction: 1/m^2 on surfaces,
+/// 1/m^3 in media. The mean over channels stands for the mixture that distances are drawn from.
+double arrival(const Junction& at, const Vec3& direction, const Leg& leg);
+
+/// The sums that a sub-path carries at its last vertex.
+struct SubPathSums {
+  double density = 1.0;   // of the vertex: f_i, or r_i
+  double adjacent = 0.0;  // how many connections there are between the vertex and the one before
+  double further = 0.0;   // the sum over all techniques behind that, over the density of the direction back
+};
+
+/// A sub-path as it leaves a vertex, or its start.
+struct Departure {
+  Junction from;
+  Vec3 point{0.0f};            // m
+  Vec3 direction{0.0f};        // unit
+  double forward = 1.0;        // the density of the direction, 1/sr; 1 at a specular vertex
+  double behind = 0.0;         // the sum over techniques behind the vertex, with merges at it on a surface
+  double adjacent = 0.0;       // how many connections are made over the leg to come
+  const Light* light = nullptr;  // that this is the start on: connections over the leg sample it
+  double place = 1.0;            // the density of emission there, EmissionDensity::place
+  bool parallel = false;         // does light not spread from here?
+  // Of merges at a vertex in a medium, of which the leg to come is one of the two:
+  bool merges = false;
+  SubPath way = SubPath::light;
+  double sine = 0.0;     // of the angle between the directions of the legs
+  double arrived = 1.0;  // of the other leg: merge_factor()
+};
+
+/// A start on a light that is chosen with the probability `chosen`, at a point with that normal.
+Departure depart_from_light(const TechniqueCounts& counts, const Light& light, double chosen,
+                            const EmissionDensity& emission, const Ray& ray, const Vec3& normal);
+/// A start at the camera, whose directions have the density `forward`, 1/sr.
+Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, double forward);
+/// Goes on from a vertex into `direction`, with the densities of the direction and of the way back: at a specular
+/// vertex, 1 and the factor of refraction. `arrived` is the leg that led to the vertex.
+Departure depart(const TechniqueCounts& counts, const Junction& at, const PathVertex& vertex, const SubPathSums& sums,
+                 const Leg& arrived, const Vec3& direction, double forward, double reverse, SubPath way);
+
+/// The leg from a departure to a point, m.
+Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance);
+
+/// The sums at the next vertex, or at any point on the way that a merge takes for one.
+SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
+                   const Vec3& point);
+
+/// The densities of merges at one place, as the heuristic weighs them, over the densities of its two sub-paths.
+struct MergeTerms {
+  double surface = 0.0, points_3d = 0.0, points_2d = 0.0, beams = 0.0;
+
+  double sum() const { return surface + points_3d + points_2d + beams; }
+};
+/// In a medium, between a leg from the light and one from the eye, whose directions make an angle of that sine.
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
+                            const Leg& from_eye, double sine);
+
+/// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
+/// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the
+/// other one.
+double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
+                    double back_to_light, const SubPathSums& eye, double back_to_eye);
+/// The share of a connection of which `made` are made, between two departures towards each other.
+struct ConnectionShares {
+  double connected = 0.0;  // of the connection itself; of the light that is sampled
+  double run_into = 0.0;   // of the eye's sub-path that runs into the light, where the light's is its start
+};
+ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Departure& light, const SubPathSums& at_eye,
+                                      const Departure& eye, const SubPathSums& at_light);
+/// The share of light tracing in what the light's sub-path, departing for the camera, brings there.
+double share_of_splat(const TechniqueCounts& counts, const SubPathSums& at_camera, double camera_density);
+
+}  // namespace vpm

@@ -1,0 +1,41 @@
+// Maps of light sub-paths, for the techniques that merge.
+#include "vpm/estimate/combined/combined.h"
+
+namespace vpm {
+
+SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels,
+                         LightSubPaths paths)
+    : paths_(std::move(paths)), of_media_(scene.media.size()) {
+  std::vector<Vec3> surfaces;
+  std::vector<std::vector<Vec3>> media(scene.media.size());
+  for (uint32_t i = 0; i < paths_.vertices.size(); ++i) {
+    const PathVertex& vertex = paths_.vertices[i].vertex;
+    (vertex.on_surface ? of_surfaces_ : of_media_[vertex.medium]).push_back(i);
+    (vertex.on_surface ? surfaces : media[vertex.medium]).push_back(vertex.point);
+  }
+  if (counts.surfaces > 0.0) on_surfaces_ = VertexMap(surfaces, kernels.surface);
+  const float scale = 1.0f / static_cast<float>(paths_.ledger.emitted_count);
+  for (size_t m = 0; m < scene.media.size(); ++m) {
+    around_points_.push_back(counts.points_3d > 0.0 ? VertexMap(media[m], kernels.points_3d) : VertexMap());
+    beside_rays_.push_back(counts.points_2d > 0.0 ? VertexMap(media[m], kernels.points_2d) : VertexMap());
+    beams_.push_back(counts.beams > 0.0 ? PhotonBeamMap(paths_.beams[m], kernels.beams, scale) : PhotonBeamMap());
+    paths_.beams[m] = {};
+  }
+}
+
+size_t SortedLight::beam_count() const {
+  size_t sum = 0;
+  for (const PhotonBeamMap& map : beams_) sum += map.size();
+  return sum;
+}
+
+size_t SortedLight::memory_bytes() const {
+  size_t bytes = paths_.vertices.capacity() * sizeof(LightVertex) + on_surfaces_.memory_bytes();
+  for (const auto& starts : paths_.starts) bytes += starts.capacity() * sizeof(LightBeam);
+  for (const auto* maps : {&around_points_, &beside_rays_})
+    for (const VertexMap& map : *maps) bytes += map.memory_bytes();
+  for (const PhotonBeamMap& map : beams_) bytes += map.memory_bytes();
+  return bytes;
+}
+
+}  // namespace vpm

@@ -1,0 +1,130 @@
+// Tracing, sorting, the eye pass, and light tracing on top of it.
+#include "vpm/render/combined_pass.h"
+
+#include <algorithm>
+
+#include "vpm/base/parallel.h"
+#include "vpm/base/stopwatch.h"
+#include "vpm/estimate/combined/combined.h"
+#include "vpm/estimate/pass_map.h"
+#include "vpm/render/image_pass.h"
+
+namespace vpm {
+namespace {
+
+constexpr size_t kPathChunk = 2048;      // light sub-paths traced one after another
+constexpr uint64_t kFirstPaths = 1024;   // that tell how many vertices there are to connect to
+constexpr double kConnections = 1.0;     // of each vertex of an eye sub-path, to vertices of light sub-paths
+
+/// The radii of the pass. Those of media are the least that any of them has by default.
+MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings, int pass) {
+  const PassOfMaps of{pass, settings.radii != RadiusSchedule::constant, 0};
+  AskedGather volume = settings.volume, surface = settings.surface;
+  volume.mode = surface.mode = GatherMode::radius;
+  float first = first_radius(volume, scene);
+  for (const Medium& medium : scene.media)
+    if (medium.scatters()) first = std::min(first, first_radius(volume, scene, medium));
+  const auto radius = [&](int dimension) { return gather_in_pass(volume, first, dimension, of).radius; };
+  return {surface.kernel, volume.kernel, gather_in_pass(surface, first_radius(surface, scene), 2, of).radius,
+          radius(1),      radius(2),     radius(3)};
+}
+
+TechniqueCounts counts_of_pass(const RenderSettings& settings, const MergeKernels& kernels) {
+  const auto paths = static_cast<double>(settings.photons_emitted);
+  const TechniqueSet& techniques = settings.combined.techniques;
+  TechniqueCounts counts;
+  counts.light = techniques.has(Technique::connections);
+  if (techniques.has(Technique::light_tracing)) counts.splats = paths / settings.samples_per_pixel;
+  if (techniques.has(Technique::surface_merging))
+    counts.surfaces = paths * kernel_size_2d(kernels.surface_kernel, kernels.surface);
+  if (techniques.has(Technique::points_3d))
+    counts.points_3d = paths * kernel_size_3d(kernels.volume_kernel, kernels.points_3d);
+  if (techniques.has(Technique::points_2d))
+    counts.points_2d = paths * kernel_size_2d(kernels.volume_kernel, kernels.points_2d);
+  if (techniques.has(Technique::short_beams))
+    counts.beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
+  counts.heuristic = settings.combined.heuristic;
+  return counts;
+}
+
+/// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
+/// latter has kConnections: told by the first sub-paths, as weights must be known while all are traced.
+double connections_of_vertex(const LightTracing& tracing, uint64_t paths) {
+  const TechniqueCounts none;
+  LightSubPaths first(tracing.scene.media.size());
+  const uint64_t number = std::min(paths, kFirstPaths);
+  trace_light_sub_paths({tracing.scene, tracing.strategy, tracing.transmittance, none, tracing.seed, tracing.pass,
+                         tracing.max_events},
+                        0, number, first);
+  return kConnections * static_cast<double>(number) / std::max<double>(1.0, static_cast<double>(first.vertices.size()));
+}
+
+}  // namespace
+
+CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop)
+    : scene_(scene),
+      paths_(settings.photons_emitted),
+      max_events_(settings.max_events),
+      strategy_(make_distance_strategy(settings.distance, {.pass = static_cast<uint64_t>(pass)})),
+      transmittance_(make_transmittance_estimator({})),
+      kernels_(kernels_of_pass(scene, settings, pass)),
+      counts_(counts_of_pass(settings, kernels_)) {
+  const LightTracing tracing{scene,         *strategy_, *transmittance_, counts_,
+                             settings.seed, static_cast<uint64_t>(pass), max_events_};
+  const Stopwatch clock;
+  if (counts_.light) counts_.connections = connections_of_vertex(tracing, paths_);
+  LightSubPaths light = trace(tracing, stop);
+  statistics_.trace_seconds = clock.seconds();
+  statistics_.ledger = light.ledger;
+  splats_ = std::exchange(light.splats, {});
+  light_.emplace(scene, counts_, kernels_, std::move(light));
+  statistics_.build_seconds = clock.seconds() - statistics_.trace_seconds;
+  statistics_.surface_photons = light_->surface_vertices();
+  statistics_.volume_photons = light_->vertices().size() - light_->surface_vertices();
+  statistics_.beams = statistics_.flights = light_->beam_count();
+  statistics_.photon_map_bytes = light_->memory_bytes() + splats_.capacity() * sizeof(Splat);
+  statistics_.last_volume_radius = kernels_.beams;
+  statistics_.last_surface_radius = kernels_.surface;
+}
+
+LightSubPaths CombinedPass::trace(const LightTracing& tracing, const std::atomic<bool>& stop) {
+  std::vector<LightSubPaths> parts(chunk_count(paths_, kPathChunk), LightSubPaths(scene_.media.size()));
+  parallel_for_chunks(paths_, kPathChunk, [&](size_t begin, size_t end, size_t chunk) {
+    if (!stop) trace_light_sub_paths(tracing, begin, end, parts[chunk]);
+  });
+  LightSubPaths all(scene_.media.size());
+  for (LightSubPaths& part : parts) {
+    all.join(part);
+    part = LightSubPaths();
+  }
+  return all;
+}
+
+KernelEstimate CombinedPass::radiance(const Ray& ray, EyeWork& work) const {
+  const CombinedContext context{scene_,   *strategy_, *transmittance_,              counts_,
+                                kernels_, *light_,    static_cast<double>(paths_), max_events_};
+  return combined_radiance(context, ray, work);
+}
+
+void CombinedPass::add_light_tracing(Image& image) const {
+  std::vector<Rgbd> sums(image.pixels.size(), Rgbd(0.0));
+  for (const Splat& splat : splats_) sums[splat.pixel] += Rgbd(splat.radiance);
+  for (size_t i = 0; i < sums.size(); ++i) image.pixels[i] += Rgb(sums[i] / static_cast<double>(paths_));
+}
+
+bool merges(const TechniqueSet& techniques) {
+  return techniques.has(Technique::surface_merging) || techniques.has(Technique::points_3d) ||
+         techniques.has(Technique::points_2d) || techniques.has(Technique::short_beams);
+}
+
+Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
+                          const PassProgress& progress) {
+  const CombinedPass ready(scene, settings, pass, stop);
+  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return ready.radiance(ray, work); };
+  Pass result = render_image(scene, settings, pass, radiance, stop, progress);
+  ready.add_light_tracing(result.image);
+  result.statistics.merge(ready.statistics());
+  return result;
+}
+
+}  // namespace vpm

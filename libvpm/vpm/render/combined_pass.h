@@ -1,0 +1,48 @@
+// One pass of the combined estimator: light sub-paths, their maps, and sub-paths from the eye.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "vpm/estimate/combined/combined.h"
+#include "vpm/render/image_pass.h"
+
+namespace vpm {
+
+/// Pass number `pass`, from 0, with its light sub-paths traced and sorted: RenderSettings::photons_emitted of them.
+/// Immutable while rays run; the scene must live as long.
+class CombinedPass {
+ public:
+  /// Once `stop` is set it returns as soon as it can, and must not be used.
+  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop);
+
+  /// One sample of the radiance along a ray of the camera, W/(m^2 sr), without the share of light tracing.
+  KernelEstimate radiance(const Ray& ray, EyeWork& work) const;
+  /// Adds the share of light tracing to a picture of the others.
+  void add_light_tracing(Image& image) const;
+  const RenderStatistics& statistics() const { return statistics_; }
+
+ private:
+  /// The vertices and flights, and what light tracing finds.
+  LightSubPaths trace(const LightTracing& tracing, const std::atomic<bool>& stop);
+
+  const Scene& scene_;
+  uint64_t paths_;
+  int max_events_;
+  std::unique_ptr<DistanceStrategy> strategy_;
+  std::unique_ptr<TransmittanceEstimator> transmittance_;  // exact
+  MergeKernels kernels_;
+  TechniqueCounts counts_;
+  RenderStatistics statistics_;
+  std::vector<Splat> splats_;
+  std::optional<SortedLight> light_;
+};
+
+/// Do techniques of the combined estimator merge, so that kernels make a bias?
+bool merges(const TechniqueSet& techniques);
+
+/// Renders such a pass. Once `stop` is set it returns as soon as it can, and its image must not be used.
+Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
+                          const PassProgress& progress = {});
+
+}  // namespace vpm
