@@ -27,6 +27,10 @@ std::vector<SettingValue> other_values(const Setting& setting, const SettingValu
     if (!of->range.hi_open) values.push_back(held(static_cast<float>(of->range.hi)));
   }
   if (const auto* of = std::get_if<Words>(&setting.domain)) values.assign(of->words.begin(), of->words.end());
+  if (const auto* of = std::get_if<WordSet>(&setting.domain)) {
+    values.assign(of->words.begin(), of->words.end());
+    values.emplace_back(of->words.front() + "+" + of->words.back());
+  }
   std::erase(values, present);
   return values;
 }
@@ -62,19 +66,22 @@ TEST(Setting, HasAKeyOfItsOwnOrOfNeedsThatExcludeEachOther) {
 /// A member that is added to the settings does not compile here until it is named, and counted: then it is declared.
 TEST(Setting, IsEveryMemberOfTheSettings) {
   const RenderSettings s;
-  const auto& [integrator, seed, until, samples, emitted, stored, in_cube, flights, planes, max_events, guide, distance,
-               transmittance, volume, surface, caustics, aimed, radii, form, floor, volume_direct, beam_length,
-               plane_use, direct_samples, surface_direct, indirect, gather_rays, gather_by, irradiance, step] = s;
+  const auto& [integrator, seed, until, samples, emitted, stored, in_cube, flights, planes, max_events, guide, combined,
+               distance, transmittance, volume, surface, caustics, aimed, radii, form, floor, volume_direct,
+               beam_length, plane_use, direct_samples, surface_direct, indirect, gather_rays, gather_by, irradiance,
+               step] = s;
   [[maybe_unused]] const auto& [passes, seconds, error] = until;
   [[maybe_unused]] const auto& [importons, aim, split, scatter] = guide;
+  [[maybe_unused]] const auto& [techniques, heuristic] = combined;
   [[maybe_unused]] const auto& [strategy, length, optical, majorant, extinction] = distance;
   [[maybe_unused]] const auto& [estimator, march, comb] = transmittance;
   [[maybe_unused]] const auto& [mode, radius, count, kernel, boundary, beam_count] = volume;
-  constexpr size_t kOwn = 30 - 7, kOfStopRule = 3, kOfGuide = 4, kOfDistance = 5, kOfTransmittance = 3, kOfGather = 6;
+  constexpr size_t kOwn = 31 - 8, kOfStopRule = 3, kOfGuide = 4, kOfCombined = 2, kOfDistance = 5, kOfTransmittance = 3,
+                   kOfGather = 6;
   constexpr size_t kUndeclared = 3;  // surface.beam_count, caustics.beam_count, and caustics.boundary, the surface's
   constexpr size_t kCombined = 1;    // surface.method
-  EXPECT_EQ(all_settings().size(),
-            kOwn + kOfStopRule + kOfGuide + kOfDistance + kOfTransmittance + 3 * kOfGather - kUndeclared + kCombined);
+  EXPECT_EQ(all_settings().size(), kOwn + kOfStopRule + kOfGuide + kOfCombined + kOfDistance + kOfTransmittance +
+                                       3 * kOfGather - kUndeclared + kCombined);
 }
 
 TEST(Setting, ReachesItsMemberAndNoOther) {

@@ -7,9 +7,9 @@ namespace vpm {
 
 /// The densities of emit(), for one light.
 struct EmissionDensity {
-  double place = 0.0;     // of the point on the light, 1/m^2; of a light at infinity that of the direction, 1/sr; 1 where
-                          // there is only one
-  double flight = 0.0;    // of the direction from there, 1/sr; of parallel light that of the place across it, 1/m^2
+  double place = 0.0;   // of the point on the light, 1/m^2; of a light at infinity that of the direction, 1/sr; 1 where
+                        // there is only one
+  double flight = 0.0;  // of the direction from there, 1/sr; of parallel light that of the place across it, 1/m^2
   bool parallel = false;  // does light not spread from its point?
 };
 

@@ -75,8 +75,8 @@ inline float kernel_norm_1d(KernelKind kind, float r) { return kernel_info(kind)
 inline float kernel_norm_2d(KernelKind kind, float r) { return kernel_info(kind).disc / (kPi * r * r); }
 inline float kernel_norm_3d(KernelKind kind, float r) { return kernel_info(kind).ball / (kPi * r * r * r); }
 
-/// The length (m), area (m^2) or volume (m^3) of a constant kernel that has the variance of this one: 1 over the integral of the
-/// square of the normalised kernel.
+/// The length (m), area (m^2) or volume (m^3) of a constant kernel that has the variance of this one: 1 over the
+/// integral of the square of the normalised kernel.
 inline float kernel_size_1d(KernelKind kind, float r) { return kernel_info(kind).line_size * r; }
 inline float kernel_size_2d(KernelKind kind, float r) { return kernel_info(kind).disc_size * kPi * r * r; }
 inline float kernel_size_3d(KernelKind kind, float r) { return kernel_info(kind).ball_size * kPi * r * r * r; }

@@ -12,9 +12,9 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kPathChunk = 2048;      // light sub-paths traced one after another
-constexpr uint64_t kFirstPaths = 1024;   // that tell how many vertices there are to connect to
-constexpr double kConnections = 1.0;     // of each vertex of an eye sub-path, to vertices of light sub-paths
+constexpr size_t kPathChunk = 2048;     // light sub-paths traced one after another
+constexpr uint64_t kFirstPaths = 1024;  // that tell how many vertices there are to connect to
+constexpr double kConnections = 1.0;    // of each vertex of an eye sub-path, to vertices of light sub-paths
 
 /// The radii of the pass. Those of media are the least that any of them has by default.
 MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings, int pass) {
@@ -53,9 +53,9 @@ double connections_of_vertex(const LightTracing& tracing, uint64_t paths) {
   const TechniqueCounts none;
   LightSubPaths first(tracing.scene.media.size());
   const uint64_t number = std::min(paths, kFirstPaths);
-  trace_light_sub_paths({tracing.scene, tracing.strategy, tracing.transmittance, none, tracing.seed, tracing.pass,
-                         tracing.max_events},
-                        0, number, first);
+  trace_light_sub_paths(
+      {tracing.scene, tracing.strategy, tracing.transmittance, none, tracing.seed, tracing.pass, tracing.max_events}, 0,
+      number, first);
   return kConnections * static_cast<double>(number) / std::max<double>(1.0, static_cast<double>(first.vertices.size()));
 }
 
@@ -69,8 +69,8 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
       transmittance_(make_transmittance_estimator({})),
       kernels_(kernels_of_pass(scene, settings, pass)),
       counts_(counts_of_pass(settings, kernels_)) {
-  const LightTracing tracing{scene,         *strategy_, *transmittance_, counts_,
-                             settings.seed, static_cast<uint64_t>(pass), max_events_};
+  const LightTracing tracing{
+      scene, *strategy_, *transmittance_, counts_, settings.seed, static_cast<uint64_t>(pass), max_events_};
   const Stopwatch clock;
   if (counts_.light) counts_.connections = connections_of_vertex(tracing, paths_);
   LightSubPaths light = trace(tracing, stop);
@@ -101,8 +101,8 @@ LightSubPaths CombinedPass::trace(const LightTracing& tracing, const std::atomic
 }
 
 KernelEstimate CombinedPass::radiance(const Ray& ray, EyeWork& work) const {
-  const CombinedContext context{scene_,   *strategy_, *transmittance_,              counts_,
-                                kernels_, *light_,    static_cast<double>(paths_), max_events_};
+  const CombinedContext context{
+      scene_, *strategy_, *transmittance_, counts_, kernels_, *light_, static_cast<double>(paths_), max_events_};
   return combined_radiance(context, ray, work);
 }
 

@@ -24,8 +24,8 @@ struct Estimated {
 /// own, but no more than the mean of its neighbours, and no more than the mean of its darkest side; and neither is less
 /// than the pixel's own less its standard deviation.
 struct FilmErrors {
-  Image variance;           // of the mean, from the differences between passes
-  Image bias;               // of the mean, were it to go as r^2: an unbiased estimate, but full of noise
+  Image variance;  // of the mean, from the differences between passes
+  Image bias;      // of the mean, were it to go as r^2: an unbiased estimate, but full of noise
   /// Relative MSE due to variance. Its standard error is by how much the squared error of this picture is off from
   /// its mean, were pixels independent but for a factor that all have in common.
   Estimated variance_part;

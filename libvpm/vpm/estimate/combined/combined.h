@@ -1,5 +1,5 @@
-// The combined estimator: sub-paths from the eye meet those from the lights in every way there is, and each way has that
-// share in a path that its density has among those of all. It finds all light, each path once.
+// The combined estimator: sub-paths from the eye meet those from the lights in every way there is, and each way has
+// that share in a path that its density has among those of all. It finds all light, each path once.
 #pragma once
 
 #include <vector>

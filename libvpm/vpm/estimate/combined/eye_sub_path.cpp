@@ -162,8 +162,7 @@ class EyeSubPath {
   /// Flies to the next vertex, and sees the lights that the flight runs into.
   std::optional<PathVertex> fly() {
     tracks_.clear();
-    const Event event =
-        next_event(c_.scene, c_.strategy, state_, work_.rng, work_.counters.walk, kInfinity, &tracks_);
+    const Event event = next_event(c_.scene, c_.strategy, state_, work_.rng, work_.counters.walk, kInfinity, &tracks_);
     Rgb passed(1.0f);
     for (const Track& track : tracks_) {
       const Medium& medium = c_.scene.media[track.medium];
@@ -205,8 +204,7 @@ class EyeSubPath {
     }
     if (!c_.counts.light) return;
     const Light& light = c_.scene.lights[number];
-    const EmissionDensity emission =
-        emission_density(light, c_.scene.bounds, normal, -state_.ray.direction);
+    const EmissionDensity emission = emission_density(light, c_.scene.bounds, normal, -state_.ray.direction);
     const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
                                               {point, -state_.ray.direction}, normal);
     const Junction at_light{is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, normal};
@@ -235,12 +233,11 @@ class EyeSubPath {
     if (is_black(scattered.value)) return;
     const Leaving leaving = leave(c_.scene, vertex, incident->direction);
     const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
-    const Rgb passed = visibility(rays, {leaving.origin, incident->direction}, incident->distance, picked.number,
-                                  leaving.medium);
+    const Rgb passed =
+        visibility(rays, {leaving.origin, incident->direction}, incident->distance, picked.number, leaving.medium);
     if (is_black(passed)) return;
     const Vec3 point = is_infinite(light) ? vertex.point : vertex.point + incident->distance * incident->direction;
-    const EmissionDensity emission =
-        emission_density(light, c_.scene.bounds, incident->normal, -incident->direction);
+    const EmissionDensity emission = emission_density(light, c_.scene.bounds, incident->normal, -incident->direction);
     const Departure start = depart_from_light(c_.counts, light, picked.probability, emission,
                                               {point, -incident->direction}, incident->normal);
     const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
@@ -282,8 +279,8 @@ class EyeSubPath {
     const Rgb passed = visibility(rays, {from.origin, way / length}, length, from.medium);
     if (is_black(passed)) return;
     const Leg leg{passed, distance};
-    const Departure eye = depart(c_.counts, junction_, vertex, sums_, leg_, direction, here.forward, here.reverse,
-                                 SubPath::eye);
+    const Departure eye =
+        depart(c_.counts, junction_, vertex, sums_, leg_, direction, here.forward, here.reverse, SubPath::eye);
     const Departure departure = depart(c_.counts, light.junction, light.vertex, light.sums, light.arrived, -direction,
                                        there.forward, there.reverse, SubPath::light);
     const double share =
@@ -311,8 +308,8 @@ class EyeSubPath {
       const float cosine = std::abs(glm::dot(vertex.hit.normal, travel));
       if (is_black(scattered.value) || cosine == 0.0f) return;
       const MergeTerms merges{.surface = c_.counts.weigh(c_.counts.surfaces)};
-      const double share = merges.surface / all_at_merge(c_.counts, merges, light.sums, scattered.forward, sums_,
-                                                         scattered.reverse);
+      const double share =
+          merges.surface / all_at_merge(c_.counts, merges, light.sums, scattered.forward, sums_, scattered.reverse);
       const Rgb value = state_.throughput * scattered.value * light.power;
       add_merged(times(value, share / cosine / c_.light_paths), kernel(distance2));
     });

@@ -34,8 +34,7 @@ class LightSubPath {
     const Emission emission = vpm::emit(light, c_.scene.bounds, rng_);
     state_ = {emission.ray, medium_of_ray(c_.scene, c_.scene.light_medium[picked.number], emission.ray),
               emission.power / picked.probability};
-    const EmissionDensity density =
-        emission_density(light, c_.scene.bounds, emission.normal, emission.ray.direction);
+    const EmissionDensity density = emission_density(light, c_.scene.bounds, emission.normal, emission.ray.direction);
     from_ = depart_from_light(c_.counts, light, picked.probability, density, emission.ray, emission.normal);
     ++out_.ledger.emitted_count;
     out_.ledger.emitted += Rgbd(state_.throughput);

@@ -74,8 +74,7 @@ Departure depart(const TechniqueCounts& counts, const Junction& at, const PathVe
   departure.point = vertex.point;
   departure.direction = direction;
   departure.forward = forward;
-  departure.behind =
-      (counts.weigh(sums.adjacent) + counts.weigh(reverse) * sums.further) / counts.weigh(sums.density);
+  departure.behind = (counts.weigh(sums.adjacent) + counts.weigh(reverse) * sums.further) / counts.weigh(sums.density);
   if (at.kind == Junction::Kind::surface) departure.behind += counts.weigh(counts.surfaces);
   departure.adjacent = at.kind == Junction::Kind::free ? 0.0 : counts.connections;
   departure.way = way;

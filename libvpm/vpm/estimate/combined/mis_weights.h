@@ -19,8 +19,8 @@
 // of each leg is known exactly.
 #pragma once
 
-#include "vpm/estimate/combined/technique.h"
 #include "vpm/estimate/combined/path_vertex.h"
+#include "vpm/estimate/combined/technique.h"
 #include "vpm/light/emission_density.h"
 
 namespace vpm {
@@ -73,11 +73,11 @@ struct SubPathSums {
 /// A sub-path as it leaves a vertex, or its start.
 struct Departure {
   Junction from;
-  Vec3 point{0.0f};            // m
-  Vec3 direction{0.0f};        // unit
-  double forward = 1.0;        // the density of the direction, 1/sr; 1 at a specular vertex
-  double behind = 0.0;         // the sum over techniques behind the vertex, with merges at it on a surface
-  double adjacent = 0.0;       // how many connections are made over the leg to come
+  Vec3 point{0.0f};              // m
+  Vec3 direction{0.0f};          // unit
+  double forward = 1.0;          // the density of the direction, 1/sr; 1 at a specular vertex
+  double behind = 0.0;           // the sum over techniques behind the vertex, with merges at it on a surface
+  double adjacent = 0.0;         // how many connections are made over the leg to come
   const Light* light = nullptr;  // that this is the start on: connections over the leg sample it
   double place = 1.0;            // the density of emission there, EmissionDensity::place
   bool parallel = false;         // does light not spread from here?

@@ -40,8 +40,7 @@ Leaving leave(const Scene& scene, const PathVertex& vertex, const Vec3& directio
   if (!vertex.on_surface) return {vertex.point, vertex.medium};
   const bool goes_on = glm::dot(vertex.hit.normal, direction) * glm::dot(vertex.hit.normal, vertex.travel) > 0.0f;
   const Shape& shape = scene.shapes[vertex.hit.shape];
-  const MediumId medium =
-      goes_on ? medium_beyond(shape, vertex.hit.normal, direction, vertex.medium) : vertex.medium;
+  const MediumId medium = goes_on ? medium_beyond(shape, vertex.hit.normal, direction, vertex.medium) : vertex.medium;
   return {leave_surface(vertex.hit, direction), medium};
 }
 

@@ -32,9 +32,7 @@ class TechniqueSet {
   /// All.
   constexpr TechniqueSet() = default;
   constexpr bool has(Technique technique) const { return (bits_ & bit(technique)) != 0; }
-  constexpr void set(Technique technique, bool in) {
-    bits_ = in ? bits_ | bit(technique) : bits_ & ~bit(technique);
-  }
+  constexpr void set(Technique technique, bool in) { bits_ = in ? bits_ | bit(technique) : bits_ & ~bit(technique); }
   bool operator==(const TechniqueSet&) const = default;
 
  private:

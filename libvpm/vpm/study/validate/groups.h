@@ -28,6 +28,7 @@ std::vector<Experiment> photon_map_experiments();
 std::vector<Experiment> border_experiments();
 std::vector<Experiment> guide_experiments();
 std::vector<Experiment> pane_experiments();
+std::vector<Experiment> technique_experiments();
 
 // Level 1.
 std::vector<Experiment> furnace_experiments();

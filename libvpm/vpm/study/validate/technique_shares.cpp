@@ -1,0 +1,302 @@
+// The shares of combined techniques, as sub-paths find them vertex by vertex, against the densities of all techniques
+// from the vertices of whole paths alone: of random paths, whose legs have any transmittance.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vpm/base/parallel.h"
+#include "vpm/base/warp.h"
+#include "vpm/estimate/combined/mis_weights.h"
+#include "vpm/study/validate/groups.h"
+#include "vpm/surface/shading.h"
+
+namespace vpm {
+namespace {
+
+/// A path from a light, vertex 0, to a camera, the last vertex, through any media.
+struct WholePath {
+  std::vector<Vec3> points;
+  std::vector<PathVertex> vertices;  // of the path between its ends, numbered as the points
+  std::vector<Junction> junctions;   // likewise; of the light, too
+  std::vector<Rgb> transmittances;   // [i]: from point i to point i + 1
+  std::vector<Phase> phases;         // of the vertices in media
+  std::vector<double> refractions;   // of specular vertices: (n before / n behind)^2 along the light
+  Light light = QuadLight{};
+  double chosen = 0.3, camera_density = 7.0;
+
+  size_t last() const { return points.size() - 1; }
+  double square(size_t i) const {  // of the distance from point i to the next
+    const Vec3d d = Vec3d(points[i + 1]) - Vec3d(points[i]);
+    return glm::dot(d, d);
+  }
+  Vec3 direction(size_t i) const {  // from point i to the next
+    return Vec3(glm::normalize(Vec3d(points[i + 1]) - Vec3d(points[i])));
+  }
+  Leg leg(size_t i) const { return {transmittances[i], std::sqrt(square(i))}; }
+};
+
+Vec3 random_point(Rng& rng) { return Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * 3.0f; }
+Rgb random_colour(Rng& rng, float lo, float hi) {
+  return Rgb(lo) + (hi - lo) * Rgb(rng.uniform(), rng.uniform(), rng.uniform());
+}
+
+/// With `events` vertices between light and camera: on surfaces, some of them of rough glass, in chromatic media, and
+/// specular.
+WholePath random_path(Rng& rng, int events) {
+  WholePath path;
+  for (int i = 0; i < events + 2; ++i) path.points.push_back(random_point(rng));
+  for (int i = 0; i <= events; ++i) path.transmittances.push_back(random_colour(rng, 0.01f, 1.0f));
+  const size_t n = path.points.size();
+  path.vertices.resize(n);
+  path.junctions.resize(n);
+  path.phases.resize(n);
+  path.refractions.resize(n, 1.0);
+  const Vec3 out = path.direction(0);
+  const Vec3 normal = glm::normalize(out + 0.8f * uniform_sphere(rng.uniform2()));
+  if (rng.uniform() < 0.3f) {
+    path.light = PointLight{path.points[0], Rgb(1.0f)};
+  } else {
+    const float radius = 0.2f + rng.uniform();
+    path.light = DiscLight{path.points[0], normal, radius, Rgb(1.0f)};
+    path.junctions[0] = {Junction::Kind::surface, normal};
+  }
+  for (size_t i = 1; i + 1 < n; ++i) {
+    PathVertex& vertex = path.vertices[i];
+    const Vec3 in = path.direction(i - 1), on = path.direction(i);
+    vertex.point = path.points[i];
+    vertex.travel = in;
+    const float kind = rng.uniform();
+    if (kind < 0.2f) {
+      vertex.on_surface = vertex.specular = true;
+      path.refractions[i] = rng.uniform() < 0.5f ? 1.0 : 1.5 * 1.5;
+    } else if (kind < 0.5f) {
+      vertex.on_surface = true;
+      // A surface that scatters this way back, and a lobe in which both directions are.
+      vertex.hit.normal = vertex.hit.shading_normal =
+          glm::normalize(on - in + 0.2f * glm::length(on - in) * uniform_sphere(rng.uniform2()));
+      vertex.material = Phong{Rgb(0.4f), Rgb(0.5f), 4.0f};
+      path.junctions[i] = {Junction::Kind::surface, vertex.hit.normal};
+    } else {
+      vertex.density = 1.0f;
+      path.phases[i] = HenyeyGreenstein{rng.uniform() * 1.6f - 0.8f};
+      path.junctions[i] = {Junction::Kind::medium, Vec3(0.0f), random_colour(rng, 0.1f, 3.0f)};
+    }
+  }
+  return path;
+}
+
+/// The densities with which a sub-path goes on at vertex i: along the light, and against it.
+double density_on(const WholePath& path, size_t i, bool along_light) {
+  const Vec3 in = along_light ? path.direction(i - 1) : -path.direction(i);
+  const Vec3 on = along_light ? path.direction(i) : -path.direction(i - 1);
+  const PathVertex& vertex = path.vertices[i];
+  if (vertex.specular) return along_light ? 1.0 : path.refractions[i];
+  if (vertex.on_surface) return scatter_value(vertex.material, vertex.hit, in, on).pdf;
+  return phase_value(path.phases[i], in, on);
+}
+
+double mean_of(const Rgb& c) { return (double{c.r} + c.g + c.b) / 3.0; }
+
+/// What the density of a direction is times for that of vertex `at`, over the leg between points i and i + 1.
+double spread(const WholePath& path, size_t at, size_t i) {
+  const Junction& junction = path.junctions[at];
+  const Rgb& t = path.transmittances[i];
+  const double per_square = 1.0 / path.square(i);
+  if (junction.kind == Junction::Kind::surface)
+    return std::abs(double{glm::dot(junction.normal, path.direction(i))}) * mean_of(t) * per_square;
+  if (junction.kind == Junction::Kind::medium) return mean_of(junction.sigma_t * t) * per_square;
+  return mean_of(t) * per_square;
+}
+
+/// A technique at a junction, and its density.
+struct Found {
+  enum class By { run_into, sampled, connected, splat, surface, points_3d, points_2d, beams };
+  By by;
+  size_t at;
+  double density;
+};
+
+bool is_free(const WholePath& path, size_t i) { return path.junctions[i].kind == Junction::Kind::free; }
+
+/// All densities, from the definitions: products over all vertices.
+std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& counts) {
+  const size_t k = path.last();
+  const auto* disc = std::get_if<DiscLight>(&path.light);
+  const double place = disc ? 1.0 / (kPiD * double{disc->radius} * disc->radius) : 1.0;
+  const double flight = disc ? glm::dot(disc->normal, path.direction(0)) / kPiD : 0.25 / kPiD;
+  std::vector<double> f(k), r(k);
+  f[0] = path.chosen * place;
+  f[1] = flight * spread(path, 1, 0);
+  for (size_t i = 2; i < k; ++i) f[i] = density_on(path, i - 1, true) * spread(path, i, i - 1);
+  r[k - 1] = path.camera_density * spread(path, k - 1, k - 1);
+  for (size_t i = k - 1; i-- > 0;) r[i] = density_on(path, i + 1, false) * spread(path, i, i);
+  const auto product = [&](size_t light_end, size_t eye_begin) {  // f up to light_end, excluded, r from eye_begin on
+    double p = 1.0;
+    for (size_t i = 0; i < light_end; ++i) p *= f[i];
+    for (size_t i = eye_begin; i < k; ++i) p *= r[i];
+    return p;
+  };
+  using By = Found::By;
+  std::vector<Found> all;
+  const auto add = [&](By by, size_t at, double density) {
+    if (density > 0.0) all.push_back({by, at, counts.weigh(density)});
+  };
+  if (counts.light && disc) add(By::run_into, 0, product(0, 0));
+  // A disc is sampled uniformly over its area.
+  if (counts.light && !is_free(path, 1)) add(By::sampled, 0, product(1, 1));
+  for (size_t i = 1; i + 1 < k; ++i)
+    if (!is_free(path, i) && !is_free(path, i + 1)) add(By::connected, i, counts.connections * product(i + 1, i + 1));
+  if (!is_free(path, k - 1)) add(By::splat, k - 1, counts.splats * product(k, k));
+  for (size_t i = 1; i < k; ++i) {
+    const Junction& at = path.junctions[i];
+    const double merged = product(i + 1, i);
+    if (at.kind == Junction::Kind::surface) add(By::surface, i, counts.surfaces * merged);
+    if (at.kind != Junction::Kind::medium) continue;
+    const Rgb &from_light = path.transmittances[i - 1], &from_eye = path.transmittances[i];
+    const double sine = glm::length(glm::cross(Vec3d(path.direction(i - 1)), Vec3d(path.direction(i))));
+    const double eye = mean_of(at.sigma_t * from_eye), light = mean_of(at.sigma_t * from_light);
+    add(By::points_3d, i, counts.points_3d * merged);
+    add(By::points_2d, i, counts.points_2d * merged / eye);
+    add(By::beams, i, counts.beams * sine * merged / eye * mean_of(from_light) / light);
+  }
+  return all;
+}
+
+/// The sub-paths along the whole path, as they are traced.
+struct SubPaths {
+  std::vector<SubPathSums> light, eye;              // at each vertex
+  std::vector<Departure> light_leaves, eye_leaves;  // of each vertex
+};
+
+SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
+  const size_t k = path.last();
+  SubPaths traced{std::vector<SubPathSums>(k), std::vector<SubPathSums>(k), std::vector<Departure>(k),
+                  std::vector<Departure>(k + 1)};
+  const Vec3 normal = path.junctions[0].normal;
+  const EmissionDensity emission = emission_density(path.light, {}, normal, path.direction(0));
+  traced.light_leaves[0] =
+      depart_from_light(counts, path.light, path.chosen, emission, {path.points[0], path.direction(0)}, normal);
+  for (size_t i = 1; i < k; ++i) {
+    traced.light[i] = arrive(counts, traced.light_leaves[i - 1], path.leg(i - 1), path.junctions[i], path.points[i]);
+    traced.light_leaves[i] =
+        depart(counts, path.junctions[i], path.vertices[i], traced.light[i], path.leg(i - 1), path.direction(i),
+               density_on(path, i, true), density_on(path, i, false), SubPath::light);
+  }
+  traced.eye_leaves[k] = depart_from_camera(counts, {path.points[k], -path.direction(k - 1)}, path.camera_density);
+  for (size_t i = k - 1; i >= 1; --i) {
+    traced.eye[i] = arrive(counts, traced.eye_leaves[i + 1], path.leg(i), path.junctions[i], path.points[i]);
+    PathVertex vertex = path.vertices[i];
+    vertex.travel = -path.direction(i);
+    // As walks do: 1 on, and the factor of refraction back, whichever way the sub-path goes.
+    const bool specular = path.vertices[i].specular;
+    const double on = specular ? 1.0 : density_on(path, i, false);
+    const double back = specular ? 1.0 / path.refractions[i] : density_on(path, i, true);
+    traced.eye_leaves[i] = depart(counts, path.junctions[i], vertex, traced.eye[i], path.leg(i), -path.direction(i - 1),
+                                  on, back, SubPath::eye);
+  }
+  return traced;
+}
+
+double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
+  using By = Found::By;
+  const size_t i = found.at, k = path.last();
+  if (found.by == By::splat)
+    return share_of_splat(counts, arrive(counts, traced.light_leaves[i], path.leg(i), {}, path.points[k]),
+                          path.camera_density);
+  if (found.by == By::run_into || found.by == By::sampled || found.by == By::connected) {
+    const SubPathSums at_eye =
+        arrive(counts, traced.light_leaves[i], path.leg(i), path.junctions[i + 1], path.points[i + 1]);
+    const SubPathSums at_light =
+        arrive(counts, traced.eye_leaves[i + 1], path.leg(i), path.junctions[i], path.points[i]);
+    const ConnectionShares shares =
+        shares_of_connection(counts, traced.light_leaves[i], at_eye, traced.eye_leaves[i + 1], at_light);
+    return found.by == By::run_into ? shares.run_into : shares.connected;
+  }
+  const Junction& at = path.junctions[i];
+  const double sine = glm::length(glm::cross(Vec3d(path.direction(i - 1)), Vec3d(path.direction(i))));
+  const MergeTerms terms = at.kind == Junction::Kind::surface
+                               ? MergeTerms{.surface = counts.weigh(counts.surfaces)}
+                               : merges_in_medium(counts, at.sigma_t, path.leg(i - 1), path.leg(i), sine);
+  const double all = all_at_merge(counts, terms, traced.light[i], density_on(path, i, false), traced.eye[i],
+                                  density_on(path, i, true));
+  const double term = found.by == By::surface     ? terms.surface
+                      : found.by == By::points_3d ? terms.points_3d
+                      : found.by == By::points_2d ? terms.points_2d
+                                                  : terms.beams;
+  return term / all;
+}
+
+TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
+  TechniqueCounts counts;
+  const auto number = [&] { return rng.uniform() < 0.2f ? 0.0 : std::exp(4.0 * rng.uniform_double() - 2.0); };
+  counts.light = rng.uniform() < 0.8f;
+  counts.connections = number();
+  counts.splats = number();
+  counts.surfaces = number();
+  counts.points_3d = number();
+  counts.points_2d = number();
+  counts.beams = number();
+  counts.heuristic = heuristic;
+  return counts;
+}
+
+/// How far shares are off: the largest of many paths.
+struct WorstShares {
+  double share = 0.0, sum = 0.0;
+  uint64_t number = 0;
+
+  void see(const WholePath& path, const TechniqueCounts& counts) {
+    const std::vector<Found> all = all_densities(path, counts);
+    if (all.empty()) return;
+    double density = 0.0, of_all = 0.0;
+    for (const Found& found : all) density += found.density;
+    const SubPaths traced = trace_along(path, counts);
+    for (const Found& found : all) {
+      const double here = share_of(path, counts, traced, found);
+      of_all += here;
+      share = std::max(share, std::abs(here - found.density / density));
+    }
+    sum = std::max(sum, std::abs(of_all - 1.0));
+    number += all.size();
+  }
+  void merge(const WorstShares& other) {
+    share = std::max(share, other.share);
+    sum = std::max(sum, other.sum);
+    number += other.number;
+  }
+};
+
+std::vector<Check> check_shares(const Effort& effort) {
+  constexpr double kBound = 1e-5;
+  constexpr size_t kChunk = 1000;
+  const uint64_t paths = effort.count(40'000, 1'000'000), seed = effort.seed_of("shares of techniques");
+  std::vector<Check> checks;
+  for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
+    std::vector<WorstShares> parts(chunk_count(paths, kChunk));
+    parallel_for_chunks(paths, kChunk, [&](size_t begin, size_t end, size_t chunk) {
+      for (uint64_t i = begin; i < end; ++i) {
+        Rng rng(seed, rng_stream(RngUse::test, 0), i);
+        const WholePath path = random_path(rng, 1 + static_cast<int>(12.0 * rng.uniform_double()));
+        parts[chunk].see(path, random_counts(rng, heuristic));
+      }
+    });
+    WorstShares worst;
+    for (const WorstShares& part : parts) worst.merge(part);
+    const char* name = heuristic == Heuristic::balance ? "balance heuristic" : "power heuristic";
+    checks.push_back(check_bound(fmt::format("{}, the largest error of a share", name), worst.share, 0.0, kBound));
+    checks.push_back(check_bound(fmt::format("{}, of a path's sum of shares", name), worst.sum, 0.0, kBound));
+    checks.push_back(check_bound(fmt::format("{}, shares of a path, fewer than three", name),
+                                 static_cast<double>(worst.number < 3 * paths), 0.0, 0.0));
+  }
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Experiment> technique_experiments() {
+  return {{0, "shares of combined techniques, by the densities of whole paths", check_shares}};
+}
+
+}  // namespace vpm
