@@ -30,6 +30,11 @@ struct Contradiction {
 };
 using S = RenderSettings;
 
+S& combine(S& s) {
+  s.integrator = Integrator::combined;
+  return s;
+}
+
 const Contradiction kContradictions[] = {
     {"photons.emitted", [](S& s) { s.photons_emitted = 0; }},
     {"photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
@@ -45,6 +50,15 @@ const Contradiction kContradictions[] = {
     {"distance.strategy",
      [](S& s) { s.volume.mode = GatherMode::photon_beams, s.distance.strategy = "mean-extinction"; }},
     {"volume.count", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.volume.beam_count = 20; }},
+    {"combined.heuristic", [](S& s) { s.combined.heuristic = Heuristic::power; }},
+    {"combined.techniques", [](S& s) { s.combined.techniques.set(Technique::points_3d, false); }},
+    {"distance.strategy", [](S& s) { combine(s).distance.strategy = "mean-extinction"; }},
+    {"distance.strategy", [](S& s) { combine(s).distance.strategy = "ray-march"; }},
+    {"transmittance.estimator", [](S& s) { combine(s).transmittance.estimator = "ratio"; }},
+    {"importance.importons", [](S& s) { combine(s).guide.importons = 100; }},
+    {"photons.stored", [](S& s) { combine(s).photons_stored = 100; }},
+    {"photons.in_cube", [](S& s) { combine(s).photons_in_cube = 4; }},
+    {"render.radii", [](S& s) { combine(s).radii = RadiusSchedule::per_pixel; }},
     {"importance.aim", [](S& s) { s.guide.aim = false; }},
     {"importance.split", [](S& s) { s.guide.split = false; }},
     {"importance.scatter", [](S& s) { s.guide.scatter = true; }},
@@ -96,6 +110,15 @@ TEST(Validate, LongBeamsNeedAnEnd) {
   s.beam_length = BeamLength::short_beams;
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "");
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true, .endless_flights = true}), "volume.gather");
+}
+
+TEST(Validate, BeamsOfCombinedTechniquesNeedAnEndInEveryChannel) {
+  RenderSettings s;
+  combine(s);
+  const SceneFacts endless{.scattering_media = true, .endless = true, .endless_flights = true};
+  EXPECT_EQ(refused(s, endless), "combined.techniques");
+  s.combined.techniques.set(Technique::short_beams, false);
+  EXPECT_EQ(refused(s, endless), "");
 }
 
 TEST(Validate, FactsTellWhetherFlightsEnd) {

@@ -47,11 +47,43 @@ TEST(Camera, RefusesWhatIsNoCamera) {
   EXPECT_THROW(make_camera(o, {0, 0, kInfinity}, y, 40, {8, 8}), InputError);
 }
 
+TEST(Camera, FindsThePlaceOfTheFilmThatADirectionMeets) {
+  const Camera camera = make_camera({1, 2, 3}, {-4, 0.5f, 9}, {0.1f, 1, 0.3f}, 70.0f, {64, 48});
+  for (const Vec2& film : {Vec2(0.0f), Vec2(64, 48), Vec2(12.3f, 40.1f)}) {
+    const std::optional<Vec2> found = camera.film_of(camera.ray(film).direction);
+    ASSERT_TRUE(found);
+    EXPECT_LT(glm::length(*found - film), 2e-5f);
+  }
+  EXPECT_FALSE(camera.film_of(-camera.forward));
+}
+
+TEST(Camera, FilmPerAngleSumsToTheSolidAngleOfTheFilm) {
+  // Of a rectangle of half the sides a and b at the distance 1: 4 atan(a b / sqrt(1 + a^2 + b^2)).
+  const Camera camera = make_camera(Vec3(0.0f), {0, 0, -1}, {0, 1, 0}, 90.0f, {300, 200});
+  double sum = 0.0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 300; ++x) sum += 1.0 / camera.film_per_angle(camera.ray(Vec2(x, y) + 0.5f).direction);
+  EXPECT_NEAR(sum, 4.0 * std::atan(1.5 / std::sqrt(1.0 + 1.5 * 1.5 + 1.0)), 1e-4);
+}
+
 /// The cumulative distribution of one coordinate at x in [-1, 1], in radii.
 double cumulative(FilterKind kind, double x) {
   if (kind == FilterKind::box) return 0.5 * (x + 1.0);
   if (kind == FilterKind::tent) return x < 0.0 ? 0.5 * (1.0 + x) * (1.0 + x) : 1.0 - 0.5 * (1.0 - x) * (1.0 - x);
   return 0.5 * (1.0 + std::erf(3.0 * x / std::sqrt(2.0)) / std::erf(3.0 / std::sqrt(2.0)));
+}
+
+TEST(Filter, ItsValueIsTheDerivativeOfItsCumulativeDistribution) {
+  constexpr double kStep = 1e-3;
+  for (const FilterKind kind : {FilterKind::box, FilterKind::tent, FilterKind::gaussian}) {
+    const Filter filter{kind, 1.5f};
+    const auto density = [&](double x) {
+      return (cumulative(kind, (x + kStep) / 1.5) - cumulative(kind, (x - kStep) / 1.5)) / (2.0 * kStep);
+    };
+    for (const Vec2& x : {Vec2(0.3f, -0.7f), Vec2(-1.4f, 1.2f), Vec2(0.1f, 0.9f)})
+      EXPECT_NEAR(filter_value(filter, x) / (density(x.x) * density(x.y)), 1.0, 1e-4);
+    EXPECT_EQ(filter_value(filter, {1.51f, 0.0f}), 0.0);
+  }
 }
 
 TEST(Filter, InvertsItsCumulativeDistribution) {

@@ -39,7 +39,9 @@ std::vector<Setting> combined_settings() {
       {.key = "combined.heuristic",
        .member = at<&S::combined, &C::heuristic>(),
        .domain = words_of<Heuristic>(),
-       .meaning = "how techniques share a path that several find: by their densities, or by the squares of these",
+       .meaning = "how techniques share a path that several find: by their densities, by the squares of these, or by "
+                  "densities "
+                  "that know that merges of an eye sub-path which has scattered before share its noise",
        .need = {combines, combines_nothing, kCombine}},
   };
 }

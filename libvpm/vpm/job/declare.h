@@ -25,7 +25,7 @@ struct WordsOf<Integrator> {
 };
 template <>
 struct WordsOf<Heuristic> {
-  static constexpr std::array<std::string_view, 2> words{"balance", "power"};
+  static constexpr std::array<std::string_view, 3> words{"balance", "power", "correlation-aware"};
 };
 template <>
 struct WordsOf<RadiusSchedule> {

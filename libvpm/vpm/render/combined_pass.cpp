@@ -44,6 +44,7 @@ TechniqueCounts counts_of_pass(const RenderSettings& settings, const MergeKernel
   if (techniques.has(Technique::short_beams))
     counts.beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
   counts.heuristic = settings.combined.heuristic;
+  if (counts.heuristic == Heuristic::correlation_aware) counts.shared = 1.0 / paths;
   return counts;
 }
 

@@ -47,7 +47,7 @@ enum class Integrator { photon, path, combined };
 /// The combined estimator: which techniques it uses, and how these share the paths that several of them find.
 struct CombinedSettings {
   TechniqueSet techniques;
-  Heuristic heuristic = Heuristic::balance;
+  Heuristic heuristic = Heuristic::correlation_aware;
 };
 
 /// When a render ends: once `passes` are done; or, where `seconds` or `error` are asked for, once the first of these

@@ -37,7 +37,7 @@ class EyeSubPath {
 
   KernelEstimate follow() {
     for (int events = 0; events < c_.max_events; ++events) {
-      merge_along();
+      if (only_specular_) merge_along();
       const std::optional<PathVertex> vertex = fly();
       if (!vertex || is_black(state_.throughput)) return radiance_;
       if (!vertex->specular) meet_light(*vertex);
@@ -109,7 +109,7 @@ class EyeSubPath {
       const Leg leg = leg_to(from_, light.vertex.point, along.to(t));
       const double phase = phase_value(medium.phase, light.vertex.travel, -along.ray.direction);
       const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg,
-                                                 sine_of(light.vertex.travel, along.ray.direction));
+                                                 sine_of(light.vertex.travel, along.ray.direction), true);
       const SubPathSums eye = arrive(c_.counts, from_, leg, light.junction, light.vertex.point);
       const double share = merges.points_2d / all_at_merge(c_.counts, merges, light.sums, phase, eye, phase);
       const Rgb value = state_.throughput * leg.transmittance * medium.albedo() * light.power;
@@ -149,7 +149,7 @@ class EyeSubPath {
     const Leg to_eye = leg_to(from_, place, along.to(found.t[i]));
     const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
     const double phase = phase_value(medium.phase, direction, -along.ray.direction);
-    const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, to_light, to_eye, found.sine[i]);
+    const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, to_light, to_eye, found.sine[i], true);
     const SubPathSums light = arrive(c_.counts, beam.start, to_light, there, place);
     const SubPathSums eye = arrive(c_.counts, from_, to_eye, there, place);
     const double share = merges.beams / all_at_merge(c_.counts, merges, light, phase, eye, phase);
@@ -207,7 +207,8 @@ class EyeSubPath {
     const EmissionDensity emission = emission_density(light, c_.scene.bounds, normal, -state_.ray.direction);
     const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
                                               {point, -state_.ray.direction}, normal);
-    const Junction at_light{is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, normal};
+    const Junction at_light{is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, normal, Rgb(0.0f),
+                            true};
     const SubPathSums at_eye = arrive(c_.counts, start, leg, from_.from, from_.point);
     const SubPathSums further = arrive(c_.counts, from_, leg, at_light, point);
     radiance_ += KernelEstimate(times(seen, shares_of_connection(c_.counts, start, at_eye, from_, further).run_into));
@@ -242,8 +243,8 @@ class EyeSubPath {
                                               {point, -incident->direction}, incident->normal);
     const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
     const Departure eye = depart(c_.counts, junction_, vertex, sums_, leg_, incident->direction, scattered.forward,
-                                 scattered.reverse, SubPath::eye);
-    const Junction at_light{start.from.kind, incident->normal};
+                                 scattered.reverse, SubPath::eye, only_specular_);
+    const Junction at_light{start.from.kind, incident->normal, Rgb(0.0f), true};
     const double share = shares_of_connection(c_.counts, start, arrive(c_.counts, start, leg, junction_, vertex.point),
                                               eye, arrive(c_.counts, eye, leg, at_light, point))
                              .connected;
@@ -279,10 +280,10 @@ class EyeSubPath {
     const Rgb passed = visibility(rays, {from.origin, way / length}, length, from.medium);
     if (is_black(passed)) return;
     const Leg leg{passed, distance};
-    const Departure eye =
-        depart(c_.counts, junction_, vertex, sums_, leg_, direction, here.forward, here.reverse, SubPath::eye);
+    const Departure eye = depart(c_.counts, junction_, vertex, sums_, leg_, direction, here.forward, here.reverse,
+                                 SubPath::eye, only_specular_);
     const Departure departure = depart(c_.counts, light.junction, light.vertex, light.sums, light.arrived, -direction,
-                                       there.forward, there.reverse, SubPath::light);
+                                       there.forward, there.reverse, SubPath::light, false);
     const double share =
         shares_of_connection(c_.counts, departure, arrive(c_.counts, departure, leg, junction_, vertex.point), eye,
                              arrive(c_.counts, eye, leg, light.junction, light.vertex.point))
@@ -302,12 +303,13 @@ class EyeSubPath {
     const uint32_t visited = map.visit_near(vertex.point, [&](uint32_t number, float distance2) {
       const LightVertex& light = c_.light.of_surfaces(number);
       const Vec3& travel = light.vertex.travel;
+      if (light.sums.straight) return;
       const bool faces = arrives.from_both_sides || glm::dot(travel, side) < 0.0f;
       if (!faces || !arrives.near_plane(light.vertex.point - vertex.point)) return;
       const Scattered scattered = scattered_into(c_.scene, vertex, -travel, SubPath::eye);
       const float cosine = std::abs(glm::dot(vertex.hit.normal, travel));
       if (is_black(scattered.value) || cosine == 0.0f) return;
-      const MergeTerms merges{.surface = c_.counts.weigh(c_.counts.surfaces)};
+      const MergeTerms merges = merges_on_surface(c_.counts, only_specular_);
       const double share =
           merges.surface / all_at_merge(c_.counts, merges, light.sums, scattered.forward, sums_, scattered.reverse);
       const Rgb value = state_.throughput * scattered.value * light.power;
@@ -327,7 +329,7 @@ class EyeSubPath {
       const LightVertex& light = c_.light.of_medium(vertex.medium, number);
       const double phase = phase_value(medium.phase, light.vertex.travel, -vertex.travel);
       const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg_,
-                                                 sine_of(light.vertex.travel, vertex.travel));
+                                                 sine_of(light.vertex.travel, vertex.travel), only_specular_);
       const double share = merges.points_3d / all_at_merge(c_.counts, merges, light.sums, phase, sums_, phase);
       const Rgb value = state_.throughput * medium.albedo() * light.power / junction_.sigma_t;
       add_merged(times(value, phase * share / c_.light_paths), kernel(distance2));
@@ -352,7 +354,8 @@ class EyeSubPath {
         reverse = scatter_value(vertex.material, vertex.hit, -state_.ray.direction, -vertex.travel).pdf;
       }
     }
-    from_ = depart(c_.counts, junction_, vertex, sums_, leg_, state_.ray.direction, forward, reverse, SubPath::eye);
+    from_ = depart(c_.counts, junction_, vertex, sums_, leg_, state_.ray.direction, forward, reverse, SubPath::eye,
+                   only_specular_);
     return true;
   }
 

@@ -88,7 +88,8 @@ class LightSubPath {
         reverse = scatter_value(vertex.material, vertex.hit, -state_.ray.direction, -vertex.travel).pdf;
       }
     }
-    from_ = depart(c_.counts, junction_, vertex, sums_, leg_, state_.ray.direction, forward, reverse, SubPath::light);
+    from_ = depart(c_.counts, junction_, vertex, sums_, leg_, state_.ray.direction, forward, reverse, SubPath::light,
+                   false);
     return true;
   }
 
@@ -109,7 +110,7 @@ class LightSubPath {
     if (is_black(passed)) return;
     const Leg leg{passed, distance};
     const Departure departure = depart(c_.counts, junction_, vertex, sums_, leg_, direction, scattered.forward,
-                                       scattered.reverse, SubPath::light);
+                                       scattered.reverse, SubPath::light, true);
     const SubPathSums at_camera = arrive(c_.counts, departure, leg, {}, camera.position);
     const double film_density = camera.film_per_angle(-direction);
     const Rgb irradiance = state_.throughput * scattered.value * passed * static_cast<float>(leg.per_square());

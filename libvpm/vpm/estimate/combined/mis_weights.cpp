@@ -13,9 +13,11 @@ double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) {
 }
 double colliding(const Rgb& sigma_t, const Leg& leg) { return mean_channel(sigma_t * leg.transmittance); }
 
-MergeTerms merge_terms(const TechniqueCounts& counts, double passing_light, double colliding_eye, double sine) {
+MergeTerms merge_terms(const TechniqueCounts& counts, double passing_light, double colliding_eye, double sine,
+                       bool first) {
   MergeTerms terms;
-  terms.points_3d = counts.weigh(counts.points_3d);
+  terms.points_3d = counts.weigh(first ? counts.points_3d : counts.shared * counts.points_3d);
+  if (!first) return terms;
   terms.points_2d = counts.weigh(counts.points_2d / colliding_eye);
   terms.beams = counts.weigh(counts.beams * sine * passing_light / colliding_eye);
   return terms;
@@ -68,18 +70,19 @@ Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, doub
 }
 
 Departure depart(const TechniqueCounts& counts, const Junction& at, const PathVertex& vertex, const SubPathSums& sums,
-                 const Leg& arrived, const Vec3& direction, double forward, double reverse, SubPath way) {
+                 const Leg& arrived, const Vec3& direction, double forward, double reverse, SubPath way, bool first) {
   Departure departure;
   departure.from = at;
   departure.point = vertex.point;
   departure.direction = direction;
   departure.forward = forward;
   departure.behind = (counts.weigh(sums.adjacent) + counts.weigh(reverse) * sums.further) / counts.weigh(sums.density);
-  if (at.kind == Junction::Kind::surface) departure.behind += counts.weigh(counts.surfaces);
+  if (at.kind == Junction::Kind::surface && !sums.straight) departure.merged = merges_on_surface(counts, first).sum();
   departure.adjacent = at.kind == Junction::Kind::free ? 0.0 : counts.connections;
   departure.way = way;
   if (at.kind != Junction::Kind::medium) return departure;
   departure.merges = true;
+  departure.first = first;
   departure.sine = sine_between(vertex.travel, direction);
   departure.arrived =
       way == SubPath::light ? passing_over_colliding(at.sigma_t, arrived) : colliding(at.sigma_t, arrived);
@@ -87,18 +90,19 @@ Departure depart(const TechniqueCounts& counts, const Junction& at, const PathVe
 }
 
 Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance) {
+  constexpr double kLeast = 1e-9;  // m: rounding may put two vertices into one point
   if (departure.parallel) return {transmittance, 1.0};
-  return {transmittance, glm::distance(Vec3d(departure.point), Vec3d(point))};
+  return {transmittance, std::max(kLeast, glm::distance(Vec3d(departure.point), Vec3d(point)))};
 }
 
 SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
                    const Vec3& point) {
-  double behind = departure.behind;
+  double behind = departure.behind + (at.light && counts.light ? 0.0 : departure.merged);
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
     behind += merge_terms(counts, light ? departure.arrived : passing_over_colliding(sigma_t, leg),
-                          light ? colliding(sigma_t, leg) : departure.arrived, departure.sine)
+                          light ? colliding(sigma_t, leg) : departure.arrived, departure.sine, departure.first)
                   .sum();
   }
   SubPathSums sums;
@@ -106,6 +110,7 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   sums.further = counts.weigh(arrival(departure.from, departure.direction, leg) * leg.per_square()) * behind;
   if (at.kind == Junction::Kind::free) return sums;
   sums.adjacent = departure.adjacent;
+  sums.straight = departure.light != nullptr;
   if (departure.light)
     sums.adjacent = sampled_density(*departure.light, point,
                                     {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
@@ -114,8 +119,12 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
 }
 
 MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
-                            const Leg& from_eye, double sine) {
-  return merge_terms(counts, passing_over_colliding(sigma_t, from_light), colliding(sigma_t, from_eye), sine);
+                            const Leg& from_eye, double sine, bool first) {
+  return merge_terms(counts, passing_over_colliding(sigma_t, from_light), colliding(sigma_t, from_eye), sine, first);
+}
+
+MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
+  return {.surface = counts.weigh(first ? counts.surfaces : counts.shared * counts.surfaces)};
 }
 
 double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,

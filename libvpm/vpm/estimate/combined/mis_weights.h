@@ -7,7 +7,10 @@
 // where c_i is how many such connections are made for each light sub-path: C_{-1} is the eye sub-path that runs into
 // the light, C_0 the light that is sampled, C_{k-1} the connection to the camera. Merging at x_i finds it with
 //   M_i = N m_i f_0 ... f_i r_i ... r_k
-// for N light sub-paths and a kernel of the size m_i, with a factor for each sub-path that need not end there.
+// for N light sub-paths and a kernel of the size m_i, with a factor for each sub-path that need not end there. Where
+// x_i is the first vertex from the eye that is not specular, m_i holds all kernels, elsewhere only those of surfaces
+// and of points in balls. Light that comes straight from a light is not merged on surfaces, where lights are sampled:
+// samples of lights have less noise than densities say.
 //
 // A sub-path from the light carries S_i, the sum of all C_j, j < i, and M_j, j <= i, over C_i / c_i. From vertex to
 // vertex,
@@ -35,6 +38,7 @@ struct TechniqueCounts {
   double points_3d = 0.0;  // m^3
   double points_2d = 0.0;  // m^2
   double beams = 0.0;      // m
+  double shared = 1.0;     // what a merge counts for where the eye's sub-path has scattered before, over that
   Heuristic heuristic = Heuristic::balance;
 
   /// A density, or a number, as the heuristic weighs it.
@@ -54,8 +58,9 @@ struct Leg {
 struct Junction {
   enum class Kind { surface, medium, free };  // free: a specular vertex, a point, or infinity
   Kind kind = Kind::free;
-  Vec3 normal{0.0f};  // of a surface, unit
-  Rgb sigma_t{0.0f};  // in a medium, at the place, 1/m
+  Vec3 normal{0.0f};   // of a surface, unit
+  Rgb sigma_t{0.0f};   // in a medium, at the place, 1/m
+  bool light = false;  // is the light there that a path begins at?
 };
 Junction junction_of(const Scene& scene, const PathVertex& vertex);
 
@@ -68,6 +73,7 @@ struct SubPathSums {
   double density = 1.0;   // of the vertex: f_i, or r_i
   double adjacent = 0.0;  // how many connections there are between the vertex and the one before
   double further = 0.0;   // the sum over all techniques behind that, over the density of the direction back
+  bool straight = false;  // does the light come straight from a light that is sampled? It is not merged on surfaces
 };
 
 /// A sub-path as it leaves a vertex, or its start.
@@ -76,13 +82,15 @@ struct Departure {
   Vec3 point{0.0f};              // m
   Vec3 direction{0.0f};          // unit
   double forward = 1.0;          // the density of the direction, 1/sr; 1 at a specular vertex
-  double behind = 0.0;           // the sum over techniques behind the vertex, with merges at it on a surface
+  double behind = 0.0;           // the sum over techniques behind the vertex
+  double merged = 0.0;           // of merges at the vertex, if it is on a surface
   double adjacent = 0.0;         // how many connections are made over the leg to come
   const Light* light = nullptr;  // that this is the start on: connections over the leg sample it
   double place = 1.0;            // the density of emission there, EmissionDensity::place
   bool parallel = false;         // does light not spread from here?
   // Of merges at a vertex in a medium, of which the leg to come is one of the two:
   bool merges = false;
+  bool first = false;  // is the vertex the first from the eye that is not specular?
   SubPath way = SubPath::light;
   double sine = 0.0;     // of the angle between the directions of the legs
   double arrived = 1.0;  // of the other leg: merge_factor()
@@ -94,9 +102,10 @@ Departure depart_from_light(const TechniqueCounts& counts, const Light& light, d
 /// A start at the camera, whose directions have the density `forward`, 1/sr.
 Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, double forward);
 /// Goes on from a vertex into `direction`, with the densities of the direction and of the way back: at a specular
-/// vertex, 1 and the factor of refraction. `arrived` is the leg that led to the vertex.
+/// vertex, 1 and the factor of refraction. `arrived` is the leg that led to the vertex; `first` says whether it is,
+/// from the eye, the first vertex that is not specular.
 Departure depart(const TechniqueCounts& counts, const Junction& at, const PathVertex& vertex, const SubPathSums& sums,
-                 const Leg& arrived, const Vec3& direction, double forward, double reverse, SubPath way);
+                 const Leg& arrived, const Vec3& direction, double forward, double reverse, SubPath way, bool first);
 
 /// The leg from a departure to a point, m.
 Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance);
@@ -111,9 +120,11 @@ struct MergeTerms {
 
   double sum() const { return surface + points_3d + points_2d + beams; }
 };
-/// In a medium, between a leg from the light and one from the eye, whose directions make an angle of that sine.
+/// In a medium, between a leg from the light and one from the eye, whose directions make an angle of that sine; `first`
+/// as in depart().
 MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
-                            const Leg& from_eye, double sine);
+                            const Leg& from_eye, double sine, bool first);
+MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
 
 /// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
 /// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the

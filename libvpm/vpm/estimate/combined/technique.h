@@ -9,7 +9,8 @@ namespace vpm {
 
 /// A path from a light to the eye is found by a sub-path from the light and one from the eye. These are connected; or
 /// the light's is connected to the camera itself; or they are merged at a vertex, within a kernel: at a surface, or in
-/// a medium where both have collided, or one of them, or neither.
+/// a medium where both have collided, or only the light's, or neither. The last two are looked for along rays that only
+/// mirrors and glass have turned since they left the camera.
 enum class Technique : uint32_t { connections, light_tracing, surface_merging, points_3d, points_2d, short_beams };
 
 struct TechniqueInfo {
@@ -23,8 +24,8 @@ inline constexpr std::array<TechniqueInfo, 6> kTechniques{
      {Technique::light_tracing, "light-tracing", "vertices of light sub-paths connected to the camera"},
      {Technique::surface_merging, "surface-merging", "photons on surfaces around where an eye sub-path meets these"},
      {Technique::points_3d, "points-3d", "photons in media around where an eye sub-path collides"},
-     {Technique::points_2d, "points-2d", "photons in media around whole rays of an eye sub-path"},
-     {Technique::short_beams, "short-beams", "flights of photons that cross rays of an eye sub-path"}}};
+     {Technique::points_2d, "points-2d", "photons in media around whole rays from the camera"},
+     {Technique::short_beams, "short-beams", "flights of photons that cross whole rays from the camera"}}};
 
 /// A set of techniques.
 class TechniqueSet {
@@ -42,7 +43,8 @@ class TechniqueSet {
 };
 
 /// How techniques that find the same path share it: in proportion to their densities, or to the squares of these
-/// [Veach1997, sec. 9.2].
-enum class Heuristic { balance, power };
+/// [Veach1997, sec. 9.2]; or to densities that know that one eye sub-path shares what it finds among all light
+/// sub-paths, so that these are not as many samples [Grittmann2021].
+enum class Heuristic { balance, power, correlation_aware };
 
 }  // namespace vpm

@@ -153,21 +153,25 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
   all.emplace_back("photon planes alone, single scattering equiangular", planes);
 }
 
-/// Sets of techniques that find all light together: each technique in one that has few others.
-void append_combined(NamedSettings& all, const RenderSettings& base, bool media, bool surfaces) {
+/// Sets of techniques that find all light together: each technique in one that has few others; where not `many`, those
+/// that have the fewest, and all.
+void append_combined(NamedSettings& all, const RenderSettings& base, bool media, bool surfaces, bool many) {
   using T = Technique;
   std::vector<std::vector<T>> sets{{T::connections, T::light_tracing}};
-  if (surfaces) sets.push_back({T::connections, T::light_tracing, T::surface_merging});
+  if (surfaces && many) sets.push_back({T::connections, T::light_tracing, T::surface_merging});
   if (media) {
+    sets.push_back({T::surface_merging, T::points_3d});
+    sets.push_back({T::surface_merging, T::points_2d});
+    sets.push_back({T::surface_merging, T::short_beams});
+  } else {
+    sets.push_back({T::surface_merging});
+  }
+  if (media && many) {
     sets.push_back({T::connections, T::light_tracing, T::points_3d});
     sets.push_back({T::connections, T::light_tracing, T::points_2d});
     sets.push_back({T::connections, T::light_tracing, T::short_beams});
     sets.push_back({T::light_tracing, T::surface_merging, T::points_3d});
-    sets.push_back({T::surface_merging, T::points_2d});
-    sets.push_back({T::surface_merging, T::short_beams});
     sets.push_back({T::surface_merging, T::points_3d, T::points_2d, T::short_beams});
-  } else {
-    sets.push_back({T::surface_merging});
   }
   std::vector<T> every;
   for (const TechniqueInfo& info : kTechniques) every.push_back(info.technique);
@@ -183,14 +187,17 @@ void append_combined(NamedSettings& all, const RenderSettings& base, bool media,
     }
     all.emplace_back("combined: " + names, settings);
   }
+  if (!many) return;
   settings.combined.heuristic = Heuristic::power;
   all.emplace_back("combined by the power heuristic", settings);
+  settings.combined.heuristic = Heuristic::correlation_aware;
+  all.emplace_back("combined by the correlation-aware heuristic", settings);
 }
 
 /// The ways of gathering: in all forms, also with single scattering at drawn distances; with k nearest; in media along
 /// rays; from photons that are guided; on surfaces corrected at borders, and by final gathering, whose rays are guided
 /// or not.
-NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) {
+NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces, bool many_sets) {
   NamedSettings all = forms(base, media);
   if (media)
     for (auto [name, settings] : forms(base, media)) {
@@ -239,7 +246,7 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces) 
   all.emplace_back("photons guided by importance, where they scatter, too", guided);
   guided.guide.split = false;
   all.emplace_back("photons guided by importance, where they scatter, too, but not split", guided);
-  append_combined(all, base, media, surfaces);
+  append_combined(all, base, media, surfaces, many_sets);
   if (surfaces) {
     RenderSettings corrected = base;
     corrected.volume.boundary = corrected.surface.boundary = corrected.caustics.boundary = BoundaryRule::corrected;
@@ -264,7 +271,8 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   paths.seed = effort.seed_of(subject.name + " by paths");
   const Measured reference = by_path_tracer(scene, paths, effort.count(40'000, 300'000));
   std::vector<Check> checks;
-  for (auto& [name, settings] : gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces)) {
+  for (auto& [name, settings] :
+       gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces, effort.count(0, 1) > 0)) {
     if (settings.beam_length == BeamLength::long_beams && scene.world_medium != kVacuum) continue;  // they have no end
     settings.seed = effort.seed_of(subject.name + name);
     const int passes = static_cast<int>(effort.count(20, 64));

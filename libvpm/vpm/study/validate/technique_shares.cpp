@@ -10,6 +10,7 @@
 #include "vpm/base/warp.h"
 #include "vpm/estimate/combined/mis_weights.h"
 #include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/lights.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
@@ -62,6 +63,7 @@ WholePath random_path(Rng& rng, int events) {
     path.light = DiscLight{path.points[0], normal, radius, Rgb(1.0f)};
     path.junctions[0] = {Junction::Kind::surface, normal};
   }
+  path.junctions[0].light = true;
   for (size_t i = 1; i + 1 < n; ++i) {
     PathVertex& vertex = path.vertices[i];
     const Vec3 in = path.direction(i - 1), on = path.direction(i);
@@ -120,6 +122,13 @@ struct Found {
 
 bool is_free(const WholePath& path, size_t i) { return path.junctions[i].kind == Junction::Kind::free; }
 
+/// Is a vertex the first from the eye that is not specular?
+bool first_from_eye(const WholePath& path, size_t i) {
+  for (size_t j = i + 1; j < path.last(); ++j)
+    if (!is_free(path, j)) return false;
+  return true;
+}
+
 /// All densities, from the definitions: products over all vertices.
 std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& counts) {
   const size_t k = path.last();
@@ -152,12 +161,16 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
   for (size_t i = 1; i < k; ++i) {
     const Junction& at = path.junctions[i];
     const double merged = product(i + 1, i);
-    if (at.kind == Junction::Kind::surface) add(By::surface, i, counts.surfaces * merged);
+    const bool first = first_from_eye(path, i);
+    const double shared = first ? 1.0 : counts.shared;
+    const bool straight = i == 1 && counts.light;
+    if (at.kind == Junction::Kind::surface && !straight) add(By::surface, i, shared * counts.surfaces * merged);
     if (at.kind != Junction::Kind::medium) continue;
     const Rgb &from_light = path.transmittances[i - 1], &from_eye = path.transmittances[i];
     const double sine = glm::length(glm::cross(Vec3d(path.direction(i - 1)), Vec3d(path.direction(i))));
     const double eye = mean_of(at.sigma_t * from_eye), light = mean_of(at.sigma_t * from_light);
-    add(By::points_3d, i, counts.points_3d * merged);
+    add(By::points_3d, i, shared * counts.points_3d * merged);
+    if (!first) continue;
     add(By::points_2d, i, counts.points_2d * merged / eye);
     add(By::beams, i, counts.beams * sine * merged / eye * mean_of(from_light) / light);
   }
@@ -182,7 +195,7 @@ SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
     traced.light[i] = arrive(counts, traced.light_leaves[i - 1], path.leg(i - 1), path.junctions[i], path.points[i]);
     traced.light_leaves[i] =
         depart(counts, path.junctions[i], path.vertices[i], traced.light[i], path.leg(i - 1), path.direction(i),
-               density_on(path, i, true), density_on(path, i, false), SubPath::light);
+               density_on(path, i, true), density_on(path, i, false), SubPath::light, i + 1 == k);
   }
   traced.eye_leaves[k] = depart_from_camera(counts, {path.points[k], -path.direction(k - 1)}, path.camera_density);
   for (size_t i = k - 1; i >= 1; --i) {
@@ -194,7 +207,7 @@ SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
     const double on = specular ? 1.0 : density_on(path, i, false);
     const double back = specular ? 1.0 / path.refractions[i] : density_on(path, i, true);
     traced.eye_leaves[i] = depart(counts, path.junctions[i], vertex, traced.eye[i], path.leg(i), -path.direction(i - 1),
-                                  on, back, SubPath::eye);
+                                  on, back, SubPath::eye, first_from_eye(path, i));
   }
   return traced;
 }
@@ -216,9 +229,10 @@ double share_of(const WholePath& path, const TechniqueCounts& counts, const SubP
   }
   const Junction& at = path.junctions[i];
   const double sine = glm::length(glm::cross(Vec3d(path.direction(i - 1)), Vec3d(path.direction(i))));
-  const MergeTerms terms = at.kind == Junction::Kind::surface
-                               ? MergeTerms{.surface = counts.weigh(counts.surfaces)}
-                               : merges_in_medium(counts, at.sigma_t, path.leg(i - 1), path.leg(i), sine);
+  const MergeTerms terms =
+      at.kind == Junction::Kind::surface
+          ? merges_on_surface(counts, first_from_eye(path, i))
+          : merges_in_medium(counts, at.sigma_t, path.leg(i - 1), path.leg(i), sine, first_from_eye(path, i));
   const double all = all_at_merge(counts, terms, traced.light[i], density_on(path, i, false), traced.eye[i],
                                   density_on(path, i, true));
   const double term = found.by == By::surface     ? terms.surface
@@ -239,6 +253,7 @@ TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
   counts.points_2d = number();
   counts.beams = number();
   counts.heuristic = heuristic;
+  if (heuristic == Heuristic::correlation_aware) counts.shared = 0.01;
   return counts;
 }
 
@@ -273,7 +288,7 @@ std::vector<Check> check_shares(const Effort& effort) {
   constexpr size_t kChunk = 1000;
   const uint64_t paths = effort.count(40'000, 1'000'000), seed = effort.seed_of("shares of techniques");
   std::vector<Check> checks;
-  for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
+  for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power, Heuristic::correlation_aware}) {
     std::vector<WorstShares> parts(chunk_count(paths, kChunk));
     parallel_for_chunks(paths, kChunk, [&](size_t begin, size_t end, size_t chunk) {
       for (uint64_t i = begin; i < end; ++i) {
@@ -284,7 +299,9 @@ std::vector<Check> check_shares(const Effort& effort) {
     });
     WorstShares worst;
     for (const WorstShares& part : parts) worst.merge(part);
-    const char* name = heuristic == Heuristic::balance ? "balance heuristic" : "power heuristic";
+    const char* name = heuristic == Heuristic::balance ? "balance heuristic"
+                       : heuristic == Heuristic::power ? "power heuristic"
+                                                       : "correlation-aware heuristic";
     checks.push_back(check_bound(fmt::format("{}, the largest error of a share", name), worst.share, 0.0, kBound));
     checks.push_back(check_bound(fmt::format("{}, of a path's sum of shares", name), worst.sum, 0.0, kBound));
     checks.push_back(check_bound(fmt::format("{}, shares of a path, fewer than three", name),
@@ -293,10 +310,52 @@ std::vector<Check> check_shares(const Effort& effort) {
   return checks;
 }
 
+/// What a light sends to a point and what photons bring there is the same light: for each sample towards the light,
+/// irradiance times its density is the power of photons times their densities, over the squared distance.
+std::vector<Check> check_emission(const Effort& effort) {
+  const std::pair<const char*, Light> lights[] = {
+      {"point", PointLight{{0.3f, 1.0f, 0.2f}, kColour}},
+      {"spot", SpotLight{{0.0f, 1.2f, 0.0f}, kAxis, 0.95f, 0.5f, kColour}},
+      {"beam", BeamLight{{-0.1f, 1.2f, -0.2f}, kAxis, 0.8f, kColour}},
+      {"quad", test_quad()},
+      {"disc", test_disc()},
+      {"sphere", test_sphere()},
+      {"mesh", MeshLight{std::make_shared<const EmittingMesh>(test_tetrahedron()), kColour}},
+      {"directional", DirectionalLight{kAxis, kColour}},
+      {"constant environment", ConstantEnvironment{kColour}},
+      {"environment map", test_map().light()}};
+  std::vector<Check> checks;
+  for (const auto& [name, light] : lights) {
+    Rng rng(effort.seed_of(name), rng_stream(RngUse::test, 0), 0);
+    double worst = 0.0;
+    uint64_t seen = 0;
+    for (int i = 0; i < 4'000; ++i) {
+      const Vec3 point = kLitBox.lo + kLitBox.extent() * Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+      const std::optional<Incident> incident = sample_towards(light, point, rng);
+      if (!incident) continue;
+      const EmissionDensity density = emission_density(light, kLitBox, incident->normal, -incident->direction);
+      // Photons of a map carry the power of their direction.
+      const auto* map = std::get_if<EnvironmentMap>(&light);
+      const double power = map ? environment_radiance(light, incident->direction).g / density.place / density.flight
+                               : light_power(light, kLitBox).g;
+      const double sampled = sampled_density(light, point, {incident->direction, incident->distance, incident->normal});
+      const double spread = density.parallel ? 1.0 : 1.0 / (double{incident->distance} * incident->distance);
+      const double by_photons = power * density.place * density.flight * spread;
+      if (!(by_photons > 0.0)) continue;
+      worst = std::max(worst, std::abs(incident->irradiance.g * sampled / by_photons - 1.0));
+      ++seen;
+    }
+    checks.push_back(check_bound(fmt::format("{}, the largest relative difference", name), worst, 0.0, 2e-4));
+    checks.push_back(check_bound(fmt::format("{}, too few points lit", name), seen < 100, 0.0, 0.0));
+  }
+  return checks;
+}
+
 }  // namespace
 
 std::vector<Experiment> technique_experiments() {
-  return {{0, "shares of combined techniques, by the densities of whole paths", check_shares}};
+  return {{0, "shares of combined techniques, by the densities of whole paths", check_shares},
+          {0, "densities of emission, by what lights send to points", check_emission}};
 }
 
 }  // namespace vpm
