@@ -27,28 +27,49 @@ auto kernel_of(KernelKind kind, float radius) {
   };
 }
 
+/// A sub-path as it leaves the camera or a vertex.
+struct EyeBranch {
+  PathState state;
+  Departure from;
+  bool only_specular = true;  // are there no other vertices yet?
+  int events = 0;             // so far
+};
+
 class EyeSubPath {
  public:
-  EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work)
-      : c_(context),
-        work_(work),
-        state_{ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)},
-        from_(depart_from_camera(context.counts, ray, density_of(ray))) {}
+  EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work) : c_(context), work_(work) {
+    at_.state = {ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)};
+    at_.from = depart_from_camera(context.counts, ray, density_of(ray));
+  }
 
   KernelEstimate follow() {
-    for (int events = 0; events < c_.max_events; ++events) {
-      if (only_specular_) merge_along();
-      const std::optional<PathVertex> vertex = fly();
-      if (!vertex || is_black(state_.throughput)) return radiance_;
-      if (!vertex->specular) meet_light(*vertex);
-      if (!go_on(*vertex)) return radiance_;
-      only_specular_ &= vertex->specular;
+    follow_branch();
+    while (!collided_.empty()) {
+      at_ = collided_.back();
+      collided_.pop_back();
+      follow_branch();
     }
-    ++work_.counters.cut_paths;
     return radiance_;
   }
 
  private:
+  void follow_branch() {
+    for (; at_.events < c_.max_events; ++at_.events) {
+      const std::optional<PathVertex> vertex = at_.only_specular ? pass_through() : fly();
+      if (!vertex || !visit(*vertex)) return;
+    }
+    ++work_.counters.cut_paths;
+  }
+
+  /// Finds light at a vertex. Returns whether the sub-path goes on from there.
+  bool visit(const PathVertex& vertex) {
+    if (is_black(at_.state.throughput)) return false;
+    if (!vertex.specular) meet_light(vertex);
+    if (!go_on(vertex)) return false;
+    at_.only_specular &= vertex.specular;
+    return true;
+  }
+
   /// The density with which the pixel draws the direction, 1/sr.
   double density_of(const Ray& ray) const {
     const Camera& camera = c_.scene.camera;
@@ -70,9 +91,11 @@ class EyeSubPath {
     Ray ray;
     MediumId medium;
     Rgb passed{1.0f};  // from the last vertex to the start of the stretch
+    bool through_medium = false;
 
     bool pass(const Stretch& stretch) {
       if (medium == kVacuum) return true;
+      through_medium = true;
       const Medium& around = path.c_.scene.media[medium];
       const Interval interval{0.0f, stretch.length};
       DensityIntegralsAlong& integrals = path.work_.scratch.integrals;
@@ -90,10 +113,35 @@ class EyeSubPath {
     }
   };
 
-  void merge_along() {
-    if (c_.counts.points_2d == 0.0 && c_.counts.beams == 0.0) return;
-    Along along{*this, state_.ray, state_.medium};
-    each_stretch(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
+  /// Takes a ray that comes from the camera to the surface that ends it, attenuated, as if it could not collide; and
+  /// from where it does collide a branch of its own. So no chance decides whether the surface is seen.
+  std::optional<PathVertex> pass_through() {
+    Along along{*this, at_.state.ray, at_.state.medium};
+    const std::optional<Hit> hit =
+        each_stretch(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
+    if (along.through_medium) branch_off();
+    at_.state.throughput *= along.passed;
+    if (is_black(at_.state.throughput)) return std::nullopt;
+    at_.state.ray = along.ray;
+    at_.state.medium = along.medium;
+    if (!hit) {
+      see_environment(along.passed);
+      return std::nullopt;
+    }
+    at_.state.ray.origin = hit->position;
+    return arrive_at({.kind = EventKind::surface, .hit = *hit}, along.passed);
+  }
+
+  /// Follows a branch to where the ray collides, if it does; it waits there.
+  void branch_off() {
+    const EyeBranch start = at_;
+    Rgb passed(1.0f);
+    const Event event = fly_to_event(passed);
+    if (event.kind == EventKind::collision && visit(arrive_at(event, passed))) {
+      ++at_.events;
+      collided_.push_back(at_);
+    }
+    at_ = start;
   }
 
   void merge_points_2d(const Along& along, const Interval& interval) {
@@ -106,13 +154,13 @@ class EyeSubPath {
     const uint32_t visited = map.visit_near_ray(along.ray, interval, [&](uint32_t number, float distance2) {
       const LightVertex& light = c_.light.of_medium(along.medium, number);
       const double t = glm::dot(light.vertex.point - along.ray.origin, along.ray.direction);
-      const Leg leg = leg_to(from_, light.vertex.point, along.to(t));
+      const Leg leg = leg_to(at_.from, light.vertex.point, along.to(t));
       const double phase = phase_value(medium.phase, light.vertex.travel, -along.ray.direction);
       const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg,
                                                  sine_of(light.vertex.travel, along.ray.direction), true);
-      const SubPathSums eye = arrive(c_.counts, from_, leg, light.junction, light.vertex.point);
+      const SubPathSums eye = arrive(c_.counts, at_.from, leg, light.junction, light.vertex.point);
       const double share = merges.points_2d / all_at_merge(c_.counts, merges, light.sums, phase, eye, phase);
-      const Rgb value = state_.throughput * leg.transmittance * medium.albedo() * light.power;
+      const Rgb value = at_.state.throughput * leg.transmittance * medium.albedo() * light.power;
       add_merged(times(value, phase * share / c_.light_paths), kernel(distance2));
     });
     count(work_.counters.gather.visited, visited);
@@ -146,14 +194,14 @@ class EyeSubPath {
     const Rgb power(found.r[i], found.g[i], found.b[i]);
     const Rgb left = analog_weight(medium, channel_shares(power), integral.value, false);
     const Leg to_light = leg_to(beam.start, place, beam.before * transmittance(medium, integral.value));
-    const Leg to_eye = leg_to(from_, place, along.to(found.t[i]));
+    const Leg to_eye = leg_to(at_.from, place, along.to(found.t[i]));
     const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
     const double phase = phase_value(medium.phase, direction, -along.ray.direction);
     const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, to_light, to_eye, found.sine[i], true);
     const SubPathSums light = arrive(c_.counts, beam.start, to_light, there, place);
-    const SubPathSums eye = arrive(c_.counts, from_, to_eye, there, place);
+    const SubPathSums eye = arrive(c_.counts, at_.from, to_eye, there, place);
     const double share = merges.beams / all_at_merge(c_.counts, merges, light, phase, eye, phase);
-    const Rgb value = state_.throughput * to_eye.transmittance * medium.sigma_s * density * power * left;
+    const Rgb value = at_.state.throughput * to_eye.transmittance * medium.sigma_s * density * power * left;
     add_merged(times(value, phase * share / found.sine[i]), kernel(found.distance2[i]));
   }
 
@@ -161,30 +209,42 @@ class EyeSubPath {
 
   /// Flies to the next vertex, and sees the lights that the flight runs into.
   std::optional<PathVertex> fly() {
-    tracks_.clear();
-    const Event event = next_event(c_.scene, c_.strategy, state_, work_.rng, work_.counters.walk, kInfinity, &tracks_);
     Rgb passed(1.0f);
+    const Event event = fly_to_event(passed);
+    if (event.kind == EventKind::escape) see_environment(passed);
+    if (event.kind != EventKind::collision && event.kind != EventKind::surface) return std::nullopt;
+    return arrive_at(event, passed);
+  }
+
+  /// Flies to the next event; `passed` becomes the transmittance up to it.
+  Event fly_to_event(Rgb& passed) {
+    tracks_.clear();
+    const Event event =
+        next_event(c_.scene, c_.strategy, at_.state, work_.rng, work_.counters.walk, kInfinity, &tracks_);
     for (const Track& track : tracks_) {
       const Medium& medium = c_.scene.media[track.medium];
       const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
       count(work_.counters.walk.lookups, integral.lookups);
       passed *= transmittance(medium, integral.value);
     }
-    if (event.kind == EventKind::escape) see_environment(passed);
-    if (event.kind != EventKind::collision && event.kind != EventKind::surface) return std::nullopt;
-    const PathVertex vertex = vertex_at(c_.scene, event, state_);
-    leg_ = leg_to(from_, vertex.point, passed);
+    return event;
+  }
+
+  /// Makes the event a vertex.
+  PathVertex arrive_at(const Event& event, const Rgb& passed) {
+    const PathVertex vertex = vertex_at(c_.scene, event, at_.state);
+    leg_ = leg_to(at_.from, vertex.point, passed);
     if (vertex.on_surface) see_emitter(vertex);
     junction_ = junction_of(c_.scene, vertex);
-    sums_ = arrive(c_.counts, from_, leg_, junction_, vertex.point);
+    sums_ = arrive(c_.counts, at_.from, leg_, junction_, vertex.point);
     return vertex;
   }
 
   void see_environment(const Rgb& passed) {
-    const Vec3 direction = state_.ray.direction;
+    const Vec3 direction = at_.state.ray.direction;
     for (size_t i = 0; i < c_.scene.lights.size(); ++i) {
       const Rgb seen = environment_radiance(c_.scene.lights[i], direction);
-      if (!is_black(seen)) run_into(static_cast<int>(i), {passed, 1.0}, from_.point, Vec3(0.0f), seen);
+      if (!is_black(seen)) run_into(static_cast<int>(i), {passed, 1.0}, at_.from.point, Vec3(0.0f), seen);
     }
   }
 
@@ -197,21 +257,22 @@ class EyeSubPath {
 
   /// Adds the light that the sub-path has run into, at a point with that normal.
   void run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted) {
-    const Rgb seen = state_.throughput * emitted;
-    if (only_specular_) {  // no other technique can find it
+    const Rgb seen = at_.state.throughput * emitted;
+    if (at_.only_specular) {  // no other technique can find it
       radiance_ += KernelEstimate(seen);
       return;
     }
     if (!c_.counts.light) return;
     const Light& light = c_.scene.lights[number];
-    const EmissionDensity emission = emission_density(light, c_.scene.bounds, normal, -state_.ray.direction);
+    const EmissionDensity emission = emission_density(light, c_.scene.bounds, normal, -at_.state.ray.direction);
     const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
-                                              {point, -state_.ray.direction}, normal);
+                                              {point, -at_.state.ray.direction}, normal);
     const Junction at_light{is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, normal, Rgb(0.0f),
                             true};
-    const SubPathSums at_eye = arrive(c_.counts, start, leg, from_.from, from_.point);
-    const SubPathSums further = arrive(c_.counts, from_, leg, at_light, point);
-    radiance_ += KernelEstimate(times(seen, shares_of_connection(c_.counts, start, at_eye, from_, further).run_into));
+    const SubPathSums at_eye = arrive(c_.counts, start, leg, at_.from.from, at_.from.point);
+    const SubPathSums further = arrive(c_.counts, at_.from, leg, at_light, point);
+    radiance_ +=
+        KernelEstimate(times(seen, shares_of_connection(c_.counts, start, at_eye, at_.from, further).run_into));
   }
 
   /// What light is found at a vertex.
@@ -243,12 +304,12 @@ class EyeSubPath {
                                               {point, -incident->direction}, incident->normal);
     const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
     const Departure eye = depart(c_.counts, junction_, vertex, sums_, leg_, incident->direction, scattered.forward,
-                                 scattered.reverse, SubPath::eye, only_specular_);
+                                 scattered.reverse, SubPath::eye, at_.only_specular);
     const Junction at_light{start.from.kind, incident->normal, Rgb(0.0f), true};
     const double share = shares_of_connection(c_.counts, start, arrive(c_.counts, start, leg, junction_, vertex.point),
                                               eye, arrive(c_.counts, eye, leg, at_light, point))
                              .connected;
-    const Rgb value = state_.throughput * scattered.value * incident->irradiance * passed;
+    const Rgb value = at_.state.throughput * scattered.value * incident->irradiance * passed;
     radiance_ += KernelEstimate(times(value, share / picked.probability));
   }
 
@@ -281,14 +342,14 @@ class EyeSubPath {
     if (is_black(passed)) return;
     const Leg leg{passed, distance};
     const Departure eye = depart(c_.counts, junction_, vertex, sums_, leg_, direction, here.forward, here.reverse,
-                                 SubPath::eye, only_specular_);
+                                 SubPath::eye, at_.only_specular);
     const Departure departure = depart(c_.counts, light.junction, light.vertex, light.sums, light.arrived, -direction,
                                        there.forward, there.reverse, SubPath::light, false);
     const double share =
         shares_of_connection(c_.counts, departure, arrive(c_.counts, departure, leg, junction_, vertex.point), eye,
                              arrive(c_.counts, eye, leg, light.junction, light.vertex.point))
             .connected;
-    const Rgb value = state_.throughput * here.value * there.value * light.power * passed;
+    const Rgb value = at_.state.throughput * here.value * there.value * light.power * passed;
     radiance_ += KernelEstimate(times(value, share * leg.per_square() / c_.counts.connections));
   }
 
@@ -309,10 +370,10 @@ class EyeSubPath {
       const Scattered scattered = scattered_into(c_.scene, vertex, -travel, SubPath::eye);
       const float cosine = std::abs(glm::dot(vertex.hit.normal, travel));
       if (is_black(scattered.value) || cosine == 0.0f) return;
-      const MergeTerms merges = merges_on_surface(c_.counts, only_specular_);
+      const MergeTerms merges = merges_on_surface(c_.counts, at_.only_specular);
       const double share =
           merges.surface / all_at_merge(c_.counts, merges, light.sums, scattered.forward, sums_, scattered.reverse);
-      const Rgb value = state_.throughput * scattered.value * light.power;
+      const Rgb value = at_.state.throughput * scattered.value * light.power;
       add_merged(times(value, share / cosine / c_.light_paths), kernel(distance2));
     });
     count(work_.counters.gather.visited, visited);
@@ -329,9 +390,9 @@ class EyeSubPath {
       const LightVertex& light = c_.light.of_medium(vertex.medium, number);
       const double phase = phase_value(medium.phase, light.vertex.travel, -vertex.travel);
       const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg_,
-                                                 sine_of(light.vertex.travel, vertex.travel), only_specular_);
+                                                 sine_of(light.vertex.travel, vertex.travel), at_.only_specular);
       const double share = merges.points_3d / all_at_merge(c_.counts, merges, light.sums, phase, sums_, phase);
-      const Rgb value = state_.throughput * medium.albedo() * light.power / junction_.sigma_t;
+      const Rgb value = at_.state.throughput * medium.albedo() * light.power / junction_.sigma_t;
       add_merged(times(value, phase * share / c_.light_paths), kernel(distance2));
     });
     count(work_.counters.gather.visited, visited);
@@ -342,20 +403,20 @@ class EyeSubPath {
     double forward = 1.0, reverse = 1.0;
     if (!vertex.on_surface) {
       const Medium& medium = c_.scene.media[vertex.medium];
-      if (!scatter_in_medium(medium, state_, work_.rng)) return false;
-      forward = reverse = phase_value(medium.phase, vertex.travel, state_.ray.direction);
+      if (!scatter_in_medium(medium, at_.state, work_.rng)) return false;
+      forward = reverse = phase_value(medium.phase, vertex.travel, at_.state.ray.direction);
     } else {
       Scatter scatter;
-      if (!scatter_at_surface(c_.scene, vertex.hit, state_, work_.rng, scatter)) return false;
-      state_.throughput *= scatter.radiance_scale;
+      if (!scatter_at_surface(c_.scene, vertex.hit, at_.state, work_.rng, scatter)) return false;
+      at_.state.throughput *= scatter.radiance_scale;
       reverse = scatter.radiance_scale;
       if (!vertex.specular) {
         forward = scatter.pdf;
-        reverse = scatter_value(vertex.material, vertex.hit, -state_.ray.direction, -vertex.travel).pdf;
+        reverse = scatter_value(vertex.material, vertex.hit, -at_.state.ray.direction, -vertex.travel).pdf;
       }
     }
-    from_ = depart(c_.counts, junction_, vertex, sums_, leg_, state_.ray.direction, forward, reverse, SubPath::eye,
-                   only_specular_);
+    at_.from = depart(c_.counts, junction_, vertex, sums_, leg_, at_.state.ray.direction, forward, reverse,
+                      SubPath::eye, at_.only_specular);
     return true;
   }
 
@@ -366,9 +427,8 @@ class EyeSubPath {
 
   const CombinedContext& c_;
   EyeWork& work_;
-  PathState state_;
-  Departure from_;
-  bool only_specular_ = true;  // are there no other vertices yet?
+  EyeBranch at_;
+  std::vector<EyeBranch> collided_;  // branches that wait
   // Of the last vertex:
   Leg leg_;
   Junction junction_;
