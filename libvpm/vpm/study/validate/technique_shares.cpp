@@ -9,6 +9,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/combined/mis_weights.h"
+#include "vpm/scene/camera.h"
 #include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/lights.h"
 #include "vpm/surface/shading.h"
@@ -351,11 +352,22 @@ std::vector<Check> check_emission(const Effort& effort) {
   return checks;
 }
 
+/// The solid angle of the film: that of a rectangle of half the sides a and b at the distance 1 is 4 atan(a b / sqrt(1
+/// + a^2 + b^2)).
+std::vector<Check> check_camera(const Effort&) {
+  const Camera camera = make_camera(Vec3(0.0f), {0, 0, -1}, {0, 1, 0}, 90.0f, {300, 200});
+  double sum = 0.0;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) sum += 1.0 / camera.film_per_angle(camera.ray(Vec2(x, y) + 0.5f).direction);
+  return {check_bound("the solid angle of a film", sum, 4.0 * std::atan(1.5 / std::sqrt(1.0 + 1.5 * 1.5 + 1.0)), 1e-4)};
+}
+
 }  // namespace
 
 std::vector<Experiment> technique_experiments() {
   return {{0, "shares of combined techniques, by the densities of whole paths", check_shares},
-          {0, "densities of emission, by what lights send to points", check_emission}};
+          {0, "densities of emission, by what lights send to points", check_emission},
+          {0, "densities of a camera", check_camera}};
 }
 
 }  // namespace vpm
