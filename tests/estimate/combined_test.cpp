@@ -77,7 +77,7 @@ TEST(Combined, IsTheSameBitForBitOnAnyNumberOfThreads) {
   EXPECT_EQ(one.pixels, three.pixels);
 }
 
-/// The mean of many passes by one technique, and the relative square error of another's, moved by so many columns.
+/// The mean of many passes by one technique.
 Image mean_picture(const Scene& scene, Technique technique, uint64_t seed) {
   RenderSettings settings = combined_settings_of(20'000);
   settings.seed = seed;
@@ -92,6 +92,7 @@ Image mean_picture(const Scene& scene, Technique technique, uint64_t seed) {
   return sum;
 }
 
+/// The square difference of a picture from another that is moved by so many columns.
 double difference(const Image& a, const Image& b, int columns) {
   double sum = 0.0;
   for (int y = 0; y < a.height; ++y)
@@ -113,6 +114,57 @@ TEST(Combined, LightTracingFillsPixelsAsTheirFiltersSay) {
   const double here = difference(traced, sampled, 0);
   EXPECT_LT(here, 0.5 * difference(traced, sampled, 1));
   EXPECT_LT(here, 0.5 * difference(traced, sampled, -1));
+}
+
+/// Samples that were dropped as they were not finite, in a few passes by all techniques.
+uint64_t dropped(const Scene& scene, const RenderSettings& settings) {
+  uint64_t count = 0;
+  for (int pass = 0; pass < 4; ++pass) {
+    const RenderStatistics s = render_combined_pass(scene, settings, pass, kGoOn).statistics;
+    count += s.eye.non_finite + s.ledger.non_finite;
+  }
+  return count;
+}
+
+Scene foggy_box_of(const Medium& medium, const Light& light) {
+  Scene scene = boxed_medium(medium, light);
+  scene.camera = make_camera(Vec3(0.5f, 1.0f, 4.0f), Vec3(0.0f), Vec3(0, 1, 0), 40.0f, {24, 20});
+  return scene;
+}
+
+TEST(Combined, DropsNothingWhereDensitiesVanish) {
+  const PointLight point{Vec3(0.3f, 2.0f, 0.4f), Rgb(5.0f)};
+  const RenderSettings settings = combined_settings_of(2'000);
+  EXPECT_EQ(dropped(foggy_box_of(make_medium(nullptr, Rgb(150.0f), 0.9f), ConstantEnvironment{Rgb(1.0f)}), settings),
+            0u);
+  EXPECT_EQ(dropped(foggy_box_of(make_medium(nullptr, Rgb(0.0f, 1.0f, 2.0f), 0.9f), point), settings), 0u);
+  EXPECT_EQ(dropped(foggy_box_of(make_medium(nullptr, Rgb(1.0f), 0.0f), point), settings), 0u);
+  // A sun of one texel on a black sky, and a spot with a hard edge, whose light only merges find.
+  std::vector<Rgb> sky(64 * 32, Rgb(0.0f));
+  sky[5 * 64 + 40] = Rgb(100.0f);
+  const EnvironmentMap sun{std::make_shared<const ImageEnvironment>(64, 32, sky)};
+  EXPECT_EQ(dropped(foggy_box_of(make_medium(nullptr, Rgb(1.0f), 0.9f), sun), settings), 0u);
+  const SpotLight spot{Vec3(0.3f, 2.0f, 0.4f), Vec3(0, -1, 0), 0.9f, 0.9f, Rgb(5.0f)};
+  RenderSettings without = settings;
+  without.combined.techniques.set(Technique::connections, false);
+  EXPECT_EQ(dropped(foggy_box_of(make_medium(nullptr, Rgb(1.0f), 0.9f), spot), without), 0u);
+}
+
+/// Rays leave large tilted triangles farther off than others: they must be aimed at lamps from there.
+TEST(Combined, SeesSmallLampsFromLargeTiltedTriangles) {
+  Scene scene;
+  const Vec3d along(8.66, 5.0, 0.0), across(-1.7, 3.1, 9.0);
+  add_shape(scene, quad_mesh(-0.5 * (along + across), along, across), Lambertian{Rgb(0.6f)});
+  const Vec3 normal(glm::normalize(glm::cross(along, across)));
+  const Vec3 above = normal.y > 0.0f ? normal : -normal;
+  scene.lights.push_back(SphereLight{2.0f * above, 0.02f, Rgb(1000.0f)});
+  add_shape(scene, SphereShape{2.0f * above, 0.02f}, Lambertian{Rgb(0.0f)}, nullptr, 0);
+  scene.camera = make_camera(above, Vec3(0.4f, 0.2f, -0.3f), Vec3(0, 0, 1), 40.0f, {24, 20});  // below the lamp
+  scene.geometry.commit();
+  finish(scene);
+  const Image sampled = mean_picture(scene, Technique::connections, 1);
+  const Image traced = mean_picture(scene, Technique::light_tracing, 2);
+  EXPECT_NEAR(channel_means(sampled).g / channel_means(traced).g, 1.0, 0.02);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ void check_photon_beams(const RenderSettings& s, const SceneFacts& facts) {
             "there are no planes: " + gather, "leave out 'planes', or write gather = \"photon-planes\"");
   refuse_if(s.flights > 0 && !s.volume.gathers_flights(), "photons.flights", "no flights are kept: " + gather,
             "leave out 'flights', or write gather = \"photon-beams\"");
-  if (!s.volume.gathers_flights()) return;
+  if (!s.volume.gathers_flights() || s.integrator == Integrator::combined) return;
   refuse_if(s.photons_in_cube > 0 && s.volume.crosses_beams(), "photons.in_cube",
             "where beams cross rays, collisions beside these weigh by their own directions, and must not be merged",
             "write 0, or another 'gather' in [volume]");

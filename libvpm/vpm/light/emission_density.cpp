@@ -23,28 +23,29 @@ double area_of_light(const MeshLight& l) { return l.mesh->area(); }
 
 EmissionDensity emission_density(const Light& light, const Box& scene, const Vec3& normal, const Vec3& travel) {
   using D = EmissionDensity;
-  return std::visit(Overloads{[&](const PointLight&) {
-                                return D{1.0, 0.25 / kPiD};
-                              },
-                              [&](const SpotLight& l) {
-                                return D{1.0, spot_density(l, travel)};
-                              },
-                              [&](const BeamLight& l) {
-                                return D{1.0, 1.0 / (kPiD * l.radius * l.radius), true};
-                              },
-                              [&](const AreaLight auto& l) { return of_area(area_of_light(l), normal, travel); },
-                              [&](const DirectionalLight& l) {
-                                return D{1.0, 1.0 / area_across(scene, l.direction), true};
-                              },
-                              [&](const ConstantEnvironment&) {
-                                // All lines that meet the box are equally likely: 1 over pi times its surface.
-                                const Vec3d faces = face_areas(scene);
-                                return D{0.25 / kPiD, 2.0 / (faces.x + faces.y + faces.z), true};
-                              },
-                              [&](const EnvironmentMap& l) {
-                                return D{l.image->pdf(-travel), 1.0 / area_across(scene, travel), true};
-                              }},
-                    light);
+  return std::visit(
+      Overloads{[&](const PointLight&) {
+                  return D{1.0, 0.25 / kPiD};
+                },
+                [&](const SpotLight& l) {
+                  return D{1.0, spot_density(l, travel)};
+                },
+                [&](const BeamLight& l) {
+                  return D{1.0, 1.0 / (kPiD * l.radius * l.radius), true};
+                },
+                [&](const AreaLight auto& l) { return of_area(area_of_light(l), normal, travel); },
+                [&](const DirectionalLight& l) {
+                  return D{1.0, 1.0 / area_across(scene, l.direction), true};
+                },
+                [&](const ConstantEnvironment&) {
+                  // All lines that meet the box are equally likely: 1 over pi times its surface.
+                  const Vec3d faces = face_areas(scene);
+                  return D{0.25 / kPiD, 2.0 / (faces.x + faces.y + faces.z), true};
+                },
+                [&](const EnvironmentMap& l) {  // rounding may put a direction beside its texel
+                  return D{std::max(1e-30, double{l.image->pdf(-travel)}), 1.0 / area_across(scene, travel), true};
+                }},
+      light);
 }
 
 double sampled_density(const Light& light, const Vec3& place, const SeenLight& seen) {

@@ -2,19 +2,18 @@
 #include "vpm/render/combined_pass.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
-#include "vpm/estimate/combined/combined.h"
 #include "vpm/estimate/pass_map.h"
-#include "vpm/render/image_pass.h"
 
 namespace vpm {
 namespace {
 
-constexpr size_t kPathChunk = 2048;     // light sub-paths traced one after another
-constexpr uint64_t kFirstPaths = 1024;  // that tell how many vertices there are to connect to
-constexpr double kConnections = 1.0;    // of each vertex of an eye sub-path, to vertices of light sub-paths
+constexpr size_t kPathChunk = 2048;   // light sub-paths traced one after another
+constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are to connect to
+constexpr double kConnections = 1.0;  // of each vertex of an eye sub-path, to vertices of light sub-paths
 
 /// The radii of the pass. Those of media are the least that any of them has by default.
 MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings, int pass) {
@@ -49,15 +48,17 @@ TechniqueCounts counts_of_pass(const RenderSettings& settings, const MergeKernel
 }
 
 /// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
-/// latter has kConnections: told by the first sub-paths, as weights must be known while all are traced.
+/// latter has kConnections, one at the most: told by a few sub-paths more, as weights must be known while all are
+/// traced.
 double connections_of_vertex(const LightTracing& tracing, uint64_t paths) {
   const TechniqueCounts none;
-  LightSubPaths first(tracing.scene.media.size());
-  const uint64_t number = std::min(paths, kFirstPaths);
+  LightSubPaths few(tracing.scene.media.size());
+  const uint64_t number = std::min(paths, kFewPaths);
   trace_light_sub_paths(
-      {tracing.scene, tracing.strategy, tracing.transmittance, none, tracing.seed, tracing.pass, tracing.max_events}, 0,
-      number, first);
-  return kConnections * static_cast<double>(number) / std::max<double>(1.0, static_cast<double>(first.vertices.size()));
+      {tracing.scene, tracing.strategy, tracing.transmittance, none, tracing.seed, tracing.pass, tracing.max_events},
+      paths, paths + number, few);
+  const auto vertices = static_cast<double>(few.vertices.size());
+  return std::min(1.0, kConnections * static_cast<double>(number) / std::max(1.0, vertices));
 }
 
 }  // namespace

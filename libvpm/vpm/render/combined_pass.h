@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "vpm/estimate/combined/combined.h"
 #include "vpm/render/image_pass.h"

@@ -1,5 +1,5 @@
 // The combined estimator: sub-paths from the eye meet those from the lights in every way there is, and each way has
-// that share in a path that its density has among those of all. It finds all light, each path once.
+// that share in a path that its density has among those of all. Each path counts once, if a technique in use finds it.
 #pragma once
 
 #include <vector>

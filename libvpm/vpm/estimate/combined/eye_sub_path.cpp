@@ -63,6 +63,10 @@ class EyeSubPath {
 
   /// Finds light at a vertex. Returns whether the sub-path goes on from there.
   bool visit(const PathVertex& vertex) {
+    if (!is_finite(at_.state.throughput)) {  // the sample is counted, and dropped
+      radiance_ += KernelEstimate(at_.state.throughput);
+      return false;
+    }
     if (is_black(at_.state.throughput)) return false;
     if (!vertex.specular) meet_light(vertex);
     if (!go_on(vertex)) return false;
@@ -91,16 +95,16 @@ class EyeSubPath {
     Ray ray;
     MediumId medium;
     Rgb passed{1.0f};  // from the last vertex to the start of the stretch
-    bool through_medium = false;
+    bool through_scattering = false;
 
     bool pass(const Stretch& stretch) {
       if (medium == kVacuum) return true;
-      through_medium = true;
       const Medium& around = path.c_.scene.media[medium];
       const Interval interval{0.0f, stretch.length};
       DensityIntegralsAlong& integrals = path.work_.scratch.integrals;
       count(path.work_.counters.walk.lookups, integrals.walk(&around, ray, interval));
       if (around.scatters()) {
+        through_scattering = true;
         path.merge_points_2d(*this, interval);
         path.merge_beams(*this, interval);
       }
@@ -119,9 +123,10 @@ class EyeSubPath {
     Along along{*this, at_.state.ray, at_.state.medium};
     const std::optional<Hit> hit =
         each_stretch(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
-    if (along.through_medium) branch_off();
+    if (along.through_scattering) branch_off();
     at_.state.throughput *= along.passed;
     if (is_black(at_.state.throughput)) return std::nullopt;
+    if (!survive_roulette(max_channel(glm::abs(at_.state.throughput)), at_.state, work_.rng)) return std::nullopt;
     at_.state.ray = along.ray;
     at_.state.medium = along.medium;
     if (!hit) {
@@ -155,6 +160,7 @@ class EyeSubPath {
       const LightVertex& light = c_.light.of_medium(along.medium, number);
       const double t = glm::dot(light.vertex.point - along.ray.origin, along.ray.direction);
       const Leg leg = leg_to(at_.from, light.vertex.point, along.to(t));
+      if (is_black(leg.transmittance)) return;
       const double phase = phase_value(medium.phase, light.vertex.travel, -along.ray.direction);
       const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg,
                                                  sine_of(light.vertex.travel, along.ray.direction), true);
@@ -195,6 +201,7 @@ class EyeSubPath {
     const Rgb left = analog_weight(medium, channel_shares(power), integral.value, false);
     const Leg to_light = leg_to(beam.start, place, beam.before * transmittance(medium, integral.value));
     const Leg to_eye = leg_to(at_.from, place, along.to(found.t[i]));
+    if (is_black(to_light.transmittance) || is_black(to_eye.transmittance)) return;
     const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
     const double phase = phase_value(medium.phase, direction, -along.ray.direction);
     const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, to_light, to_eye, found.sine[i], true);
@@ -285,20 +292,28 @@ class EyeSubPath {
       merge_points_3d(vertex);
   }
 
+  /// Samples a light; on surfaces that light passes, one for either side.
   void sample_light(const PathVertex& vertex) {
+    if (!vertex.on_surface) return sample_light(vertex, {vertex.point, vertex.medium});
+    sample_light(vertex, near_side(vertex.hit, vertex.travel, vertex.medium));
+    if (scatters_through(vertex.material))
+      sample_light(vertex, far_side(c_.scene, vertex.hit, vertex.travel, vertex.medium));
+  }
+
+  /// Seen from a place just off a surface: rays that are aimed from there meet what they are aimed at.
+  void sample_light(const PathVertex& vertex, const Receiver& side) {
     const PickedLight picked = pick_light(c_.scene, work_.rng.uniform_double());
     const Light& light = c_.scene.lights[picked.number];
     count(work_.counters.shadow_rays);
-    const std::optional<Incident> incident = sample_towards(light, vertex.point, work_.rng);
-    if (!incident) return;
+    const std::optional<Incident> incident = sample_towards(light, side.point, work_.rng);
+    if (!incident || (vertex.on_surface && glm::dot(side.normal, incident->direction) <= 0.0f)) return;
     const Scattered scattered = scattered_into(c_.scene, vertex, incident->direction, SubPath::eye);
     if (is_black(scattered.value)) return;
-    const Leaving leaving = leave(c_.scene, vertex, incident->direction);
     const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
     const Rgb passed =
-        visibility(rays, {leaving.origin, incident->direction}, incident->distance, picked.number, leaving.medium);
+        visibility(rays, {side.point, incident->direction}, incident->distance, picked.number, side.medium);
     if (is_black(passed)) return;
-    const Vec3 point = is_infinite(light) ? vertex.point : vertex.point + incident->distance * incident->direction;
+    const Vec3 point = is_infinite(light) ? side.point : side.point + incident->distance * incident->direction;
     const EmissionDensity emission = emission_density(light, c_.scene.bounds, incident->normal, -incident->direction);
     const Departure start = depart_from_light(c_.counts, light, picked.probability, emission,
                                               {point, -incident->direction}, incident->normal);
@@ -384,6 +399,9 @@ class EyeSubPath {
     if (map.size() == 0) return;
     const Medium& medium = c_.scene.media[vertex.medium];
     const auto kernel = kernel_of<3>(c_.kernels.volume_kernel, map.radius());
+    Rgb per_extinction(0.0f);  // the albedo over the extinction coefficient, m
+    for (int c = 0; c < 3; ++c)
+      if (junction_.sigma_t[c] > 0.0f) per_extinction[c] = medium.albedo()[c] / junction_.sigma_t[c];
     count(work_.counters.volume_queries);
     count(work_.counters.gather.searches);
     const uint32_t visited = map.visit_near(vertex.point, [&](uint32_t number, float distance2) {
@@ -392,7 +410,7 @@ class EyeSubPath {
       const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg_,
                                                  sine_of(light.vertex.travel, vertex.travel), at_.only_specular);
       const double share = merges.points_3d / all_at_merge(c_.counts, merges, light.sums, phase, sums_, phase);
-      const Rgb value = at_.state.throughput * medium.albedo() * light.power / junction_.sigma_t;
+      const Rgb value = at_.state.throughput * per_extinction * light.power;
       add_merged(times(value, phase * share / c_.light_paths), kernel(distance2));
     });
     count(work_.counters.gather.visited, visited);

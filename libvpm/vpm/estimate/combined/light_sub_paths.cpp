@@ -1,9 +1,12 @@
 // One light sub-path after another, event by event.
 #include "vpm/estimate/combined/light_sub_paths.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "vpm/base/count.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/photon/emission.h"
 #include "vpm/photon/recorder.h"
 #include "vpm/surface/shading.h"
 
@@ -16,18 +19,26 @@ class LightSubPath {
 
   void trace() {
     emit();
+    follow();
+    out_.ledger.imbalance.add(balance_);
+  }
+
+ private:
+  void follow() {
     for (int events = 0; events < c_.max_events; ++events) {
-      if (!is_finite(state_.throughput)) {
-        ++out_.ledger.non_finite;
-        return;
-      }
       const std::optional<PathVertex> vertex = fly();
       if (!vertex || !go_on(*vertex)) return;
     }
     ++out_.ledger.cut_count;
+    lose(state_.throughput, out_.ledger.cut);
   }
 
- private:
+  /// Enters where power has gone, W.
+  void lose(const Rgb& power, Rgbd& where) {
+    where += Rgbd(power);
+    balance_ += sum_channels(power);
+  }
+
   void emit() {
     const PickedLight picked = pick_light(c_.scene, rng_.uniform_double());
     const Light& light = c_.scene.lights[picked.number];
@@ -38,6 +49,7 @@ class LightSubPath {
     from_ = depart_from_light(c_.counts, light, picked.probability, density, emission.ray, emission.normal);
     ++out_.ledger.emitted_count;
     out_.ledger.emitted += Rgbd(state_.throughput);
+    balance_ -= sum_channels(state_.throughput);
   }
 
   /// Flies to the next vertex, whose sums are then known.
@@ -52,6 +64,11 @@ class LightSubPath {
       count(out_.ledger.walk.lookups, integral.lookups);
       passed *= transmittance(medium, integral.value);
     }
+    if (!is_finite(state_.throughput)) {
+      ++out_.ledger.non_finite;
+      return std::nullopt;
+    }
+    if (event.kind == EventKind::escape) lose(state_.throughput, out_.ledger.escaped);
     if (event.kind != EventKind::collision && event.kind != EventKind::surface) return std::nullopt;
     ++(event.kind == EventKind::collision ? out_.ledger.collisions : out_.ledger.surface_hits);
     const PathVertex vertex = vertex_at(c_.scene, event, state_);
@@ -69,10 +86,19 @@ class LightSubPath {
 
   /// Keeps the vertex, and draws how the sub-path goes on.
   bool go_on(const PathVertex& vertex) {
-    if (!vertex.specular) {
+    if (!vertex.specular && (vertex.on_surface || c_.scene.media[vertex.medium].scatters())) {
       out_.vertices.push_back({vertex, junction_, state_.throughput, leg_, sums_});
       if (c_.counts.splats > 0.0) splat(vertex);
     }
+    const Rgb before = state_.throughput;
+    Rgbd& absorbed = vertex.on_surface ? out_.ledger.absorbed_on_surfaces : out_.ledger.absorbed_in_media;
+    const bool goes_on = scatter(vertex);
+    lose(goes_on ? before - state_.throughput : before, absorbed);
+    return goes_on;
+  }
+
+  /// Draws the direction in which the sub-path goes on. False if it is absorbed.
+  bool scatter(const PathVertex& vertex) {
     double forward = 1.0, reverse = 1.0;
     if (!vertex.on_surface) {
       const Medium& medium = c_.scene.media[vertex.medium];
@@ -116,7 +142,11 @@ class LightSubPath {
     const Rgb irradiance = state_.throughput * scattered.value * passed * static_cast<float>(leg.per_square());
     for_each_pixel(*film, [&](uint32_t pixel, double filter) {
       const double density = filter * film_density, share = share_of_splat(c_.counts, at_camera, density);
-      out_.splats.push_back({pixel, irradiance * static_cast<float>(density * share)});
+      const Rgb radiance = irradiance * static_cast<float>(density * share);
+      if (is_finite(radiance))
+        out_.splats.push_back({pixel, radiance});
+      else
+        ++out_.ledger.non_finite;
     });
   }
 
@@ -150,6 +180,7 @@ class LightSubPath {
   Junction junction_;
   SubPathSums sums_;
   std::vector<Track> tracks_;
+  double balance_ = 0.0;  // gone minus emitted, W
 };
 
 }  // namespace

@@ -1,17 +1,22 @@
 // Sums over techniques, from vertex to vertex.
 #include "vpm/estimate/combined/mis_weights.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vpm {
 namespace {
 
+/// Densities are no less: what rounding makes 0 is then negligible in shares, and not 0 over 0.
+constexpr double kLeastDensity = 1e-60;
+
+double colliding(const Rgb& sigma_t, const Leg& leg) {
+  return std::max(kLeastDensity, double{mean_channel(sigma_t * leg.transmittance)});
+}
+
 /// How many photons a leg brings to a place over how many collide there, m: a beam passes where its photon need not
 /// collide.
-double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) {
-  return leg.mean() / mean_channel(sigma_t * leg.transmittance);
-}
-double colliding(const Rgb& sigma_t, const Leg& leg) { return mean_channel(sigma_t * leg.transmittance); }
+double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) { return leg.mean() / colliding(sigma_t, leg); }
 
 MergeTerms merge_terms(const TechniqueCounts& counts, double passing_light, double colliding_eye, double sine,
                        bool first) {
@@ -106,7 +111,7 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
                   .sum();
   }
   SubPathSums sums;
-  sums.density = departure.forward * arrival(at, departure.direction, leg) * leg.per_square();
+  sums.density = std::max(kLeastDensity, departure.forward * arrival(at, departure.direction, leg) * leg.per_square());
   sums.further = counts.weigh(arrival(departure.from, departure.direction, leg) * leg.per_square()) * behind;
   if (at.kind == Junction::Kind::free) return sums;
   sums.adjacent = departure.adjacent;

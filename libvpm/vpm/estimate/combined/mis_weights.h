@@ -16,7 +16,7 @@
 // vertex,
 //   S_i = r_i ((c_{i-1} + S_{i-1}) / f_i + N m_i),
 // and in the same way from the eye. Of S_{i-1}, at x_i only its last factor r_{i-1} is not known, and of that only the
-// density of the direction, which depends on where the path goes on to: this is why SubPathSums has three members.
+// density of the direction, which depends on where the path goes on to: this is why SubPathSums has its members.
 // With the power heuristic all terms are squared. See [Georgiev2012] for connections and merges on surfaces, and
 // [Krivanek2014] for all merges in media, where media are homogeneous. In grids no factor changes, as the transmittance
 // of each leg is known exactly.
@@ -38,7 +38,7 @@ struct TechniqueCounts {
   double points_3d = 0.0;  // m^3
   double points_2d = 0.0;  // m^2
   double beams = 0.0;      // m
-  double shared = 1.0;     // what a merge counts for where the eye's sub-path has scattered before, over that
+  double shared = 1.0;  // of what a merge counts for elsewhere, the part where the eye's sub-path has scattered before
   Heuristic heuristic = Heuristic::balance;
 
   /// A density, or a number, as the heuristic weighs it.

@@ -190,8 +190,8 @@ void append_combined(NamedSettings& all, const RenderSettings& base, bool media,
   if (!many) return;
   settings.combined.heuristic = Heuristic::power;
   all.emplace_back("combined by the power heuristic", settings);
-  settings.combined.heuristic = Heuristic::correlation_aware;
-  all.emplace_back("combined by the correlation-aware heuristic", settings);
+  settings.combined.heuristic = Heuristic::balance;
+  all.emplace_back("combined by the balance heuristic", settings);
 }
 
 /// The ways of gathering: in all forms, also with single scattering at drawn distances; with k nearest; in media along

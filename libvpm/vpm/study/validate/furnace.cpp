@@ -356,8 +356,8 @@ std::vector<Check> check_borders(const Effort& effort) {
   return checks;
 }
 
-/// The combined estimator, from a camera inside: each set of techniques finds all light. Kernels of the box's size make
-/// no bias where all is even, but light is missing at surfaces: they are small, and far from the camera.
+/// The combined estimator, from a camera inside: each set of techniques finds all light. Kernels are small, so that
+/// little light is missing at surfaces.
 std::vector<Check> check_combined(const Effort& effort) {
   using T = Technique;
   const Medium grid = white_medium(test_fields()[5].grid, Rgb(1.5f), HenyeyGreenstein{0.5f});

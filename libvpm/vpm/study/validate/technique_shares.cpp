@@ -342,8 +342,8 @@ std::vector<Check> check_emission(const Effort& effort) {
       const double sampled = sampled_density(light, point, {incident->direction, incident->distance, incident->normal});
       const double spread = density.parallel ? 1.0 : 1.0 / (double{incident->distance} * incident->distance);
       const double by_photons = power * density.place * density.flight * spread;
-      if (!(by_photons > 0.0)) continue;
-      worst = std::max(worst, std::abs(incident->irradiance.g * sampled / by_photons - 1.0));
+      worst = std::max(worst, by_photons > 0.0 ? std::abs(incident->irradiance.g * sampled / by_photons - 1.0)
+                                               : static_cast<double>(kInfinity));
       ++seen;
     }
     checks.push_back(check_bound(fmt::format("{}, the largest relative difference", name), worst, 0.0, 2e-4));
