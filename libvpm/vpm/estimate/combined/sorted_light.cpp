@@ -30,7 +30,9 @@ size_t SortedLight::beam_count() const {
 }
 
 size_t SortedLight::memory_bytes() const {
-  size_t bytes = paths_.vertices.capacity() * sizeof(LightVertex) + on_surfaces_.memory_bytes();
+  size_t bytes = paths_.vertices.capacity() * sizeof(LightVertex) + on_surfaces_.memory_bytes() +
+                 of_surfaces_.capacity() * sizeof(uint32_t);
+  for (const auto& numbers : of_media_) bytes += numbers.capacity() * sizeof(uint32_t);
   for (const auto& starts : paths_.starts) bytes += starts.capacity() * sizeof(LightBeam);
   for (const auto* maps : {&around_points_, &beside_rays_})
     for (const VertexMap& map : *maps) bytes += map.memory_bytes();
