@@ -161,7 +161,7 @@ class EyeSubPath {
       const double t = glm::dot(light.vertex.point - along.ray.origin, along.ray.direction);
       const Leg leg = leg_to(at_.from, light.vertex.point, along.to(t));
       if (is_black(leg.transmittance)) return;
-      const double phase = phase_value(medium.phase, light.vertex.travel, -along.ray.direction);
+      const double phase = phase_density(medium, light.vertex.travel, -along.ray.direction);
       const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg,
                                                  sine_of(light.vertex.travel, along.ray.direction), true);
       const SubPathSums eye = arrive(c_.counts, at_.from, leg, light.junction, light.vertex.point);
@@ -203,7 +203,7 @@ class EyeSubPath {
     const Leg to_eye = leg_to(at_.from, place, along.to(found.t[i]));
     if (is_black(to_light.transmittance) || is_black(to_eye.transmittance)) return;
     const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
-    const double phase = phase_value(medium.phase, direction, -along.ray.direction);
+    const double phase = phase_density(medium, direction, -along.ray.direction);
     const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, to_light, to_eye, found.sine[i], true);
     const SubPathSums light = arrive(c_.counts, beam.start, to_light, there, place);
     const SubPathSums eye = arrive(c_.counts, at_.from, to_eye, there, place);
@@ -406,7 +406,7 @@ class EyeSubPath {
     count(work_.counters.gather.searches);
     const uint32_t visited = map.visit_near(vertex.point, [&](uint32_t number, float distance2) {
       const LightVertex& light = c_.light.of_medium(vertex.medium, number);
-      const double phase = phase_value(medium.phase, light.vertex.travel, -vertex.travel);
+      const double phase = phase_density(medium, light.vertex.travel, -vertex.travel);
       const MergeTerms merges = merges_in_medium(c_.counts, light.junction.sigma_t, light.arrived, leg_,
                                                  sine_of(light.vertex.travel, vertex.travel), at_.only_specular);
       const double share = merges.points_3d / all_at_merge(c_.counts, merges, light.sums, phase, sums_, phase);
@@ -422,7 +422,7 @@ class EyeSubPath {
     if (!vertex.on_surface) {
       const Medium& medium = c_.scene.media[vertex.medium];
       if (!scatter_in_medium(medium, at_.state, work_.rng)) return false;
-      forward = reverse = phase_value(medium.phase, vertex.travel, at_.state.ray.direction);
+      forward = reverse = phase_density(medium, vertex.travel, at_.state.ray.direction);
     } else {
       Scatter scatter;
       if (!scatter_at_surface(c_.scene, vertex.hit, at_.state, work_.rng, scatter)) return false;

@@ -103,7 +103,7 @@ class LightSubPath {
     if (!vertex.on_surface) {
       const Medium& medium = c_.scene.media[vertex.medium];
       if (!scatter_in_medium(medium, state_, rng_)) return false;
-      forward = reverse = phase_value(medium.phase, vertex.travel, state_.ray.direction);
+      forward = reverse = phase_density(medium, vertex.travel, state_.ray.direction);
     } else {
       Scatter scatter;
       if (!scatter_at_surface(c_.scene, vertex.hit, state_, rng_, scatter)) return false;

@@ -33,6 +33,9 @@ struct Scattered {
 /// At a vertex that is not specular; black where it scatters nothing into the direction (unit).
 Scattered scattered_into(const Scene& scene, const PathVertex& vertex, const Vec3& direction, SubPath sub_path);
 
+/// The phase function of a medium between directions of travel, 1/sr.
+float phase_density(const Medium& medium, const Vec3& before, const Vec3& after);
+
 /// Where a ray leaves the vertex along `direction`, and in which medium.
 struct Leaving {
   Vec3 origin{0.0f};  // m
