@@ -93,7 +93,7 @@ struct Departure {
   bool first = false;  // is the vertex the first from the eye that is not specular?
   SubPath way = SubPath::light;
   double sine = 0.0;     // of the angle between the directions of the legs
-  double arrived = 1.0;  // of the other leg: merge_factor()
+  double arrived = 1.0;  // of the other leg: the light's passing over colliding, m; the eye's colliding, 1/m
 };
 
 /// A start on a light that is chosen with the probability `chosen`, at a point with that normal.
