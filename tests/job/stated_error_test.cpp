@@ -45,32 +45,42 @@ double true_error(const Film& film) {
   return relative_mse(film.mean(), truth);
 }
 
+/// Of how many films the true error is what was stated.
+struct Covered {
+  int within = 0, below = 0, films = 0;
+
+  void add(const Film& film) {
+    const StatedError stated = stated_error(film.errors());
+    const double truth = true_error(film);
+    within += std::fabs(truth - stated.total.value) <= 1.96 * stated.total.standard_error;
+    below += truth <= stated.highest;
+    ++films;
+  }
+  void expect_claim() const {
+    EXPECT_GE(within, 0.90 * films);
+    EXPECT_LE(within, 0.98 * films);
+    EXPECT_GE(below, 0.80 * films);
+  }
+};
+
 /// The claim to users: the true error is within 1.96 standard errors of the stated one in 90 to 98 % of films, and
 /// below the bound that stops a render in 80 % at least, whether there is a bias or not, and however it goes with the
 /// radius.
 TEST(StatedError, CoversTheTruth) {
-  constexpr int kFilms = 500;
-  int covered = 0, below = 0;
-  for (int i = 0; i < kFilms; ++i) {
+  Covered covered;
+  for (int i = 0; i < 500; ++i) {
     const double order = i % 3 == 0 ? 0.0 : i % 3;
     const double strength = order == 0.0 ? 0.0 : 0.02 * std::pow(8.0, (i % 7) / 6.0);
-    const Film film = film_of(16 + i % 48, strength, order, static_cast<uint64_t>(i));
-    const StatedError stated = stated_error(film.errors());
-    const double truth = true_error(film);
-    covered += std::fabs(truth - stated.total.value) <= 1.96 * stated.total.standard_error;
-    below += truth <= stated.highest;
+    covered.add(film_of(16 + i % 48, strength, order, static_cast<uint64_t>(i)));
   }
-  EXPECT_GE(covered, 0.90 * kFilms);
-  EXPECT_LE(covered, 0.98 * kFilms);
-  EXPECT_GE(below, 0.80 * kFilms);
+  covered.expect_claim();
 }
 
 /// The same claim where a noise that all pixels have in common is most of the error, as where few photons bring most of
 /// the light: the pixels of one picture do not show it.
 TEST(StatedError, CoversAnErrorThatAllPixelsHaveInCommon) {
-  constexpr int kFilms = 500;
-  int covered = 0, below = 0;
-  for (uint64_t seed = 0; seed < kFilms; ++seed) {
+  Covered covered;
+  for (uint64_t seed = 0; seed < 500; ++seed) {
     Film film(kSide, kSide);
     for (int pass = 0; pass < 16; ++pass) {
       Rng rng(seed, static_cast<uint64_t>(pass), 0);
@@ -79,14 +89,9 @@ TEST(StatedError, CoversAnErrorThatAllPixelsHaveInCommon) {
       for (Rgb& pixel : image.pixels) pixel = Rgb(static_cast<float>(level + 0.05 * noise(rng)));
       film.add(pass, image);
     }
-    const StatedError stated = stated_error(film.errors());
-    const double truth = true_error(film);
-    covered += std::fabs(truth - stated.total.value) <= 1.96 * stated.total.standard_error;
-    below += truth <= stated.highest;
+    covered.add(film);
   }
-  EXPECT_GE(covered, 0.90 * kFilms);
-  EXPECT_LE(covered, 0.98 * kFilms);
-  EXPECT_GE(below, 0.80 * kFilms);
+  covered.expect_claim();
 }
 
 TEST(StatedError, IsNeverNegativeAndTellsABiasThatIsSeen) {

@@ -40,8 +40,7 @@ std::vector<Setting> combined_settings() {
        .member = at<&S::combined, &C::heuristic>(),
        .domain = words_of<Heuristic>(),
        .meaning = "how techniques share a path that several find: by their densities, by the squares of these, or by "
-                  "densities "
-                  "that know that merges of an eye sub-path which has scattered before share its noise",
+                  "densities that know that merges of an eye sub-path which has scattered before share its noise",
        .need = {combines, combines_nothing, kCombine}},
   };
 }

@@ -53,12 +53,12 @@ void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& setting
   const std::atomic<bool> never{false};
   const CombinedPass pass(scene, few, 0, never);
   const auto paths = static_cast<double>(settings.photons_emitted);
-  const double each = 2.0 * static_cast<double>(pass.statistics().photon_map_bytes) / static_cast<double>(kFew);
+  const double each =
+      2.0 * static_cast<double>(pass.statistics().photon_map_bytes) / static_cast<double>(few.photons_emitted);
   if (paths * each <= memory) return;
   throw InputError(
       fmt::format("photons.emitted: the light sub-paths of a pass would take {:.2g} GB of memory; this machine has "
-                  "{:.2g} GB, where "
-                  "about {} photons.emitted would fit; more passes do what more light sub-paths would",
+                  "{:.2g} GB, where about {} photons.emitted would fit; more passes do what more light sub-paths would",
                   paths * each * 1e-9, memory * 1e-9, photons_text(0.5 * memory / each)));
 }
 

@@ -44,11 +44,6 @@ class EyeSubPath {
 
   KernelEstimate follow() {
     follow_branch();
-    while (!collided_.empty()) {
-      at_ = collided_.back();
-      collided_.pop_back();
-      follow_branch();
-    }
     return radiance_;
   }
 
@@ -137,14 +132,14 @@ class EyeSubPath {
     return arrive_at({.kind = EventKind::surface, .hit = *hit}, along.passed);
   }
 
-  /// Follows a branch to where the ray collides, if it does; it waits there.
+  /// Follows a branch from where the ray collides, if it does, to its end.
   void branch_off() {
     const EyeBranch start = at_;
     Rgb passed(1.0f);
     const Event event = fly_to_event(passed);
     if (event.kind == EventKind::collision && visit(arrive_at(event, passed))) {
       ++at_.events;
-      collided_.push_back(at_);
+      follow_branch();
     }
     at_ = start;
   }
@@ -446,7 +441,6 @@ class EyeSubPath {
   const CombinedContext& c_;
   EyeWork& work_;
   EyeBranch at_;
-  std::vector<EyeBranch> collided_;  // branches that wait
   // Of the last vertex:
   Leg leg_;
   Junction junction_;

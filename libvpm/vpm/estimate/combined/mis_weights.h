@@ -131,7 +131,7 @@ MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
 /// other one.
 double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
                     double back_to_light, const SubPathSums& eye, double back_to_eye);
-/// The share of a connection of which `made` are made, between two departures towards each other.
+/// The shares of techniques that join two departures towards each other.
 struct ConnectionShares {
   double connected = 0.0;  // of the connection itself; of the light that is sampled
   double run_into = 0.0;   // of the eye's sub-path that runs into the light, where the light's is its start

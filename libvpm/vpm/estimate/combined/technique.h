@@ -43,8 +43,8 @@ class TechniqueSet {
 };
 
 /// How techniques that find the same path share it: in proportion to their densities, or to the squares of these
-/// [Veach1997, sec. 9.2]; or to densities that know that one eye sub-path shares what it finds among all light
-/// sub-paths, so that these are not as many samples [Grittmann2021].
+/// [Veach1997, sec. 9.2]; or to densities that take the merges of an eye sub-path that has scattered before for those
+/// of one light sub-path, as they share its noise. The problem is that of [Grittmann2021], the rule is not theirs.
 enum class Heuristic { balance, power, correlation_aware };
 
 }  // namespace vpm
