@@ -77,6 +77,31 @@ TEST(Combined, IsTheSameBitForBitOnAnyNumberOfThreads) {
   EXPECT_EQ(one.pixels, three.pixels);
 }
 
+/// The weighted layers of all techniques sum to the picture, and keeping them changes nothing in it.
+TEST(Combined, LayersAreThePartsOfThePicture) {
+  const Scene scene = foggy_box();
+  RenderSettings settings = combined_settings_of(3'000);
+  const Image alone = render_combined_pass(scene, settings, 1, kGoOn).image;
+  settings.combined.layers = true;
+  const Pass pass = render_combined_pass(scene, settings, 1, kGoOn);
+  EXPECT_EQ(pass.image.pixels, alone.pixels);
+  const std::vector<std::string> names = layer_names(settings);
+  ASSERT_EQ(pass.layers.size(), names.size());
+  for (size_t i = 0; i < alone.pixels.size(); ++i) {
+    Rgb sum(0.0f);
+    for (size_t layer = 0; layer < names.size(); layer += 2) sum += pass.layers[layer].pixels[i];
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], alone.pixels[i][c], 1e-5f * (1.0f + alone.pixels[i][c]));
+  }
+  for (size_t layer = 0; layer < names.size(); layer += 2) {
+    EXPECT_EQ(names[layer], "combined." + std::string(kTechniques[layer / 2].name) + ".weighted");
+    const Rgbd weighted = channel_means(pass.layers[layer]), unweighted = channel_means(pass.layers[layer + 1]);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GT(weighted[c], 0.0) << names[layer];
+      EXPECT_GT(unweighted[c], weighted[c]) << names[layer];
+    }
+  }
+}
+
 /// The mean of many passes by one technique.
 Image mean_picture(const Scene& scene, Technique technique, uint64_t seed) {
   RenderSettings settings = combined_settings_of(20'000);

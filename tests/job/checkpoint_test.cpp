@@ -106,6 +106,25 @@ TEST_F(Checkpoint, BringsBackTheRadiiOfPixels) {
   EXPECT_EQ(after.film.sums(), before.film.sums());
 }
 
+TEST_F(Checkpoint, BringsBackLayers) {
+  RenderResult before = some_result();
+  Film layer(3, 2);
+  for (int pass = 0; pass < 3; ++pass) {
+    Image image(3, 2);
+    image.at(1, 1) = Rgb(0.1f, 7.0f, static_cast<float>(pass));
+    layer.add(pass, image);
+  }
+  before.layers = {layer, before.film};
+  write_checkpoint(path_, kRender, before);
+  const RenderResult after = read_checkpoint(path_, kRender);
+  ASSERT_EQ(after.layers.size(), 2u);
+  EXPECT_EQ(after.layers[0].sums(), layer.sums());
+  EXPECT_EQ(after.layers[1].sums(), before.film.sums());
+  before.layers = {Film(3, 2)};  // of no pass
+  write_checkpoint(path_, kRender, before);
+  refuses(kRender, "its layers.0 is not of the size and the passes of its film");
+}
+
 TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
   write_checkpoint(path_, kRender, some_result());
   refuses({{"render.seed", "2"}, {"scene", "fog"}},
@@ -138,7 +157,7 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
   refuses(kRender, "it is no checkpoint");
-  std::ofstream(path_) << "vpm checkpoint of a render\nformat 4\nidentity 2\nrender.seed=1\n";
+  std::ofstream(path_) << "vpm checkpoint of a render\nformat 5\nidentity 2\nrender.seed=1\n";
   refuses(kRender, "it is damaged or not whole");
   write_checkpoint(path_, kRender, some_result());
   const uintmax_t size = fs::file_size(path_);
@@ -175,11 +194,11 @@ std::string bytes_of(T number) {
 TEST_F(Checkpoint, OfAnotherFormatIsRefused) {
   write_checkpoint(path_, kRender, some_result());
   const std::string content = bytes();
-  put(with(content, "format 4\n", "format 5\n"));
-  refuses(kRender, "it is written by another format of checkpoints, 5; this program reads 4");
+  put(with(content, "format 5\n", "format 6\n"));
+  refuses(kRender, "it is written by another format of checkpoints, 6; this program reads 5");
   EXPECT_THROW(checkpoint_identity(path_), InputError);
-  put(with(content, "format 4\n", ""));  // as they were before they told it
-  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 4");
+  put(with(content, "format 5\n", ""));  // as they were before they told it
+  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 5");
 }
 
 TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
@@ -255,7 +274,7 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
   };
   constexpr const char* kOld = "format_1";  // a whole file, written before files told their format
   put(seed(folder / kOld));
-  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 4; render again");
+  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 5; render again");
   int accepted = 0;
   size_t refused = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {

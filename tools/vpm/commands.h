@@ -26,6 +26,7 @@ struct RenderOptions : PassOptions {
   std::optional<double> error;  // relative MSE to stop at
   std::string reference;        // .exr: the truth, against which errors are logged; empty: none
   bool automatic = false;       // choose settings that the scene leaves out
+  std::string layers;           // "combined", or empty: none
   bool checkpoint = false;      // keep one next to the image after each pass
   bool overwrite = false;       // begin anew where there is one
   bool resume = false;          // go on from that

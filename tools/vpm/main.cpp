@@ -104,6 +104,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
                       "EXR image of the truth: log error against time to a CSV file next to the image");
   command->add_flag("--auto", options.automatic,
                     "Choose what the scene leaves out of radii, photons and distance strategy, and tell why");
+  command->add_option("--layers", options.layers, "Write these layers, too: combined (what each technique finds)")
+      ->check(CLI::IsMember({"combined"}));
   CLI::Option* checkpoint =
       command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint next to the image after each pass");
   CLI::Option* overwrite =

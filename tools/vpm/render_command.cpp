@@ -64,7 +64,9 @@ std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outpu
 int render_command(const RenderOptions& options) {
   set_threads(options.threads);
   const Outputs outputs = output_paths(options, std::filesystem::path(options.scene).stem().string());
-  RenderJob job = load_scene(options.scene, options.overrides, options.automatic ? LeftOut::automatic : LeftOut::usual);
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.layers.empty()) overrides.push_back("combined.layers=true");
+  RenderJob job = load_scene(options.scene, overrides, options.automatic ? LeftOut::automatic : LeftOut::usual);
   apply_options(options, job.settings);
   apply_limits(options, job.settings.until);
   const bool checkpoint = options.checkpoint || options.resume;

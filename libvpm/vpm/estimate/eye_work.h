@@ -1,11 +1,14 @@
 // What an eye ray takes along: its random numbers, its counters, and memory to work in.
 #pragma once
 
+#include <vector>
+
 #include "vpm/base/rng.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/estimate/volume/march.h"
 #include "vpm/medium/density_integrals_along.h"
+#include "vpm/path/walk.h"
 
 namespace vpm {
 
@@ -14,6 +17,7 @@ struct EyeScratch {
   DensityIntegralsAlong integrals;  // of the current segment
   Marcher marcher;
   Neighbours neighbours;  // of the last gather by count
+  std::vector<Track> tracks;  // of the last flight
 };
 
 struct EyeWork {

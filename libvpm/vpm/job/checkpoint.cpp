@@ -13,6 +13,7 @@
 #include "vpm/base/fnv.h"
 #include "vpm/job/named_fields.h"
 #include "vpm/render/plan.h"
+#include "vpm/render/technique_layers.h"
 
 namespace vpm {
 
@@ -130,40 +131,58 @@ std::vector<ExactSums> take_sums(NamedFields& fields, const std::string& name, s
   return sums;
 }
 
-std::string corrections_name(size_t group) { return fmt::format("film.corrections.{}", group); }
+std::string corrections_name(const std::string& film, size_t group) {
+  return fmt::format("{}.corrections.{}", film, group);
+}
+std::string layer_name(size_t number) { return fmt::format("layers.{}", number); }
 
-void append_film(std::string& bytes, const Film& film) {
-  append_field(bytes, "film.width", film.width());
-  append_field(bytes, "film.height", film.height());
+void append_film(std::string& bytes, const std::string& name, const Film& film) {
+  append_field(bytes, name + ".width", film.width());
+  append_field(bytes, name + ".height", film.height());
   const FilmSums& sums = film.sums();
-  append_field(bytes, "film.passes", std::span<const PassRange>(sums.passes.ranges()));
-  append_sums(bytes, "film.values", sums.values);
-  append_sums(bytes, "film.squares", sums.squares);
-  for (size_t g = 0; g < Film::kGroups; ++g) append_sums(bytes, corrections_name(g), sums.corrections[g]);
-  append_sums(bytes, "film.channel_means", {&sums.channel_means, 1});
+  append_field(bytes, name + ".passes", std::span<const PassRange>(sums.passes.ranges()));
+  append_sums(bytes, name + ".values", sums.values);
+  append_sums(bytes, name + ".squares", sums.squares);
+  for (size_t g = 0; g < Film::kGroups; ++g) append_sums(bytes, corrections_name(name, g), sums.corrections[g]);
+  append_sums(bytes, name + ".channel_means", {&sums.channel_means, 1});
 }
 
-Film take_film(NamedFields& fields) {
-  const int width = fields.take<int>("film.width"), height = fields.take<int>("film.height");
+Film take_film(NamedFields& fields, const std::string& name) {
+  const int width = fields.take<int>(name + ".width"), height = fields.take<int>(name + ".height");
   if (std::min(width, height) < 1 || std::max(width, height) > kLargestFilm)
-    throw FieldError(fmt::format("its film has {} x {} pixels", width, height));
-  const std::vector<PassRange> passes = fields.take_all<PassRange>("film.passes");
-  if (!PassSet::is_valid(passes)) throw FieldError("its field 'film.passes' holds no ranges in rising order");
+    throw FieldError(fmt::format("its {} has {} x {} pixels", name, width, height));
+  const std::vector<PassRange> passes = fields.take_all<PassRange>(name + ".passes");
+  if (!PassSet::is_valid(passes))
+    throw FieldError(fmt::format("its field '{}.passes' holds no ranges in rising order", name));
   const size_t blocks = Film::blocks(width, height);
   FilmSums sums;
   sums.passes = PassSet(passes);
-  sums.values = take_sums(fields, "film.values", blocks);
-  sums.squares = take_sums(fields, "film.squares", blocks);
-  for (size_t g = 0; g < Film::kGroups; ++g) sums.corrections[g] = take_sums(fields, corrections_name(g), blocks);
-  sums.channel_means = take_sums(fields, "film.channel_means", 1).front();
+  sums.values = take_sums(fields, name + ".values", blocks);
+  sums.squares = take_sums(fields, name + ".squares", blocks);
+  for (size_t g = 0; g < Film::kGroups; ++g) sums.corrections[g] = take_sums(fields, corrections_name(name, g), blocks);
+  sums.channel_means = take_sums(fields, name + ".channel_means", 1).front();
   return Film(width, height, std::move(sums));
 }
 
+std::vector<Film> take_layers(NamedFields& fields, const Film& whole) {
+  std::vector<Film> layers;
+  const auto number = fields.take<uint32_t>("layers");
+  for (uint32_t i = 0; i < number; ++i) {
+    layers.push_back(take_film(fields, layer_name(i)));
+    const Film& layer = layers.back();
+    if (layer.width() != whole.width() || layer.height() != whole.height() ||
+        !(layer.sums().passes == whole.sums().passes))
+      throw FieldError(fmt::format("its {} is not of the size and the passes of its film", layer_name(i)));
+  }
+  return layers;
+}
+
 RenderResult take_result(NamedFields fields) {
-  RenderResult result{take_film(fields), {}, fields.take<double>("seconds"), fields.take_all<PixelDisc>("discs")};
+  RenderResult result{take_film(fields, "film"), {}, fields.take<double>("seconds"), fields.take_all<PixelDisc>("discs")};
   const size_t pixels = static_cast<size_t>(result.film.width()) * static_cast<size_t>(result.film.height());
   if (!result.discs.empty() && result.discs.size() != pixels)
     throw FieldError(fmt::format("its field 'discs' has {} numbers for {} pixels", result.discs.size(), pixels));
+  result.layers = take_layers(fields, result.film);
   for_each_counter(
       result.statistics,
       [&](const std::string& name, auto& number) {
@@ -185,7 +204,8 @@ uint64_t checkpoint_bytes(const RenderJob& job) {
   const bool discs = job.settings.radii == RadiusSchedule::per_pixel && scattering_of(job.scene).surfaces;
   const Camera& camera = job.scene.camera;
   const uint64_t pixels = static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height);
-  return pixels * (Film::kBytesOfPixel + (discs ? sizeof(PixelDisc) : 0));
+  const uint64_t films = 1 + layer_names(job.settings).size();
+  return pixels * (films * Film::kBytesOfPixel + (discs ? sizeof(PixelDisc) : 0));
 }
 
 void write_checkpoint(const std::filesystem::path& path, const Identity& identity, const RenderResult& result) {
@@ -199,7 +219,9 @@ void write_checkpoint(const std::filesystem::path& path, const Identity& identit
   for_each_counter(
       result.statistics, [&](const std::string& name, const auto& number) { append_field(bytes, name, number); },
       "statistics");
-  append_film(bytes, result.film);
+  append_film(bytes, "film", result.film);
+  append_field(bytes, "layers", static_cast<uint32_t>(result.layers.size()));
+  for (size_t i = 0; i < result.layers.size(); ++i) append_film(bytes, layer_name(i), result.layers[i]);
   write_text(path, bytes + checksum(bytes));
 }
 

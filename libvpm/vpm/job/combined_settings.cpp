@@ -42,6 +42,12 @@ std::vector<Setting> combined_settings() {
        .meaning = "how techniques share a path that several find: by their densities, by the squares of these, or by "
                   "densities that know that merges of an eye sub-path which has scattered before share its noise",
        .need = {combines, combines_nothing, kCombine}},
+      {.key = "combined.layers",
+       .member = at<&S::combined, &C::layers>(),
+       .domain = Flags{},
+       .meaning = "writes what each technique finds, too: layers `combined.NAME.weighted` and `combined.NAME.unweighted` "
+                  "(`--layers combined` does the same)",
+       .need = {combines, combines_nothing, kCombine}},
   };
 }
 

@@ -8,6 +8,7 @@
 #include "vpm/base/version.h"
 #include "vpm/image/exr.h"
 #include "vpm/job/setting.h"
+#include "vpm/render/technique_layers.h"
 
 namespace vpm {
 namespace {
@@ -31,6 +32,25 @@ Image grey_image(const UvLayout& layout, const std::vector<float>& values) {
   return image;
 }
 
+/// The parts of the picture, and from two passes on the variances of their means.
+struct Layers {
+  std::vector<std::string> names;
+  std::vector<Image> images;
+};
+Layers layers_of(const RenderSettings& settings, const RenderResult& result) {
+  Layers layers;
+  const std::vector<std::string> names = layer_names(settings);
+  for (size_t i = 0; i < result.layers.size(); ++i) {
+    const Film& film = result.layers[i];
+    layers.names.push_back(names[i]);
+    layers.images.push_back(film.mean());
+    if (film.passes() < 2) continue;
+    layers.names.push_back(names[i] + ".variance");
+    layers.images.push_back(film.variance_of_mean());
+  }
+  return layers;
+}
+
 }  // namespace
 
 void write_picture(const std::filesystem::path& path, const RenderJob& job, const RenderResult& result) {
@@ -48,6 +68,8 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
   std::vector<ExrLayer> layers;
   if (errors) layers.push_back({"variance", &errors->variance});
   if (errors && result.film.shows_bias()) layers.push_back({"bias", &errors->bias});
+  const Layers parts = layers_of(job.settings, result);
+  for (size_t i = 0; i < parts.names.size(); ++i) layers.push_back({parts.names[i], &parts.images[i]});
   write_exr(path, result.film.mean(), layers, metadata);
 }
 

@@ -67,7 +67,10 @@ void check_size(const RenderResult& result, const Camera& camera) {
 
 /// Adds the next pass.
 void add(RenderResult& result, const Pass& pass) {
-  result.film.add(result.film.next_pass(), pass.image, pass.correction);
+  const int number = result.film.next_pass();
+  result.film.add(number, pass.image, pass.correction);
+  result.layers.resize(pass.layers.size(), Film(pass.image.width, pass.image.height));
+  for (size_t i = 0; i < pass.layers.size(); ++i) result.layers[i].add(number, pass.layers[i]);
   result.errors.reset();
   result.discs.resize(pass.found.size());
   for (size_t i = 0; i < pass.found.size(); ++i) shrink(result.discs[i], pass.found[i]);

@@ -102,16 +102,24 @@ LightSubPaths CombinedPass::trace(const LightTracing& tracing, const std::atomic
   return all;
 }
 
-KernelEstimate CombinedPass::radiance(const Ray& ray, EyeWork& work) const {
+KernelEstimate CombinedPass::radiance(const Ray& ray, EyeWork& work, TechniqueParts* parts) const {
   const CombinedContext context{
       scene_, *strategy_, *transmittance_, counts_, kernels_, *light_, static_cast<double>(paths_), max_events_};
-  return combined_radiance(context, ray, work);
+  return combined_radiance(context, ray, work, parts);
 }
 
 void CombinedPass::add_light_tracing(Image& image) const {
   std::vector<Rgbd> sums(image.pixels.size(), Rgbd(0.0));
-  for (const Splat& splat : splats_) sums[splat.pixel] += Rgbd(splat.radiance);
+  for (const Splat& splat : splats_) sums[splat.pixel] += Rgbd(splat.radiance * splat.share);
   for (size_t i = 0; i < sums.size(); ++i) image.pixels[i] += Rgb(sums[i] / static_cast<double>(paths_));
+}
+
+void CombinedPass::add_light_tracing(TechniqueLayers& layers) const {
+  for (const Splat& splat : splats_) {
+    TechniqueParts parts;
+    parts.add(Technique::light_tracing, splat.radiance, splat.share);
+    layers.add(splat.pixel, parts, static_cast<double>(paths_));
+  }
 }
 
 bool merges(const TechniqueSet& techniques) {
@@ -122,9 +130,24 @@ bool merges(const TechniqueSet& techniques) {
 Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                           const PassProgress& progress) {
   const CombinedPass ready(scene, settings, pass, stop);
-  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return ready.radiance(ray, work); };
+  if (!settings.combined.layers) {
+    const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return ready.radiance(ray, work); };
+    Pass result = render_image(scene, settings, pass, radiance, stop, progress);
+    ready.add_light_tracing(result.image);
+    result.statistics.merge(ready.statistics());
+    return result;
+  }
+  TechniqueLayers layers(scene.camera.width, scene.camera.height);
+  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) {
+    TechniqueParts parts;
+    const KernelEstimate estimate = ready.radiance(ray, work, &parts);
+    if (is_finite(estimate.value)) layers.add(work.pixel, parts, settings.samples_per_pixel);
+    return estimate;
+  };
   Pass result = render_image(scene, settings, pass, radiance, stop, progress);
   ready.add_light_tracing(result.image);
+  ready.add_light_tracing(layers);
+  result.layers = layers.images();
   result.statistics.merge(ready.statistics());
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "vpm/estimate/combined/combined.h"
 #include "vpm/render/image_pass.h"
+#include "vpm/render/technique_layers.h"
 
 namespace vpm {
 
@@ -18,10 +19,12 @@ class CombinedPass {
   /// Once `stop` is set it returns as soon as it can, and must not be used.
   CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop);
 
-  /// One sample of the radiance along a ray of the camera, W/(m^2 sr), without the share of light tracing.
-  KernelEstimate radiance(const Ray& ray, EyeWork& work) const;
+  /// combined_radiance() along a ray of the camera.
+  KernelEstimate radiance(const Ray& ray, EyeWork& work, TechniqueParts* parts = nullptr) const;
   /// Adds the share of light tracing to a picture of the others.
   void add_light_tracing(Image& image) const;
+  /// What light tracing finds is added to the layers of the other techniques, where these are kept.
+  void add_light_tracing(TechniqueLayers& layers) const;
   const RenderStatistics& statistics() const { return statistics_; }
 
  private:

@@ -98,7 +98,8 @@ Rgbd mean_of_neighbours(const Image& image, int x, int y) {
   return count > 0 ? sum / static_cast<double>(count) : Rgbd(image.at(x, y));
 }
 
-/// The least of the means over the three pixels on each of the four sides of one; infinite where it has no neighbour.
+/// The least magnitude of the means over the up to three pixels on each of the four sides of one; infinite where it has
+/// no neighbour.
 Rgbd mean_of_darkest_side(const Image& image, int x, int y) {
   constexpr std::pair<int, int> kSides[] = {{-1, 0}, {0, -1}, {1, 0}, {0, 1}};
   Rgbd least(std::numeric_limits<double>::infinity());
@@ -140,18 +141,47 @@ double mean_over_channels(const Rgbd& squares, const Rgbd& scale) {
   return sum / 3.0;
 }
 
-/// The mean over pixels, and its standard error, were pixels independent.
-Estimated variance_part_of(const Image& variances, const std::vector<Rgbd>& scales) {
-  const auto parts = sum_over_pixels<Moments>(scales.size(), [&](Moments& part, size_t i) {
-    part.add(mean_over_channels(Rgbd(variances.pixels[i]), scales[i]));
+/// What variances of pixels sum to, over all pixels.
+struct VarianceSums {
+  Sum parts, squared_parts;    // relative, means over channels
+  std::array<Sum, 3> channels;  // (W/(m^2 sr))^2
+
+  void merge(const VarianceSums& other) {
+    parts.merge(other.parts);
+    squared_parts.merge(other.squared_parts);
+    for (int c = 0; c < 3; ++c) channels[c].merge(other.channels[c]);
+  }
+};
+
+VarianceSums sum_variances(const Image& variances, const std::vector<Rgbd>& scales) {
+  return sum_over_pixels<VarianceSums>(scales.size(), [&](VarianceSums& sums, size_t i) {
+    const Rgbd variance(variances.pixels[i]);
+    const double part = mean_over_channels(variance, scales[i]);
+    sums.parts.add(part);
+    sums.squared_parts.add(part * part);
+    for (int c = 0; c < 3; ++c) sums.channels[c].add(variance[c]);
   });
-  return {parts.mean(), scales.size() > 1 ? std::sqrt(parts.variance_of_mean()) : parts.mean()};
 }
 
-/// The standard deviation of the part of a squared error that all pixels have in common: it is the square of one nearly
-/// normal number, a chi-square of one degree of freedom, whose standard deviation is sqrt(2) times its mean.
-double spread_of_level(const Rgbd& variance_of_channel_means, const Rgbd& channels) {
-  return std::sqrt(2.0) * mean_over_channels(variance_of_channel_means, channels * channels);
+/// The relative variance of an error that all pixels have in common: what the means over the picture vary more than
+/// they would if pixels were independent.
+double variance_in_common(const VarianceSums& sums, double pixels, const Rgbd& of_channel_means, const Rgbd& channels) {
+  Rgbd common;
+  for (int c = 0; c < 3; ++c)
+    common[c] = std::max(0.0, of_channel_means[c] - sums.channels[c].value() / (pixels * pixels));
+  return mean_over_channels(common, channels * channels);
+}
+
+/// The mean over pixels, and by how much a squared error is off from it. An error is a nearly normal number, and its
+/// square has a standard deviation of sqrt(2) times its mean: of each pixel by itself, and of what all have in common,
+/// which is no more than the whole.
+Estimated variance_part_of(const Image& variances, const std::vector<Rgbd>& scales, const Rgbd& of_channel_means,
+                           const Rgbd& channels) {
+  const VarianceSums sums = sum_variances(variances, scales);
+  const auto pixels = static_cast<double>(scales.size());
+  const double mean = sums.parts.value() / pixels, own = std::sqrt(sums.squared_parts.value()) / pixels;
+  const double common = std::min(mean, variance_in_common(sums, pixels, of_channel_means, channels));
+  return {mean, std::sqrt(2.0) * std::hypot(own, common)};
 }
 
 // --- Bias
@@ -266,13 +296,13 @@ FilmErrors Film::errors() const {
   FilmErrors errors;
   errors.variance = variance_of_mean();
   errors.bias = Image(width_, height_);
-  const std::vector<Rgbd> scales = relative_scales(mean(), errors.variance);
-  errors.variance_part = variance_part_of(errors.variance, scales);
+  const Image mean_of_passes = mean();
+  const std::vector<Rgbd> scales = relative_scales(mean_of_passes, errors.variance);
   const ExactSums::Totals means = sums_.channel_means.totals();
   for (int c = 0; c < 3; ++c)
     errors.variance_of_channel_means[c] = variance_of_mean_of(passes(), means[c], means[c + 3]);
-  const double of_level = spread_of_level(errors.variance_of_channel_means, channel_means(mean()));
-  errors.variance_part.standard_error = std::hypot(errors.variance_part.standard_error, of_level);
+  errors.variance_part = variance_part_of(errors.variance, scales, errors.variance_of_channel_means,
+                                          channel_means(mean_of_passes));
   if (!shows_bias()) return errors;
   GroupMeans groups;
   std::vector<const Image*> filled;

@@ -48,6 +48,7 @@ enum class Integrator { photon, path, combined };
 struct CombinedSettings {
   TechniqueSet techniques;
   Heuristic heuristic = Heuristic::correlation_aware;
+  bool layers = false;  // is it kept what each technique finds?
 };
 
 /// When a render ends: once `passes` are done; or, where `seconds` or `error` are asked for, once the first of these

@@ -2,6 +2,7 @@
 // that share in a path that its density has among those of all. Each path counts once, if a technique in use finds it.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "vpm/estimate/combined/light_sub_paths.h"
@@ -60,7 +61,21 @@ struct CombinedContext {
   int max_events = 100'000;  // of one eye sub-path
 };
 
-/// One sample of the radiance along a camera ray, W/(m^2 sr), without the share of light tracing.
-KernelEstimate combined_radiance(const CombinedContext& context, const Ray& camera_ray, EyeWork& work);
+/// What each technique finds, W/(m^2 sr): with its shares, and without, so that a path which a technique finds in several
+/// ways, at several vertices, counts for each of them.
+struct TechniqueParts {
+  std::array<Rgb, kTechniques.size()> weighted{}, unweighted{};
+
+  void add(Technique technique, const Rgb& found, double share) {
+    const auto number = static_cast<size_t>(technique);
+    weighted[number] += found * static_cast<float>(share);
+    unweighted[number] += found;
+  }
+};
+
+/// One sample of the radiance along a camera ray, W/(m^2 sr), without the share of light tracing. Adds to `parts`, too,
+/// where that is not null.
+KernelEstimate combined_radiance(const CombinedContext& context, const Ray& camera_ray, EyeWork& work,
+                                 TechniqueParts* parts = nullptr);
 
 }  // namespace vpm

@@ -13,11 +13,8 @@ namespace vpm {
 
 /// A vertex of a light sub-path that is not specular.
 struct LightVertex {
-  PathVertex vertex;
-  Junction junction;
+  Arrival at;
   Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
-  Leg arrived;      // to the vertex
-  SubPathSums sums;
 };
 
 /// The part of a flight through one medium.
@@ -29,7 +26,8 @@ struct LightBeam {
 /// What a light sub-path brings to a pixel by light tracing.
 struct Splat {
   uint32_t pixel = 0;  // numbered row by row
-  Rgb radiance{0.0f};  // W/(m^2 sr), for each light sub-path
+  Rgb radiance{0.0f};  // W/(m^2 sr), for each light sub-path, were light tracing the only technique
+  float share = 1.0f;  // that light tracing has in it
 };
 
 struct LightSubPaths {
@@ -54,6 +52,9 @@ struct LightTracing {
   uint64_t pass = 0;
   int max_events = 100'000;  // of one sub-path
 };
+
+/// Light tracing: connects a vertex, with the power that arrives there, W, to the camera.
+void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng& rng, LightSubPaths& paths);
 
 /// Traces the light sub-paths of these numbers one after another. Sub-path i depends on (seed, pass, i) alone.
 void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths);

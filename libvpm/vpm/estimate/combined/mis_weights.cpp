@@ -28,8 +28,6 @@ MergeTerms merge_terms(const TechniqueCounts& counts, double passing_light, doub
   return terms;
 }
 
-double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }
-
 }  // namespace
 
 Junction junction_of(const Scene& scene, const PathVertex& vertex) {
@@ -74,23 +72,25 @@ Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, doub
   return start;
 }
 
-Departure depart(const TechniqueCounts& counts, const Junction& at, const PathVertex& vertex, const SubPathSums& sums,
-                 const Leg& arrived, const Vec3& direction, double forward, double reverse, SubPath way, bool first) {
+Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward& onward, SubPath way, bool first) {
+  const SubPathSums& sums = at.sums;
+  const Junction& from = at.junction;
   Departure departure;
-  departure.from = at;
-  departure.point = vertex.point;
-  departure.direction = direction;
-  departure.forward = forward;
-  departure.behind = (counts.weigh(sums.adjacent) + counts.weigh(reverse) * sums.further) / counts.weigh(sums.density);
-  if (at.kind == Junction::Kind::surface && !sums.straight) departure.merged = merges_on_surface(counts, first).sum();
-  departure.adjacent = at.kind == Junction::Kind::free ? 0.0 : counts.connections;
+  departure.from = from;
+  departure.point = at.vertex.point;
+  departure.direction = onward.direction;
+  departure.forward = onward.forward;
+  departure.behind =
+      (counts.weigh(sums.adjacent) + counts.weigh(onward.reverse) * sums.further) / counts.weigh(sums.density);
+  if (from.kind == Junction::Kind::surface && !sums.straight) departure.merged = merges_on_surface(counts, first).sum();
+  departure.adjacent = from.kind == Junction::Kind::free ? 0.0 : counts.connections;
   departure.way = way;
-  if (at.kind != Junction::Kind::medium) return departure;
+  if (from.kind != Junction::Kind::medium) return departure;
   departure.merges = true;
   departure.first = first;
-  departure.sine = sine_between(vertex.travel, direction);
+  departure.sine = sine_between(at.vertex.travel, onward.direction);
   departure.arrived =
-      way == SubPath::light ? passing_over_colliding(at.sigma_t, arrived) : colliding(at.sigma_t, arrived);
+      way == SubPath::light ? passing_over_colliding(from.sigma_t, at.leg) : colliding(from.sigma_t, at.leg);
   return departure;
 }
 
@@ -131,6 +131,8 @@ MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, c
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
   return {.surface = counts.weigh(first ? counts.surfaces : counts.shared * counts.surfaces)};
 }
+
+double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }
 
 double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
                     double back_to_light, const SubPathSums& eye, double back_to_eye) {

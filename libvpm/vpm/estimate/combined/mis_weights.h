@@ -76,6 +76,21 @@ struct SubPathSums {
   bool straight = false;  // does the light come straight from a light that is sampled? It is not merged on surfaces
 };
 
+/// A sub-path at a vertex that it has come to.
+struct Arrival {
+  PathVertex vertex;
+  Junction junction;
+  Leg leg;  // that led there
+  SubPathSums sums;
+};
+
+/// How a sub-path goes on from a vertex, with the densities of the direction and of the way back: at a specular vertex,
+/// 1 and the factor of refraction.
+struct Onward {
+  Vec3 direction{0.0f};  // unit
+  double forward = 1.0, reverse = 1.0;  // 1/sr
+};
+
 /// A sub-path as it leaves a vertex, or its start.
 struct Departure {
   Junction from;
@@ -101,11 +116,8 @@ Departure depart_from_light(const TechniqueCounts& counts, const Light& light, d
                             const EmissionDensity& emission, const Ray& ray, const Vec3& normal);
 /// A start at the camera, whose directions have the density `forward`, 1/sr.
 Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, double forward);
-/// Goes on from a vertex into `direction`, with the densities of the direction and of the way back: at a specular
-/// vertex, 1 and the factor of refraction. `arrived` is the leg that led to the vertex; `first` says whether it is,
-/// from the eye, the first vertex that is not specular.
-Departure depart(const TechniqueCounts& counts, const Junction& at, const PathVertex& vertex, const SubPathSums& sums,
-                 const Leg& arrived, const Vec3& direction, double forward, double reverse, SubPath way, bool first);
+/// Goes on from a vertex. `first` says whether it is, from the eye, the first vertex that is not specular.
+Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward& onward, SubPath way, bool first);
 
 /// The leg from a departure to a point, m.
 Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance);
@@ -125,6 +137,8 @@ struct MergeTerms {
 MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
                             const Leg& from_eye, double sine, bool first);
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
+/// Of the angle between directions (unit).
+double sine_between(const Vec3& a, const Vec3& b);
 
 /// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
 /// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the

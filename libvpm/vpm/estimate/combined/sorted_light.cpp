@@ -9,7 +9,7 @@ SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, cons
   std::vector<Vec3> surfaces;
   std::vector<std::vector<Vec3>> media(scene.media.size());
   for (uint32_t i = 0; i < paths_.vertices.size(); ++i) {
-    const PathVertex& vertex = paths_.vertices[i].vertex;
+    const PathVertex& vertex = paths_.vertices[i].at.vertex;
     (vertex.on_surface ? of_surfaces_ : of_media_[vertex.medium]).push_back(i);
     (vertex.on_surface ? surfaces : media[vertex.medium]).push_back(vertex.point);
   }

@@ -180,35 +180,35 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
 
 /// The sub-paths along the whole path, as they are traced.
 struct SubPaths {
-  std::vector<SubPathSums> light, eye;              // at each vertex
+  std::vector<Arrival> light, eye;                  // at each vertex
   std::vector<Departure> light_leaves, eye_leaves;  // of each vertex
 };
 
 SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
   const size_t k = path.last();
-  SubPaths traced{std::vector<SubPathSums>(k), std::vector<SubPathSums>(k), std::vector<Departure>(k),
+  SubPaths traced{std::vector<Arrival>(k), std::vector<Arrival>(k), std::vector<Departure>(k),
                   std::vector<Departure>(k + 1)};
   const Vec3 normal = path.junctions[0].normal;
   const EmissionDensity emission = emission_density(path.light, {}, normal, path.direction(0));
   traced.light_leaves[0] =
       depart_from_light(counts, path.light, path.chosen, emission, {path.points[0], path.direction(0)}, normal);
   for (size_t i = 1; i < k; ++i) {
-    traced.light[i] = arrive(counts, traced.light_leaves[i - 1], path.leg(i - 1), path.junctions[i], path.points[i]);
-    traced.light_leaves[i] =
-        depart(counts, path.junctions[i], path.vertices[i], traced.light[i], path.leg(i - 1), path.direction(i),
-               density_on(path, i, true), density_on(path, i, false), SubPath::light, i + 1 == k);
+    traced.light[i] = {path.vertices[i], path.junctions[i], path.leg(i - 1),
+                       arrive(counts, traced.light_leaves[i - 1], path.leg(i - 1), path.junctions[i], path.points[i])};
+    const Onward onward{path.direction(i), density_on(path, i, true), density_on(path, i, false)};
+    traced.light_leaves[i] = depart(counts, traced.light[i], onward, SubPath::light, i + 1 == k);
   }
   traced.eye_leaves[k] = depart_from_camera(counts, {path.points[k], -path.direction(k - 1)}, path.camera_density);
   for (size_t i = k - 1; i >= 1; --i) {
-    traced.eye[i] = arrive(counts, traced.eye_leaves[i + 1], path.leg(i), path.junctions[i], path.points[i]);
-    PathVertex vertex = path.vertices[i];
-    vertex.travel = -path.direction(i);
+    traced.eye[i] = {path.vertices[i], path.junctions[i], path.leg(i),
+                     arrive(counts, traced.eye_leaves[i + 1], path.leg(i), path.junctions[i], path.points[i])};
+    traced.eye[i].vertex.travel = -path.direction(i);
     // As walks do: 1 on, and the factor of refraction back, whichever way the sub-path goes.
     const bool specular = path.vertices[i].specular;
     const double on = specular ? 1.0 : density_on(path, i, false);
     const double back = specular ? 1.0 / path.refractions[i] : density_on(path, i, true);
-    traced.eye_leaves[i] = depart(counts, path.junctions[i], vertex, traced.eye[i], path.leg(i), -path.direction(i - 1),
-                                  on, back, SubPath::eye, first_from_eye(path, i));
+    traced.eye_leaves[i] =
+        depart(counts, traced.eye[i], {-path.direction(i - 1), on, back}, SubPath::eye, first_from_eye(path, i));
   }
   return traced;
 }
@@ -234,7 +234,7 @@ double share_of(const WholePath& path, const TechniqueCounts& counts, const SubP
       at.kind == Junction::Kind::surface
           ? merges_on_surface(counts, first_from_eye(path, i))
           : merges_in_medium(counts, at.sigma_t, path.leg(i - 1), path.leg(i), sine, first_from_eye(path, i));
-  const double all = all_at_merge(counts, terms, traced.light[i], density_on(path, i, false), traced.eye[i],
+  const double all = all_at_merge(counts, terms, traced.light[i].sums, density_on(path, i, false), traced.eye[i].sums,
                                   density_on(path, i, true));
   const double term = found.by == By::surface     ? terms.surface
                       : found.by == By::points_3d ? terms.points_3d

@@ -1,0 +1,108 @@
+// Eye sub-paths run into lights, sample them, and are connected to vertices of light sub-paths.
+#include "vpm/base/count.h"
+#include "vpm/estimate/combined/eye_sub_path.h"
+
+namespace vpm {
+
+void EyeSubPath::see_environment(const Rgb& passed) {
+  const Vec3 direction = at_.state.ray.direction;
+  for (size_t i = 0; i < c_.scene.lights.size(); ++i) {
+    const Rgb seen = environment_radiance(c_.scene.lights[i], direction);
+    if (!is_black(seen)) run_into(static_cast<int>(i), {passed, 1.0}, at_.from.point, Vec3(0.0f), seen);
+  }
+}
+
+void EyeSubPath::see_emitter(const PathVertex& vertex, const Leg& leg) {
+  const int light = c_.scene.shapes[vertex.hit.shape].light;
+  if (light < 0) return;
+  const Rgb emitted = surface_radiance(c_.scene.lights[light], vertex.hit.normal, vertex.travel);
+  if (!is_black(emitted)) run_into(light, leg, vertex.hit.position, vertex.hit.normal, emitted);
+}
+
+void EyeSubPath::run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted) {
+  const Rgb seen = at_.state.throughput * emitted;
+  if (at_.only_specular) return add(Technique::connections, seen, 1.0);  // no other technique can find it
+  if (!c_.counts.light) return;
+  const Light& light = c_.scene.lights[number];
+  const EmissionDensity emission = emission_density(light, c_.scene.bounds, normal, -at_.state.ray.direction);
+  const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
+                                            {point, -at_.state.ray.direction}, normal);
+  const Junction at_light{is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, normal, Rgb(0.0f), true};
+  const SubPathSums at_eye = arrive(c_.counts, start, leg, at_.from.from, at_.from.point);
+  const SubPathSums further = arrive(c_.counts, at_.from, leg, at_light, point);
+  add(Technique::connections, seen, shares_of_connection(c_.counts, start, at_eye, at_.from, further).run_into);
+}
+
+void EyeSubPath::sample_light(const Arrival& at) {
+  if (!c_.counts.light) return;
+  const PathVertex& vertex = at.vertex;
+  if (!vertex.on_surface) return sample_light(at, {vertex.point, vertex.medium});
+  sample_light(at, near_side(vertex.hit, vertex.travel, vertex.medium));
+  if (scatters_through(vertex.material))
+    sample_light(at, far_side(c_.scene, vertex.hit, vertex.travel, vertex.medium));
+}
+
+void EyeSubPath::sample_light(const Arrival& at, const Receiver& side) {
+  const PickedLight picked = pick_light(c_.scene, work_.rng.uniform_double());
+  const Light& light = c_.scene.lights[picked.number];
+  count(work_.counters.shadow_rays);
+  const std::optional<Incident> incident = sample_towards(light, side.point, work_.rng);
+  if (!incident || (at.vertex.on_surface && glm::dot(side.normal, incident->direction) <= 0.0f)) return;
+  const Scattered scattered = scattered_into(c_.scene, at.vertex, incident->direction, SubPath::eye);
+  if (is_black(scattered.value)) return;
+  const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
+  const Rgb passed =
+      visibility(rays, {side.point, incident->direction}, incident->distance, picked.number, side.medium);
+  if (is_black(passed)) return;
+  const Vec3 point = is_infinite(light) ? side.point : side.point + incident->distance * incident->direction;
+  const EmissionDensity emission = emission_density(light, c_.scene.bounds, incident->normal, -incident->direction);
+  const Departure start = depart_from_light(c_.counts, light, picked.probability, emission,
+                                            {point, -incident->direction}, incident->normal);
+  const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
+  const Departure eye = depart_into(at, {incident->direction, scattered.forward, scattered.reverse});
+  const Junction at_light{start.from.kind, incident->normal, Rgb(0.0f), true};
+  const SubPathSums at_eye = arrive(c_.counts, start, leg, at.junction, at.vertex.point);
+  const SubPathSums further = arrive(c_.counts, eye, leg, at_light, point);
+  const Rgb found = at_.state.throughput * scattered.value * incident->irradiance * passed / picked.probability;
+  add(Technique::connections, found, shares_of_connection(c_.counts, start, at_eye, eye, further).connected);
+}
+
+void EyeSubPath::connect(const Arrival& at) {
+  const std::vector<LightVertex>& all = c_.light.vertices();
+  if (c_.counts.connections == 0.0 || all.empty()) return;
+  const double number = c_.counts.connections * static_cast<double>(all.size()) / c_.light_paths;
+  const auto whole = static_cast<size_t>(number + work_.rng.uniform_double());
+  for (size_t i = 0; i < whole; ++i) {
+    const auto pick = static_cast<size_t>(work_.rng.uniform_double() * static_cast<double>(all.size()));
+    connect_to(at, all[pick]);
+  }
+}
+
+void EyeSubPath::connect_to(const Arrival& at, const LightVertex& light) {
+  const Vec3d offset = Vec3d(light.at.vertex.point) - Vec3d(at.vertex.point);
+  const double distance = glm::length(offset);
+  if (!(distance > 0.0)) return;
+  const Vec3 direction(offset / distance);
+  const Scattered here = scattered_into(c_.scene, at.vertex, direction, SubPath::eye);
+  if (is_black(here.value)) return;
+  const Scattered there = scattered_into(c_.scene, light.at.vertex, -direction, SubPath::light);
+  if (is_black(there.value)) return;
+  count(work_.counters.shadow_rays);
+  const Leaving from = leave(c_.scene, at.vertex, direction), to = leave(c_.scene, light.at.vertex, -direction);
+  const Vec3 way = to.origin - from.origin;
+  const float length = glm::length(way);
+  const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
+  const Rgb passed = visibility(rays, {from.origin, way / length}, length, from.medium);
+  if (is_black(passed)) return;
+  const Leg leg{passed, distance};
+  const Departure eye = depart_into(at, {direction, here.forward, here.reverse});
+  const Departure departure =
+      depart(c_.counts, light.at, {-direction, there.forward, there.reverse}, SubPath::light, false);
+  const SubPathSums at_eye = arrive(c_.counts, departure, leg, at.junction, at.vertex.point);
+  const SubPathSums at_light = arrive(c_.counts, eye, leg, light.at.junction, light.at.vertex.point);
+  const Rgb found = at_.state.throughput * here.value * there.value * light.power * passed *
+                    static_cast<float>(leg.per_square() / c_.counts.connections);
+  add(Technique::connections, found, shares_of_connection(c_.counts, departure, at_eye, eye, at_light).connected);
+}
+
+}  // namespace vpm

@@ -1,0 +1,105 @@
+// One sub-path from the eye, event by event. What it meets of those from the lights has a file for each technique.
+#pragma once
+
+#include <optional>
+
+#include "vpm/estimate/combined/combined.h"
+#include "vpm/estimate/kernel_sum.h"
+#include "vpm/path/direct_light.h"
+#include "vpm/path/stretches.h"
+
+namespace vpm {
+
+class EyeSubPath {
+ public:
+  /// `parts` may be null.
+  EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts);
+
+  KernelEstimate follow();
+
+ private:
+  /// A sub-path as it leaves the camera or a vertex.
+  struct Branch {
+    PathState state;
+    Departure from;
+    bool only_specular = true;  // are there no other vertices yet?
+    int events = 0;             // so far
+  };
+
+  /// The visitor of a ray on its way to the surface that ends it: merges along it.
+  struct Along {
+    EyeSubPath& path;
+    Ray ray;
+    MediumId medium;
+    Rgb passed{1.0f};  // from the last vertex to the start of the stretch
+    bool through_scattering = false;
+
+    bool pass(const Stretch& stretch);
+    /// The transmittance from the last vertex to a place on the ray, m.
+    Rgb to(double t) const;
+  };
+
+  void follow_branch();
+  /// The density with which the pixel draws the direction, 1/sr.
+  double density_of(const Ray& ray) const;
+
+  /// Takes a ray that comes from the camera to the surface that ends it, attenuated, as if it could not collide; and
+  /// from where it does collide a branch of its own. So no chance decides whether the surface is seen.
+  std::optional<Arrival> pass_through();
+  /// Follows a branch from where the ray collides, if it does, to its end.
+  void branch_off();
+  /// Flies to the next vertex, and sees the lights that the flight runs into.
+  std::optional<Arrival> fly();
+  /// Flies to the next event; `passed` becomes the transmittance up to it.
+  Event fly_to_event(Rgb& passed);
+  /// Makes the event a vertex.
+  Arrival arrive_at(const Event& event, const Rgb& passed);
+  /// Finds light at a vertex. Returns whether the sub-path goes on from there.
+  bool visit(const Arrival& at);
+  /// Draws how the sub-path goes on.
+  bool go_on(const Arrival& at);
+
+  // connections.cpp
+  void see_environment(const Rgb& passed);
+  void see_emitter(const PathVertex& vertex, const Leg& leg);
+  /// Adds the light that the sub-path has run into, at a point with that normal.
+  void run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted);
+  /// Samples a light; on surfaces that light passes, one for either side.
+  void sample_light(const Arrival& at);
+  /// Seen from a place just off a surface: rays that are aimed from there meet what they are aimed at.
+  void sample_light(const Arrival& at, const Receiver& side);
+  /// Connects the vertex to some vertices of light sub-paths, drawn from all.
+  void connect(const Arrival& at);
+  void connect_to(const Arrival& at, const LightVertex& light);
+
+  // A file for each
+  void merge_surface(const Arrival& at);
+  void merge_points_3d(const Arrival& at);
+  void merge_points_2d(const Along& along, const Interval& interval);
+  void merge_beams(const Along& along, const Interval& interval);
+  void merge_beam(const Along& along, const BeamCrossings& found, size_t i, const KernelPair<float>& kernel);
+
+  /// Adds what a technique finds, of which it has a share.
+  void add(Technique technique, const KernelEstimate& found, double share);
+  void add_merged(Technique technique, const Rgb& found, const KernelPair<float>& kernel, double share);
+  Departure depart_into(const Arrival& at, const Onward& onward) const {
+    return depart(c_.counts, at, onward, SubPath::eye, at_.only_specular);
+  }
+
+  const CombinedContext& c_;
+  EyeWork& work_;
+  TechniqueParts* parts_;
+  Branch at_;
+  KernelEstimate radiance_;
+};
+
+/// A normalised kernel and its correction, of a squared distance, m^2.
+template <int Dimension>
+auto kernel_of(KernelKind kind, float radius) {
+  const float norm = kernel_norm<Dimension>(kind, radius), inverse = 1.0f / (radius * radius);
+  return [kind, norm, inverse](float distance2) {
+    return with_kernel<Dimension>(kind, [&](auto profile) { return profile(distance2 * inverse); }) * norm;
+  };
+}
+
+}  // namespace vpm
