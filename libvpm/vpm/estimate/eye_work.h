@@ -16,7 +16,7 @@ namespace vpm {
 struct EyeScratch {
   DensityIntegralsAlong integrals;  // of the current segment
   Marcher marcher;
-  Neighbours neighbours;  // of the last gather by count
+  Neighbours neighbours;      // of the last gather by count
   std::vector<Track> tracks;  // of the last flight
 };
 

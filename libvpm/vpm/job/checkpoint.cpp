@@ -178,7 +178,8 @@ std::vector<Film> take_layers(NamedFields& fields, const Film& whole) {
 }
 
 RenderResult take_result(NamedFields fields) {
-  RenderResult result{take_film(fields, "film"), {}, fields.take<double>("seconds"), fields.take_all<PixelDisc>("discs")};
+  RenderResult result{
+      take_film(fields, "film"), {}, fields.take<double>("seconds"), fields.take_all<PixelDisc>("discs")};
   const size_t pixels = static_cast<size_t>(result.film.width()) * static_cast<size_t>(result.film.height());
   if (!result.discs.empty() && result.discs.size() != pixels)
     throw FieldError(fmt::format("its field 'discs' has {} numbers for {} pixels", result.discs.size(), pixels));

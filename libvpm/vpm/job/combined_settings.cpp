@@ -45,8 +45,9 @@ std::vector<Setting> combined_settings() {
       {.key = "combined.layers",
        .member = at<&S::combined, &C::layers>(),
        .domain = Flags{},
-       .meaning = "writes what each technique finds, too: layers `combined.NAME.weighted` and `combined.NAME.unweighted` "
-                  "(`--layers combined` does the same)",
+       .meaning =
+           "writes what each technique finds, too: layers `combined.NAME.weighted` and `combined.NAME.unweighted` "
+           "(`--layers combined` does the same)",
        .need = {combines, combines_nothing, kCombine}},
   };
 }

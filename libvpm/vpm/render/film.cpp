@@ -143,7 +143,7 @@ double mean_over_channels(const Rgbd& squares, const Rgbd& scale) {
 
 /// What variances of pixels sum to, over all pixels.
 struct VarianceSums {
-  Sum parts, squared_parts;    // relative, means over channels
+  Sum parts, squared_parts;     // relative, means over channels
   std::array<Sum, 3> channels;  // (W/(m^2 sr))^2
 
   void merge(const VarianceSums& other) {
@@ -301,8 +301,8 @@ FilmErrors Film::errors() const {
   const ExactSums::Totals means = sums_.channel_means.totals();
   for (int c = 0; c < 3; ++c)
     errors.variance_of_channel_means[c] = variance_of_mean_of(passes(), means[c], means[c + 3]);
-  errors.variance_part = variance_part_of(errors.variance, scales, errors.variance_of_channel_means,
-                                          channel_means(mean_of_passes));
+  errors.variance_part =
+      variance_part_of(errors.variance, scales, errors.variance_of_channel_means, channel_means(mean_of_passes));
   if (!shows_bias()) return errors;
   GroupMeans groups;
   std::vector<const Image*> filled;

@@ -21,8 +21,8 @@ struct Estimated {
 /// Estimates of the variance and of the bias of a film's mean. Relative parts are those in relative_mse(): means over
 /// pixels and channels, over R^2 + 0.01 (mean R)^2. A pixel's own value is too noisy to stand for R where its error is
 /// large, as a sample that makes the error makes it seem small, too. So R^2 is a product a d: a is the magnitude of the
-/// pixel's own value, but no more than that of the mean of its neighbours, d the same with the mean of its darkest side;
-/// neither is less than the pixel's own less its standard deviation.
+/// pixel's own value, but no more than that of the mean of its neighbours, d the same with the mean of its darkest
+/// side; neither is less than the pixel's own less its standard deviation.
 struct FilmErrors {
   Image variance;  // of the mean, from the differences between passes
   Image bias;      // of the mean, were it to go as r^2: an unbiased estimate, but full of noise

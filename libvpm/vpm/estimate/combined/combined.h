@@ -61,8 +61,8 @@ struct CombinedContext {
   int max_events = 100'000;  // of one eye sub-path
 };
 
-/// What each technique finds, W/(m^2 sr): with its shares, and without, so that a path which a technique finds in several
-/// ways, at several vertices, counts for each of them.
+/// What each technique finds, W/(m^2 sr): with its shares, and without, so that a path which a technique finds in
+/// several ways, at several vertices, counts for each of them.
 struct TechniqueParts {
   std::array<Rgb, kTechniques.size()> weighted{}, unweighted{};
 

@@ -38,8 +38,7 @@ void EyeSubPath::sample_light(const Arrival& at) {
   const PathVertex& vertex = at.vertex;
   if (!vertex.on_surface) return sample_light(at, {vertex.point, vertex.medium});
   sample_light(at, near_side(vertex.hit, vertex.travel, vertex.medium));
-  if (scatters_through(vertex.material))
-    sample_light(at, far_side(c_.scene, vertex.hit, vertex.travel, vertex.medium));
+  if (scatters_through(vertex.material)) sample_light(at, far_side(c_.scene, vertex.hit, vertex.travel, vertex.medium));
 }
 
 void EyeSubPath::sample_light(const Arrival& at, const Receiver& side) {

@@ -60,8 +60,7 @@ Rgb EyeSubPath::Along::to(double t) const {
 
 std::optional<Arrival> EyeSubPath::pass_through() {
   Along along{*this, at_.state.ray, at_.state.medium};
-  const std::optional<Hit> hit =
-      each_stretch(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
+  const std::optional<Hit> hit = each_stretch(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
   if (along.through_scattering) branch_off();
   at_.state.throughput *= along.passed;
   if (is_black(at_.state.throughput)) return std::nullopt;

@@ -87,7 +87,7 @@ struct Arrival {
 /// How a sub-path goes on from a vertex, with the densities of the direction and of the way back: at a specular vertex,
 /// 1 and the factor of refraction.
 struct Onward {
-  Vec3 direction{0.0f};  // unit
+  Vec3 direction{0.0f};                 // unit
   double forward = 1.0, reverse = 1.0;  // 1/sr
 };
 

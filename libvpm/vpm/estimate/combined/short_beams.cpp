@@ -22,8 +22,7 @@ void EyeSubPath::merge_beams(const Along& along, const Interval& interval) {
   count(work_.counters.gather.visited, visited);
 }
 
-void EyeSubPath::merge_beam(const Along& along, const BeamCrossings& found, size_t i,
-                            const KernelPair<float>& kernel) {
+void EyeSubPath::merge_beam(const Along& along, const BeamCrossings& found, size_t i, const KernelPair<float>& kernel) {
   const Medium& medium = c_.scene.media[along.medium];
   const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
   const Vec3 place = along.ray.origin + Vec3(found.x[i], found.y[i], found.z[i]);

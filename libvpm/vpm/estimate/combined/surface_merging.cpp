@@ -27,8 +27,7 @@ void EyeSubPath::merge_surface(const Arrival& at) {
     const Scattered scattered = scattered_into(c_.scene, vertex, -travel, SubPath::eye);
     const float cosine = std::abs(glm::dot(vertex.hit.normal, travel));
     if (is_black(scattered.value) || cosine == 0.0f) return;
-    const double all =
-        all_at_merge(c_.counts, merges, light.at.sums, scattered.forward, at.sums, scattered.reverse);
+    const double all = all_at_merge(c_.counts, merges, light.at.sums, scattered.forward, at.sums, scattered.reverse);
     const Rgb found = each * scattered.value * light.power / cosine;
     add_merged(Technique::surface_merging, found, kernel(distance2), merges.surface / all);
   });
