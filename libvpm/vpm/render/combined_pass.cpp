@@ -43,7 +43,7 @@ TechniqueCounts counts_of_pass(const RenderSettings& settings, const MergeKernel
   if (techniques.has(Technique::short_beams))
     counts.beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
   counts.heuristic = settings.combined.heuristic;
-  if (counts.heuristic == Heuristic::correlation_aware) counts.shared = 1.0 / paths;
+  if (counts.heuristic == Heuristic::correlation_aware) counts.at_random = 0.0;
   return counts;
 }
 
@@ -81,8 +81,11 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   splats_ = std::exchange(light.splats, {});
   light_.emplace(scene, counts_, kernels_, std::move(light));
   statistics_.build_seconds = clock.seconds() - statistics_.trace_seconds;
-  statistics_.surface_photons = light_->surface_vertices();
-  statistics_.volume_photons = light_->vertices().size() - light_->surface_vertices();
+  const std::vector<LightVertex>& vertices = light_->vertices();
+  const auto on_surfaces = std::count_if(vertices.begin(), vertices.end(),
+                                         [](const LightVertex& vertex) { return vertex.at.vertex.on_surface; });
+  statistics_.surface_photons = static_cast<uint64_t>(on_surfaces);
+  statistics_.volume_photons = vertices.size() - statistics_.surface_photons;
   statistics_.beams = statistics_.flights = light_->beam_count();
   statistics_.photon_map_bytes = light_->memory_bytes() + splats_.capacity() * sizeof(Splat);
   statistics_.last_volume_radius = kernels_.beams;

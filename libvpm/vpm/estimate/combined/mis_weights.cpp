@@ -14,14 +14,10 @@ double colliding(const Rgb& sigma_t, const Leg& leg) {
   return std::max(kLeastDensity, double{mean_channel(sigma_t * leg.transmittance)});
 }
 
-/// How many photons a leg brings to a place over how many collide there, m: a beam passes where its photon need not
-/// collide.
-double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) { return leg.mean() / colliding(sigma_t, leg); }
-
 MergeTerms merge_terms(const TechniqueCounts& counts, double passing_light, double colliding_eye, double sine,
                        bool first) {
   MergeTerms terms;
-  terms.points_3d = counts.weigh(first ? counts.points_3d : counts.shared * counts.points_3d);
+  terms.points_3d = counts.weigh(counts.points_3d * counts.part_of_points_3d(first));
   if (!first) return terms;
   terms.points_2d = counts.weigh(counts.points_2d / colliding_eye);
   terms.beams = counts.weigh(counts.beams * sine * passing_light / colliding_eye);
@@ -68,6 +64,7 @@ Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, doub
   start.direction = ray.direction;
   start.forward = forward;
   start.adjacent = counts.splats;
+  start.camera = true;
   start.way = SubPath::eye;
   return start;
 }
@@ -80,9 +77,15 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   departure.point = at.vertex.point;
   departure.direction = onward.direction;
   departure.forward = onward.forward;
-  departure.behind =
-      (counts.weigh(sums.adjacent) + counts.weigh(onward.reverse) * sums.further) / counts.weigh(sums.density);
-  if (from.kind == Junction::Kind::surface && !sums.straight) departure.merged = merges_on_surface(counts, first).sum();
+  const BehindMerge behind = behind_merge(counts, sums);
+  departure.behind = behind.sum(counts.weigh(onward.reverse));
+  if (from.kind == Junction::Kind::surface) {
+    if (!sums.straight) departure.unless_straight = merges_on_surface(counts, first).sum();
+    if (sums.seen) {
+      departure.behind = counts.weigh(onward.reverse) * behind.further;
+      departure.unless_straight += behind.adjacent;
+    }
+  }
   departure.adjacent = from.kind == Junction::Kind::free ? 0.0 : counts.connections;
   departure.way = way;
   if (from.kind != Junction::Kind::medium) return departure;
@@ -102,7 +105,7 @@ Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittan
 
 SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
                    const Vec3& point) {
-  double behind = departure.behind + (at.light && counts.light ? 0.0 : departure.merged);
+  double behind = departure.behind + (at.light && counts.light ? 0.0 : departure.unless_straight);
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
@@ -116,6 +119,7 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   if (at.kind == Junction::Kind::free) return sums;
   sums.adjacent = departure.adjacent;
   sums.straight = departure.light != nullptr;
+  sums.seen = departure.camera;
   if (departure.light)
     sums.adjacent = sampled_density(*departure.light, point,
                                     {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
@@ -123,23 +127,22 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   return sums;
 }
 
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, double passing_light,
                             const Leg& from_eye, double sine, bool first) {
-  return merge_terms(counts, passing_over_colliding(sigma_t, from_light), colliding(sigma_t, from_eye), sine, first);
+  return merge_terms(counts, passing_light, colliding(sigma_t, from_eye), sine, first);
 }
 
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
-  return {.surface = counts.weigh(first ? counts.surfaces : counts.shared * counts.surfaces)};
+  return {.surface = counts.weigh(counts.surfaces * counts.part_of_surfaces(first))};
 }
 
 double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }
 
-double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
-                    double back_to_light, const SubPathSums& eye, double back_to_eye) {
-  const auto others = [&](const SubPathSums& sums, double back) {
-    return (counts.weigh(sums.adjacent) + counts.weigh(back) * sums.further) / counts.weigh(sums.density);
-  };
-  return merges.sum() + others(light, back_to_light) + others(eye, back_to_eye);
+double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) { return leg.mean() / colliding(sigma_t, leg); }
+
+BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums) {
+  const double density = counts.weigh(sums.density);
+  return {counts.weigh(sums.adjacent) / density, sums.further / density};
 }
 
 ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Departure& light, const SubPathSums& at_eye,

@@ -9,8 +9,8 @@
 //   M_i = N m_i f_0 ... f_i r_i ... r_k
 // for N light sub-paths and a kernel of the size m_i, with a factor for each sub-path that need not end there. Where
 // x_i is the first vertex from the eye that is not specular, m_i holds all kernels, elsewhere only those of surfaces
-// and of points in balls. Light that comes straight from a light is not merged on surfaces, where lights are sampled:
-// samples of lights have less noise than densities say.
+// and of points in balls. Light that comes straight from a light onto a surface is neither merged there nor brought to
+// the camera from there, where lights are sampled: samples of lights have less noise than densities say.
 //
 // A sub-path from the light carries S_i, the sum of all C_j, j < i, and M_j, j <= i, over C_i / c_i. From vertex to
 // vertex,
@@ -38,8 +38,14 @@ struct TechniqueCounts {
   double points_3d = 0.0;  // m^3
   double points_2d = 0.0;  // m^2
   double beams = 0.0;      // m
-  double shared = 1.0;  // of what a merge counts for elsewhere, the part where the eye's sub-path has scattered before
+  // Of what merges count for elsewhere, the part at places that chance has led the eye's sub-path to: where it has
+  // scattered before; and where it collides, if merges along its ray are made as well.
+  double at_random = 1.0;
   Heuristic heuristic = Heuristic::balance;
+
+  /// The parts at a vertex from the eye: is it the first that is not specular?
+  double part_of_surfaces(bool first) const { return first ? 1.0 : at_random; }
+  double part_of_points_3d(bool first) const { return first && points_2d == 0.0 && beams == 0.0 ? 1.0 : at_random; }
 
   /// A density, or a number, as the heuristic weighs it.
   double weigh(double x) const { return heuristic == Heuristic::power ? x * x : x; }
@@ -73,7 +79,8 @@ struct SubPathSums {
   double density = 1.0;   // of the vertex: f_i, or r_i
   double adjacent = 0.0;  // how many connections there are between the vertex and the one before
   double further = 0.0;   // the sum over all techniques behind that, over the density of the direction back
-  bool straight = false;  // does the light come straight from a light that is sampled? It is not merged on surfaces
+  bool straight = false;  // does the light come straight from a light that is sampled?
+  bool seen = false;      // does the camera see the vertex, without mirrors or glass in between?
 };
 
 /// A sub-path at a vertex that it has come to.
@@ -98,11 +105,12 @@ struct Departure {
   Vec3 direction{0.0f};          // unit
   double forward = 1.0;          // the density of the direction, 1/sr; 1 at a specular vertex
   double behind = 0.0;           // the sum over techniques behind the vertex
-  double merged = 0.0;           // of merges at the vertex, if it is on a surface
+  double unless_straight = 0.0;  // of merges at the vertex and of light tracing from there, if it is on a surface
   double adjacent = 0.0;         // how many connections are made over the leg to come
   const Light* light = nullptr;  // that this is the start on: connections over the leg sample it
   double place = 1.0;            // the density of emission there, EmissionDensity::place
   bool parallel = false;         // does light not spread from here?
+  bool camera = false;           // is this the start at the camera?
   // Of merges at a vertex in a medium, of which the leg to come is one of the two:
   bool merges = false;
   bool first = false;  // is the vertex the first from the eye that is not specular?
@@ -132,19 +140,31 @@ struct MergeTerms {
 
   double sum() const { return surface + points_3d + points_2d + beams; }
 };
-/// In a medium, between a leg from the light and one from the eye, whose directions make an angle of that sine; `first`
-/// as in depart().
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
+/// In a medium, between a leg from the light, of which passing_over_colliding() is given, and one from the eye, whose
+/// directions make an angle of that sine; `first` as in depart().
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, double passing_light,
                             const Leg& from_eye, double sine, bool first);
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
 /// Of the angle between directions (unit).
 double sine_between(const Vec3& a, const Vec3& b);
 
+/// What the techniques behind a vertex that merges add to the sum of all densities there.
+struct BehindMerge {
+  double adjacent = 0.0, further = 0.0;
+
+  /// `back` is the density with which the other sub-path goes on along this one, 1/sr, as the heuristic weighs it.
+  double sum(double back) const { return adjacent + back * further; }
+};
+BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums);
+/// How far a leg takes photons for each that collides at its end, m: beams pass where their photons need not collide.
+double passing_over_colliding(const Rgb& sigma_t, const Leg& leg);
 /// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
 /// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the
 /// other one.
-double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
-                    double back_to_light, const SubPathSums& eye, double back_to_eye);
+inline double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const BehindMerge& light,
+                           double back_to_light, const BehindMerge& eye, double back_to_eye) {
+  return merges.sum() + light.sum(counts.weigh(back_to_light)) + eye.sum(counts.weigh(back_to_eye));
+}
 /// The shares of techniques that join two departures towards each other.
 struct ConnectionShares {
   double connected = 0.0;  // of the connection itself; of the light that is sampled
