@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "vpm/estimate/combined/light_sub_paths.h"
-#include "vpm/estimate/combined/vertex_map.h"
 #include "vpm/estimate/eye_work.h"
 #include "vpm/photon/photon_beam_map.h"
 
@@ -19,18 +18,11 @@ struct MergeKernels {
   float beams = 0.0f, points_2d = 0.0f, points_3d = 0.0f;
 };
 
-/// What a merge needs of a light vertex on a surface, and in a medium.
+/// A photon on a surface, for merges.
 struct SurfacePhoton {
   Vec3 point{0.0f};   // m
   Vec3 travel{0.0f};  // unit
   Rgb power{0.0f};    // W
-  BehindMerge behind;
-};
-struct MediumPhoton {
-  Vec3 travel{0.0f};  // unit
-  Rgb power{0.0f};    // W
-  float density = 0.0f;
-  double passing = 0.0;  // m, passing_over_colliding() of the leg that led there
   BehindMerge behind;
 };
 
@@ -43,7 +35,7 @@ class SortedLight {
   /// Of the beams of a medium, in the order of their map.
   const std::vector<LightBeam>& starts(MediumId medium) const { return paths_.starts[medium]; }
   const PhotonBeamMap& beams(MediumId medium) const { return beams_[medium]; }
-  /// The vertices on surfaces, but for light that comes straight from lights, and in a medium.
+  /// Photons on surfaces, but those straight from lights that are sampled, and in a medium.
   const VertexMap<SurfacePhoton>& on_surfaces() const { return on_surfaces_; }
   const VertexMap<MediumPhoton>& in_medium(MediumId medium) const { return in_media_[medium]; }
   size_t beam_count() const;

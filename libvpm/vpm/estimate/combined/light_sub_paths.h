@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "vpm/estimate/combined/mis_weights.h"
+#include "vpm/estimate/combined/vertex_map.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/ledger.h"
@@ -15,6 +16,15 @@ namespace vpm {
 struct LightVertex {
   Arrival at;
   Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
+};
+
+/// A photon in a medium, for merges: one that collided or, where a grid is thin, flew past (thin_places.h).
+struct MediumPhoton {
+  Vec3 travel{0.0f};  // unit
+  Rgb power{0.0f};    // W over the density relative to the medium's largest, see stored_power()
+  // As they would be where the density is 1:
+  double passing = 0.0;  // m, passing_over_colliding() of the leg that led there
+  BehindMerge behind;
 };
 
 /// The part of a flight through one medium.
@@ -32,12 +42,13 @@ struct Splat {
 
 struct LightSubPaths {
   std::vector<LightVertex> vertices;
-  std::vector<std::vector<PhotonBeam>> beams;  // by medium
-  std::vector<std::vector<LightBeam>> starts;  // of the beams
+  std::vector<std::vector<PlacedRecord<MediumPhoton>>> photons;  // by medium
+  std::vector<std::vector<PhotonBeam>> beams;                    // by medium
+  std::vector<std::vector<LightBeam>> starts;                    // of the beams
   std::vector<Splat> splats;
   Ledger ledger;  // emitted, counts of events, look-ups
 
-  explicit LightSubPaths(size_t media = 0) : beams(media), starts(media) {}
+  explicit LightSubPaths(size_t media = 0) : photons(media), beams(media), starts(media) {}
   /// Takes over what a part has, which comes next.
   void join(LightSubPaths& part);
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vpm/photon/stored_power.h"
+
 namespace vpm {
 namespace {
 
@@ -14,22 +16,29 @@ double colliding(const Rgb& sigma_t, const Leg& leg) {
   return std::max(kLeastDensity, double{mean_channel(sigma_t * leg.transmittance)});
 }
 
-MergeTerms merge_terms(const TechniqueCounts& counts, double passing_light, double colliding_eye, double sine,
-                       bool first) {
+MergeTerms merge_terms(const TechniqueCounts& counts, double kept, double passing_light, double colliding_eye,
+                       double sine, bool first) {
   MergeTerms terms;
-  terms.points_3d = counts.weigh(counts.points_3d * counts.part_of_points_3d(first));
+  terms.points_3d = counts.merges_points_3d(first) ? counts.weigh(counts.points_3d * kept) : 0.0;
   if (!first) return terms;
-  terms.points_2d = counts.weigh(counts.points_2d / colliding_eye);
+  terms.points_2d = counts.weigh(counts.points_2d * kept / colliding_eye);
   terms.beams = counts.weigh(counts.beams * sine * passing_light / colliding_eye);
   return terms;
 }
 
 }  // namespace
 
-Junction junction_of(const Scene& scene, const PathVertex& vertex) {
+Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex) {
   if (vertex.specular) return {};
   if (vertex.on_surface) return {Junction::Kind::surface, vertex.hit.normal};
-  return {Junction::Kind::medium, Vec3(0.0f), scene.media[vertex.medium].sigma_t * vertex.density};
+  return junction_in(counts, scene.media[vertex.medium], vertex.density);
+}
+
+Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float density) {
+  Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
+  if (medium.grid && density > 0.0f)
+    there.kept = std::max(1.0, double{floor_in(medium, counts.density_floor)} / relative_density(medium, density));
+  return there;
 }
 
 double arrival(const Junction& at, const Vec3& direction, const Leg& leg) {
@@ -77,13 +86,15 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   departure.point = at.vertex.point;
   departure.direction = onward.direction;
   departure.forward = onward.forward;
-  const BehindMerge behind = behind_merge(counts, sums);
-  departure.behind = behind.sum(counts.weigh(onward.reverse));
-  if (from.kind == Junction::Kind::surface) {
-    if (!sums.straight) departure.unless_straight = merges_on_surface(counts, first).sum();
-    if (sums.seen) {
-      departure.behind = counts.weigh(onward.reverse) * behind.further;
-      departure.unless_straight += behind.adjacent;
+  if (counts.deep || first || from.kind == Junction::Kind::free) {
+    const BehindMerge behind = behind_merge(counts, sums);
+    departure.behind = behind.sum(counts.weigh(onward.reverse));
+    if (from.kind == Junction::Kind::surface) {
+      if (!sums.straight) departure.unless_straight = merges_on_surface(counts, first).sum();
+      if (sums.seen) {
+        departure.behind = counts.weigh(onward.reverse) * behind.further;
+        departure.unless_straight += behind.adjacent;
+      }
     }
   }
   departure.adjacent = from.kind == Junction::Kind::free ? 0.0 : counts.connections;
@@ -109,7 +120,7 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
-    behind += merge_terms(counts, light ? departure.arrived : passing_over_colliding(sigma_t, leg),
+    behind += merge_terms(counts, departure.from.kept, light ? departure.arrived : passing_over_colliding(sigma_t, leg),
                           light ? colliding(sigma_t, leg) : departure.arrived, departure.sine, departure.first)
                   .sum();
   }
@@ -127,13 +138,13 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   return sums;
 }
 
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, double passing_light,
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing_light,
                             const Leg& from_eye, double sine, bool first) {
-  return merge_terms(counts, passing_light, colliding(sigma_t, from_eye), sine, first);
+  return merge_terms(counts, there.kept, passing_light, colliding(there.sigma_t, from_eye), sine, first);
 }
 
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
-  return {.surface = counts.weigh(counts.surfaces * counts.part_of_surfaces(first))};
+  return {.surface = counts.merges_surfaces(first) ? counts.weigh(counts.surfaces) : 0.0};
 }
 
 double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }

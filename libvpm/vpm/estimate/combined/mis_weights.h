@@ -38,14 +38,18 @@ struct TechniqueCounts {
   double points_3d = 0.0;  // m^3
   double points_2d = 0.0;  // m^2
   double beams = 0.0;      // m
-  // Of what merges count for elsewhere, the part at places that chance has led the eye's sub-path to: where it has
-  // scattered before; and where it collides, if merges along its ray are made as well.
-  double at_random = 1.0;
+  // Do sub-paths from the eye meet others beyond their first vertex that is not specular? If not, they go on from there
+  // only to see what lights they run into, and places that chance leads them to are not merged: beyond that vertex, and
+  // where a ray from the camera collides, if merges along the whole ray are made.
+  bool deep = true;
+  float density_floor = 0.0f;  // where a grid is thinner photons are also stored along flights, see ThinParts
   Heuristic heuristic = Heuristic::balance;
 
-  /// The parts at a vertex from the eye: is it the first that is not specular?
-  double part_of_surfaces(bool first) const { return first ? 1.0 : at_random; }
-  double part_of_points_3d(bool first) const { return first && points_2d == 0.0 && beams == 0.0 ? 1.0 : at_random; }
+  /// Are these merges made at a vertex from the eye, which is the first that is not specular, or not?
+  bool merges_surfaces(bool first) const { return surfaces > 0.0 && (first || deep); }
+  bool merges_points_3d(bool first) const {
+    return points_3d > 0.0 && (deep || (first && points_2d == 0.0 && beams == 0.0));
+  }
 
   /// A density, or a number, as the heuristic weighs it.
   double weigh(double x) const { return heuristic == Heuristic::power ? x * x : x; }
@@ -66,9 +70,12 @@ struct Junction {
   Kind kind = Kind::free;
   Vec3 normal{0.0f};   // of a surface, unit
   Rgb sigma_t{0.0f};   // in a medium, at the place, 1/m
+  double kept = 1.0;   // in a medium: how many photons are stored there for merges, for each that collides
   bool light = false;  // is the light there that a path begins at?
 };
-Junction junction_of(const Scene& scene, const PathVertex& vertex);
+Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex);
+/// Of a place of that density in a medium.
+Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float density);
 
 /// The density of coming to a place along `direction` through a leg, over that of the direction: 1/m^2 on surfaces,
 /// 1/m^3 in media. The mean over channels stands for the mixture that distances are drawn from.
@@ -142,7 +149,7 @@ struct MergeTerms {
 };
 /// In a medium, between a leg from the light, of which passing_over_colliding() is given, and one from the eye, whose
 /// directions make an angle of that sine; `first` as in depart().
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, double passing_light,
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing_light,
                             const Leg& from_eye, double sine, bool first);
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
 /// Of the angle between directions (unit).
@@ -151,6 +158,9 @@ double sine_between(const Vec3& a, const Vec3& b);
 /// What the techniques behind a vertex that merges add to the sum of all densities there.
 struct BehindMerge {
   double adjacent = 0.0, further = 0.0;
+
+  /// The same where the density of the vertex is `factor` times as large, as the heuristic weighs it.
+  BehindMerge over(double factor) const { return {adjacent / factor, further / factor}; }
 
   /// `back` is the density with which the other sub-path goes on along this one, 1/sr, as the heuristic weighs it.
   double sum(double back) const { return adjacent + back * further; }

@@ -37,10 +37,10 @@ void EyeSubPath::merge_beam(const Along& along, const BeamCrossings& found, size
   const Leg to_light = leg_to(beam.start, place, beam.before * transmittance(medium, integral.value));
   const Leg to_eye = leg_to(at_.from, place, along.to(found.t[i]));
   if (is_black(to_light.transmittance) || is_black(to_eye.transmittance)) return;
-  const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
+  const Junction there = junction_in(c_.counts, medium, density);
   const float phase = phase_density(medium, direction, -along.ray.direction);
-  const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, passing_over_colliding(there.sigma_t, to_light),
-                                             to_eye, found.sine[i], true);
+  const MergeTerms merges =
+      merges_in_medium(c_.counts, there, passing_over_colliding(there.sigma_t, to_light), to_eye, found.sine[i], true);
   const BehindMerge light = behind_merge(c_.counts, arrive(c_.counts, beam.start, to_light, there, place));
   const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, to_eye, there, place));
   const double all = all_at_merge(c_.counts, merges, light, phase, eye, phase);

@@ -19,20 +19,6 @@ VertexMap<SurfacePhoton> sort_surfaces(const std::vector<LightVertex>& vertices,
   return {photons, radius};
 }
 
-VertexMap<MediumPhoton> sort_medium(const std::vector<LightVertex>& vertices, MediumId medium,
-                                    const TechniqueCounts& counts, float reach) {
-  if (counts.points_2d == 0.0 && counts.points_3d == 0.0) return {};
-  std::vector<PlacedRecord<MediumPhoton>> photons;
-  for (const LightVertex& light : vertices) {
-    const auto& [vertex, junction, leg, sums] = light.at;
-    if (vertex.on_surface || vertex.medium != medium) continue;
-    photons.push_back({vertex.point,
-                       {vertex.travel, light.power, vertex.density, passing_over_colliding(junction.sigma_t, leg),
-                        behind_merge(counts, sums)}});
-  }
-  return {photons, reach};
-}
-
 }  // namespace
 
 SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels,
@@ -41,7 +27,8 @@ SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, cons
   const float reach = std::max(kernels.points_2d, kernels.points_3d);
   const float scale = 1.0f / static_cast<float>(paths_.ledger.emitted_count);
   for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m) {
-    in_media_.push_back(sort_medium(paths_.vertices, m, counts, reach));
+    in_media_.push_back(VertexMap<MediumPhoton>(paths_.photons[m], reach));
+    paths_.photons[m] = {};
     beams_.push_back(counts.beams > 0.0 ? PhotonBeamMap(paths_.beams[m], kernels.beams, scale) : PhotonBeamMap());
     paths_.beams[m] = {};
   }
