@@ -100,9 +100,7 @@ Event EyeSubPath::fly_to_event(Rgb& passed) {
   const Event event = next_event(c_.scene, c_.strategy, at_.state, work_.rng, work_.counters.walk, kInfinity, &tracks);
   for (const Track& track : tracks) {
     const Medium& medium = c_.scene.media[track.medium];
-    const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
-    count(work_.counters.walk.lookups, integral.lookups);
-    passed *= transmittance(medium, integral.value);
+    passed *= transmittance(medium, integral_along(medium, track, work_.counters.walk));
   }
   return event;
 }

@@ -60,9 +60,7 @@ class LightSubPath {
       const Medium& medium = c_.scene.media[track.medium];
       keep_beam(track, medium, passed);
       keep_thin_photons(track, medium, passed);
-      const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
-      count(out_.ledger.walk.lookups, integral.lookups);
-      passed *= transmittance(medium, integral.value);
+      passed *= transmittance(medium, integral_along(medium, track, out_.ledger.walk));
     }
     if (!is_finite(state_.throughput)) {
       ++out_.ledger.non_finite;

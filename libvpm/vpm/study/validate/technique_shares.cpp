@@ -314,8 +314,8 @@ std::vector<Check> check_shares(const Effort& effort) {
                                                        : "correlation-aware heuristic";
     checks.push_back(check_bound(fmt::format("{}, the largest error of a share", name), worst.share, 0.0, kBound));
     checks.push_back(check_bound(fmt::format("{}, of a path's sum of shares", name), worst.sum, 0.0, kBound));
-    checks.push_back(check_bound(fmt::format("{}, shares of a path, fewer than three", name),
-                                 static_cast<double>(worst.number < 3 * paths), 0.0, 0.0));
+    checks.push_back(check_bound(fmt::format("{}, shares of a path, fewer than two", name),
+                                 static_cast<double>(worst.number < 2 * paths), 0.0, 0.0));
   }
   return checks;
 }
