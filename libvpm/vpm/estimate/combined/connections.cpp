@@ -27,7 +27,8 @@ void EyeSubPath::run_into(int number, const Leg& leg, const Vec3& point, const V
   const EmissionDensity emission = emission_density(light, c_.scene.bounds, normal, -at_.state.ray.direction);
   const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
                                             {point, -at_.state.ray.direction}, normal);
-  const Junction at_light{is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, normal, Rgb(0.0f), true};
+  const Junction at_light{
+      .kind = is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, .normal = normal, .light = true};
   const SubPathSums at_eye = arrive(c_.counts, start, leg, at_.from.from, at_.from.point);
   const SubPathSums further = arrive(c_.counts, at_.from, leg, at_light, point);
   add(Technique::connections, seen, shares_of_connection(c_.counts, start, at_eye, at_.from, further).run_into);
@@ -59,7 +60,7 @@ void EyeSubPath::sample_light(const Arrival& at, const Receiver& side) {
                                             {point, -incident->direction}, incident->normal);
   const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
   const Departure eye = depart_into(at, {incident->direction, scattered.forward, scattered.reverse});
-  const Junction at_light{start.from.kind, incident->normal, Rgb(0.0f), true};
+  const Junction at_light{.kind = start.from.kind, .normal = incident->normal, .light = true};
   const SubPathSums at_eye = arrive(c_.counts, start, leg, at.junction, at.vertex.point);
   const SubPathSums further = arrive(c_.counts, eye, leg, at_light, point);
   const Rgb found = at_.state.throughput * scattered.value * incident->irradiance * passed / picked.probability;

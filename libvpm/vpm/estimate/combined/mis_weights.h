@@ -70,8 +70,8 @@ struct Junction {
   Kind kind = Kind::free;
   Vec3 normal{0.0f};   // of a surface, unit
   Rgb sigma_t{0.0f};   // in a medium, at the place, 1/m
-  double kept = 1.0;   // in a medium: how many photons are stored there for merges, for each that collides
   bool light = false;  // is the light there that a path begins at?
+  double kept = 1.0;   // in a medium: how many photons are stored there for merges, for each that collides
 };
 Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex);
 /// Of a place of that density in a medium.
