@@ -12,7 +12,7 @@ namespace vpm {
 namespace {
 
 constexpr size_t kPathChunk = 2048;   // light sub-paths traced one after another
-constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are to connect to
+constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are to connect to, and how many flights
 constexpr double kConnections = 1.0;  // of each vertex of an eye sub-path, to vertices of light sub-paths
 
 /// The radii of the pass. Those of media are the least that any of them has by default.
@@ -40,25 +40,40 @@ TechniqueCounts counts_of_pass(const RenderSettings& settings, const MergeKernel
     counts.points_3d = paths * kernel_size_3d(kernels.volume_kernel, kernels.points_3d);
   if (techniques.has(Technique::points_2d))
     counts.points_2d = paths * kernel_size_2d(kernels.volume_kernel, kernels.points_2d);
-  if (techniques.has(Technique::short_beams))
-    counts.beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
+  const double beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
+  if (techniques.has(Technique::short_beams)) counts.short_beams = beams;
+  if (techniques.has(Technique::long_beams)) counts.long_beams = beams;
   counts.heuristic = settings.combined.heuristic;
   if (counts.heuristic == Heuristic::correlation_aware) counts.shared = 1.0 / paths;
   return counts;
 }
 
-/// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
-/// latter has kConnections, one at the most: told by a few sub-paths more, as weights must be known while all are
-/// traced.
-double connections_of_vertex(const LightTracing& tracing, uint64_t paths) {
-  const TechniqueCounts none;
+/// A few sub-paths more than those of the pass, with all their flights as planes.
+LightSubPaths few_paths(const LightTracing& tracing, uint64_t paths, uint64_t number) {
+  TechniqueCounts counts;
+  counts.plane_share = 1.0;
   LightSubPaths few(tracing.scene.media.size());
-  const uint64_t number = std::min(paths, kFewPaths);
   trace_light_sub_paths(
-      {tracing.scene, tracing.strategy, tracing.transmittance, none, tracing.seed, tracing.pass, tracing.max_events},
+      {tracing.scene, tracing.strategy, tracing.transmittance, counts, tracing.seed, tracing.pass, tracing.max_events},
       paths, paths + number, few);
-  const auto vertices = static_cast<double>(few.vertices.size());
-  return std::min(1.0, kConnections * static_cast<double>(number) / std::max(1.0, vertices));
+  return few;
+}
+
+/// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
+/// latter has kConnections, one at the most; and which part of flights makes as many planes as are asked for. A few
+/// sub-paths tell, as weights must be known while all are traced.
+void count_by_few(const LightTracing& tracing, const RenderSettings& settings, TechniqueCounts& counts) {
+  const uint64_t paths = settings.photons_emitted, number = std::min(paths, kFewPaths);
+  const bool planes = settings.combined.techniques.has(Technique::planes);
+  if (!counts.light && !planes) return;
+  const LightSubPaths few = few_paths(tracing, paths, number);
+  const auto part = [&](double asked, size_t found) {  // of what so many light sub-paths have
+    return std::min(1.0, asked * static_cast<double>(number) / std::max(1.0, static_cast<double>(found)));
+  };
+  const auto all = static_cast<double>(paths);
+  if (counts.light) counts.connections = part(kConnections, few.vertices.size());
+  if (planes) counts.plane_share = part(static_cast<double>(settings.planes) / all, few.planes.size());
+  counts.planes = all * counts.plane_share;
 }
 
 }  // namespace
@@ -74,7 +89,7 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   const LightTracing tracing{
       scene, *strategy_, *transmittance_, counts_, settings.seed, static_cast<uint64_t>(pass), max_events_};
   const Stopwatch clock;
-  if (counts_.light) counts_.connections = connections_of_vertex(tracing, paths_);
+  count_by_few(tracing, settings, counts_);
   LightSubPaths light = trace(tracing, stop);
   statistics_.trace_seconds = clock.seconds();
   statistics_.ledger = light.ledger;
@@ -84,6 +99,7 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   statistics_.surface_photons = light_->surface_vertices();
   statistics_.volume_photons = light_->vertices().size() - light_->surface_vertices();
   statistics_.beams = statistics_.flights = light_->beam_count();
+  statistics_.planes = light_->planes().size();
   statistics_.photon_map_bytes = light_->memory_bytes() + splats_.capacity() * sizeof(Splat);
   statistics_.last_volume_radius = kernels_.beams;
   statistics_.last_surface_radius = kernels_.surface;
@@ -124,7 +140,8 @@ void CombinedPass::add_light_tracing(TechniqueLayers& layers) const {
 
 bool merges(const TechniqueSet& techniques) {
   return techniques.has(Technique::surface_merging) || techniques.has(Technique::points_3d) ||
-         techniques.has(Technique::points_2d) || techniques.has(Technique::short_beams);
+         techniques.has(Technique::points_2d) || techniques.has(Technique::short_beams) ||
+         techniques.has(Technique::long_beams);
 }
 
 Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

@@ -9,6 +9,7 @@
 #include "vpm/estimate/combined/vertex_map.h"
 #include "vpm/estimate/eye_work.h"
 #include "vpm/photon/photon_beam_map.h"
+#include "vpm/photon/photon_plane_list.h"
 
 namespace vpm {
 
@@ -19,15 +20,26 @@ struct MergeKernels {
   float beams = 0.0f, points_2d = 0.0f, points_3d = 0.0f;
 };
 
+/// The beams of a medium, with how the flights began, in the order of the map.
+struct LightBeams {
+  PhotonBeamMap map;
+  std::vector<FlightStart> starts;
+};
+
 /// The light sub-paths of one pass, sorted for eye sub-paths.
 class SortedLight {
  public:
   SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels, LightSubPaths paths);
 
   const std::vector<LightVertex>& vertices() const { return paths_.vertices; }
-  /// Of the beams of a medium, in the order of their map.
-  const std::vector<LightBeam>& starts(MediumId medium) const { return paths_.starts[medium]; }
-  const PhotonBeamMap& beams(MediumId medium) const { return beams_[medium]; }
+  /// Short or long ones.
+  const LightBeams& beams(Technique technique, MediumId medium) const {
+    return (technique == Technique::long_beams ? long_beams_ : short_beams_)[medium];
+  }
+  /// Of all media; powers are those of all light sub-paths together.
+  const PhotonPlaneList& planes() const { return planes_; }
+  /// By PlaneCrossing::number.
+  const FlightStart& plane_start(size_t number) const { return paths_.plane_starts[number]; }
   /// The vertices on surfaces, and in a medium around points and beside rays; of_surfaces() and of_medium() tell which.
   const VertexMap& on_surfaces() const { return on_surfaces_; }
   const VertexMap& around_points(MediumId medium) const { return around_points_[medium]; }
@@ -46,7 +58,8 @@ class SortedLight {
   std::vector<std::vector<uint32_t>> of_media_;  // by medium
   VertexMap on_surfaces_;
   std::vector<VertexMap> around_points_, beside_rays_;
-  std::vector<PhotonBeamMap> beams_;
+  std::vector<LightBeams> short_beams_, long_beams_;  // by medium
+  PhotonPlaneList planes_;
 };
 
 /// What eye sub-paths read. Immutable while they run.

@@ -76,8 +76,15 @@ class EyeSubPath {
   void merge_surface(const Arrival& at);
   void merge_points_3d(const Arrival& at);
   void merge_points_2d(const Along& along, const Interval& interval);
-  void merge_beams(const Along& along, const Interval& interval);
-  void merge_beam(const Along& along, const BeamCrossings& found, size_t i, const KernelPair<float>& kernel);
+  /// Short or long ones.
+  void merge_beams(Technique technique, const Along& along, const Interval& interval);
+  void merge_beam(Technique technique, const FlightStart& start, const Along& along, const BeamCrossings& found,
+                  size_t i, const KernelPair<float>& kernel);
+  void merge_planes(const Along& along, const Interval& interval);
+  void merge_plane(const Along& along, const PlaneCrossing& crossing);
+  /// The collision on a plane's flight that the crossing tells, and the power that it scatters, W/m; none where there
+  /// is nothing to collide with.
+  std::optional<Arrival> turn_of_plane(const PlaneCrossing& crossing, Rgb& scattered);
 
   /// Adds what a technique finds, of which it has a share.
   void add(Technique technique, const KernelEstimate& found, double share);

@@ -8,6 +8,7 @@
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/ledger.h"
 #include "vpm/photon/photon_beam.h"
+#include "vpm/photon/photon_plane.h"
 
 namespace vpm {
 
@@ -17,10 +18,19 @@ struct LightVertex {
   Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
 };
 
-/// The part of a flight through one medium.
-struct LightBeam {
-  Departure start;   // of the flight
-  Rgb before{1.0f};  // the transmittance of the flight up to the beam
+/// How a flight began of which a part, through one medium, is kept.
+struct FlightStart {
+  Departure from;
+  Rgb before{1.0f};  // the transmittance of the flight up to the part
+};
+
+/// Parts of flights, by medium.
+struct LightFlights {
+  std::vector<std::vector<PhotonBeam>> beams;
+  std::vector<std::vector<FlightStart>> starts;
+
+  explicit LightFlights(size_t media) : beams(media), starts(media) {}
+  void join(LightFlights& part);
 };
 
 /// What a light sub-path brings to a pixel by light tracing.
@@ -32,12 +42,13 @@ struct Splat {
 
 struct LightSubPaths {
   std::vector<LightVertex> vertices;
-  std::vector<std::vector<PhotonBeam>> beams;  // by medium
-  std::vector<std::vector<LightBeam>> starts;  // of the beams
+  LightFlights short_beams, long_beams;
+  std::vector<PhotonPlane> planes;
+  std::vector<FlightStart> plane_starts;
   std::vector<Splat> splats;
   Ledger ledger;  // emitted, counts of events, look-ups
 
-  explicit LightSubPaths(size_t media = 0) : beams(media), starts(media) {}
+  explicit LightSubPaths(size_t media = 0) : short_beams(media), long_beams(media) {}
   /// Takes over what a part has, which comes next.
   void join(LightSubPaths& part);
 };

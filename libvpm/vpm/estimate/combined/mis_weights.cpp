@@ -18,14 +18,10 @@ double colliding(const Rgb& sigma_t, const Leg& leg) {
 /// collide.
 double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) { return leg.mean() / colliding(sigma_t, leg); }
 
-MergeTerms merge_terms(const TechniqueCounts& counts, double passing_light, double colliding_eye, double sine,
-                       bool first) {
-  MergeTerms terms;
-  terms.points_3d = counts.weigh(first ? counts.points_3d : counts.shared * counts.points_3d);
-  if (!first) return terms;
-  terms.points_2d = counts.weigh(counts.points_2d / colliding_eye);
-  terms.beams = counts.weigh(counts.beams * sine * passing_light / colliding_eye);
-  return terms;
+/// The planes that turn at a vertex where light arrives along `travel` through a leg, for an eye's sub-path of that
+/// SubPathSums::turn.
+double planes_of_turn(const Vec3d& turn, const Vec3& travel, const Rgb& sigma_t, const Leg& leg) {
+  return std::abs(glm::dot(turn, Vec3d(travel))) * passing_over_colliding(sigma_t, leg);
 }
 
 }  // namespace
@@ -88,9 +84,17 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   if (from.kind != Junction::Kind::medium) return departure;
   departure.merges = true;
   departure.first = first;
-  departure.sine = sine_between(at.vertex.travel, onward.direction);
-  departure.arrived =
-      way == SubPath::light ? passing_over_colliding(from.sigma_t, at.leg) : colliding(from.sigma_t, at.leg);
+  departure.travel = at.vertex.travel;
+  departure.arrived = at.leg;
+  departure.angles = angles_between(at.vertex.travel, way == SubPath::light ? sums : SubPathSums(), onward.direction);
+  departure.turn = glm::cross(Vec3d(at.vertex.travel), Vec3d(onward.direction));
+  if (way == SubPath::light) {
+    departure.turn *= passing_over_colliding(from.sigma_t, at.leg);
+  } else {
+    // Planes need neither collide here nor at the vertex to come: of the densities there the distance remains.
+    departure.turn *= first ? counts.planes / colliding(from.sigma_t, at.leg) : 0.0;
+    departure.planes = onward.reverse * std::abs(glm::dot(sums.turn, Vec3d(onward.direction))) / sums.density;
+  }
   return departure;
 }
 
@@ -106,9 +110,10 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
-    behind += merge_terms(counts, light ? departure.arrived : passing_over_colliding(sigma_t, leg),
-                          light ? colliding(sigma_t, leg) : departure.arrived, departure.sine, departure.first)
+    behind += merges_in_medium(counts, sigma_t, light ? departure.arrived : leg, light ? leg : departure.arrived,
+                               departure.angles, departure.first)
                   .sum();
+    behind += counts.weigh(departure.planes * passing_over_colliding(sigma_t, leg));
   }
   SubPathSums sums;
   sums.density = std::max(kLeastDensity, departure.forward * arrival(at, departure.direction, leg) * leg.per_square());
@@ -116,6 +121,8 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   if (at.kind == Junction::Kind::free) return sums;
   sums.adjacent = departure.adjacent;
   sums.straight = departure.light != nullptr;
+  if (at.kind == Junction::Kind::medium)
+    sums.turn = departure.way == SubPath::light ? departure.turn : departure.turn * leg.per_square();
   if (departure.light)
     sums.adjacent = sampled_density(*departure.light, point,
                                     {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
@@ -124,15 +131,32 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
 }
 
 MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
-                            const Leg& from_eye, double sine, bool first) {
-  return merge_terms(counts, passing_over_colliding(sigma_t, from_light), colliding(sigma_t, from_eye), sine, first);
+                            const Leg& from_eye, const Angles& angles, bool first) {
+  MergeTerms terms;
+  terms.points_3d = counts.weigh(first ? counts.points_3d : counts.shared * counts.points_3d);
+  if (!first) return terms;
+  const double light = colliding(sigma_t, from_light), eye = colliding(sigma_t, from_eye);
+  terms.points_2d = counts.weigh(counts.points_2d / eye);
+  terms.short_beams = counts.weigh(counts.short_beams * angles.sine * from_light.mean() / light / eye);
+  terms.long_beams = counts.weigh(counts.long_beams * angles.sine / light / eye);
+  terms.planes = counts.weigh(counts.planes * angles.determinant / light / eye);
+  return terms;
 }
 
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
   return {.surface = counts.weigh(first ? counts.surfaces : counts.shared * counts.surfaces)};
 }
 
-double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }
+Angles angles_between(const Vec3& light, const SubPathSums& sums, const Vec3& eye) {
+  return {glm::length(glm::cross(Vec3d(light), Vec3d(eye))), std::abs(glm::dot(sums.turn, Vec3d(eye)))};
+}
+
+SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Junction& at, const Vec3& travel,
+                      const Leg& leg) {
+  SubPathSums sums = eye;
+  sums.further += counts.weigh(planes_of_turn(eye.turn, travel, at.sigma_t, leg));
+  return sums;
+}
 
 double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
                     double back_to_light, const SubPathSums& eye, double back_to_eye) {
@@ -146,7 +170,8 @@ ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Depar
                                       const Departure& eye, const SubPathSums& at_light) {
   const double connected = counts.weigh(at_eye.adjacent);
   const double behind = counts.weigh(eye.forward) * at_eye.further;
-  const double before = counts.weigh(light.forward) * at_light.further;
+  const SubPathSums beyond = with_turn(counts, at_light, light.from, light.travel, light.arrived);
+  const double before = counts.weigh(light.forward) * beyond.further;
   const double all = connected + behind + before;
   return {connected / all, behind / all};
 }

@@ -8,15 +8,16 @@
 // the light, C_0 the light that is sampled, C_{k-1} the connection to the camera. Merging at x_i finds it with
 //   M_i = N m_i f_0 ... f_i r_i ... r_k
 // for N light sub-paths and a kernel of the size m_i, with a factor for each sub-path that need not end there. Where
-// x_i is the first vertex from the eye that is not specular, m_i holds all kernels, elsewhere only those of surfaces
-// and of points in balls. Light that comes straight from a light is not merged on surfaces, where lights are sampled:
-// samples of lights have less noise than densities say.
+// x_i is the first vertex from the eye that is not specular, m_i holds all kernels, and planes, elsewhere only the
+// kernels of surfaces and of points in balls. Light that comes straight from a light is not merged on surfaces, where
+// lights are sampled: samples of lights have less noise than densities say.
 //
 // A sub-path from the light carries S_i, the sum of all C_j, j < i, and M_j, j <= i, over C_i / c_i. From vertex to
 // vertex,
 //   S_i = r_i ((c_{i-1} + S_{i-1}) / f_i + N m_i),
 // and in the same way from the eye. Of S_{i-1}, at x_i only its last factor r_{i-1} is not known, and of that only the
-// density of the direction, which depends on where the path goes on to: this is why SubPathSums has its members.
+// density of the direction, which depends on where the path goes on to: this is why SubPathSums has its members. Planes
+// at x_i depend on three directions, the light's last two flights and the eye's: SubPathSums::turn holds two of them.
 // With the power heuristic all terms are squared. See [Georgiev2012] for connections and merges on surfaces, and
 // [Krivanek2014] for all merges in media, where media are homogeneous. In grids no factor changes, as the transmittance
 // of each leg is known exactly.
@@ -34,10 +35,12 @@ struct TechniqueCounts {
   bool light = false;        // are lights sampled, and run into?
   double splats = 0.0;       // light sub-paths for each eye sub-path of a pixel; 0: no light tracing
   // The light sub-paths times the sizes of kernels, 1 over the integrals of their squares; 0: not merged.
-  double surfaces = 0.0;   // m^2
-  double points_3d = 0.0;  // m^3
-  double points_2d = 0.0;  // m^2
-  double beams = 0.0;      // m
+  double surfaces = 0.0;                       // m^2
+  double points_3d = 0.0;                      // m^3
+  double points_2d = 0.0;                      // m^2
+  double short_beams = 0.0, long_beams = 0.0;  // m
+  double planes = 0.0;                         // of all light sub-paths, for each flight of one: they have no kernel
+  double plane_share = 0.0;                    // of flights, the part that becomes planes
   double shared = 1.0;  // of what a merge counts for elsewhere, the part where the eye's sub-path has scattered before
   Heuristic heuristic = Heuristic::balance;
 
@@ -74,6 +77,10 @@ struct SubPathSums {
   double adjacent = 0.0;  // how many connections there are between the vertex and the one before
   double further = 0.0;   // the sum over all techniques behind that, over the density of the direction back
   bool straight = false;  // does the light come straight from a light that is sampled? It is not merged on surfaces
+  // Where the vertex before is in a medium, for planes that turn there. Of a sub-path from the light: the cross product
+  // of its last two directions, times passing over colliding for the former, m. From the eye, and if the vertex before
+  // is the first that is not specular: the same product, times all that `further` lacks but for the light's flight.
+  Vec3d turn{0.0};
 };
 
 /// A sub-path at a vertex that it has come to.
@@ -91,6 +98,14 @@ struct Onward {
   double forward = 1.0, reverse = 1.0;  // 1/sr
 };
 
+/// How the directions of two legs that meet in a medium lie to each other.
+struct Angles {
+  double sine = 0.0;         // of the angle between them
+  double determinant = 0.0;  // of the light's last two, the former as in SubPathSums::turn, and the eye's, m
+};
+/// Of directions of travel (unit), where the light's sub-path has these sums.
+Angles angles_between(const Vec3& light, const SubPathSums& sums, const Vec3& eye);
+
 /// A sub-path as it leaves a vertex, or its start.
 struct Departure {
   Junction from;
@@ -107,8 +122,11 @@ struct Departure {
   bool merges = false;
   bool first = false;  // is the vertex the first from the eye that is not specular?
   SubPath way = SubPath::light;
-  double sine = 0.0;     // of the angle between the directions of the legs
-  double arrived = 1.0;  // of the other leg: the light's passing over colliding, m; the eye's colliding, 1/m
+  Vec3 travel{0.0f};    // along the other leg, unit
+  Leg arrived;          // the other leg
+  Angles angles;        // of a sub-path from the eye, the sine alone
+  Vec3d turn{0.0};      // SubPathSums::turn at the vertex to come, but for the distance there
+  double planes = 0.0;  // of a sub-path from the eye: what planes add to `behind`, but for the light's flight
 };
 
 /// A start on a light that is chosen with the probability `chosen`, at a point with that normal.
@@ -128,21 +146,23 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
 
 /// The densities of merges at one place, as the heuristic weighs them, over the densities of its two sub-paths.
 struct MergeTerms {
-  double surface = 0.0, points_3d = 0.0, points_2d = 0.0, beams = 0.0;
+  double surface = 0.0, points_3d = 0.0, points_2d = 0.0, short_beams = 0.0, long_beams = 0.0, planes = 0.0;
 
-  double sum() const { return surface + points_3d + points_2d + beams; }
+  double sum() const { return surface + points_3d + points_2d + short_beams + long_beams + planes; }
 };
-/// In a medium, between a leg from the light and one from the eye, whose directions make an angle of that sine; `first`
-/// as in depart().
+/// In a medium, between a leg from the light and one from the eye; `first` as in depart().
 MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
-                            const Leg& from_eye, double sine, bool first);
+                            const Leg& from_eye, const Angles& angles, bool first);
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
-/// Of the angle between directions (unit).
-double sine_between(const Vec3& a, const Vec3& b);
+
+/// The sums of a sub-path from the eye where it meets light that arrives along `travel` (unit) through a leg: with the
+/// planes that turn there.
+SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Junction& at, const Vec3& travel,
+                      const Leg& leg);
 
 /// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
 /// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the
-/// other one.
+/// other one. The eye's sums are those with_turn(), where they differ.
 double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
                     double back_to_light, const SubPathSums& eye, double back_to_eye);
 /// The shares of techniques that join two departures towards each other.

@@ -20,7 +20,7 @@ void EyeSubPath::merge_points_2d(const Along& along, const Interval& interval) {
     if (is_black(leg.transmittance)) return;
     const float phase = phase_density(medium, photon.travel, -along.ray.direction);
     const MergeTerms merges = merges_in_medium(c_.counts, light.at.junction.sigma_t, light.at.leg, leg,
-                                               sine_between(photon.travel, along.ray.direction), true);
+                                               angles_between(photon.travel, light.at.sums, along.ray.direction), true);
     const SubPathSums eye = arrive(c_.counts, at_.from, leg, light.at.junction, photon.point);
     const double all = all_at_merge(c_.counts, merges, light.at.sums, phase, eye, phase);
     const Rgb found = each * leg.transmittance * light.power * phase;

@@ -17,10 +17,12 @@ void EyeSubPath::merge_points_3d(const Arrival& at) {
   count(work_.counters.gather.searches);
   const uint32_t visited = map.visit_near(vertex.point, [&](uint32_t number, float distance2) {
     const LightVertex& light = c_.light.of_medium(vertex.medium, number);
-    const float phase = phase_density(medium, light.at.vertex.travel, -vertex.travel);
+    const Vec3& travel = light.at.vertex.travel;
+    const float phase = phase_density(medium, travel, -vertex.travel);
     const MergeTerms merges = merges_in_medium(c_.counts, light.at.junction.sigma_t, light.at.leg, at.leg,
-                                               sine_between(light.at.vertex.travel, vertex.travel), at_.only_specular);
-    const double all = all_at_merge(c_.counts, merges, light.at.sums, phase, at.sums, phase);
+                                               angles_between(travel, light.at.sums, vertex.travel), at_.only_specular);
+    const SubPathSums eye = with_turn(c_.counts, at.sums, light.at.junction, travel, light.at.leg);
+    const double all = all_at_merge(c_.counts, merges, light.at.sums, phase, eye, phase);
     add_merged(Technique::points_3d, each * light.power * phase, kernel(distance2), merges.points_3d / all);
   });
   count(work_.counters.gather.visited, visited);

@@ -115,7 +115,7 @@ double spread(const WholePath& path, size_t at, size_t i) {
 
 /// A technique at a junction, and its density.
 struct Found {
-  enum class By { run_into, sampled, connected, splat, surface, points_3d, points_2d, beams };
+  enum class By { run_into, sampled, connected, splat, surface, points_3d, points_2d, short_beams, long_beams, planes };
   By by;
   size_t at;
   double density;
@@ -128,6 +128,12 @@ bool first_from_eye(const WholePath& path, size_t i) {
   for (size_t j = i + 1; j < path.last(); ++j)
     if (!is_free(path, j)) return false;
   return true;
+}
+
+/// That the directions of the two legs before a vertex and of the one behind it span.
+double volume_at(const WholePath& path, size_t i) {
+  return std::abs(glm::determinant(
+      glm::dmat3(Vec3d(path.direction(i - 2)), Vec3d(path.direction(i - 1)), Vec3d(path.direction(i)))));
 }
 
 /// All densities, from the definitions: products over all vertices.
@@ -173,7 +179,13 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
     add(By::points_3d, i, shared * counts.points_3d * merged);
     if (!first) continue;
     add(By::points_2d, i, counts.points_2d * merged / eye);
-    add(By::beams, i, counts.beams * sine * merged / eye * mean_of(from_light) / light);
+    add(By::short_beams, i, counts.short_beams * sine * merged / eye * mean_of(from_light) / light);
+    add(By::long_beams, i, counts.long_beams * sine * merged / eye / light);
+    if (i < 2 || path.junctions[i - 1].kind != Junction::Kind::medium) continue;
+    // A photon that comes as far as the turn, which the crossing tells, as it does the place of the crossing itself.
+    const Rgb& to_turn = path.transmittances[i - 2];
+    const double at_turn = mean_of(path.junctions[i - 1].sigma_t * to_turn);
+    add(By::planes, i, counts.planes * volume_at(path, i) * merged / eye / light * mean_of(to_turn) / at_turn);
   }
   return all;
 }
@@ -213,6 +225,23 @@ SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
   return traced;
 }
 
+double term_of(const MergeTerms& terms, Found::By by) {
+  switch (by) {
+    case Found::By::surface:
+      return terms.surface;
+    case Found::By::points_3d:
+      return terms.points_3d;
+    case Found::By::points_2d:
+      return terms.points_2d;
+    case Found::By::short_beams:
+      return terms.short_beams;
+    case Found::By::long_beams:
+      return terms.long_beams;
+    default:
+      return terms.planes;
+  }
+}
+
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
   using By = Found::By;
   const size_t i = found.at, k = path.last();
@@ -229,18 +258,15 @@ double share_of(const WholePath& path, const TechniqueCounts& counts, const SubP
     return found.by == By::run_into ? shares.run_into : shares.connected;
   }
   const Junction& at = path.junctions[i];
-  const double sine = glm::length(glm::cross(Vec3d(path.direction(i - 1)), Vec3d(path.direction(i))));
+  const SubPathSums& light = traced.light[i].sums;
+  const SubPathSums eye = with_turn(counts, traced.eye[i].sums, at, path.direction(i - 1), path.leg(i - 1));
+  const Angles angles = angles_between(path.direction(i - 1), light, path.direction(i));
   const MergeTerms terms =
       at.kind == Junction::Kind::surface
           ? merges_on_surface(counts, first_from_eye(path, i))
-          : merges_in_medium(counts, at.sigma_t, path.leg(i - 1), path.leg(i), sine, first_from_eye(path, i));
-  const double all = all_at_merge(counts, terms, traced.light[i].sums, density_on(path, i, false), traced.eye[i].sums,
-                                  density_on(path, i, true));
-  const double term = found.by == By::surface     ? terms.surface
-                      : found.by == By::points_3d ? terms.points_3d
-                      : found.by == By::points_2d ? terms.points_2d
-                                                  : terms.beams;
-  return term / all;
+          : merges_in_medium(counts, at.sigma_t, path.leg(i - 1), path.leg(i), angles, first_from_eye(path, i));
+  return term_of(terms, found.by) /
+         all_at_merge(counts, terms, light, density_on(path, i, false), eye, density_on(path, i, true));
 }
 
 TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
@@ -252,7 +278,9 @@ TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
   counts.surfaces = number();
   counts.points_3d = number();
   counts.points_2d = number();
-  counts.beams = number();
+  counts.short_beams = number();
+  counts.long_beams = number();
+  counts.planes = number();
   counts.heuristic = heuristic;
   if (heuristic == Heuristic::correlation_aware) counts.shared = 0.01;
   return counts;
