@@ -24,6 +24,16 @@ double planes_of_turn(const Vec3d& turn, const Vec3& travel, const Rgb& sigma_t,
   return std::abs(glm::dot(turn, Vec3d(travel))) * passing_over_colliding(sigma_t, leg);
 }
 
+/// SubPathSums::turn behind a vertex in a medium, at another one.
+Vec3d turn_of(const TechniqueCounts& counts, const Departure& departure, const Leg& leg) {
+  const Vec3d turn = glm::cross(Vec3d(departure.travel), Vec3d(departure.direction));
+  const Rgb& sigma_t = departure.from.sigma_t;
+  if (departure.way == SubPath::light) return turn * passing_over_colliding(sigma_t, departure.arrived);
+  // Planes need collide neither at the departure nor here: of the densities there the distance remains.
+  return departure.first ? turn * (counts.planes * leg.per_square() / colliding(sigma_t, departure.arrived))
+                         : Vec3d(0.0);
+}
+
 }  // namespace
 
 Junction junction_of(const Scene& scene, const PathVertex& vertex) {
@@ -87,14 +97,8 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   departure.travel = at.vertex.travel;
   departure.arrived = at.leg;
   departure.angles = angles_between(at.vertex.travel, way == SubPath::light ? sums : SubPathSums(), onward.direction);
-  departure.turn = glm::cross(Vec3d(at.vertex.travel), Vec3d(onward.direction));
-  if (way == SubPath::light) {
-    departure.turn *= passing_over_colliding(from.sigma_t, at.leg);
-  } else {
-    // Planes need neither collide here nor at the vertex to come: of the densities there the distance remains.
-    departure.turn *= first ? counts.planes / colliding(from.sigma_t, at.leg) : 0.0;
+  if (way == SubPath::eye)
     departure.planes = onward.reverse * std::abs(glm::dot(sums.turn, Vec3d(onward.direction))) / sums.density;
-  }
   return departure;
 }
 
@@ -113,7 +117,7 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
     behind += merges_in_medium(counts, sigma_t, light ? departure.arrived : leg, light ? leg : departure.arrived,
                                departure.angles, departure.first)
                   .sum();
-    behind += counts.weigh(departure.planes * passing_over_colliding(sigma_t, leg));
+    if (departure.planes > 0.0) behind += counts.weigh(departure.planes * passing_over_colliding(sigma_t, leg));
   }
   SubPathSums sums;
   sums.density = std::max(kLeastDensity, departure.forward * arrival(at, departure.direction, leg) * leg.per_square());
@@ -121,8 +125,8 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   if (at.kind == Junction::Kind::free) return sums;
   sums.adjacent = departure.adjacent;
   sums.straight = departure.light != nullptr;
-  if (at.kind == Junction::Kind::medium)
-    sums.turn = departure.way == SubPath::light ? departure.turn : departure.turn * leg.per_square();
+  if (at.kind == Junction::Kind::medium && departure.merges && counts.planes > 0.0)
+    sums.turn = turn_of(counts, departure, leg);
   if (departure.light)
     sums.adjacent = sampled_density(*departure.light, point,
                                     {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
@@ -135,11 +139,12 @@ MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, c
   MergeTerms terms;
   terms.points_3d = counts.weigh(first ? counts.points_3d : counts.shared * counts.points_3d);
   if (!first) return terms;
-  const double light = colliding(sigma_t, from_light), eye = colliding(sigma_t, from_eye);
-  terms.points_2d = counts.weigh(counts.points_2d / eye);
-  terms.short_beams = counts.weigh(counts.short_beams * angles.sine * from_light.mean() / light / eye);
-  terms.long_beams = counts.weigh(counts.long_beams * angles.sine / light / eye);
-  terms.planes = counts.weigh(counts.planes * angles.determinant / light / eye);
+  // That a sub-path need not collide here, m.
+  const double light = 1.0 / colliding(sigma_t, from_light), eye = 1.0 / colliding(sigma_t, from_eye);
+  terms.points_2d = counts.weigh(counts.points_2d * eye);
+  terms.short_beams = counts.weigh(counts.short_beams * angles.sine * from_light.mean() * light * eye);
+  terms.long_beams = counts.weigh(counts.long_beams * angles.sine * light * eye);
+  terms.planes = counts.weigh(counts.planes * angles.determinant * light * eye);
   return terms;
 }
 
@@ -154,6 +159,7 @@ Angles angles_between(const Vec3& light, const SubPathSums& sums, const Vec3& ey
 SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Junction& at, const Vec3& travel,
                       const Leg& leg) {
   SubPathSums sums = eye;
+  if (sums.turn == Vec3d(0.0)) return sums;
   sums.further += counts.weigh(planes_of_turn(eye.turn, travel, at.sigma_t, leg));
   return sums;
 }

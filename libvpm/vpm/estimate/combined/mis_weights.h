@@ -125,7 +125,6 @@ struct Departure {
   Vec3 travel{0.0f};    // along the other leg, unit
   Leg arrived;          // the other leg
   Angles angles;        // of a sub-path from the eye, the sine alone
-  Vec3d turn{0.0};      // SubPathSums::turn at the vertex to come, but for the distance there
   double planes = 0.0;  // of a sub-path from the eye: what planes add to `behind`, but for the light's flight
 };
 

@@ -44,7 +44,7 @@ inline constexpr std::array<TechniqueInfo, 8> kTechniques{
 /// A set of techniques.
 class TechniqueSet {
  public:
-  /// All but long beams, which cross more rays than short ones for hardly less noise.
+  /// All but long beams and planes, which cost more than they save in noise (papers/combined.md).
   constexpr TechniqueSet() = default;
   constexpr bool has(Technique technique) const { return (bits_ & bit(technique)) != 0; }
   constexpr void set(Technique technique, bool in) { bits_ = in ? bits_ | bit(technique) : bits_ & ~bit(technique); }
@@ -53,7 +53,7 @@ class TechniqueSet {
  private:
   static constexpr uint32_t bit(Technique technique) { return 1u << static_cast<uint32_t>(technique); }
 
-  uint32_t bits_ = ((1u << kTechniques.size()) - 1) & ~bit(Technique::long_beams);
+  uint32_t bits_ = ((1u << kTechniques.size()) - 1) & ~bit(Technique::long_beams) & ~bit(Technique::planes);
 };
 
 /// How techniques that find the same path share it: in proportion to their densities, or to the squares of these

@@ -154,7 +154,7 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
 }
 
 /// Sets of techniques that find all light together: each technique in one that has few others; where not `many`, those
-/// that have the fewest, and those of the default.
+/// that have the fewest, and all but long beams, which not all media have.
 void append_combined(NamedSettings& all, const RenderSettings& base, bool media, bool surfaces, bool many) {
   using T = Technique;
   std::vector<std::vector<T>> sets{{T::connections, T::light_tracing}};
@@ -180,7 +180,7 @@ void append_combined(NamedSettings& all, const RenderSettings& base, bool media,
   }
   std::vector<T> every;
   for (const TechniqueInfo& info : kTechniques)
-    if (TechniqueSet().has(info.technique)) every.push_back(info.technique);
+    if (info.technique != T::long_beams) every.push_back(info.technique);
   sets.push_back(every);
   RenderSettings settings = base;
   settings.integrator = Integrator::combined;
