@@ -138,6 +138,14 @@ void CombinedPass::add_light_tracing(TechniqueLayers& layers) const {
   }
 }
 
+RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most) {
+  RenderSettings few = settings;
+  few.photons_emitted = std::min(most, settings.photons_emitted);
+  const double share = static_cast<double>(few.photons_emitted) / static_cast<double>(settings.photons_emitted);
+  few.planes = std::max<uint64_t>(1, static_cast<uint64_t>(share * static_cast<double>(settings.planes)));
+  return few;
+}
+
 bool merges(const TechniqueSet& techniques) {
   return techniques.has(Technique::surface_merging) || techniques.has(Technique::points_3d) ||
          techniques.has(Technique::points_2d) || techniques.has(Technique::short_beams) ||

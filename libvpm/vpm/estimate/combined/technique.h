@@ -39,7 +39,7 @@ inline constexpr std::array<TechniqueInfo, 8> kTechniques{
      {Technique::points_2d, "points-2d", "photons in media around whole rays from the camera"},
      {Technique::short_beams, "short-beams", "flights of photons that cross whole rays from the camera"},
      {Technique::long_beams, "long-beams", "the same flights, each to the surface that ends its ray"},
-     {Technique::planes, "planes", "planes of all places where photons may collide twice, crossed by such rays"}}};
+     {Technique::planes, "planes", "planes of all places that flights may scatter photons to"}}};
 
 /// A set of techniques.
 class TechniqueSet {
