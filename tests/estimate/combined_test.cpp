@@ -22,22 +22,25 @@ TEST(VertexMap, FindsWhatASearchThroughAllFinds) {
   constexpr float kRadius = 0.15f;
   for (const int count : {0, 1, 17, 3000}) {
     Rng rng(1, rng_stream(RngUse::test, 1), static_cast<uint64_t>(count));
-    std::vector<Vec3> positions;
-    for (int i = 0; i < count; ++i) positions.push_back(random_place(rng));
-    const VertexMap map(positions, kRadius);
+    std::vector<PlacedRecord<uint32_t>> vertices;
+    for (int i = 0; i < count; ++i) vertices.push_back({random_place(rng), static_cast<uint32_t>(i)});
+    const VertexMap<uint32_t> map(vertices, 1.5f * kRadius);
     for (int query = 0; query < 50; ++query) {
       const Vec3 point = random_place(rng);
       const Ray ray{point, uniform_sphere(rng.uniform2())};
       const Interval interval{0.2f, 1.1f};
       std::set<uint32_t> near, beside, near_found, beside_found;
-      for (uint32_t i = 0; i < positions.size(); ++i) {
-        const Vec3 offset = positions[i] - point;
+      for (uint32_t i = 0; i < vertices.size(); ++i) {
+        const Vec3 offset = vertices[i].point - point;
         const float t = glm::dot(offset, ray.direction), square = glm::dot(offset, offset);
         if (square < kRadius * kRadius) near.insert(i);
         if (t >= interval.t0 && t < interval.t1 && square - t * t < kRadius * kRadius) beside.insert(i);
       }
-      map.visit_near(point, [&](uint32_t i, float) { EXPECT_TRUE(near_found.insert(i).second); });
-      map.visit_near_ray(ray, interval, [&](uint32_t i, float) { EXPECT_TRUE(beside_found.insert(i).second); });
+      map.visit_near(point, kRadius, [&](uint32_t i, float) { EXPECT_TRUE(near_found.insert(i).second); });
+      map.visit_near_ray(ray, interval, kRadius, [&](uint32_t i, float, float t) {
+        EXPECT_TRUE(beside_found.insert(i).second);
+        EXPECT_NEAR(t, glm::dot(vertices[i].point - point, ray.direction), 1e-6f);
+      });
       EXPECT_EQ(near_found, near);
       EXPECT_EQ(beside_found, beside);
     }

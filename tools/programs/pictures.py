@@ -22,7 +22,8 @@ def undo_zip(packed, size):
 
 def read_header(data):
     """The attributes of a file of one part, and where its table of offsets begins."""
-    if data[:4] != b"v/1\x01" or data[5] != 0:
+    long_names = 4  # of channels, beyond 31 bytes: the one flag that changes nothing else
+    if data[:4] != b"v/1\x01" or data[5] & ~long_names != 0:
         raise ValueError("it is no EXR picture of one part")
     at, header = 8, {}
     while data[at] != 0:

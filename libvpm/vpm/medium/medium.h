@@ -101,8 +101,12 @@ DensityIntegral density_integral(const Medium& medium, const Ray& ray, const Int
 /// infinite.
 inline Rgb transmittance(const Medium& medium, double integral) {
   Rgb result(1.0f);
-  for (int c = 0; c < 3; ++c)
-    if (medium.sigma_t[c] > 0.0f) result[c] = static_cast<float>(std::exp(-medium.sigma_t[c] * integral));
+  for (int c = 0; c < 3; ++c) {
+    if (c > 0 && medium.sigma_t[c] == medium.sigma_t[c - 1])
+      result[c] = result[c - 1];  // most media are grey, and exponentials dear
+    else if (medium.sigma_t[c] > 0.0f)
+      result[c] = static_cast<float>(std::exp(-medium.sigma_t[c] * integral));
+  }
   return result;
 }
 

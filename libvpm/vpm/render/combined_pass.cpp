@@ -44,7 +44,7 @@ TechniqueCounts counts_of_pass(const RenderSettings& settings, const MergeKernel
   if (techniques.has(Technique::short_beams)) counts.short_beams = beams;
   if (techniques.has(Technique::long_beams)) counts.long_beams = beams;
   counts.heuristic = settings.combined.heuristic;
-  if (counts.heuristic == Heuristic::correlation_aware) counts.shared = 1.0 / paths;
+  if (counts.heuristic == Heuristic::correlation_aware) counts.at_random = 0.0;
   return counts;
 }
 
@@ -96,8 +96,11 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   splats_ = std::exchange(light.splats, {});
   light_.emplace(scene, counts_, kernels_, std::move(light));
   statistics_.build_seconds = clock.seconds() - statistics_.trace_seconds;
-  statistics_.surface_photons = light_->surface_vertices();
-  statistics_.volume_photons = light_->vertices().size() - light_->surface_vertices();
+  const std::vector<LightVertex>& vertices = light_->vertices();
+  const auto on_surfaces = std::count_if(vertices.begin(), vertices.end(),
+                                         [](const LightVertex& vertex) { return vertex.at.vertex.on_surface; });
+  statistics_.surface_photons = static_cast<uint64_t>(on_surfaces);
+  statistics_.volume_photons = vertices.size() - statistics_.surface_photons;
   statistics_.beams = statistics_.flights = light_->beam_count();
   statistics_.planes = light_->planes().size();
   statistics_.photon_map_bytes = light_->memory_bytes() + splats_.capacity() * sizeof(Splat);

@@ -43,10 +43,11 @@ void EyeSubPath::merge_beam(Technique technique, const FlightStart& start, const
   const Rgb left = is_long ? passed : analog_weight(medium, channel_shares(power), integral.value, false);
   const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
   const float phase = phase_density(medium, direction, -along.ray.direction);
-  const SubPathSums light = arrive(c_.counts, start.from, to_light, there, place);
-  const SubPathSums eye = arrive(c_.counts, at_.from, to_eye, there, place);
-  const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, to_light, to_eye,
-                                             angles_between(direction, light, along.ray.direction), true);
+  const SubPathSums at_end = arrive(c_.counts, start.from, to_light, there, place);
+  const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, over_colliding(there.sigma_t, to_light), to_eye,
+                                             angles_between(direction, at_end.turn, along.ray.direction), true);
+  const BehindMerge light = behind_merge(c_.counts, at_end);
+  const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, to_eye, there, place));
   const double all = all_at_merge(c_.counts, merges, light, phase, eye, phase);
   const Rgb value =
       at_.state.throughput * to_eye.transmittance * medium.sigma_s * power * left * (density * phase / found.sine[i]);

@@ -20,6 +20,22 @@ struct MergeKernels {
   float beams = 0.0f, points_2d = 0.0f, points_3d = 0.0f;
 };
 
+/// What a merge needs of a light vertex on a surface, and in a medium.
+struct SurfacePhoton {
+  Vec3 point{0.0f};   // m
+  Vec3 travel{0.0f};  // unit
+  Rgb power{0.0f};    // W
+  BehindMerge behind;
+};
+struct MediumPhoton {
+  Vec3 travel{0.0f};  // unit
+  Rgb power{0.0f};    // W
+  float density = 0.0f;
+  OverColliding arrived;  // of the leg that led there
+  Vec3d turn{0.0};        // SubPathSums::turn
+  BehindMerge behind;
+};
+
 /// The beams of a medium, with how the flights began, in the order of the map.
 struct LightBeams {
   PhotonBeamMap map;
@@ -40,24 +56,16 @@ class SortedLight {
   const PhotonPlaneList& planes() const { return planes_; }
   /// By PlaneCrossing::number.
   const FlightStart& plane_start(size_t number) const { return paths_.plane_starts[number]; }
-  /// The vertices on surfaces, and in a medium around points and beside rays; of_surfaces() and of_medium() tell which.
-  const VertexMap& on_surfaces() const { return on_surfaces_; }
-  const VertexMap& around_points(MediumId medium) const { return around_points_[medium]; }
-  const VertexMap& beside_rays(MediumId medium) const { return beside_rays_[medium]; }
-  const LightVertex& of_surfaces(uint32_t number) const { return paths_.vertices[of_surfaces_[number]]; }
-  const LightVertex& of_medium(MediumId medium, uint32_t number) const {
-    return paths_.vertices[of_media_[medium][number]];
-  }
-  size_t surface_vertices() const { return of_surfaces_.size(); }
+  /// The vertices on surfaces, but for light that comes straight from lights, and in a medium.
+  const VertexMap<SurfacePhoton>& on_surfaces() const { return on_surfaces_; }
+  const VertexMap<MediumPhoton>& in_medium(MediumId medium) const { return in_media_[medium]; }
   size_t beam_count() const;
   size_t memory_bytes() const;
 
  private:
   LightSubPaths paths_;
-  std::vector<uint32_t> of_surfaces_;            // numbers of vertices
-  std::vector<std::vector<uint32_t>> of_media_;  // by medium
-  VertexMap on_surfaces_;
-  std::vector<VertexMap> around_points_, beside_rays_;
+  VertexMap<SurfacePhoton> on_surfaces_;
+  std::vector<VertexMap<MediumPhoton>> in_media_;     // by medium
   std::vector<LightBeams> short_beams_, long_beams_;  // by medium
   PhotonPlaneList planes_;
 };

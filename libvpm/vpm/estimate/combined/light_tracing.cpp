@@ -32,6 +32,7 @@ void for_each_pixel(const Camera& camera, const Vec2& film, Visit&& visit) {
 }  // namespace
 
 void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng& rng, LightSubPaths& paths) {
+  if (at.vertex.on_surface && at.sums.straight) return;
   const Scene& scene = tracing.scene;
   const Camera& camera = scene.camera;
   const Vec3 offset = camera.position - at.vertex.point;

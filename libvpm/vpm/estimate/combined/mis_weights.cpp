@@ -14,21 +14,11 @@ double colliding(const Rgb& sigma_t, const Leg& leg) {
   return std::max(kLeastDensity, double{mean_channel(sigma_t * leg.transmittance)});
 }
 
-/// How many photons a leg brings to a place over how many collide there, m: a beam passes where its photon need not
-/// collide.
-double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) { return leg.mean() / colliding(sigma_t, leg); }
-
-/// The planes that turn at a vertex where light arrives along `travel` through a leg, for an eye's sub-path of that
-/// SubPathSums::turn.
-double planes_of_turn(const Vec3d& turn, const Vec3& travel, const Rgb& sigma_t, const Leg& leg) {
-  return std::abs(glm::dot(turn, Vec3d(travel))) * passing_over_colliding(sigma_t, leg);
-}
-
 /// SubPathSums::turn behind a vertex in a medium, at another one.
 Vec3d turn_of(const TechniqueCounts& counts, const Departure& departure, const Leg& leg) {
   const Vec3d turn = glm::cross(Vec3d(departure.travel), Vec3d(departure.direction));
   const Rgb& sigma_t = departure.from.sigma_t;
-  if (departure.way == SubPath::light) return turn * passing_over_colliding(sigma_t, departure.arrived);
+  if (departure.way == SubPath::light) return turn * over_colliding(sigma_t, departure.arrived).passing;
   // Planes need collide neither at the departure nor here: of the densities there the distance remains.
   return departure.first ? turn * (counts.planes * leg.per_square() / colliding(sigma_t, departure.arrived))
                          : Vec3d(0.0);
@@ -74,6 +64,7 @@ Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, doub
   start.direction = ray.direction;
   start.forward = forward;
   start.adjacent = counts.splats;
+  start.camera = true;
   start.way = SubPath::eye;
   return start;
 }
@@ -86,9 +77,15 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   departure.point = at.vertex.point;
   departure.direction = onward.direction;
   departure.forward = onward.forward;
-  departure.behind =
-      (counts.weigh(sums.adjacent) + counts.weigh(onward.reverse) * sums.further) / counts.weigh(sums.density);
-  if (from.kind == Junction::Kind::surface && !sums.straight) departure.merged = merges_on_surface(counts, first).sum();
+  const BehindMerge behind = behind_merge(counts, sums);
+  departure.behind = behind.sum(counts.weigh(onward.reverse));
+  if (from.kind == Junction::Kind::surface) {
+    if (!sums.straight) departure.unless_straight = merges_on_surface(counts, first).sum();
+    if (sums.seen) {
+      departure.behind = counts.weigh(onward.reverse) * behind.further;
+      departure.unless_straight += behind.adjacent;
+    }
+  }
   departure.adjacent = from.kind == Junction::Kind::free ? 0.0 : counts.connections;
   departure.way = way;
   if (from.kind != Junction::Kind::medium) return departure;
@@ -96,7 +93,7 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   departure.first = first;
   departure.travel = at.vertex.travel;
   departure.arrived = at.leg;
-  departure.angles = angles_between(at.vertex.travel, way == SubPath::light ? sums : SubPathSums(), onward.direction);
+  departure.angles = angles_between(at.vertex.travel, way == SubPath::light ? sums.turn : Vec3d(0.0), onward.direction);
   if (way == SubPath::eye)
     departure.planes = onward.reverse * std::abs(glm::dot(sums.turn, Vec3d(onward.direction))) / sums.density;
   return departure;
@@ -110,14 +107,15 @@ Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittan
 
 SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
                    const Vec3& point) {
-  double behind = departure.behind + (at.light && counts.light ? 0.0 : departure.merged);
+  double behind = departure.behind + (at.light && counts.light ? 0.0 : departure.unless_straight);
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
-    behind += merges_in_medium(counts, sigma_t, light ? departure.arrived : leg, light ? leg : departure.arrived,
-                               departure.angles, departure.first)
+    const OverColliding from_light = over_colliding(sigma_t, light ? departure.arrived : leg);
+    behind += merges_in_medium(counts, sigma_t, from_light, light ? leg : departure.arrived, departure.angles,
+                               departure.first)
                   .sum();
-    if (departure.planes > 0.0) behind += counts.weigh(departure.planes * passing_over_colliding(sigma_t, leg));
+    behind += counts.weigh(departure.planes * from_light.passing);
   }
   SubPathSums sums;
   sums.density = std::max(kLeastDensity, departure.forward * arrival(at, departure.direction, leg) * leg.per_square());
@@ -125,6 +123,7 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   if (at.kind == Junction::Kind::free) return sums;
   sums.adjacent = departure.adjacent;
   sums.straight = departure.light != nullptr;
+  sums.seen = departure.camera;
   if (at.kind == Junction::Kind::medium && departure.merges && counts.planes > 0.0)
     sums.turn = turn_of(counts, departure, leg);
   if (departure.light)
@@ -134,49 +133,49 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   return sums;
 }
 
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
+OverColliding over_colliding(const Rgb& sigma_t, const Leg& leg) {
+  const double sent = 1.0 / colliding(sigma_t, leg);
+  return {leg.mean() * sent, sent};
+}
+
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const OverColliding& from_light,
                             const Leg& from_eye, const Angles& angles, bool first) {
   MergeTerms terms;
-  terms.points_3d = counts.weigh(first ? counts.points_3d : counts.shared * counts.points_3d);
+  terms.points_3d = counts.weigh(counts.points_3d * counts.part_of_points_3d(first));
   if (!first) return terms;
-  // That a sub-path need not collide here, m.
-  const double light = 1.0 / colliding(sigma_t, from_light), eye = 1.0 / colliding(sigma_t, from_eye);
+  const double eye = 1.0 / colliding(sigma_t, from_eye);  // as its sub-path need not collide here, m
   terms.points_2d = counts.weigh(counts.points_2d * eye);
-  terms.short_beams = counts.weigh(counts.short_beams * angles.sine * from_light.mean() * light * eye);
-  terms.long_beams = counts.weigh(counts.long_beams * angles.sine * light * eye);
-  terms.planes = counts.weigh(counts.planes * angles.determinant * light * eye);
+  terms.short_beams = counts.weigh(counts.short_beams * angles.sine * from_light.passing * eye);
+  terms.long_beams = counts.weigh(counts.long_beams * angles.sine * from_light.sent * eye);
+  terms.planes = counts.weigh(counts.planes * angles.determinant * from_light.sent * eye);
   return terms;
 }
 
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
-  return {.surface = counts.weigh(first ? counts.surfaces : counts.shared * counts.surfaces)};
+  return {.surface = counts.weigh(counts.surfaces * counts.part_of_surfaces(first))};
 }
 
-Angles angles_between(const Vec3& light, const SubPathSums& sums, const Vec3& eye) {
-  return {glm::length(glm::cross(Vec3d(light), Vec3d(eye))), std::abs(glm::dot(sums.turn, Vec3d(eye)))};
+Angles angles_between(const Vec3& light, const Vec3d& turn, const Vec3& eye) {
+  return {glm::length(glm::cross(Vec3d(light), Vec3d(eye))), std::abs(glm::dot(turn, Vec3d(eye)))};
 }
 
-SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Junction& at, const Vec3& travel,
-                      const Leg& leg) {
+SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Vec3& travel, double passing) {
   SubPathSums sums = eye;
-  if (sums.turn == Vec3d(0.0)) return sums;
-  sums.further += counts.weigh(planes_of_turn(eye.turn, travel, at.sigma_t, leg));
+  sums.further += counts.weigh(std::abs(glm::dot(eye.turn, Vec3d(travel))) * passing);
   return sums;
 }
 
-double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
-                    double back_to_light, const SubPathSums& eye, double back_to_eye) {
-  const auto others = [&](const SubPathSums& sums, double back) {
-    return (counts.weigh(sums.adjacent) + counts.weigh(back) * sums.further) / counts.weigh(sums.density);
-  };
-  return merges.sum() + others(light, back_to_light) + others(eye, back_to_eye);
+BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums) {
+  const double density = counts.weigh(sums.density);
+  return {counts.weigh(sums.adjacent) / density, sums.further / density};
 }
 
 ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Departure& light, const SubPathSums& at_eye,
                                       const Departure& eye, const SubPathSums& at_light) {
   const double connected = counts.weigh(at_eye.adjacent);
   const double behind = counts.weigh(eye.forward) * at_eye.further;
-  const SubPathSums beyond = with_turn(counts, at_light, light.from, light.travel, light.arrived);
+  const SubPathSums beyond =
+      with_turn(counts, at_light, light.travel, over_colliding(light.from.sigma_t, light.arrived).passing);
   const double before = counts.weigh(light.forward) * beyond.further;
   const double all = connected + behind + before;
   return {connected / all, behind / all};

@@ -9,8 +9,9 @@
 //   M_i = N m_i f_0 ... f_i r_i ... r_k
 // for N light sub-paths and a kernel of the size m_i, with a factor for each sub-path that need not end there. Where
 // x_i is the first vertex from the eye that is not specular, m_i holds all kernels, and planes, elsewhere only the
-// kernels of surfaces and of points in balls. Light that comes straight from a light is not merged on surfaces, where
-// lights are sampled: samples of lights have less noise than densities say.
+// kernels of surfaces and of points in balls. Light that comes straight from a light onto a surface is neither merged
+// there nor brought to the camera from there, where lights are sampled: samples of lights have less noise than
+// densities say.
 //
 // A sub-path from the light carries S_i, the sum of all C_j, j < i, and M_j, j <= i, over C_i / c_i. From vertex to
 // vertex,
@@ -41,8 +42,16 @@ struct TechniqueCounts {
   double short_beams = 0.0, long_beams = 0.0;  // m
   double planes = 0.0;                         // of all light sub-paths, for each flight of one: they have no kernel
   double plane_share = 0.0;                    // of flights, the part that becomes planes
-  double shared = 1.0;  // of what a merge counts for elsewhere, the part where the eye's sub-path has scattered before
+  // Of what merges count for elsewhere, the part at places that chance has led the eye's sub-path to: where it has
+  // scattered before; and where it collides, if merges along its ray are made as well.
+  double at_random = 1.0;
   Heuristic heuristic = Heuristic::balance;
+
+  /// The parts at a vertex from the eye: is it the first that is not specular?
+  double part_of_surfaces(bool first) const { return first ? 1.0 : at_random; }
+  double part_of_points_3d(bool first) const { return first && !merges_along_rays() ? 1.0 : at_random; }
+  /// Do merges along rays find all light that those where sub-paths collide find? Planes do not.
+  bool merges_along_rays() const { return points_2d > 0.0 || short_beams > 0.0 || long_beams > 0.0; }
 
   /// A density, or a number, as the heuristic weighs it.
   double weigh(double x) const { return heuristic == Heuristic::power ? x * x : x; }
@@ -76,10 +85,12 @@ struct SubPathSums {
   double density = 1.0;   // of the vertex: f_i, or r_i
   double adjacent = 0.0;  // how many connections there are between the vertex and the one before
   double further = 0.0;   // the sum over all techniques behind that, over the density of the direction back
-  bool straight = false;  // does the light come straight from a light that is sampled? It is not merged on surfaces
+  bool straight = false;  // does the light come straight from a light that is sampled?
+  bool seen = false;      // does the camera see the vertex, without mirrors or glass in between?
   // Where the vertex before is in a medium, for planes that turn there. Of a sub-path from the light: the cross product
-  // of its last two directions, times passing over colliding for the former, m. From the eye, and if the vertex before
-  // is the first that is not specular: the same product, times all that `further` lacks but for the light's flight.
+  // of its last two directions, times OverColliding::passing of the former leg, m. From the eye, and if the vertex
+  // before is the first that is not specular: the same product, times all that `further` lacks but for the light's
+  // flight.
   Vec3d turn{0.0};
 };
 
@@ -103,8 +114,8 @@ struct Angles {
   double sine = 0.0;         // of the angle between them
   double determinant = 0.0;  // of the light's last two, the former as in SubPathSums::turn, and the eye's, m
 };
-/// Of directions of travel (unit), where the light's sub-path has these sums.
-Angles angles_between(const Vec3& light, const SubPathSums& sums, const Vec3& eye);
+/// Of directions of travel (unit), where the light's sub-path has that SubPathSums::turn.
+Angles angles_between(const Vec3& light, const Vec3d& turn, const Vec3& eye);
 
 /// A sub-path as it leaves a vertex, or its start.
 struct Departure {
@@ -113,11 +124,12 @@ struct Departure {
   Vec3 direction{0.0f};          // unit
   double forward = 1.0;          // the density of the direction, 1/sr; 1 at a specular vertex
   double behind = 0.0;           // the sum over techniques behind the vertex
-  double merged = 0.0;           // of merges at the vertex, if it is on a surface
+  double unless_straight = 0.0;  // of merges at the vertex and of light tracing from there, if it is on a surface
   double adjacent = 0.0;         // how many connections are made over the leg to come
   const Light* light = nullptr;  // that this is the start on: connections over the leg sample it
   double place = 1.0;            // the density of emission there, EmissionDensity::place
   bool parallel = false;         // does light not spread from here?
+  bool camera = false;           // is this the start at the camera?
   // Of merges at a vertex in a medium, of which the leg to come is one of the two:
   bool merges = false;
   bool first = false;  // is the vertex the first from the eye that is not specular?
@@ -149,21 +161,37 @@ struct MergeTerms {
 
   double sum() const { return surface + points_3d + points_2d + short_beams + long_beams + planes; }
 };
-/// In a medium, between a leg from the light and one from the eye; `first` as in depart().
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const Leg& from_light,
+/// How far a leg takes photons for each that collides at its end, m.
+struct OverColliding {
+  double passing = 0.0;  // those that come so far: short beams pass where their photons need not collide
+  double sent = 0.0;     // those that would come so far if nothing stood on the way, as long beams do
+};
+OverColliding over_colliding(const Rgb& sigma_t, const Leg& leg);
+/// In a medium, between a leg from the light, of which over_colliding() is given, and one from the eye; `first` as in
+/// depart().
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const OverColliding& from_light,
                             const Leg& from_eye, const Angles& angles, bool first);
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
 
-/// The sums of a sub-path from the eye where it meets light that arrives along `travel` (unit) through a leg: with the
-/// planes that turn there.
-SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Junction& at, const Vec3& travel,
-                      const Leg& leg);
+/// The sums of a sub-path from the eye where it meets light that arrives along `travel` (unit) through a leg of that
+/// OverColliding::passing: with the planes that turn there.
+SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Vec3& travel, double passing);
 
+/// What the techniques behind a vertex that merges add to the sum of all densities there.
+struct BehindMerge {
+  double adjacent = 0.0, further = 0.0;
+
+  /// `back` is the density with which the other sub-path goes on along this one, 1/sr, as the heuristic weighs it.
+  double sum(double back) const { return adjacent + back * further; }
+};
+BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums);
 /// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
 /// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the
 /// other one. The eye's sums are those with_turn(), where they differ.
-double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const SubPathSums& light,
-                    double back_to_light, const SubPathSums& eye, double back_to_eye);
+inline double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const BehindMerge& light,
+                           double back_to_light, const BehindMerge& eye, double back_to_eye) {
+  return merges.sum() + light.sum(counts.weigh(back_to_light)) + eye.sum(counts.weigh(back_to_eye));
+}
 /// The shares of techniques that join two departures towards each other.
 struct ConnectionShares {
   double connected = 0.0;  // of the connection itself; of the light that is sampled

@@ -33,10 +33,11 @@ void EyeSubPath::merge_plane(const Along& along, const PlaneCrossing& crossing) 
   const Departure departure = depart(c_.counts, *turn, {plane.scattered, onward, onward}, SubPath::light, false);
   const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
   const float phase = phase_density(medium, plane.scattered, -along.ray.direction);
-  const SubPathSums light = arrive(c_.counts, departure, from_turn, there, place);
-  const SubPathSums eye = arrive(c_.counts, at_.from, to_eye, there, place);
-  const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, from_turn, to_eye,
-                                             angles_between(plane.scattered, light, along.ray.direction), true);
+  const SubPathSums at_end = arrive(c_.counts, departure, from_turn, there, place);
+  const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, over_colliding(there.sigma_t, from_turn), to_eye,
+                                             angles_between(plane.scattered, at_end.turn, along.ray.direction), true);
+  const BehindMerge light = behind_merge(c_.counts, at_end);
+  const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, to_eye, there, place));
   const double all = all_at_merge(c_.counts, merges, light, phase, eye, phase);
   const Rgb value = at_.state.throughput * to_eye.transmittance * medium.sigma_s * scattered * from_turn.transmittance *
                     (density * phase / crossing.determinant / static_cast<float>(c_.light_paths));

@@ -5,28 +5,28 @@
 namespace vpm {
 
 void EyeSubPath::merge_points_2d(const Along& along, const Interval& interval) {
-  const VertexMap& map = c_.light.beside_rays(along.medium);
-  if (map.size() == 0) return;
+  const VertexMap<MediumPhoton>& map = c_.light.in_medium(along.medium);
+  if (c_.counts.points_2d == 0.0 || map.size() == 0) return;
   const Medium& medium = c_.scene.media[along.medium];
-  const auto kernel = kernel_of<2>(c_.kernels.volume_kernel, map.radius());
+  const float radius = c_.kernels.points_2d;
+  const auto kernel = kernel_of<2>(c_.kernels.volume_kernel, radius);
   const Rgb each = at_.state.throughput * medium.albedo() / static_cast<float>(c_.light_paths);
   count(work_.counters.volume_queries);
   count(work_.counters.gather.searches);
-  const uint32_t visited = map.visit_near_ray(along.ray, interval, [&](uint32_t number, float distance2) {
-    const LightVertex& light = c_.light.of_medium(along.medium, number);
-    const PathVertex& photon = light.at.vertex;
-    const double t = glm::dot(photon.point - along.ray.origin, along.ray.direction);
-    const Leg leg = leg_to(at_.from, photon.point, along.to(t));
+  const auto merge = [&](const MediumPhoton& photon, float distance2, float t) {
+    const Vec3 point = along.ray.origin + t * along.ray.direction;
+    const Leg leg = leg_to(at_.from, point, along.to(t));
     if (is_black(leg.transmittance)) return;
+    const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * photon.density};
     const float phase = phase_density(medium, photon.travel, -along.ray.direction);
-    const MergeTerms merges = merges_in_medium(c_.counts, light.at.junction.sigma_t, light.at.leg, leg,
-                                               angles_between(photon.travel, light.at.sums, along.ray.direction), true);
-    const SubPathSums eye = arrive(c_.counts, at_.from, leg, light.at.junction, photon.point);
-    const double all = all_at_merge(c_.counts, merges, light.at.sums, phase, eye, phase);
-    const Rgb found = each * leg.transmittance * light.power * phase;
-    add_merged(Technique::points_2d, found, kernel(distance2), merges.points_2d / all);
-  });
-  count(work_.counters.gather.visited, visited);
+    const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, photon.arrived, leg,
+                                               angles_between(photon.travel, photon.turn, along.ray.direction), true);
+    const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, leg, there, point));
+    const double all = all_at_merge(c_.counts, merges, photon.behind, phase, eye, phase);
+    add_merged(Technique::points_2d, each * leg.transmittance * photon.power * phase, kernel(distance2),
+               merges.points_2d / all);
+  };
+  count(work_.counters.gather.visited, map.visit_near_ray(along.ray, interval, radius, merge));
 }
 
 }  // namespace vpm

@@ -1,10 +1,38 @@
 // Maps of light sub-paths, for the techniques that merge.
+#include <algorithm>
 #include <utility>
 
 #include "vpm/estimate/combined/combined.h"
 
 namespace vpm {
 namespace {
+
+VertexMap<SurfacePhoton> sort_surfaces(const std::vector<LightVertex>& vertices, const TechniqueCounts& counts,
+                                       float radius) {
+  if (counts.surfaces == 0.0) return {};
+  std::vector<PlacedRecord<SurfacePhoton>> photons;
+  for (const LightVertex& light : vertices) {
+    const PathVertex& vertex = light.at.vertex;
+    if (vertex.on_surface && !light.at.sums.straight)
+      photons.push_back(
+          {vertex.point, {vertex.point, vertex.travel, light.power, behind_merge(counts, light.at.sums)}});
+  }
+  return {photons, radius};
+}
+
+VertexMap<MediumPhoton> sort_medium(const std::vector<LightVertex>& vertices, MediumId medium,
+                                    const TechniqueCounts& counts, float reach) {
+  if (counts.points_2d == 0.0 && counts.points_3d == 0.0) return {};
+  std::vector<PlacedRecord<MediumPhoton>> photons;
+  for (const LightVertex& light : vertices) {
+    const auto& [vertex, junction, leg, sums] = light.at;
+    if (vertex.on_surface || vertex.medium != medium) continue;
+    photons.push_back({vertex.point,
+                       {vertex.travel, light.power, vertex.density, over_colliding(junction.sigma_t, leg), sums.turn,
+                        behind_merge(counts, sums)}});
+  }
+  return {photons, reach};
+}
 
 std::vector<LightBeams> sorted_beams(LightFlights& flights, float radius, float scale) {
   std::vector<LightBeams> beams;
@@ -19,20 +47,11 @@ std::vector<LightBeams> sorted_beams(LightFlights& flights, float radius, float 
 
 SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels,
                          LightSubPaths paths)
-    : paths_(std::move(paths)), of_media_(scene.media.size()) {
-  std::vector<Vec3> surfaces;
-  std::vector<std::vector<Vec3>> media(scene.media.size());
-  for (uint32_t i = 0; i < paths_.vertices.size(); ++i) {
-    const PathVertex& vertex = paths_.vertices[i].at.vertex;
-    (vertex.on_surface ? of_surfaces_ : of_media_[vertex.medium]).push_back(i);
-    (vertex.on_surface ? surfaces : media[vertex.medium]).push_back(vertex.point);
-  }
-  if (counts.surfaces > 0.0) on_surfaces_ = VertexMap(surfaces, kernels.surface);
+    : paths_(std::move(paths)), on_surfaces_(sort_surfaces(paths_.vertices, counts, kernels.surface)) {
+  const float reach = std::max(kernels.points_2d, kernels.points_3d);
   const float scale = 1.0f / static_cast<float>(paths_.ledger.emitted_count);
-  for (size_t m = 0; m < scene.media.size(); ++m) {
-    around_points_.push_back(counts.points_3d > 0.0 ? VertexMap(media[m], kernels.points_3d) : VertexMap());
-    beside_rays_.push_back(counts.points_2d > 0.0 ? VertexMap(media[m], kernels.points_2d) : VertexMap());
-  }
+  for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m)
+    in_media_.push_back(sort_medium(paths_.vertices, m, counts, reach));
   short_beams_ = sorted_beams(paths_.short_beams, kernels.beams, scale);
   long_beams_ = sorted_beams(paths_.long_beams, kernels.beams, scale);
   planes_ = PhotonPlaneList(std::exchange(paths_.planes, {}));
@@ -46,12 +65,9 @@ size_t SortedLight::beam_count() const {
 }
 
 size_t SortedLight::memory_bytes() const {
-  size_t bytes = paths_.vertices.capacity() * sizeof(LightVertex) + on_surfaces_.memory_bytes() +
-                 of_surfaces_.capacity() * sizeof(uint32_t);
-  for (const auto& numbers : of_media_) bytes += numbers.capacity() * sizeof(uint32_t);
+  size_t bytes = paths_.vertices.capacity() * sizeof(LightVertex) + on_surfaces_.memory_bytes();
   bytes += planes_.memory_bytes() + paths_.plane_starts.capacity() * sizeof(FlightStart);
-  for (const auto* maps : {&around_points_, &beside_rays_})
-    for (const VertexMap& map : *maps) bytes += map.memory_bytes();
+  for (const VertexMap<MediumPhoton>& map : in_media_) bytes += map.memory_bytes();
   for (const auto* beams : {&short_beams_, &long_beams_})
     for (const LightBeams& of_medium : *beams)
       bytes += of_medium.map.memory_bytes() + of_medium.starts.capacity() * sizeof(FlightStart);

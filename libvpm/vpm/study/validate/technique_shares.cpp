@@ -164,19 +164,22 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
   if (counts.light && !is_free(path, 1)) add(By::sampled, 0, product(1, 1));
   for (size_t i = 1; i + 1 < k; ++i)
     if (!is_free(path, i) && !is_free(path, i + 1)) add(By::connected, i, counts.connections * product(i + 1, i + 1));
-  if (!is_free(path, k - 1)) add(By::splat, k - 1, counts.splats * product(k, k));
+  const bool straight_to_eye = k == 2 && path.junctions[1].kind == Junction::Kind::surface && counts.light;
+  if (!is_free(path, k - 1) && !straight_to_eye) add(By::splat, k - 1, counts.splats * product(k, k));
   for (size_t i = 1; i < k; ++i) {
     const Junction& at = path.junctions[i];
     const double merged = product(i + 1, i);
     const bool first = first_from_eye(path, i);
-    const double shared = first ? 1.0 : counts.shared;
+    const double on_surface = first ? 1.0 : counts.at_random;
+    const bool along_rays = counts.points_2d + counts.short_beams + counts.long_beams > 0.0;
+    const double in_ball = first && !along_rays ? 1.0 : counts.at_random;
     const bool straight = i == 1 && counts.light;
-    if (at.kind == Junction::Kind::surface && !straight) add(By::surface, i, shared * counts.surfaces * merged);
+    if (at.kind == Junction::Kind::surface && !straight) add(By::surface, i, on_surface * counts.surfaces * merged);
     if (at.kind != Junction::Kind::medium) continue;
     const Rgb &from_light = path.transmittances[i - 1], &from_eye = path.transmittances[i];
     const double sine = glm::length(glm::cross(Vec3d(path.direction(i - 1)), Vec3d(path.direction(i))));
     const double eye = mean_of(at.sigma_t * from_eye), light = mean_of(at.sigma_t * from_light);
-    add(By::points_3d, i, shared * counts.points_3d * merged);
+    add(By::points_3d, i, in_ball * counts.points_3d * merged);
     if (!first) continue;
     add(By::points_2d, i, counts.points_2d * merged / eye);
     add(By::short_beams, i, counts.short_beams * sine * merged / eye * mean_of(from_light) / light);
@@ -259,14 +262,15 @@ double share_of(const WholePath& path, const TechniqueCounts& counts, const SubP
   }
   const Junction& at = path.junctions[i];
   const SubPathSums& light = traced.light[i].sums;
-  const SubPathSums eye = with_turn(counts, traced.eye[i].sums, at, path.direction(i - 1), path.leg(i - 1));
-  const Angles angles = angles_between(path.direction(i - 1), light, path.direction(i));
-  const MergeTerms terms =
-      at.kind == Junction::Kind::surface
-          ? merges_on_surface(counts, first_from_eye(path, i))
-          : merges_in_medium(counts, at.sigma_t, path.leg(i - 1), path.leg(i), angles, first_from_eye(path, i));
-  return term_of(terms, found.by) /
-         all_at_merge(counts, terms, light, density_on(path, i, false), eye, density_on(path, i, true));
+  const SubPathSums eye =
+      with_turn(counts, traced.eye[i].sums, path.direction(i - 1), over_colliding(at.sigma_t, path.leg(i - 1)).passing);
+  const Angles angles = angles_between(path.direction(i - 1), light.turn, path.direction(i));
+  const MergeTerms terms = at.kind == Junction::Kind::surface
+                               ? merges_on_surface(counts, first_from_eye(path, i))
+                               : merges_in_medium(counts, at.sigma_t, over_colliding(at.sigma_t, path.leg(i - 1)),
+                                                  path.leg(i), angles, first_from_eye(path, i));
+  return term_of(terms, found.by) / all_at_merge(counts, terms, behind_merge(counts, light), density_on(path, i, false),
+                                                 behind_merge(counts, eye), density_on(path, i, true));
 }
 
 TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
@@ -282,7 +286,7 @@ TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
   counts.long_beams = number();
   counts.planes = number();
   counts.heuristic = heuristic;
-  if (heuristic == Heuristic::correlation_aware) counts.shared = 0.01;
+  if (heuristic == Heuristic::correlation_aware) counts.at_random = 0.01;
   return counts;
 }
 
