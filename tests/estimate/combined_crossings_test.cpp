@@ -35,7 +35,7 @@ LightSubPaths one_light_path(const Scene& scene, const TechniqueCounts& counts) 
   turn.vertex.travel = kFirst;
   turn.vertex.medium = 0;
   turn.vertex.density = medium.density(kTurn);
-  turn.junction = junction_of(scene, turn.vertex);
+  turn.junction = junction_of(counts, scene, turn.vertex);
   turn.leg = leg_to(start, kTurn, transmittance(medium, density_integral(medium, ray, {0.0f, 0.3f}).value));
   turn.sums = arrive(counts, start, turn.leg, turn.junction, kTurn);
   const double phase = phase_density(medium, kFirst, kSecond);

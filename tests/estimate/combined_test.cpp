@@ -85,7 +85,7 @@ TEST(Combined, IsTheSameBitForBitOnAnyNumberOfThreads) {
 TEST(Combined, LayersAreThePartsOfThePicture) {
   const Scene scene = foggy_box();
   RenderSettings settings = combined_settings_of(3'000);
-  settings.combined.heuristic = Heuristic::balance;  // under which each technique has a share
+  settings.combined.heuristic = Heuristic::balance;  // each technique has a part then
   const Image alone = render_combined_pass(scene, settings, 1, kGoOn).image;
   settings.combined.layers = true;
   const Pass pass = render_combined_pass(scene, settings, 1, kGoOn);

@@ -15,12 +15,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Where the grid or mesh of a scene comes from: one of our generators, or a real file.
+/// Where a grid or mesh of a scene comes from: one of our generators, or a real file.
 struct FileSource {
   std::string scene, key, command, name;  // `vpm command name`; no command: the file of that name
 };
 const std::vector<FileSource> kFiles{{"smoke", "media.smoke.path", "media", "smoke"},
                                      {"plume_room", "media.smoke.path", "media", "smoke"},
+                                     {"plume_lake", "media.smoke.path", "media", "smoke"},
+                                     {"plume_lake", "shapes.water.path", "mesh", "waves"},
                                      {"cloud", "media.cloud.path", "media", "cloud"},
                                      {"ring_caustic", "shapes.ring.path", "mesh", "ring"},
                                      {"pool", "shapes.water.path", "mesh", "waves"},
@@ -42,20 +44,29 @@ std::vector<std::string> scene_names() {
 
 class VpmScenes : public VpmBinary {
  protected:
-  /// The option that gives the scene its grid or mesh; none where it has none. Nothing at all where a real grid is
-  /// missing.
-  std::optional<std::vector<std::string>> file_option(const std::string& scene) const {
-    const auto source =
-        std::find_if(kFiles.begin(), kFiles.end(), [&](const FileSource& f) { return f.scene == scene; });
-    if (source == kFiles.end()) return std::vector<std::string>{};
-    std::string file = std::string(VPM_SHARED_DIR) + "/vdb/" + source->name;
-    if (!source->command.empty()) {
-      file = path(source->command == "mesh" ? "made.ply" : "made.vdb");
-      vpm_succeeds({source->command, source->name, "--resolution", "48", "-o", file});
-    } else if (!std::filesystem::exists(file)) {
-      return std::nullopt;
+  /// The options that give the scene its grid and meshes, --set and a value by turns; none where it has none. Nothing
+  /// at all where a real grid is missing.
+  std::optional<std::vector<std::string>> file_options(const std::string& scene) const {
+    std::vector<std::string> options;
+    for (const FileSource& source : kFiles) {
+      if (source.scene != scene) continue;
+      std::string file = std::string(VPM_SHARED_DIR) + "/vdb/" + source.name;
+      if (!source.command.empty()) {
+        file = path(source.command == "mesh" ? "made.ply" : "made.vdb");
+        vpm_succeeds({source.command, source.name, "--resolution", "48", "-o", file});
+      } else if (!std::filesystem::exists(file)) {
+        return std::nullopt;
+      }
+      options.insert(options.end(), {"--set", source.key + "=" + file});
     }
-    return std::vector<std::string>{"--set", source->key + "=" + file};
+    return options;
+  }
+
+  /// The values of such options.
+  static std::vector<std::string> overrides(const std::vector<std::string>& options) {
+    std::vector<std::string> values;
+    for (size_t i = 1; i < options.size(); i += 2) values.push_back(options[i]);
+    return values;
   }
 
   /// Renders a scene of the project, small, and returns its report. Nothing but the warning is to be told.
@@ -99,15 +110,14 @@ void expect_closed_ledger(const Json& report) {
 class VpmEveryScene : public VpmScenes, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(VpmEveryScene, RendersAndItsEnergyLedgerCloses) {
-  const auto made = file_option(GetParam());
+  const auto made = file_options(GetParam());
   if (!made) GTEST_SKIP() << "the grid of this scene is not here";
   const Json report = render(GetParam(), *made);
   expect_closed_ledger(report);
 
   // What was emitted is what the lights have; which light a photon comes from is chance, so channels vary by at most
   // 5/sqrt(2e5) = 1.1 %.
-  const std::vector<std::string> overrides(made->begin() + (made->empty() ? 0 : 1), made->end());
-  const Scene scene = load_scene(scene_folder() + GetParam() + ".toml", overrides).scene;
+  const Scene scene = load_scene(scene_folder() + GetParam() + ".toml", overrides(*made)).scene;
   Rgbd power(0.0);
   for (const Light& light : scene.lights) power += Rgbd(light_power(light, scene.bounds));
   for (int c = 0; c < 3; ++c)
@@ -137,7 +147,7 @@ void PrintTo(const Strategy& strategy, std::ostream* out) { *out << strategy.nam
 class VpmEveryStrategy : public VpmScenes, public ::testing::WithParamInterface<Strategy> {};
 
 TEST_P(VpmEveryStrategy, ClosesTheLedgerOfTheSmoke) {
-  std::vector<std::string> options = *file_option("smoke");
+  std::vector<std::string> options = *file_options("smoke");
   options.insert(options.end(), {"--set", "distance.strategy=" + GetParam().name});
   for (const std::string& option : GetParam().options) options.insert(options.end(), {"--set", option});
   const Json report = render("smoke", options, GetParam().warning);
@@ -169,10 +179,10 @@ TEST_F(VpmScenes, OfAllExperimentsCanBeLoaded) {
     if (entry.path().extension() != ".toml") continue;
     const ComparisonPlan plan = load_comparison_plan(entry.path().string());
     for (const ComparedScene& scene : plan.scenes) {
-      const auto file = file_option(std::filesystem::path(scene.file).stem().string());
-      if (!file) continue;
+      const auto made = file_options(std::filesystem::path(scene.file).stem().string());
+      if (!made) continue;
       std::vector<std::string> of_scene = scene.settings;
-      for (size_t i = 1; i < file->size(); i += 2) of_scene.push_back((*file)[i]);
+      for (const std::string& value : overrides(*made)) of_scene.push_back(value);
       const auto load = [&](std::vector<std::string> settings) {
         settings.insert(settings.begin(), of_scene.begin(), of_scene.end());
         EXPECT_NO_THROW(load_scene(scene.file, settings)) << entry.path() << ", " << scene.name;
@@ -190,7 +200,7 @@ TEST_F(VpmScenes, OfAllExperimentsCanBeLoaded) {
 
 TEST_F(VpmScenes, TheHomogeneousStrategyRefusesGrids) {
   std::vector<std::string> arguments{"render", scene_folder() + "smoke.toml", "--set", "distance.strategy=homogeneous"};
-  const auto grid = *file_option("smoke");
+  const auto grid = *file_options("smoke");
   arguments.insert(arguments.end(), grid.begin(), grid.end());
   vpm_refuses(arguments, {"homogeneous", "grid"});
 }

@@ -13,11 +13,12 @@ SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 # are not allowed. Of any other case a refusal by both programs would mean that it compares nothing.
 Case = collections.namedtuple("Case", "group name arguments may_refuse")
 
-# What vpm makes for the scenes: the key that names it, and the file.
-MADE = {"smoke": ("media.smoke.path", "smoke.vdb"), "cloud": ("media.cloud.path", "cloud.vdb"),
-        "plume_room": ("media.smoke.path", "smoke.vdb"),
-        "ring_caustic": ("shapes.ring.path", "ring.ply"), "pool": ("shapes.water.path", "waves.ply"),
-        "street_lamp": ("shapes.pole.path", "pole.ply")}
+# What vpm makes for the scenes: the keys that name it, and the files.
+MADE = {"smoke": {"media.smoke.path": "smoke.vdb"}, "cloud": {"media.cloud.path": "cloud.vdb"},
+        "plume_room": {"media.smoke.path": "smoke.vdb"},
+        "plume_lake": {"media.smoke.path": "smoke.vdb", "shapes.water.path": "waves.ply"},
+        "ring_caustic": {"shapes.ring.path": "ring.ply"}, "pool": {"shapes.water.path": "waves.ply"},
+        "street_lamp": {"shapes.pole.path": "pole.ply"}}
 
 # Radii so wide that maps of a thousand photons have some within them.
 WIDE = {"fog_room": "volume.radius=0.3 surface.radius=0.3",
@@ -73,8 +74,7 @@ class Cases:
         blanks, and other options."""
         sets = sets.split() if isinstance(sets, str) else list(sets)
         changes = [f"photons.emitted={emitted}"] if not any(change.startswith("photons.") for change in sets) else []
-        if scene in MADE:
-            changes.append(f"{MADE[scene][0]}={self.folder / MADE[scene][1]}")
+        changes += [f"{key}={self.folder / made}" for key, made in MADE.get(scene, {}).items()]
         file = str(SCENES / f"{scene}.toml")
         if bake:
             arguments = ["bake", file, "--mesh", bake, "--resolution", str(size)]
@@ -100,7 +100,7 @@ def add_scenes(cases):
     """Every scene whose files there are, by photons and by paths."""
     for scene in filter(is_complete, scene_names()):
         for integrator in ("photon", "path"):
-            few = " importance.importons=2000" if scene == "keyhole_fog" else ""
+            few = " importance.importons=2000" if scene in ("keyhole_fog", "milk_glass") else ""
             cases.add("scenes", scene, f"render.integrator={integrator}{few}", size=32, emitted=5000)
 
 
@@ -207,7 +207,7 @@ def add_own(cases):
             ("fog_room", "importance.importons=5000 importance.scatter=true"),
             ("fog_room", "photons.emitted=10000 photons.in_cube=3"), ("fog_room", "volume.direct=equiangular"),
             ("fog_box", "volume.boundary=corrected surface.boundary=corrected")]
-    scenes = [(scene, "importance.importons=5000" if scene == "keyhole_fog" else "") for scene in scene_names()]
+    scenes = [(scene, "importance.importons=5000" if scene in ("keyhole_fog", "milk_glass") else "") for scene in scene_names()]
     for scene, sets in [*scenes, *ways]:
         # Work is cut into tiles of 16 pixels and chunks of 4096 photons: there must be several of each.
         if is_complete(scene):

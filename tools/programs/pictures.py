@@ -7,6 +7,8 @@ import struct
 import sys
 import zlib
 
+ROWS_AT_ONCE = {b"\0": 1, b"\x03": 16}  # in a block: without compression, and with ZIP
+
 
 def undo_zip(packed, size):
     """The bytes of a block that OpenEXR compressed by ZIP: zlib's bytes are differences, of the even bytes and then
@@ -51,17 +53,17 @@ def read_exr(file):
     """The width and height of a picture, and the bytes of each of its channels.
 
     Python's own library reads no EXR, and `vpm error` would look at red, green and blue alone. Throws ValueError, or
-    what reading past the end throws, where the file is not one that vpm wrote.
+    what reading past the end throws, where the file is not one that vpm or write_exr() wrote.
     """
     data = file.read_bytes()
     header, table = read_header(data)
     left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
     names = channel_names(header["channels"])
-    if header["compression"] != b"\x03":
-        raise ValueError("it is not compressed by ZIP")
+    if header["compression"] not in ROWS_AT_ONCE:
+        raise ValueError("it is compressed by something else than ZIP")
     channels = {name: bytearray() for name in names}
-    rows_at_once, row = 16, 4 * width
+    rows_at_once, row = ROWS_AT_ONCE[header["compression"]], 4 * width
     for offset in struct.unpack_from(f"<{-(-height // rows_at_once)}Q", data, table):
         y, size = struct.unpack_from("<2i", data, offset)
         rows = min(rows_at_once, bottom + 1 - y)

@@ -231,6 +231,30 @@ std::vector<Choice> choose_gather(const Scene& scene, const AutomaticSettings& a
   return choices;
 }
 
+/// Light sub-paths as many as rays from the camera, and radii as photon maps of so many photons would have: neither
+/// goes by a clock.
+std::vector<Choice> choose_for_combined(const Scene& scene, const AutomaticSettings& automatic,
+                                        RenderSettings& settings) {
+  if (automatic.has(kGatherKey))
+    throw InputError(
+        fmt::format("{}: where render.integrator is \"combined\" it is of no use: leave it out", kGatherKey));
+  std::vector<Choice> choices;
+  if (automatic.has("photons.emitted")) {
+    const double rays = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
+    settings.photons_emitted = std::max(kLeastCount, static_cast<uint64_t>(rounded(rays, 2)));
+    choices.push_back({"photons.emitted", fmt::format("{}", settings.photons_emitted), "as many as rays of a pass"});
+  }
+  if (!automatic.has("volume.radius") && !automatic.has("surface.radius")) return choices;
+  RenderSettings maps = settings;
+  maps.integrator = Integrator::photon;
+  maps.volume.mode = GatherMode::radius;
+  for (Choice& choice : choose_radii(scene, automatic, map_densities(scene, maps), maps))
+    choices.push_back(std::move(choice));
+  settings.volume.radius = maps.volume.radius;
+  settings.surface.radius = maps.surface.radius;
+  return choices;
+}
+
 }  // namespace
 
 ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal) {
@@ -334,6 +358,10 @@ StrategyCost cheapest(std::span<const StrategyCost> costs) {
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
   std::vector<Choice> choices;
   if (automatic.has("distance.strategy") && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
+  if (settings.integrator == Integrator::combined) {
+    for (Choice& choice : choose_for_combined(scene, automatic, settings)) choices.push_back(std::move(choice));
+    return choices;
+  }
   const bool gather = automatic.has(kGatherKey) && !plan_estimators(scene, settings, 0).volume.empty();
   std::vector<Choice> more = gather ? choose_gather(scene, automatic, settings)
                                     : choose_photons_and_radii(scene, automatic, limit_of_timing(settings), settings);

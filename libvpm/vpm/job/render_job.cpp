@@ -24,14 +24,6 @@ void note_choices(RenderJob& job) {
   job.notes.push_back("the same settings again without choosing:" + again);
 }
 
-void refuse_choices_of_combined(const RenderJob& job) {
-  if (job.settings.integrator != Integrator::combined) return;
-  for (const std::string& key : job.automatic.keys)
-    if (key != "distance.strategy")
-      throw InputError(fmt::format(
-          "{}: where render.integrator is \"combined\" nothing chooses it: give a value in place of \"auto\"", key));
-}
-
 }  // namespace
 
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
@@ -45,7 +37,6 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
 void choose(RenderJob& job) {
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
-  refuse_choices_of_combined(job);
   const Stopwatch choosing;
   job.choices = choose_settings(job.scene, job.automatic, job.settings);
   const double seconds = choosing.seconds();

@@ -99,7 +99,7 @@ DensityIntegral density_integral(const Medium& medium, const Ray& ray, const Int
 
 /// exp(-sigma_t integral) per channel, with the density integral in m. It is 1 if sigma_t is 0, even if the integral is
 /// infinite.
-inline Rgb transmittance(const Medium& medium, double integral) {
+[[gnu::always_inline]] inline Rgb transmittance(const Medium& medium, double integral) {
   Rgb result(1.0f);
   for (int c = 0; c < 3; ++c) {
     if (c > 0 && medium.sigma_t[c] == medium.sigma_t[c - 1])

@@ -35,7 +35,7 @@ struct Flying {
     count(counters.bricks, flight.bricks);
     count(counters.null_collisions, flight.null_collisions);
     counters.majorant_violations += flight.majorant_violations;
-    if (tracks) tracks->push_back({state.ray, state.medium, flight.t, length, state.throughput});
+    if (tracks) tracks->push_back({state.ray, state.medium, flight.t, length, state.throughput, flight.integral});
     state.throughput *= flight.weight;
     if (!flight.collided) return false;
     state.ray.origin = state.ray.at(flight.t);

@@ -2,11 +2,8 @@
 #include "vpm/photon/records.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "vpm/base/count.h"
-#include "vpm/medium/distance/mixture.h"
-#include "vpm/photon/stored_power.h"
 
 namespace vpm {
 namespace {
@@ -50,38 +47,16 @@ size_t CollisionRecorder::stored() const {
   return all;
 }
 
-// Candidates are evenly spaced, from a random place on, as many as collisions at the floor in the channel of the
-// largest extinction. Of these a fraction 1 - density/floor counts. Empty bricks have none.
 void CollisionRecorder::flew(const Track& track, const ArrivingPhoton& photon, Rng& rng) {
+  if (!filter_(photon)) return;
   const Medium& medium = scene_.media[track.medium];
-  if (!medium.grid || !medium.scatters() || !filter_(photon)) return;
-  const float floor = floor_in(medium, thin_.density_floor);
-  const double spacing = 1.0 / (double{floor} * max_channel(medium.majorant()));  // m
-  const double first = rng.uniform_double() * spacing;                            // m
-  if (!(first < track.length)) return;
-  medium.visit_majorants(track.ray, {0.0f, track.length}, [&](const DensityStretch& stretch) {
-    if (relative_density(medium, stretch.min) >= floor) return true;
-    for (double i = std::ceil((stretch.t0 - first) / spacing); first + i * spacing < stretch.t1; ++i) {
-      const double t = first + i * spacing;
-      const float density = relative_density(medium, stretch.density(t));
-      if (density == 0.0f && !thin_.where_empty) continue;
-      if (rng.uniform() * floor >= density) store_along(track, t, floor);
-    }
-    return true;
+  visit_thin_places(medium, track, thin_, rng, [&](double t) {
+    const double integral =
+        is_grey(medium.sigma_t) ? 0.0 : density_integral(medium, track.ray, {0.0f, static_cast<float>(t)}).value;
+    count(floored);
+    photons[track.medium].push_back({track.ray.at(static_cast<float>(t)), PackedDirection(track.ray.direction),
+                                     power_along(medium, track, integral, thin_)});
   });
-}
-
-/// Stores a photon on its flight, at the distance t in m, with the power that would collide there.
-void CollisionRecorder::store_along(const Track& track, double t, float floor) {
-  const Medium& medium = scene_.media[track.medium];
-  Rgb flux = track.throughput;
-  if (!is_grey(medium.sigma_t)) {
-    const double integral = density_integral(medium, track.ray, {0.0f, static_cast<float>(t)}).value;
-    flux *= analog_weight(medium, channel_shares(flux), integral, false) * medium.sigma_t / max_channel(medium.sigma_t);
-  }
-  count(floored);
-  photons[track.medium].push_back(
-      {track.ray.at(static_cast<float>(t)), PackedDirection(track.ray.direction), flux / floor});
 }
 
 void CollisionRecorder::collided(const ArrivingPhoton& photon) {

@@ -6,6 +6,7 @@
 
 #include "vpm/photon/photon.h"
 #include "vpm/photon/recorder.h"
+#include "vpm/photon/thin_places.h"
 
 namespace vpm {
 
@@ -44,12 +45,6 @@ inline constexpr PhotonFilter photon_from_rough([](bool, bool, bool from_rough) 
 /// mirrors and smooth glass, but nothing else, have scattered are kept only if `specular`.
 PhotonFilter caustic_photons(bool direct, bool specular);
 
-/// Where a grid is so thin that photons are also stored along flights.
-struct ThinParts {
-  float density_floor;  // the density below which it is, in [0, 1], relative to the medium's largest: see floor_in()
-  bool where_empty;     // also where the density is 0, unless a whole brick of the grid is empty?
-};
-
 /// Records photons at their collisions in scattering media, before the choice between absorption and scattering. Their
 /// power is the power that collides; under VolumeForm::density_at_query it is divided by the density there
 /// (stored_power()).
@@ -75,8 +70,6 @@ class CollisionRecorder : public PhotonRecorder {
   uint64_t floored = 0;                      // of these: photons where the density is below the floor
 
  private:
-  void store_along(const Track& track, double t, float floor);
-
   const Scene& scene_;
   VolumeForm form_;
   ThinParts thin_;

@@ -7,6 +7,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
 #include "vpm/estimate/pass_map.h"
+#include "vpm/render/plan.h"
 
 namespace vpm {
 namespace {
@@ -24,11 +25,19 @@ MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings,
   for (const Medium& medium : scene.media)
     if (medium.scatters()) first = std::min(first, first_radius(volume, scene, medium));
   const auto radius = [&](int dimension) { return gather_in_pass(volume, first, dimension, of).radius; };
-  return {surface.kernel, volume.kernel, gather_in_pass(surface, first_radius(surface, scene), 2, of).radius,
-          radius(1),      radius(2),     radius(3)};
+  return {surface.kernel,    volume.kernel, gather_in_pass(surface, first_radius(surface, scene), 2, of).radius,
+          0.25f * radius(1), radius(2),     radius(3)};
 }
 
-TechniqueCounts counts_of_pass(const RenderSettings& settings, const MergeKernels& kernels) {
+/// Does all light reach the first vertex from the eye that is not specular by merges?
+bool merges_where_the_eye_looks(const Scene& scene, const TechniqueSet& techniques) {
+  const Scattering scattering = scattering_of(scene);
+  const bool media = techniques.has(Technique::points_2d) || techniques.has(Technique::points_3d) ||
+                     techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams);
+  return (!scattering.surfaces || techniques.has(Technique::surface_merging)) && (!scattering.media || media);
+}
+
+TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& settings, const MergeKernels& kernels) {
   const auto paths = static_cast<double>(settings.photons_emitted);
   const TechniqueSet& techniques = settings.combined.techniques;
   TechniqueCounts counts;
@@ -43,8 +52,9 @@ TechniqueCounts counts_of_pass(const RenderSettings& settings, const MergeKernel
   const double beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
   if (techniques.has(Technique::short_beams)) counts.short_beams = beams;
   if (techniques.has(Technique::long_beams)) counts.long_beams = beams;
+  counts.density_floor = settings.density_floor;
   counts.heuristic = settings.combined.heuristic;
-  if (counts.heuristic == Heuristic::correlation_aware) counts.at_random = 0.0;
+  counts.deep = counts.heuristic != Heuristic::correlation_aware || !merges_where_the_eye_looks(scene, techniques);
   return counts;
 }
 
@@ -85,7 +95,7 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
       strategy_(make_distance_strategy(settings.distance, {.pass = static_cast<uint64_t>(pass)})),
       transmittance_(make_transmittance_estimator({})),
       kernels_(kernels_of_pass(scene, settings, pass)),
-      counts_(counts_of_pass(settings, kernels_)) {
+      counts_(counts_of_pass(scene, settings, kernels_)) {
   const LightTracing tracing{
       scene, *strategy_, *transmittance_, counts_, settings.seed, static_cast<uint64_t>(pass), max_events_};
   const Stopwatch clock;

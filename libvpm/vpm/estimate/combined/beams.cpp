@@ -41,10 +41,10 @@ void EyeSubPath::merge_beam(Technique technique, const FlightStart& start, const
   const bool is_long = technique == Technique::long_beams;
   const Rgb power(found.r[i], found.g[i], found.b[i]);
   const Rgb left = is_long ? passed : analog_weight(medium, channel_shares(power), integral.value, false);
-  const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
+  const Junction there = junction_in(c_.counts, medium, density);
   const float phase = phase_density(medium, direction, -along.ray.direction);
   const SubPathSums at_end = arrive(c_.counts, start.from, to_light, there, place);
-  const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, over_colliding(there.sigma_t, to_light), to_eye,
+  const MergeTerms merges = merges_in_medium(c_.counts, there, over_colliding(there.sigma_t, to_light), to_eye,
                                              angles_between(direction, at_end.turn, along.ray.direction), true);
   const BehindMerge light = behind_merge(c_.counts, at_end);
   const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, to_eye, there, place));

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "vpm/estimate/combined/light_sub_paths.h"
-#include "vpm/estimate/combined/vertex_map.h"
 #include "vpm/estimate/eye_work.h"
 #include "vpm/photon/photon_beam_map.h"
 #include "vpm/photon/photon_plane_list.h"
@@ -20,19 +19,11 @@ struct MergeKernels {
   float beams = 0.0f, points_2d = 0.0f, points_3d = 0.0f;
 };
 
-/// What a merge needs of a light vertex on a surface, and in a medium.
+/// A photon on a surface, for merges.
 struct SurfacePhoton {
   Vec3 point{0.0f};   // m
   Vec3 travel{0.0f};  // unit
   Rgb power{0.0f};    // W
-  BehindMerge behind;
-};
-struct MediumPhoton {
-  Vec3 travel{0.0f};  // unit
-  Rgb power{0.0f};    // W
-  float density = 0.0f;
-  OverColliding arrived;  // of the leg that led there
-  Vec3d turn{0.0};        // SubPathSums::turn
   BehindMerge behind;
 };
 
@@ -56,7 +47,7 @@ class SortedLight {
   const PhotonPlaneList& planes() const { return planes_; }
   /// By PlaneCrossing::number.
   const FlightStart& plane_start(size_t number) const { return paths_.plane_starts[number]; }
-  /// The vertices on surfaces, but for light that comes straight from lights, and in a medium.
+  /// Photons on surfaces, but those straight from lights that are sampled, and in a medium.
   const VertexMap<SurfacePhoton>& on_surfaces() const { return on_surfaces_; }
   const VertexMap<MediumPhoton>& in_medium(MediumId medium) const { return in_media_[medium]; }
   size_t beam_count() const;

@@ -102,9 +102,7 @@ Event EyeSubPath::fly_to_event(Rgb& passed) {
   const Event event = next_event(c_.scene, c_.strategy, at_.state, work_.rng, work_.counters.walk, kInfinity, &tracks);
   for (const Track& track : tracks) {
     const Medium& medium = c_.scene.media[track.medium];
-    const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
-    count(work_.counters.walk.lookups, integral.lookups);
-    passed *= transmittance(medium, integral.value);
+    passed *= transmittance(medium, integral_along(medium, track, work_.counters.walk));
   }
   return event;
 }
@@ -116,7 +114,7 @@ Arrival EyeSubPath::arrive_at(const Event& event, const Rgb& passed) {
   at.vertex = vertex_at(c_.scene, event, at_.state);
   at.leg = leg_to(at_.from, at.vertex.point, passed);
   if (at.vertex.on_surface) see_emitter(at.vertex, at.leg);
-  at.junction = junction_of(c_.scene, at.vertex);
+  at.junction = junction_of(c_.counts, c_.scene, at.vertex);
   at.sums = arrive(c_.counts, at_.from, at.leg, at.junction, at.vertex.point);
   return at;
 }
@@ -128,6 +126,7 @@ bool EyeSubPath::visit(const Arrival& at) {
   }
   if (is_black(at_.state.throughput)) return false;
   if (!at.vertex.specular) {
+    if (!at_.only_specular && !c_.counts.deep) return false;
     sample_light(at);
     connect(at);
     at.vertex.on_surface ? merge_surface(at) : merge_points_3d(at);

@@ -6,6 +6,7 @@
 #include "vpm/base/count.h"
 #include "vpm/path/stretches.h"
 #include "vpm/photon/recorder.h"
+#include "vpm/photon/thin_places.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
@@ -60,9 +61,8 @@ class LightSubPath {
     for (const Track& track : tracks_) {
       const Medium& medium = c_.scene.media[track.medium];
       if (medium.scatters() && track.length > 0.0f) keep(track, medium, passed);
-      const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
-      count(out_.ledger.walk.lookups, integral.lookups);
-      passed *= transmittance(medium, integral.value);
+      keep_thin_photons(track, medium, passed);
+      passed *= transmittance(medium, integral_along(medium, track, out_.ledger.walk));
     }
     if (!is_finite(state_.throughput)) {
       ++out_.ledger.non_finite;
@@ -74,7 +74,7 @@ class LightSubPath {
     Arrival at;
     at.vertex = vertex_at(c_.scene, event, state_);
     at.leg = leg_to(from_, at.vertex.point, passed);
-    at.junction = junction_of(c_.scene, at.vertex);
+    at.junction = junction_of(c_.counts, c_.scene, at.vertex);
     at.sums = arrive(c_.counts, from_, at.leg, at.junction, at.vertex.point);
     return at;
   }
@@ -119,11 +119,44 @@ class LightSubPath {
     each_stretch(c_.scene, beyond.ray, beyond.medium, kInfinity, out_.ledger.walk, beyond);
   }
 
+  void keep_thin_photons(const Track& track, const Medium& medium, const Rgb& before) {
+    if (!merges_points()) return;
+    const ThinParts thin{c_.counts.density_floor, true};
+    visit_thin_places(medium, track, thin, rng_, [&](double t) {
+      const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, static_cast<float>(t)});
+      count(out_.ledger.walk.lookups, integral.lookups);
+      count(out_.ledger.floored);
+      const Vec3 point = track.ray.at(static_cast<float>(t));
+      keep_photon(track.medium, point, leg_to(from_, point, before * transmittance(medium, integral.value)),
+                  power_along(medium, track, integral.value, thin));
+    });
+  }
+
+  void keep_collided(const Arrival& at) {
+    if (!merges_points()) return;
+    const Medium& medium = c_.scene.media[at.vertex.medium];
+    const float density = relative_density(medium, at.vertex.density);
+    const float floor = medium.grid ? floor_in(medium, c_.counts.density_floor) : 0.0f;
+    keep_photon(at.vertex.medium, at.vertex.point, at.leg,
+                stored_power(state_.throughput, VolumeForm::density_at_query, density, floor));
+  }
+
+  bool merges_points() const { return c_.counts.points_2d > 0.0 || c_.counts.points_3d > 0.0; }
+
+  /// Of a power as stored_power() says.
+  void keep_photon(MediumId medium, const Vec3& point, const Leg& leg, const Rgb& power) {
+    const Junction even{Junction::Kind::medium, Vec3(0.0f), c_.scene.media[medium].sigma_t};
+    const SubPathSums sums = arrive(c_.counts, from_, leg, even, point);
+    out_.photons[medium].push_back(
+        {point, {from_.direction, power, sums.turn, over_colliding(even.sigma_t, leg), behind_merge(c_.counts, sums)}});
+  }
+
   /// Keeps the vertex, and draws how the sub-path goes on.
   bool go_on(const Arrival& at) {
     const PathVertex& vertex = at.vertex;
     if (!vertex.specular && (vertex.on_surface || c_.scene.media[vertex.medium].scatters())) {
       out_.vertices.push_back({at, state_.throughput});
+      if (!vertex.on_surface) keep_collided(at);
       if (c_.counts.splats > 0.0) splat(c_, at, state_.throughput, rng_, out_);
     }
     const Rgb before = state_.throughput;
@@ -176,6 +209,7 @@ void LightFlights::join(LightFlights& part) {
 
 void LightSubPaths::join(LightSubPaths& part) {
   join_lists(vertices, part.vertices);
+  for (size_t m = 0; m < photons.size(); ++m) join_lists(photons[m], part.photons[m]);
   short_beams.join(part.short_beams);
   long_beams.join(part.long_beams);
   join_lists(planes, part.planes);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "vpm/estimate/combined/mis_weights.h"
+#include "vpm/estimate/combined/vertex_map.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/ledger.h"
@@ -16,6 +17,16 @@ namespace vpm {
 struct LightVertex {
   Arrival at;
   Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
+};
+
+/// A photon in a medium, for merges: one that collided or, where a grid is thin, flew past (thin_places.h).
+struct MediumPhoton {
+  Vec3 travel{0.0f};  // unit
+  Rgb power{0.0f};    // W over the density relative to the medium's largest, see stored_power()
+  Vec3d turn{0.0};    // SubPathSums::turn
+  // As they would be where the density is 1:
+  OverColliding arrived;  // of the leg that led there
+  BehindMerge behind;
 };
 
 /// How a flight began of which a part, through one medium, is kept.
@@ -42,13 +53,14 @@ struct Splat {
 
 struct LightSubPaths {
   std::vector<LightVertex> vertices;
+  std::vector<std::vector<PlacedRecord<MediumPhoton>>> photons;  // by medium
   LightFlights short_beams, long_beams;
   std::vector<PhotonPlane> planes;
   std::vector<FlightStart> plane_starts;
   std::vector<Splat> splats;
   Ledger ledger;  // emitted, counts of events, look-ups
 
-  explicit LightSubPaths(size_t media = 0) : short_beams(media), long_beams(media) {}
+  explicit LightSubPaths(size_t media = 0) : photons(media), short_beams(media), long_beams(media) {}
   /// Takes over what a part has, which comes next.
   void join(LightSubPaths& part);
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vpm/photon/stored_power.h"
+
 namespace vpm {
 namespace {
 
@@ -26,10 +28,17 @@ Vec3d turn_of(const TechniqueCounts& counts, const Departure& departure, const L
 
 }  // namespace
 
-Junction junction_of(const Scene& scene, const PathVertex& vertex) {
+Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex) {
   if (vertex.specular) return {};
   if (vertex.on_surface) return {Junction::Kind::surface, vertex.hit.normal};
-  return {Junction::Kind::medium, Vec3(0.0f), scene.media[vertex.medium].sigma_t * vertex.density};
+  return junction_in(counts, scene.media[vertex.medium], vertex.density);
+}
+
+Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float density) {
+  Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
+  if (medium.grid && density > 0.0f)
+    there.kept = std::max(1.0, double{floor_in(medium, counts.density_floor)} / relative_density(medium, density));
+  return there;
 }
 
 double arrival(const Junction& at, const Vec3& direction, const Leg& leg) {
@@ -77,13 +86,15 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   departure.point = at.vertex.point;
   departure.direction = onward.direction;
   departure.forward = onward.forward;
-  const BehindMerge behind = behind_merge(counts, sums);
-  departure.behind = behind.sum(counts.weigh(onward.reverse));
-  if (from.kind == Junction::Kind::surface) {
-    if (!sums.straight) departure.unless_straight = merges_on_surface(counts, first).sum();
-    if (sums.seen) {
-      departure.behind = counts.weigh(onward.reverse) * behind.further;
-      departure.unless_straight += behind.adjacent;
+  if (counts.deep || first || from.kind == Junction::Kind::free) {
+    const BehindMerge behind = behind_merge(counts, sums);
+    departure.behind = behind.sum(counts.weigh(onward.reverse));
+    if (from.kind == Junction::Kind::surface) {
+      if (!sums.straight) departure.unless_straight = merges_on_surface(counts, first).sum();
+      if (sums.seen) {
+        departure.behind = counts.weigh(onward.reverse) * behind.further;
+        departure.unless_straight += behind.adjacent;
+      }
     }
   }
   departure.adjacent = from.kind == Junction::Kind::free ? 0.0 : counts.connections;
@@ -112,7 +123,7 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
     const OverColliding from_light = over_colliding(sigma_t, light ? departure.arrived : leg);
-    behind += merges_in_medium(counts, sigma_t, from_light, light ? leg : departure.arrived, departure.angles,
+    behind += merges_in_medium(counts, departure.from, from_light, light ? leg : departure.arrived, departure.angles,
                                departure.first)
                   .sum();
     behind += counts.weigh(departure.planes * from_light.passing);
@@ -138,13 +149,13 @@ OverColliding over_colliding(const Rgb& sigma_t, const Leg& leg) {
   return {leg.mean() * sent, sent};
 }
 
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const OverColliding& from_light,
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, const OverColliding& from_light,
                             const Leg& from_eye, const Angles& angles, bool first) {
   MergeTerms terms;
-  terms.points_3d = counts.weigh(counts.points_3d * counts.part_of_points_3d(first));
+  terms.points_3d = counts.merges_points_3d(first) ? counts.weigh(counts.points_3d * there.kept) : 0.0;
   if (!first) return terms;
-  const double eye = 1.0 / colliding(sigma_t, from_eye);  // as its sub-path need not collide here, m
-  terms.points_2d = counts.weigh(counts.points_2d * eye);
+  const double eye = 1.0 / colliding(there.sigma_t, from_eye);  // as its sub-path need not collide here, m
+  terms.points_2d = counts.weigh(counts.points_2d * there.kept * eye);
   terms.short_beams = counts.weigh(counts.short_beams * angles.sine * from_light.passing * eye);
   terms.long_beams = counts.weigh(counts.long_beams * angles.sine * from_light.sent * eye);
   terms.planes = counts.weigh(counts.planes * angles.determinant * from_light.sent * eye);
@@ -152,7 +163,7 @@ MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, c
 }
 
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
-  return {.surface = counts.weigh(counts.surfaces * counts.part_of_surfaces(first))};
+  return {.surface = counts.merges_surfaces(first) ? counts.weigh(counts.surfaces) : 0.0};
 }
 
 Angles angles_between(const Vec3& light, const Vec3d& turn, const Vec3& eye) {

@@ -42,14 +42,16 @@ struct TechniqueCounts {
   double short_beams = 0.0, long_beams = 0.0;  // m
   double planes = 0.0;                         // of all light sub-paths, for each flight of one: they have no kernel
   double plane_share = 0.0;                    // of flights, the part that becomes planes
-  // Of what merges count for elsewhere, the part at places that chance has led the eye's sub-path to: where it has
-  // scattered before; and where it collides, if merges along its ray are made as well.
-  double at_random = 1.0;
+  // Do sub-paths from the eye meet others beyond their first vertex that is not specular? If not, they go on from there
+  // only to see what lights they run into, and places that chance leads them to are not merged: beyond that vertex, and
+  // where a ray from the camera collides, if merges along the whole ray are made.
+  bool deep = true;
+  float density_floor = 0.0f;  // where a grid is thinner photons are also stored along flights, see ThinParts
   Heuristic heuristic = Heuristic::balance;
 
-  /// The parts at a vertex from the eye: is it the first that is not specular?
-  double part_of_surfaces(bool first) const { return first ? 1.0 : at_random; }
-  double part_of_points_3d(bool first) const { return first && !merges_along_rays() ? 1.0 : at_random; }
+  /// Are these merges made at a vertex from the eye, which is the first that is not specular, or not?
+  bool merges_surfaces(bool first) const { return surfaces > 0.0 && (first || deep); }
+  bool merges_points_3d(bool first) const { return points_3d > 0.0 && (deep || (first && !merges_along_rays())); }
   /// Do merges along rays find all light that those where sub-paths collide find? Planes do not.
   bool merges_along_rays() const { return points_2d > 0.0 || short_beams > 0.0 || long_beams > 0.0; }
 
@@ -72,9 +74,12 @@ struct Junction {
   Kind kind = Kind::free;
   Vec3 normal{0.0f};   // of a surface, unit
   Rgb sigma_t{0.0f};   // in a medium, at the place, 1/m
+  double kept = 1.0;   // in a medium: how many photons are stored there for merges, for each that collides
   bool light = false;  // is the light there that a path begins at?
 };
-Junction junction_of(const Scene& scene, const PathVertex& vertex);
+Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex);
+/// Of a place of that density in a medium.
+Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float density);
 
 /// The density of coming to a place along `direction` through a leg, over that of the direction: 1/m^2 on surfaces,
 /// 1/m^3 in media. The mean over channels stands for the mixture that distances are drawn from.
@@ -165,11 +170,14 @@ struct MergeTerms {
 struct OverColliding {
   double passing = 0.0;  // those that come so far: short beams pass where their photons need not collide
   double sent = 0.0;     // those that would come so far if nothing stood on the way, as long beams do
+
+  /// The same where the density of the leg's end is `factor` times as large.
+  OverColliding over(double factor) const { return {passing / factor, sent / factor}; }
 };
 OverColliding over_colliding(const Rgb& sigma_t, const Leg& leg);
 /// In a medium, between a leg from the light, of which over_colliding() is given, and one from the eye; `first` as in
 /// depart().
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Rgb& sigma_t, const OverColliding& from_light,
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, const OverColliding& from_light,
                             const Leg& from_eye, const Angles& angles, bool first);
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
 
@@ -180,6 +188,9 @@ SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, con
 /// What the techniques behind a vertex that merges add to the sum of all densities there.
 struct BehindMerge {
   double adjacent = 0.0, further = 0.0;
+
+  /// The same where the density of the vertex is `factor` times as large, as the heuristic weighs it.
+  BehindMerge over(double factor) const { return {adjacent / factor, further / factor}; }
 
   /// `back` is the density with which the other sub-path goes on along this one, 1/sr, as the heuristic weighs it.
   double sum(double back) const { return adjacent + back * further; }

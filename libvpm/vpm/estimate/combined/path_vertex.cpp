@@ -1,6 +1,7 @@
 // Scattering at vertices.
 #include "vpm/estimate/combined/path_vertex.h"
 
+#include "vpm/base/count.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
@@ -38,6 +39,13 @@ Scattered scattered_into(const Scene& scene, const PathVertex& vertex, const Vec
 
 float phase_density(const Medium& medium, const Vec3& before, const Vec3& after) {
   return std::visit([&](const auto& phase) { return phase.value(before, after); }, medium.phase);
+}
+
+double integral_along(const Medium& medium, const Track& track, WalkCounters& counters) {
+  if (track.integral != kNotKnown) return track.integral;
+  const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
+  count(counters.lookups, integral.lookups);
+  return integral.value;
 }
 
 Leaving leave(const Scene& scene, const PathVertex& vertex, const Vec3& direction) {

@@ -36,6 +36,9 @@ Scattered scattered_into(const Scene& scene, const PathVertex& vertex, const Vec
 /// The phase function of a medium between directions of travel, 1/sr.
 float phase_density(const Medium& medium, const Vec3& before, const Vec3& after);
 
+/// The density integral of a part of a flight, m: the distance strategy's own, where it knows that.
+double integral_along(const Medium& medium, const Track& track, WalkCounters& counters);
+
 /// Where a ray leaves the vertex along `direction`, and in which medium.
 struct Leaving {
   Vec3 origin{0.0f};  // m

@@ -31,10 +31,10 @@ void EyeSubPath::merge_plane(const Along& along, const PlaneCrossing& crossing) 
   if (is_black(from_turn.transmittance)) return;
   const double onward = phase_density(c_.scene.media[plane.medium], plane.direction, plane.scattered);
   const Departure departure = depart(c_.counts, *turn, {plane.scattered, onward, onward}, SubPath::light, false);
-  const Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
+  const Junction there = junction_in(c_.counts, medium, density);
   const float phase = phase_density(medium, plane.scattered, -along.ray.direction);
   const SubPathSums at_end = arrive(c_.counts, departure, from_turn, there, place);
-  const MergeTerms merges = merges_in_medium(c_.counts, there.sigma_t, over_colliding(there.sigma_t, from_turn), to_eye,
+  const MergeTerms merges = merges_in_medium(c_.counts, there, over_colliding(there.sigma_t, from_turn), to_eye,
                                              angles_between(plane.scattered, at_end.turn, along.ray.direction), true);
   const BehindMerge light = behind_merge(c_.counts, at_end);
   const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, to_eye, there, place));
@@ -60,7 +60,7 @@ std::optional<Arrival> EyeSubPath::turn_of_plane(const PlaneCrossing& crossing, 
   const FlightStart& start = c_.light.plane_start(crossing.number);
   turn.leg = leg_to(start.from, turn.vertex.point, start.before * transmittance(medium, integral.value));
   if (is_black(turn.leg.transmittance)) return std::nullopt;
-  turn.junction = junction_of(c_.scene, turn.vertex);
+  turn.junction = junction_of(c_.counts, c_.scene, turn.vertex);
   turn.sums = arrive(c_.counts, start.from, turn.leg, turn.junction, turn.vertex.point);
   scattered = plane.power * analog_weight(medium, channel_shares(plane.power), integral.value, false) * medium.sigma_s *
               turn.vertex.density;

@@ -20,20 +20,6 @@ VertexMap<SurfacePhoton> sort_surfaces(const std::vector<LightVertex>& vertices,
   return {photons, radius};
 }
 
-VertexMap<MediumPhoton> sort_medium(const std::vector<LightVertex>& vertices, MediumId medium,
-                                    const TechniqueCounts& counts, float reach) {
-  if (counts.points_2d == 0.0 && counts.points_3d == 0.0) return {};
-  std::vector<PlacedRecord<MediumPhoton>> photons;
-  for (const LightVertex& light : vertices) {
-    const auto& [vertex, junction, leg, sums] = light.at;
-    if (vertex.on_surface || vertex.medium != medium) continue;
-    photons.push_back({vertex.point,
-                       {vertex.travel, light.power, vertex.density, over_colliding(junction.sigma_t, leg), sums.turn,
-                        behind_merge(counts, sums)}});
-  }
-  return {photons, reach};
-}
-
 std::vector<LightBeams> sorted_beams(LightFlights& flights, float radius, float scale) {
   std::vector<LightBeams> beams;
   for (size_t m = 0; m < flights.beams.size(); ++m) {
@@ -50,8 +36,10 @@ SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, cons
     : paths_(std::move(paths)), on_surfaces_(sort_surfaces(paths_.vertices, counts, kernels.surface)) {
   const float reach = std::max(kernels.points_2d, kernels.points_3d);
   const float scale = 1.0f / static_cast<float>(paths_.ledger.emitted_count);
-  for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m)
-    in_media_.push_back(sort_medium(paths_.vertices, m, counts, reach));
+  for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m) {
+    in_media_.push_back(VertexMap<MediumPhoton>(paths_.photons[m], reach));
+    paths_.photons[m] = {};
+  }
   short_beams_ = sorted_beams(paths_.short_beams, kernels.beams, scale);
   long_beams_ = sorted_beams(paths_.long_beams, kernels.beams, scale);
   planes_ = PhotonPlaneList(std::exchange(paths_.planes, {}));

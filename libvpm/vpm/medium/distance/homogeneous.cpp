@@ -18,6 +18,7 @@ Flight Homogeneous::sample(const Medium& medium, const Ray&, const Interval& int
   const double length = flight.collided ? target / sigma_t : reach;
   flight.t = flight.collided ? interval.t0 + static_cast<float>(length) : interval.t1;
   flight.density = 1.0f;
+  flight.integral = length;
   flight.weight = analog_weight(medium, shares, length, flight.collided);
   return flight;
 }

@@ -26,6 +26,7 @@ Flight Regular::sample(const Medium& medium, const Ray& ray, const Interval& int
     crossed = target;
     return false;
   });
+  flight.integral = crossed;
   flight.weight = analog_weight(medium, shares, crossed, flight.collided);
   return flight;
 }

@@ -12,6 +12,8 @@
 
 namespace vpm {
 
+inline constexpr double kNotKnown = -1.0;
+
 /// A free flight through one medium.
 struct Flight {
   float t = 0.0f;  // m along the ray: the collision's, or the interval's end
@@ -19,8 +21,9 @@ struct Flight {
   float density = 0.0f;  // that the collision was drawn from: sigma_t there is medium.sigma_t * density > 0 unless the
                          // weight is black
   Rgb weight{1.0f};      // the photon's power is multiplied by it
-  uint32_t lookups = 0;  // of density
-  uint32_t bricks = 0;   // of a grid, whose bounds were looked up
+  double integral = kNotKnown;  // of density, up to t, m; not known to strategies that do not compute it
+  uint32_t lookups = 0;         // of density
+  uint32_t bricks = 0;          // of a grid, whose bounds were looked up
   uint32_t null_collisions = 0;
   uint32_t majorant_violations = 0;  // look-ups that found more than a majorant
 };
