@@ -66,6 +66,7 @@ RenderSettings combined_settings_of(uint64_t paths) {
   settings.integrator = Integrator::combined;
   settings.photons_emitted = paths;
   settings.volume.radius = settings.surface.radius = 0.1f;
+  for (const TechniqueInfo& info : kTechniques) settings.combined.techniques.set(info.technique, true);
   return settings;
 }
 

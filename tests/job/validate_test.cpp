@@ -121,6 +121,26 @@ TEST(Validate, BeamsOfCombinedTechniquesNeedAnEndInEveryChannel) {
   EXPECT_EQ(refused(s, endless), "");
 }
 
+TEST(Validate, LongBeamsOfCombinedTechniquesNeedAnEnd) {
+  RenderSettings s;
+  combine(s);
+  const SceneFacts endless{.scattering_media = true, .endless = true};
+  EXPECT_EQ(refused(s, endless), "");
+  s.combined.techniques.set(Technique::long_beams, true);
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "");
+  EXPECT_EQ(refused(s, endless), "combined.techniques");
+}
+
+TEST(Validate, PlanesAreCountedWhereThereAreAny) {
+  RenderSettings s;
+  combine(s);
+  s.planes = 10;
+  s.combined.techniques.set(Technique::planes, true);
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "");
+  s.combined.techniques.set(Technique::planes, false);
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "photons.planes");
+}
+
 TEST(Validate, FactsTellWhetherFlightsEnd) {
   Medium medium;
   medium.sigma_s = Rgb(0.1f, 0.2f, 0.0f);

@@ -34,7 +34,7 @@ std::vector<Setting> combined_settings() {
        .member = {get_techniques, set_techniques},
        .domain = WordSet{names_of(std::span<const TechniqueInfo>(kTechniques)).words},
        .meaning = "which techniques find light; what none of them can find is missing",
-       .default_text = "all",
+       .default_text = "all but `\"long-beams\"` and `\"planes\"`",
        .need = {combines, combines_nothing, kCombine}},
       {.key = "combined.heuristic",
        .member = at<&S::combined, &C::heuristic>(),

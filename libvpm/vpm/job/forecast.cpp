@@ -48,8 +48,7 @@ std::string fitting_text(double photons, const RenderSettings& settings, double 
 /// Light sub-paths are kept whole, and sorted beside themselves: told by the first of them.
 void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& settings, double memory) {
   constexpr uint64_t kFew = 1000;
-  RenderSettings few = settings;
-  few.photons_emitted = std::min(kFew, settings.photons_emitted);
+  const RenderSettings few = with_light_paths(settings, kFew);
   const std::atomic<bool> never{false};
   const CombinedPass pass(scene, few, 0, never);
   const auto paths = static_cast<double>(settings.photons_emitted);

@@ -90,8 +90,9 @@ std::vector<Setting> declare_photons() {
        .member = at<&S::planes>(),
        .domain = Integers{1, 1'000'000},
        .meaning =
-           "with `gather = \"photon-planes\"`: at most so many flights of a pass become planes, likewise. Eye rays "
-           "send a shadow ray for each plane that they cross"},
+           "with `gather = \"photon-planes\"`: at most so many flights of a pass become planes, likewise; where "
+           "techniques are combined: about so many, drawn by chance. Eye rays send a shadow ray for each plane that "
+           "they cross"},
   };
 }
 

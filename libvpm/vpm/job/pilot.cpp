@@ -250,8 +250,7 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
 /// By a part of the light sub-paths.
 PassCost time_combined_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
   constexpr uint64_t kPaths = 2000;
-  RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
-  pilot.photons_emitted = std::min(kPaths, settings.photons_emitted);
+  const RenderSettings pilot = with_light_paths(pilot_settings(settings, settings.photons_emitted), kPaths);
   const std::atomic<bool> never{false};
   const CombinedPass ready(scene, pilot, 0, never);
   const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return ready.radiance(ray, work); };

@@ -92,8 +92,10 @@ void check_estimator(const RenderSettings& s, const SceneFacts& facts) {
 
 void check_photon_beams(const RenderSettings& s, const SceneFacts& facts) {
   const std::string gather = "'gather' of [volume] is \"" + word_of(s.volume.mode) + "\"";
-  refuse_if(s.planes != RenderSettings{}.planes && s.volume.mode != GatherMode::photon_planes, "photons.planes",
-            "there are no planes: " + gather, "leave out 'planes', or write gather = \"photon-planes\"");
+  refuse_if(s.planes != RenderSettings{}.planes && s.volume.mode != GatherMode::photon_planes &&
+                s.integrator != Integrator::combined,
+            "photons.planes", "there are no planes: " + gather,
+            "leave out 'planes', or write gather = \"photon-planes\"");
   refuse_if(s.flights > 0 && !s.volume.gathers_flights(), "photons.flights", "no flights are kept: " + gather,
             "leave out 'flights', or write gather = \"photon-beams\"");
   if (!s.volume.gathers_flights() || s.integrator == Integrator::combined) return;
@@ -175,7 +177,14 @@ void check_combined(const RenderSettings& s, const SceneFacts& facts) {
             "leave out 'in_cube'");
   refuse_if(s.radii == RadiusSchedule::per_pixel, "render.radii", combined + "all pixels share their radii",
             "write \"per-pass\" or \"constant\"");
-  refuse_if(facts.endless_flights && s.combined.techniques.has(Technique::short_beams), "combined.techniques",
+  const TechniqueSet& techniques = s.combined.techniques;
+  refuse_if(s.planes != RenderSettings{}.planes && !techniques.has(Technique::planes), "photons.planes",
+            "there are no planes: 'techniques' of [combined] leave them out",
+            "leave out 'planes', or name \"planes\" in 'techniques'");
+  refuse_if(facts.endless && techniques.has(Technique::long_beams), "combined.techniques",
+            "the medium of the world has no end, and long beams would have none",
+            "leave out \"long-beams\", or put the scene into a box of the medium");
+  refuse_if(facts.endless_flights && techniques.has(Technique::short_beams), "combined.techniques",
             "flights have no end in a channel that the medium of the world does not attenuate",
             "leave out \"short-beams\", or put the scene into a box of the medium");
 }

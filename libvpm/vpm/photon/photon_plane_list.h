@@ -19,6 +19,7 @@ struct PlaneCrossing {
   float beyond;        // from the collision to the crossing, m
   float t;             // along the ray, m
   float determinant;   // of the directions of flight, scattered light and ray: the volume that they span, > 0
+  size_t number;       // of the plane in the list
 };
 
 class PhotonPlaneList {
@@ -69,7 +70,7 @@ void PhotonPlaneList::visit_crossings(const Ray& ray, const Interval& interval, 
       crossed[i] = s >= 0.0f && s < length_[p] && u > 0.0f && at >= t0 && at < t1;
     }
     for (size_t i = 0; i < kBlock; ++i)
-      if (crossed[i]) visit(PlaneCrossing{planes_[block + i], from[i], beyond[i], t[i], determinant[i]});
+      if (crossed[i]) visit(PlaneCrossing{planes_[block + i], from[i], beyond[i], t[i], determinant[i], block + i});
   }
 }
 

@@ -13,7 +13,8 @@ namespace vpm {
 namespace {
 
 constexpr size_t kPathChunk = 2048;   // light sub-paths traced one after another
-constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are to connect to
+constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are to connect to, and how many flights
+constexpr size_t kFewLights = 4;      // that are all sampled where an eye sub-path has one vertex for it
 constexpr double kConnections = 1.0;  // of each vertex of an eye sub-path, to vertices of light sub-paths
 
 /// The radii of the pass. Those of media are the least that any of them has by default.
@@ -33,7 +34,7 @@ MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings,
 bool merges_where_the_eye_looks(const Scene& scene, const TechniqueSet& techniques) {
   const Scattering scattering = scattering_of(scene);
   const bool media = techniques.has(Technique::points_2d) || techniques.has(Technique::points_3d) ||
-                     techniques.has(Technique::short_beams);
+                     techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams);
   return (!scattering.surfaces || techniques.has(Technique::surface_merging)) && (!scattering.media || media);
 }
 
@@ -49,26 +50,42 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
     counts.points_3d = paths * kernel_size_3d(kernels.volume_kernel, kernels.points_3d);
   if (techniques.has(Technique::points_2d))
     counts.points_2d = paths * kernel_size_2d(kernels.volume_kernel, kernels.points_2d);
-  if (techniques.has(Technique::short_beams))
-    counts.beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
+  const double beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
+  if (techniques.has(Technique::short_beams)) counts.short_beams = beams;
+  if (techniques.has(Technique::long_beams)) counts.long_beams = beams;
   counts.density_floor = settings.density_floor;
   counts.heuristic = settings.combined.heuristic;
   counts.deep = counts.heuristic != Heuristic::correlation_aware || !merges_where_the_eye_looks(scene, techniques);
+  counts.each_light = !counts.deep && scene.lights.size() <= kFewLights;
   return counts;
 }
 
-/// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
-/// latter has kConnections, one at the most: told by a few sub-paths more, as weights must be known while all are
-/// traced.
-double connections_of_vertex(const LightTracing& tracing, uint64_t paths) {
-  const TechniqueCounts none;
+/// A few sub-paths more than those of the pass, with all their flights as planes.
+LightSubPaths few_paths(const LightTracing& tracing, uint64_t paths, uint64_t number) {
+  TechniqueCounts counts;
+  counts.plane_share = 1.0;
   LightSubPaths few(tracing.scene.media.size());
-  const uint64_t number = std::min(paths, kFewPaths);
   trace_light_sub_paths(
-      {tracing.scene, tracing.strategy, tracing.transmittance, none, tracing.seed, tracing.pass, tracing.max_events},
+      {tracing.scene, tracing.strategy, tracing.transmittance, counts, tracing.seed, tracing.pass, tracing.max_events},
       paths, paths + number, few);
-  const auto vertices = static_cast<double>(few.vertices.size());
-  return std::min(1.0, kConnections * static_cast<double>(number) / std::max(1.0, vertices));
+  return few;
+}
+
+/// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
+/// latter has kConnections, one at the most; and which part of flights makes as many planes as are asked for. A few
+/// sub-paths tell, as weights must be known while all are traced.
+void count_by_few(const LightTracing& tracing, const RenderSettings& settings, TechniqueCounts& counts) {
+  const uint64_t paths = settings.photons_emitted, number = std::min(paths, kFewPaths);
+  const bool planes = settings.combined.techniques.has(Technique::planes);
+  if (!counts.light && !planes) return;
+  const LightSubPaths few = few_paths(tracing, paths, number);
+  const auto part = [&](double asked, size_t found) {  // of what so many light sub-paths have
+    return std::min(1.0, asked * static_cast<double>(number) / std::max(1.0, static_cast<double>(found)));
+  };
+  const auto all = static_cast<double>(paths);
+  if (counts.light) counts.connections = part(kConnections, few.vertices.size());
+  if (planes) counts.plane_share = part(static_cast<double>(settings.planes) / all, few.planes.size());
+  counts.planes = all * counts.plane_share;
 }
 
 }  // namespace
@@ -84,7 +101,7 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   const LightTracing tracing{
       scene, *strategy_, *transmittance_, counts_, settings.seed, static_cast<uint64_t>(pass), max_events_};
   const Stopwatch clock;
-  if (counts_.light) counts_.connections = connections_of_vertex(tracing, paths_);
+  count_by_few(tracing, settings, counts_);
   LightSubPaths light = trace(tracing, stop);
   statistics_.trace_seconds = clock.seconds();
   statistics_.ledger = light.ledger;
@@ -97,6 +114,7 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   statistics_.surface_photons = static_cast<uint64_t>(on_surfaces);
   statistics_.volume_photons = vertices.size() - statistics_.surface_photons;
   statistics_.beams = statistics_.flights = light_->beam_count();
+  statistics_.planes = light_->planes().size();
   statistics_.photon_map_bytes = light_->memory_bytes() + splats_.capacity() * sizeof(Splat);
   statistics_.last_volume_radius = kernels_.beams;
   statistics_.last_surface_radius = kernels_.surface;
@@ -135,9 +153,18 @@ void CombinedPass::add_light_tracing(TechniqueLayers& layers) const {
   }
 }
 
+RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most) {
+  RenderSettings few = settings;
+  few.photons_emitted = std::min(most, settings.photons_emitted);
+  const double share = static_cast<double>(few.photons_emitted) / static_cast<double>(settings.photons_emitted);
+  few.planes = std::max<uint64_t>(1, static_cast<uint64_t>(share * static_cast<double>(settings.planes)));
+  return few;
+}
+
 bool merges(const TechniqueSet& techniques) {
   return techniques.has(Technique::surface_merging) || techniques.has(Technique::points_3d) ||
-         techniques.has(Technique::points_2d) || techniques.has(Technique::short_beams);
+         techniques.has(Technique::points_2d) || techniques.has(Technique::short_beams) ||
+         techniques.has(Technique::long_beams);
 }
 
 Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

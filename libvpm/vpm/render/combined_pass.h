@@ -43,6 +43,9 @@ class CombinedPass {
   std::optional<SortedLight> light_;
 };
 
+/// The settings of a pass with no more than so many light sub-paths, and with planes in proportion.
+RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most);
+
 /// Do techniques of the combined estimator merge, so that kernels make a bias?
 bool merges(const TechniqueSet& techniques);
 

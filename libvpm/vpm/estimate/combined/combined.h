@@ -8,6 +8,7 @@
 #include "vpm/estimate/combined/light_sub_paths.h"
 #include "vpm/estimate/eye_work.h"
 #include "vpm/photon/photon_beam_map.h"
+#include "vpm/photon/photon_plane_list.h"
 
 namespace vpm {
 
@@ -26,15 +27,26 @@ struct SurfacePhoton {
   BehindMerge behind;
 };
 
+/// The beams of a medium, with how the flights began, in the order of the map.
+struct LightBeams {
+  PhotonBeamMap map;
+  std::vector<FlightStart> starts;
+};
+
 /// The light sub-paths of one pass, sorted for eye sub-paths.
 class SortedLight {
  public:
   SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels, LightSubPaths paths);
 
   const std::vector<LightVertex>& vertices() const { return paths_.vertices; }
-  /// Of the beams of a medium, in the order of their map.
-  const std::vector<LightBeam>& starts(MediumId medium) const { return paths_.starts[medium]; }
-  const PhotonBeamMap& beams(MediumId medium) const { return beams_[medium]; }
+  /// Short or long ones.
+  const LightBeams& beams(Technique technique, MediumId medium) const {
+    return (technique == Technique::long_beams ? long_beams_ : short_beams_)[medium];
+  }
+  /// Of all media; powers are those of all light sub-paths together.
+  const PhotonPlaneList& planes() const { return planes_; }
+  /// By PlaneCrossing::number.
+  const FlightStart& plane_start(size_t number) const { return paths_.plane_starts[number]; }
   /// Photons on surfaces, but those straight from lights that are sampled, and in a medium.
   const VertexMap<SurfacePhoton>& on_surfaces() const { return on_surfaces_; }
   const VertexMap<MediumPhoton>& in_medium(MediumId medium) const { return in_media_[medium]; }
@@ -44,8 +56,9 @@ class SortedLight {
  private:
   LightSubPaths paths_;
   VertexMap<SurfacePhoton> on_surfaces_;
-  std::vector<VertexMap<MediumPhoton>> in_media_;  // by medium
-  std::vector<PhotonBeamMap> beams_;
+  std::vector<VertexMap<MediumPhoton>> in_media_;     // by medium
+  std::vector<LightBeams> short_beams_, long_beams_;  // by medium
+  PhotonPlaneList planes_;
 };
 
 /// What eye sub-paths read. Immutable while they run.

@@ -43,27 +43,34 @@ void EyeSubPath::sample_light(const Arrival& at) {
 }
 
 void EyeSubPath::sample_light(const Arrival& at, const Receiver& side) {
-  const PickedLight picked = pick_light(c_.scene, work_.rng.uniform_double());
-  const Light& light = c_.scene.lights[picked.number];
+  if (!c_.counts.each_light) {
+    const PickedLight picked = pick_light(c_.scene, work_.rng.uniform_double());
+    return sample_light(at, side, picked.number, 1.0f / picked.probability);
+  }
+  for (size_t i = 0; i < c_.scene.lights.size(); ++i)
+    if (c_.scene.light_probability[i] > 0.0) sample_light(at, side, static_cast<int>(i), 1.0f);
+}
+
+void EyeSubPath::sample_light(const Arrival& at, const Receiver& side, int number, float weight) {
+  const Light& light = c_.scene.lights[number];
   count(work_.counters.shadow_rays);
   const std::optional<Incident> incident = sample_towards(light, side.point, work_.rng);
   if (!incident || (at.vertex.on_surface && glm::dot(side.normal, incident->direction) <= 0.0f)) return;
   const Scattered scattered = scattered_into(c_.scene, at.vertex, incident->direction, SubPath::eye);
   if (is_black(scattered.value)) return;
   const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
-  const Rgb passed =
-      visibility(rays, {side.point, incident->direction}, incident->distance, picked.number, side.medium);
+  const Rgb passed = visibility(rays, {side.point, incident->direction}, incident->distance, number, side.medium);
   if (is_black(passed)) return;
   const Vec3 point = is_infinite(light) ? side.point : side.point + incident->distance * incident->direction;
   const EmissionDensity emission = emission_density(light, c_.scene.bounds, incident->normal, -incident->direction);
-  const Departure start = depart_from_light(c_.counts, light, picked.probability, emission,
+  const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
                                             {point, -incident->direction}, incident->normal);
   const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
   const Departure eye = depart_into(at, {incident->direction, scattered.forward, scattered.reverse});
   const Junction at_light{.kind = start.from.kind, .normal = incident->normal, .light = true};
   const SubPathSums at_eye = arrive(c_.counts, start, leg, at.junction, at.vertex.point);
   const SubPathSums further = arrive(c_.counts, eye, leg, at_light, point);
-  const Rgb found = at_.state.throughput * scattered.value * incident->irradiance * passed / picked.probability;
+  const Rgb found = at_.state.throughput * scattered.value * incident->irradiance * passed * weight;
   add(Technique::connections, found, shares_of_connection(c_.counts, start, at_eye, eye, further).connected);
 }
 

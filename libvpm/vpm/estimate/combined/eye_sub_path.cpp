@@ -48,7 +48,9 @@ bool EyeSubPath::Along::pass(const Stretch& stretch) {
   if (around.scatters()) {
     through_scattering = true;
     path.merge_points_2d(*this, interval);
-    path.merge_beams(*this, interval);
+    path.merge_beams(Technique::short_beams, *this, interval);
+    path.merge_beams(Technique::long_beams, *this, interval);
+    path.merge_planes(*this, interval);
   }
   passed *= transmittance(around, integrals.integral());
   return !is_black(passed);

@@ -64,10 +64,12 @@ class EyeSubPath {
   void see_emitter(const PathVertex& vertex, const Leg& leg);
   /// Adds the light that the sub-path has run into, at a point with that normal.
   void run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted);
-  /// Samples a light; on surfaces that light passes, one for either side.
+  /// Samples a light, or each; on surfaces that light passes, for either side.
   void sample_light(const Arrival& at);
   /// Seen from a place just off a surface: rays that are aimed from there meet what they are aimed at.
   void sample_light(const Arrival& at, const Receiver& side);
+  /// The light of that number, whose samples have the weight.
+  void sample_light(const Arrival& at, const Receiver& side, int number, float weight);
   /// Connects the vertex to some vertices of light sub-paths, drawn from all.
   void connect(const Arrival& at);
   void connect_to(const Arrival& at, const LightVertex& light);
@@ -76,8 +78,15 @@ class EyeSubPath {
   void merge_surface(const Arrival& at);
   void merge_points_3d(const Arrival& at);
   void merge_points_2d(const Along& along, const Interval& interval);
-  void merge_beams(const Along& along, const Interval& interval);
-  void merge_beam(const Along& along, const BeamCrossings& found, size_t i, const KernelPair<float>& kernel);
+  /// Short or long ones.
+  void merge_beams(Technique technique, const Along& along, const Interval& interval);
+  void merge_beam(Technique technique, const FlightStart& start, const Along& along, const BeamCrossings& found,
+                  size_t i, const KernelPair<float>& kernel);
+  void merge_planes(const Along& along, const Interval& interval);
+  void merge_plane(const Along& along, const PlaneCrossing& crossing);
+  /// The collision on a plane's flight that the crossing tells, and the power that it scatters, W/m; none where there
+  /// is nothing to collide with.
+  std::optional<Arrival> turn_of_plane(const PlaneCrossing& crossing, Rgb& scattered);
 
   /// Adds what a technique finds, of which it has a share.
   void add(Technique technique, const KernelEstimate& found, double share);

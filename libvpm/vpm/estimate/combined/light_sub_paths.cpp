@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "vpm/base/count.h"
+#include "vpm/path/stretches.h"
 #include "vpm/photon/recorder.h"
 #include "vpm/photon/thin_places.h"
 #include "vpm/surface/shading.h"
@@ -25,6 +26,7 @@ class LightSubPath {
  private:
   void follow() {
     for (int events = 0; events < c_.max_events; ++events) {
+      if (c_.counts.long_beams > 0.0) keep_long_beams();
       const std::optional<Arrival> at = fly();
       if (!at || !go_on(*at)) return;
     }
@@ -58,7 +60,7 @@ class LightSubPath {
     Rgb passed(1.0f);
     for (const Track& track : tracks_) {
       const Medium& medium = c_.scene.media[track.medium];
-      keep_beam(track, medium, passed);
+      if (medium.scatters() && track.length > 0.0f) keep(track, medium, passed);
       keep_thin_photons(track, medium, passed);
       passed *= transmittance(medium, integral_along(medium, track, out_.ledger.walk));
     }
@@ -77,10 +79,44 @@ class LightSubPath {
     return at;
   }
 
-  void keep_beam(const Track& track, const Medium& medium, const Rgb& before) {
-    if (c_.counts.beams == 0.0 || !medium.scatters() || !(track.length > 0.0f)) return;
-    out_.beams[track.medium].push_back({track.ray.origin, track.length, track.ray.direction, track.throughput});
-    out_.starts[track.medium].push_back({from_, before});
+  /// Keeps a part of a flight as a short beam and, as chance decides, as a plane.
+  void keep(const Track& track, const Medium& medium, const Rgb& before) {
+    const auto& [origin, direction] = track.ray;
+    if (c_.counts.short_beams > 0.0) {
+      out_.short_beams.beams[track.medium].push_back({origin, track.length, direction, track.throughput});
+      out_.short_beams.starts[track.medium].push_back({from_, before});
+    }
+    if (c_.counts.plane_share == 0.0 || rng_.uniform_double() >= c_.counts.plane_share) return;
+    const Vec3 scattered = phase_sample(medium.phase, direction, rng_.uniform2());
+    const Rgb power = track.throughput / static_cast<float>(c_.counts.plane_share);
+    out_.planes.push_back({origin, track.length, direction, scattered, power, track.medium});
+    out_.plane_starts.push_back({from_, before});
+  }
+
+  /// The visitor of a flight's ray on its way to the surface that ends it: keeps long beams.
+  struct Beyond {
+    LightSubPath& path;
+    Ray ray;
+    MediumId medium;
+    Rgb passed{1.0f};
+
+    bool pass(const Stretch& stretch) {
+      if (medium == kVacuum) return true;
+      const Medium& around = path.c_.scene.media[medium];
+      if (around.scatters() && stretch.length > 0.0f) {
+        LightFlights& kept = path.out_.long_beams;
+        kept.beams[medium].push_back({ray.origin, stretch.length, ray.direction, path.state_.throughput * passed});
+        kept.starts[medium].push_back({path.from_, passed});
+      }
+      const DensityIntegral integral = density_integral(around, ray, {0.0f, stretch.length});
+      count(path.out_.ledger.walk.lookups, integral.lookups);
+      passed *= transmittance(around, integral.value);
+      return !is_black(passed);
+    }
+  };
+  void keep_long_beams() {
+    Beyond beyond{*this, state_.ray, state_.medium};
+    each_stretch(c_.scene, beyond.ray, beyond.medium, kInfinity, out_.ledger.walk, beyond);
   }
 
   void keep_thin_photons(const Track& track, const Medium& medium, const Rgb& before) {
@@ -110,9 +146,9 @@ class LightSubPath {
   /// Of a power as stored_power() says.
   void keep_photon(MediumId medium, const Vec3& point, const Leg& leg, const Rgb& power) {
     const Junction even{Junction::Kind::medium, Vec3(0.0f), c_.scene.media[medium].sigma_t};
-    const BehindMerge behind = behind_merge(c_.counts, arrive(c_.counts, from_, leg, even, point));
+    const SubPathSums sums = arrive(c_.counts, from_, leg, even, point);
     out_.photons[medium].push_back(
-        {point, {from_.direction, power, passing_over_colliding(even.sigma_t, leg), behind}});
+        {point, {from_.direction, power, sums.turn, over_colliding(even.sigma_t, leg), behind_merge(c_.counts, sums)}});
   }
 
   /// Keeps the vertex, and draws how the sub-path goes on.
@@ -164,13 +200,20 @@ class LightSubPath {
 
 }  // namespace
 
-void LightSubPaths::join(LightSubPaths& part) {
-  join_lists(vertices, part.vertices);
+void LightFlights::join(LightFlights& part) {
   for (size_t m = 0; m < beams.size(); ++m) {
-    join_lists(photons[m], part.photons[m]);
     join_lists(beams[m], part.beams[m]);
     join_lists(starts[m], part.starts[m]);
   }
+}
+
+void LightSubPaths::join(LightSubPaths& part) {
+  join_lists(vertices, part.vertices);
+  for (size_t m = 0; m < photons.size(); ++m) join_lists(photons[m], part.photons[m]);
+  short_beams.join(part.short_beams);
+  long_beams.join(part.long_beams);
+  join_lists(planes, part.planes);
+  join_lists(plane_starts, part.plane_starts);
   join_lists(splats, part.splats);
   ledger.merge(part.ledger);
 }

@@ -9,6 +9,7 @@
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/ledger.h"
 #include "vpm/photon/photon_beam.h"
+#include "vpm/photon/photon_plane.h"
 
 namespace vpm {
 
@@ -22,15 +23,25 @@ struct LightVertex {
 struct MediumPhoton {
   Vec3 travel{0.0f};  // unit
   Rgb power{0.0f};    // W over the density relative to the medium's largest, see stored_power()
+  Vec3d turn{0.0};    // SubPathSums::turn
   // As they would be where the density is 1:
-  double passing = 0.0;  // m, passing_over_colliding() of the leg that led there
+  OverColliding arrived;  // of the leg that led there
   BehindMerge behind;
 };
 
-/// The part of a flight through one medium.
-struct LightBeam {
-  Departure start;   // of the flight
-  Rgb before{1.0f};  // the transmittance of the flight up to the beam
+/// How a flight began of which a part, through one medium, is kept.
+struct FlightStart {
+  Departure from;
+  Rgb before{1.0f};  // the transmittance of the flight up to the part
+};
+
+/// Parts of flights, by medium.
+struct LightFlights {
+  std::vector<std::vector<PhotonBeam>> beams;
+  std::vector<std::vector<FlightStart>> starts;
+
+  explicit LightFlights(size_t media) : beams(media), starts(media) {}
+  void join(LightFlights& part);
 };
 
 /// What a light sub-path brings to a pixel by light tracing.
@@ -43,12 +54,13 @@ struct Splat {
 struct LightSubPaths {
   std::vector<LightVertex> vertices;
   std::vector<std::vector<PlacedRecord<MediumPhoton>>> photons;  // by medium
-  std::vector<std::vector<PhotonBeam>> beams;                    // by medium
-  std::vector<std::vector<LightBeam>> starts;                    // of the beams
+  LightFlights short_beams, long_beams;
+  std::vector<PhotonPlane> planes;
+  std::vector<FlightStart> plane_starts;
   std::vector<Splat> splats;
   Ledger ledger;  // emitted, counts of events, look-ups
 
-  explicit LightSubPaths(size_t media = 0) : photons(media), beams(media), starts(media) {}
+  explicit LightSubPaths(size_t media = 0) : photons(media), short_beams(media), long_beams(media) {}
   /// Takes over what a part has, which comes next.
   void join(LightSubPaths& part);
 };

@@ -16,14 +16,14 @@ double colliding(const Rgb& sigma_t, const Leg& leg) {
   return std::max(kLeastDensity, double{mean_channel(sigma_t * leg.transmittance)});
 }
 
-MergeTerms merge_terms(const TechniqueCounts& counts, double kept, double passing_light, double colliding_eye,
-                       double sine, bool first) {
-  MergeTerms terms;
-  terms.points_3d = counts.merges_points_3d(first) ? counts.weigh(counts.points_3d * kept) : 0.0;
-  if (!first) return terms;
-  terms.points_2d = counts.weigh(counts.points_2d * kept / colliding_eye);
-  terms.beams = counts.weigh(counts.beams * sine * passing_light / colliding_eye);
-  return terms;
+/// SubPathSums::turn behind a vertex in a medium, at another one.
+Vec3d turn_of(const TechniqueCounts& counts, const Departure& departure, const Leg& leg) {
+  const Vec3d turn = glm::cross(Vec3d(departure.travel), Vec3d(departure.direction));
+  const Rgb& sigma_t = departure.from.sigma_t;
+  if (departure.way == SubPath::light) return turn * over_colliding(sigma_t, departure.arrived).passing;
+  // Planes need collide neither at the departure nor here: of the densities there the distance remains.
+  return departure.first ? turn * (counts.planes * leg.per_square() / colliding(sigma_t, departure.arrived))
+                         : Vec3d(0.0);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ Departure depart_from_light(const TechniqueCounts& counts, const Light& light, d
   start.forward = emission.flight;
   if (counts.light && can_be_hit(light)) start.behind = 1.0 / counts.weigh(chosen * emission.place);
   start.light = counts.light ? &light : nullptr;
-  start.place = emission.place;
+  start.place = counts.each_light ? chosen * emission.place : emission.place;
   start.parallel = emission.parallel;
   return start;
 }
@@ -102,9 +102,11 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   if (from.kind != Junction::Kind::medium) return departure;
   departure.merges = true;
   departure.first = first;
-  departure.sine = sine_between(at.vertex.travel, onward.direction);
-  departure.arrived =
-      way == SubPath::light ? passing_over_colliding(from.sigma_t, at.leg) : colliding(from.sigma_t, at.leg);
+  departure.travel = at.vertex.travel;
+  departure.arrived = at.leg;
+  departure.angles = angles_between(at.vertex.travel, way == SubPath::light ? sums.turn : Vec3d(0.0), onward.direction);
+  if (way == SubPath::eye)
+    departure.planes = onward.reverse * std::abs(glm::dot(sums.turn, Vec3d(onward.direction))) / sums.density;
   return departure;
 }
 
@@ -120,9 +122,11 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
-    behind += merge_terms(counts, departure.from.kept, light ? departure.arrived : passing_over_colliding(sigma_t, leg),
-                          light ? colliding(sigma_t, leg) : departure.arrived, departure.sine, departure.first)
+    const OverColliding from_light = over_colliding(sigma_t, light ? departure.arrived : leg);
+    behind += merges_in_medium(counts, departure.from, from_light, light ? leg : departure.arrived, departure.angles,
+                               departure.first)
                   .sum();
+    behind += counts.weigh(departure.planes * from_light.passing);
   }
   SubPathSums sums;
   sums.density = std::max(kLeastDensity, departure.forward * arrival(at, departure.direction, leg) * leg.per_square());
@@ -131,6 +135,8 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   sums.adjacent = departure.adjacent;
   sums.straight = departure.light != nullptr;
   sums.seen = departure.camera;
+  if (at.kind == Junction::Kind::medium && departure.merges && counts.planes > 0.0)
+    sums.turn = turn_of(counts, departure, leg);
   if (departure.light)
     sums.adjacent = sampled_density(*departure.light, point,
                                     {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
@@ -138,18 +144,37 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   return sums;
 }
 
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing_light,
-                            const Leg& from_eye, double sine, bool first) {
-  return merge_terms(counts, there.kept, passing_light, colliding(there.sigma_t, from_eye), sine, first);
+OverColliding over_colliding(const Rgb& sigma_t, const Leg& leg) {
+  const double sent = 1.0 / colliding(sigma_t, leg);
+  return {leg.mean() * sent, sent};
+}
+
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, const OverColliding& from_light,
+                            const Leg& from_eye, const Angles& angles, bool first) {
+  MergeTerms terms;
+  terms.points_3d = counts.merges_points_3d(first) ? counts.weigh(counts.points_3d * there.kept) : 0.0;
+  if (!first) return terms;
+  const double eye = 1.0 / colliding(there.sigma_t, from_eye);  // as its sub-path need not collide here, m
+  terms.points_2d = counts.weigh(counts.points_2d * there.kept * eye);
+  terms.short_beams = counts.weigh(counts.short_beams * angles.sine * from_light.passing * eye);
+  terms.long_beams = counts.weigh(counts.long_beams * angles.sine * from_light.sent * eye);
+  terms.planes = counts.weigh(counts.planes * angles.determinant * from_light.sent * eye);
+  return terms;
 }
 
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
   return {.surface = counts.merges_surfaces(first) ? counts.weigh(counts.surfaces) : 0.0};
 }
 
-double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }
+Angles angles_between(const Vec3& light, const Vec3d& turn, const Vec3& eye) {
+  return {glm::length(glm::cross(Vec3d(light), Vec3d(eye))), std::abs(glm::dot(turn, Vec3d(eye)))};
+}
 
-double passing_over_colliding(const Rgb& sigma_t, const Leg& leg) { return leg.mean() / colliding(sigma_t, leg); }
+SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Vec3& travel, double passing) {
+  SubPathSums sums = eye;
+  sums.further += counts.weigh(std::abs(glm::dot(eye.turn, Vec3d(travel))) * passing);
+  return sums;
+}
 
 BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums) {
   const double density = counts.weigh(sums.density);
@@ -160,7 +185,9 @@ ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Depar
                                       const Departure& eye, const SubPathSums& at_light) {
   const double connected = counts.weigh(at_eye.adjacent);
   const double behind = counts.weigh(eye.forward) * at_eye.further;
-  const double before = counts.weigh(light.forward) * at_light.further;
+  const SubPathSums beyond =
+      with_turn(counts, at_light, light.travel, over_colliding(light.from.sigma_t, light.arrived).passing);
+  const double before = counts.weigh(light.forward) * beyond.further;
   const double all = connected + behind + before;
   return {connected / all, behind / all};
 }

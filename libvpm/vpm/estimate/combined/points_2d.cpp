@@ -22,8 +22,8 @@ void EyeSubPath::merge_points_2d(const Along& along, const Interval& interval) {
     if (density == 0.0f || is_black(leg.transmittance)) return;
     const Junction there = junction_in(c_.counts, medium, density);
     const float phase = phase_density(medium, photon.travel, -along.ray.direction);
-    const MergeTerms merges = merges_in_medium(c_.counts, there, photon.passing / density, leg,
-                                               sine_between(photon.travel, along.ray.direction), true);
+    const MergeTerms merges = merges_in_medium(c_.counts, there, photon.arrived.over(density), leg,
+                                               angles_between(photon.travel, photon.turn, along.ray.direction), true);
     const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, leg, there, point));
     const double all = all_at_merge(c_.counts, merges, photon.behind.over(c_.counts.weigh(density)), phase, eye, phase);
     add_merged(Technique::points_2d,

@@ -18,11 +18,13 @@ void EyeSubPath::merge_points_3d(const Arrival& at) {
     each[c] *= at.junction.sigma_t[c] > 0.0f ? medium.albedo()[c] / at.junction.sigma_t[c] : 0.0f;
   count(work_.counters.volume_queries);
   count(work_.counters.gather.searches);
-  const BehindMerge eye = behind_merge(c_.counts, at.sums);
   const auto merge = [&](const MediumPhoton& photon, float distance2) {
     const float phase = phase_density(medium, photon.travel, -vertex.travel);
-    const MergeTerms merges = merges_in_medium(c_.counts, at.junction, photon.passing / vertex.density, at.leg,
-                                               sine_between(photon.travel, vertex.travel), at_.only_specular);
+    const OverColliding arrived = photon.arrived.over(vertex.density);
+    const MergeTerms merges =
+        merges_in_medium(c_.counts, at.junction, arrived, at.leg,
+                         angles_between(photon.travel, photon.turn, vertex.travel), at_.only_specular);
+    const BehindMerge eye = behind_merge(c_.counts, with_turn(c_.counts, at.sums, photon.travel, arrived.passing));
     const double all =
         all_at_merge(c_.counts, merges, photon.behind.over(c_.counts.weigh(vertex.density)), phase, eye, phase);
     add_merged(Technique::points_3d, each * photon.power * phase, kernel(distance2), merges.points_3d / all);

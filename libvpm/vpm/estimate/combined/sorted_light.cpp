@@ -1,5 +1,6 @@
 // Maps of light sub-paths, for the techniques that merge.
 #include <algorithm>
+#include <utility>
 
 #include "vpm/estimate/combined/combined.h"
 
@@ -19,6 +20,15 @@ VertexMap<SurfacePhoton> sort_surfaces(const std::vector<LightVertex>& vertices,
   return {photons, radius};
 }
 
+std::vector<LightBeams> sorted_beams(LightFlights& flights, float radius, float scale) {
+  std::vector<LightBeams> beams;
+  for (size_t m = 0; m < flights.beams.size(); ++m) {
+    beams.push_back({PhotonBeamMap(flights.beams[m], radius, scale), std::move(flights.starts[m])});
+    flights.beams[m] = {};
+  }
+  return beams;
+}
+
 }  // namespace
 
 SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels,
@@ -29,22 +39,26 @@ SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, cons
   for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m) {
     in_media_.push_back(VertexMap<MediumPhoton>(paths_.photons[m], reach));
     paths_.photons[m] = {};
-    beams_.push_back(counts.beams > 0.0 ? PhotonBeamMap(paths_.beams[m], kernels.beams, scale) : PhotonBeamMap());
-    paths_.beams[m] = {};
   }
+  short_beams_ = sorted_beams(paths_.short_beams, kernels.beams, scale);
+  long_beams_ = sorted_beams(paths_.long_beams, kernels.beams, scale);
+  planes_ = PhotonPlaneList(std::exchange(paths_.planes, {}));
 }
 
 size_t SortedLight::beam_count() const {
   size_t sum = 0;
-  for (const PhotonBeamMap& map : beams_) sum += map.size();
+  for (const auto* beams : {&short_beams_, &long_beams_})
+    for (const LightBeams& of_medium : *beams) sum += of_medium.map.size();
   return sum;
 }
 
 size_t SortedLight::memory_bytes() const {
   size_t bytes = paths_.vertices.capacity() * sizeof(LightVertex) + on_surfaces_.memory_bytes();
-  for (const auto& starts : paths_.starts) bytes += starts.capacity() * sizeof(LightBeam);
+  bytes += planes_.memory_bytes() + paths_.plane_starts.capacity() * sizeof(FlightStart);
   for (const VertexMap<MediumPhoton>& map : in_media_) bytes += map.memory_bytes();
-  for (const PhotonBeamMap& map : beams_) bytes += map.memory_bytes();
+  for (const auto* beams : {&short_beams_, &long_beams_})
+    for (const LightBeams& of_medium : *beams)
+      bytes += of_medium.map.memory_bytes() + of_medium.starts.capacity() * sizeof(FlightStart);
   return bytes;
 }
 

@@ -154,7 +154,7 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
 }
 
 /// Sets of techniques that find all light together: each technique in one that has few others; where not `many`, those
-/// that have the fewest, and all.
+/// that have the fewest, and all but long beams, which not all media have.
 void append_combined(NamedSettings& all, const RenderSettings& base, bool media, bool surfaces, bool many) {
   using T = Technique;
   std::vector<std::vector<T>> sets{{T::connections, T::light_tracing}};
@@ -163,6 +163,9 @@ void append_combined(NamedSettings& all, const RenderSettings& base, bool media,
     sets.push_back({T::surface_merging, T::points_3d});
     sets.push_back({T::surface_merging, T::points_2d});
     sets.push_back({T::surface_merging, T::short_beams});
+    sets.push_back({T::surface_merging, T::long_beams});
+    sets.push_back({T::surface_merging, T::short_beams, T::planes});
+    sets.push_back({T::connections, T::light_tracing, T::planes});
   } else {
     sets.push_back({T::surface_merging});
   }
@@ -170,11 +173,14 @@ void append_combined(NamedSettings& all, const RenderSettings& base, bool media,
     sets.push_back({T::connections, T::light_tracing, T::points_3d});
     sets.push_back({T::connections, T::light_tracing, T::points_2d});
     sets.push_back({T::connections, T::light_tracing, T::short_beams});
+    sets.push_back({T::connections, T::light_tracing, T::long_beams});
     sets.push_back({T::light_tracing, T::surface_merging, T::points_3d});
     sets.push_back({T::surface_merging, T::points_3d, T::points_2d, T::short_beams});
+    sets.push_back({T::surface_merging, T::points_3d, T::points_2d, T::long_beams, T::planes});
   }
   std::vector<T> every;
-  for (const TechniqueInfo& info : kTechniques) every.push_back(info.technique);
+  for (const TechniqueInfo& info : kTechniques)
+    if (info.technique != T::long_beams) every.push_back(info.technique);
   sets.push_back(every);
   RenderSettings settings = base;
   settings.integrator = Integrator::combined;
@@ -273,7 +279,9 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   std::vector<Check> checks;
   for (auto& [name, settings] :
        gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces, effort.count(0, 1) > 0)) {
-    if (settings.beam_length == BeamLength::long_beams && scene.world_medium != kVacuum) continue;  // they have no end
+    const bool long_beams =
+        settings.beam_length == BeamLength::long_beams || settings.combined.techniques.has(Technique::long_beams);
+    if (long_beams && scene.world_medium != kVacuum) continue;  // they have no end
     settings.seed = effort.seed_of(subject.name + name);
     const int passes = static_cast<int>(effort.count(20, 64));
     compare(checks, name, by_photons(scene, settings, subject.order, passes), reference, scene.grey);
@@ -367,6 +375,23 @@ std::vector<Check> combinations(const Effort& effort) {
   return checks;
 }
 
+/// Every set of techniques in a grid whose extinction differs between channels.
+std::vector<Check> combine_in_chromatic_cloud(const Effort& effort) {
+  const Scene scene = small_cloud(Viewpoint::inside, Rgb(1.0f, 2.0f, 4.0f));
+  RenderSettings base = photon_settings({"", {}, BiasOrder::smooth, 0.3f}, effort.count(3'000, 8'000));
+  base.seed = effort.seed_of("chromatic cloud reference");
+  const Measured reference = by_path_tracer(scene, base, effort.count(80'000, 600'000));
+  NamedSettings sets;
+  append_combined(sets, base, true, false, true);
+  std::vector<Check> checks;
+  for (auto& [name, settings] : sets) {
+    settings.seed = effort.seed_of("chromatic cloud, " + name);
+    const int passes = static_cast<int>(effort.count(20, 64));
+    compare(checks, name, by_photons(scene, settings, BiasOrder::smooth, passes), reference, scene.grey);
+  }
+  return checks;
+}
+
 /// The same box as a homogeneous medium and as a constant grid.
 std::vector<Check> constant_grid(const Effort& effort) {
   const Scene plain = filled_box(false), grid = filled_box(true);
@@ -410,6 +435,7 @@ std::vector<Experiment> agreement_experiments() {
   for (const Subject& s : by_strategy)
     all.push_back({3, s.name, [s](const Effort& effort) { return compare_strategies(s, effort); }});
   all.push_back({3, "every strategy with every estimator and form", combinations});
+  all.push_back({3, "techniques combined in a chromatic cloud", combine_in_chromatic_cloud});
   all.push_back({3, "a constant grid is a homogeneous medium", constant_grid});
   for (const Experiment& e : light_map_experiments()) all.push_back(e);
   return all;

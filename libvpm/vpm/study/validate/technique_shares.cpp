@@ -116,7 +116,7 @@ double spread(const WholePath& path, size_t at, size_t i) {
 
 /// A technique at a junction, and its density.
 struct Found {
-  enum class By { run_into, sampled, connected, splat, surface, points_3d, points_2d, beams };
+  enum class By { run_into, sampled, connected, splat, surface, points_3d, points_2d, short_beams, long_beams, planes };
   By by;
   size_t at;
   double density;
@@ -129,6 +129,12 @@ bool first_from_eye(const WholePath& path, size_t i) {
   for (size_t j = i + 1; j < path.last(); ++j)
     if (!is_free(path, j)) return false;
   return true;
+}
+
+/// That the directions of the two legs before a vertex and of the one behind it span.
+double volume_at(const WholePath& path, size_t i) {
+  return std::abs(glm::determinant(
+      glm::dmat3(Vec3d(path.direction(i - 2)), Vec3d(path.direction(i - 1)), Vec3d(path.direction(i)))));
 }
 
 /// All densities, from the definitions: products over all vertices.
@@ -161,7 +167,8 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
   const bool runs = last_free + 1 == k || eye_reaches(last_free + 1);
   if (counts.light && disc && runs) add(By::run_into, 0, product(0, 0));
   // A disc is sampled uniformly over its area.
-  if (counts.light && !is_free(path, 1) && eye_reaches(1)) add(By::sampled, 0, product(1, 1));
+  if (counts.light && !is_free(path, 1) && eye_reaches(1))
+    add(By::sampled, 0, (counts.each_light ? 1.0 / path.chosen : 1.0) * product(1, 1));
   for (size_t i = 1; i + 1 < k; ++i)
     if (!is_free(path, i) && !is_free(path, i + 1) && eye_reaches(i + 1))
       add(By::connected, i, counts.connections * product(i + 1, i + 1));
@@ -172,7 +179,8 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
     const double merged = product(i + 1, i);
     const bool first = first_from_eye(path, i);
     if (!eye_reaches(i)) continue;
-    const bool in_balls = counts.deep || counts.points_2d + counts.beams == 0.0;
+    const bool along_rays = counts.points_2d + counts.short_beams + counts.long_beams > 0.0;
+    const bool in_balls = counts.deep || !along_rays;
     const bool straight = i == 1 && counts.light;
     if (at.kind == Junction::Kind::surface && !straight) add(By::surface, i, counts.surfaces * merged);
     if (at.kind != Junction::Kind::medium) continue;
@@ -182,7 +190,13 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
     if (in_balls) add(By::points_3d, i, counts.points_3d * at.kept * merged);
     if (!first) continue;
     add(By::points_2d, i, counts.points_2d * at.kept * merged / eye);
-    add(By::beams, i, counts.beams * sine * merged / eye * mean_of(from_light) / light);
+    add(By::short_beams, i, counts.short_beams * sine * merged / eye * mean_of(from_light) / light);
+    add(By::long_beams, i, counts.long_beams * sine * merged / eye / light);
+    if (i < 2 || path.junctions[i - 1].kind != Junction::Kind::medium) continue;
+    // A photon that comes as far as the turn, which the crossing tells, as it does the place of the crossing itself.
+    const Rgb& to_turn = path.transmittances[i - 2];
+    const double at_turn = mean_of(path.junctions[i - 1].sigma_t * to_turn);
+    add(By::planes, i, counts.planes * volume_at(path, i) * merged / eye / light * mean_of(to_turn) / at_turn);
   }
   return all;
 }
@@ -222,6 +236,23 @@ SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
   return traced;
 }
 
+double term_of(const MergeTerms& terms, Found::By by) {
+  switch (by) {
+    case Found::By::surface:
+      return terms.surface;
+    case Found::By::points_3d:
+      return terms.points_3d;
+    case Found::By::points_2d:
+      return terms.points_2d;
+    case Found::By::short_beams:
+      return terms.short_beams;
+    case Found::By::long_beams:
+      return terms.long_beams;
+    default:
+      return terms.planes;
+  }
+}
+
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
   using By = Found::By;
   const size_t i = found.at, k = path.last();
@@ -238,30 +269,30 @@ double share_of(const WholePath& path, const TechniqueCounts& counts, const SubP
     return found.by == By::run_into ? shares.run_into : shares.connected;
   }
   const Junction& at = path.junctions[i];
-  const double sine = glm::length(glm::cross(Vec3d(path.direction(i - 1)), Vec3d(path.direction(i))));
+  const SubPathSums& light = traced.light[i].sums;
+  const OverColliding from_light = over_colliding(at.sigma_t, path.leg(i - 1));
+  const SubPathSums eye = with_turn(counts, traced.eye[i].sums, path.direction(i - 1), from_light.passing);
+  const Angles angles = angles_between(path.direction(i - 1), light.turn, path.direction(i));
   const MergeTerms terms = at.kind == Junction::Kind::surface
                                ? merges_on_surface(counts, first_from_eye(path, i))
-                               : merges_in_medium(counts, at, passing_over_colliding(at.sigma_t, path.leg(i - 1)),
-                                                  path.leg(i), sine, first_from_eye(path, i));
-  const double all = all_at_merge(counts, terms, behind_merge(counts, traced.light[i].sums), density_on(path, i, false),
-                                  behind_merge(counts, traced.eye[i].sums), density_on(path, i, true));
-  const double term = found.by == By::surface     ? terms.surface
-                      : found.by == By::points_3d ? terms.points_3d
-                      : found.by == By::points_2d ? terms.points_2d
-                                                  : terms.beams;
-  return term / all;
+                               : merges_in_medium(counts, at, from_light, path.leg(i), angles, first_from_eye(path, i));
+  return term_of(terms, found.by) / all_at_merge(counts, terms, behind_merge(counts, light), density_on(path, i, false),
+                                                 behind_merge(counts, eye), density_on(path, i, true));
 }
 
 TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
   TechniqueCounts counts;
   const auto number = [&] { return rng.uniform() < 0.2f ? 0.0 : std::exp(4.0 * rng.uniform_double() - 2.0); };
   counts.light = rng.uniform() < 0.8f;
+  counts.each_light = rng.uniform() < 0.5f;
   counts.connections = number();
   counts.splats = number();
   counts.surfaces = number();
   counts.points_3d = number();
   counts.points_2d = number();
-  counts.beams = number();
+  counts.short_beams = number();
+  counts.long_beams = number();
+  counts.planes = number();
   counts.heuristic = heuristic;
   if (heuristic == Heuristic::correlation_aware) counts.deep = false;
   return counts;
