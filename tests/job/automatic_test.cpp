@@ -279,6 +279,25 @@ TEST(Automatic, GathersThatTheSettingsRefuseAreNotTried) {
   EXPECT_EQ(chosen_gather(thin, ball_by_ball).value, "radius");
 }
 
+/// Combined techniques take radii as photon maps by points have them, and as many light sub-paths as rays.
+TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMaps) {
+  const Scene scene = cloud_over_floor(true);
+  RenderSettings combined;
+  combined.integrator = Integrator::combined;
+  combined.samples_per_pixel = 3;
+  combined.surface.mode = GatherMode::nearest;  // which merges do not go by
+  const AutomaticSettings automatic{{"photons.emitted", "volume.radius", "surface.radius"}};
+  EXPECT_EQ(choose_settings(scene, automatic, combined).size(), 3u);
+  const double rays = 3.0 * scene.camera.width * scene.camera.height;
+  EXPECT_NEAR(static_cast<double>(combined.photons_emitted), std::max(1000.0, rays), 0.05 * rays);
+  RenderSettings maps;
+  maps.photons_emitted = combined.photons_emitted;
+  choose_settings(scene, {{"volume.radius", "surface.radius"}}, maps);
+  EXPECT_EQ(combined.volume.radius, maps.volume.radius);
+  EXPECT_EQ(combined.surface.radius, maps.surface.radius);
+  EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, combined), InputError);
+}
+
 /// A gather that is given stays, and so does that of a scene without media.
 TEST(Automatic, KeepsGathersThatAreGiven) {
   RenderSettings settings;

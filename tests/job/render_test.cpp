@@ -113,6 +113,33 @@ TEST(Render, CorrectsEstimatesAtBorders) {
   EXPECT_EQ(gather.least_shares, 0u);
 }
 
+/// Two passes, and two more: the picture's layers are parts of it, with variances.
+TEST(Render, KeepsLayersFromPassToPass) {
+  RenderJob job = lit_floor();
+  job.settings.integrator = Integrator::combined;
+  job.settings.photons_emitted = 500;
+  job.settings.combined.layers = true;
+  RenderResult result = render_until(job, {.passes = 2});
+  job.settings.until = {.passes = 4};
+  result = render(job.scene, job.settings, std::move(result));
+  const std::string path = ::testing::TempDir() + "/layers.exr";
+  write_picture(path, job, result);
+  const ExrChannels picture = read_exr_channels(path);
+  const std::vector<float>& whole = picture.planes.at("G");
+  std::vector<float> sum(whole.size(), 0.0f);
+  for (const TechniqueInfo& info : kTechniques) {
+    const std::string name = "combined." + std::string(info.name);
+    const std::vector<float>& part = picture.planes.at(name + ".weighted.G");
+    for (size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
+    EXPECT_TRUE(picture.planes.contains(name + ".weighted.variance.G"));
+    EXPECT_TRUE(picture.planes.contains(name + ".unweighted.G"));
+  }
+  for (size_t i = 0; i < sum.size(); ++i) EXPECT_NEAR(sum[i], whole[i], 1e-5f * (1.0f + whole[i]));
+  job.settings.combined.layers = false;
+  job.settings.until = {.passes = 5};
+  EXPECT_THROW(render(job.scene, job.settings, std::move(result)), InputError);
+}
+
 TEST(RenderJob, OfCodeBecomesPictureReportAndMessages) {
   const RenderJob job = lit_floor();
   const RenderResult result = render_until(job, {.passes = kLeastPasses});

@@ -71,6 +71,24 @@ TEST(Tracking, MeetsAsManyNullCollisionsAsItsMajorantsAreTooHigh) {
   }
 }
 
+/// The density integral that a flight tells, where its strategy knows it, is that up to its end.
+TEST(Tracking, FlightsTellTheirDensityIntegral) {
+  const auto expect_told = [](const char* name, const Medium& medium) {
+    const auto strategy = make_distance_strategy({.strategy = name});
+    for (uint64_t i = 0; i < 2000; ++i) {
+      const Flight flight = fly(*strategy, medium, i);
+      const double exact = density_integral(medium, kRay, {kReach.t0, flight.t}).value;
+      EXPECT_NEAR(flight.integral, exact, 1e-5 * (1.0 + exact)) << name;
+    }
+  };
+  for (const FlightField& field : flight_fields())
+    expect_told("regular", make_medium(field.grid, Rgb(0.5f, 1.5f, 3.0f)));
+  expect_told("regular", make_medium(nullptr, Rgb(0.5f, 1.5f, 3.0f)));
+  expect_told("homogeneous", make_medium(nullptr, Rgb(0.5f, 1.5f, 3.0f)));
+  const Flight tracked = fly(*make_distance_strategy({.strategy = "delta"}), make_medium(nullptr, Rgb(2.0f)), 0);
+  EXPECT_EQ(tracked.integral, kNotKnown);
+}
+
 TEST(Tracking, DecompositionFliesAsDeltaTrackingWithFewerLookUps) {
   for (const FlightField& field : flight_fields())
     for (const Rgb& sigma_t : {Rgb(2.0f), Rgb(0.5f, 1.5f, 3.0f)}) {

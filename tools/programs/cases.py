@@ -207,7 +207,8 @@ def add_own(cases):
             ("fog_room", "importance.importons=5000 importance.scatter=true"),
             ("fog_room", "photons.emitted=10000 photons.in_cube=3"), ("fog_room", "volume.direct=equiangular"),
             ("fog_box", "volume.boundary=corrected surface.boundary=corrected")]
-    scenes = [(scene, "importance.importons=5000" if scene in ("keyhole_fog", "milk_glass") else "") for scene in scene_names()]
+    guided = ("keyhole_fog", "milk_glass")
+    scenes = [(scene, "importance.importons=5000" if scene in guided else "") for scene in scene_names()]
     for scene, sets in [*scenes, *ways]:
         # Work is cut into tiles of 16 pixels and chunks of 4096 photons: there must be several of each.
         if is_complete(scene):

@@ -240,14 +240,16 @@ std::vector<Choice> choose_for_combined(const Scene& scene, const AutomaticSetti
         fmt::format("{}: where render.integrator is \"combined\" it is of no use: leave it out", kGatherKey));
   std::vector<Choice> choices;
   if (automatic.has("photons.emitted")) {
-    const double rays = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
-    settings.photons_emitted = std::max(kLeastCount, static_cast<uint64_t>(rounded(rays, 2)));
-    choices.push_back({"photons.emitted", fmt::format("{}", settings.photons_emitted), "as many as rays of a pass"});
+    constexpr double kMostSubPaths = 1e6;
+    const double rays = static_cast<double>(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
+    settings.photons_emitted = std::max(kLeastCount, static_cast<uint64_t>(rounded(std::min(rays, kMostSubPaths), 2)));
+    choices.push_back({"photons.emitted", fmt::format("{}", settings.photons_emitted),
+                       rays > kMostSubPaths ? "the most" : "as many as rays of a pass"});
   }
   if (!automatic.has("volume.radius") && !automatic.has("surface.radius")) return choices;
   RenderSettings maps = settings;
   maps.integrator = Integrator::photon;
-  maps.volume.mode = GatherMode::radius;
+  maps.volume.mode = maps.surface.mode = GatherMode::radius;
   for (Choice& choice : choose_radii(scene, automatic, map_densities(scene, maps), maps))
     choices.push_back(std::move(choice));
   settings.volume.radius = maps.volume.radius;

@@ -205,8 +205,8 @@ uint64_t checkpoint_bytes(const RenderJob& job) {
   const bool discs = job.settings.radii == RadiusSchedule::per_pixel && scattering_of(job.scene).surfaces;
   const Camera& camera = job.scene.camera;
   const uint64_t pixels = static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height);
-  const uint64_t films = 1 + layer_names(job.settings).size();
-  return pixels * (films * Film::kBytesOfPixel + (discs ? sizeof(PixelDisc) : 0));
+  const uint64_t layers = layer_names(job.settings).size() * Film::kBytesOfPlainPixel;
+  return pixels * (Film::kBytesOfPixel + layers + (discs ? sizeof(PixelDisc) : 0));
 }
 
 void write_checkpoint(const std::filesystem::path& path, const Identity& identity, const RenderResult& result) {

@@ -39,8 +39,10 @@ std::vector<Setting> combined_settings() {
       {.key = "combined.heuristic",
        .member = at<&S::combined, &C::heuristic>(),
        .domain = words_of<Heuristic>(),
-       .meaning = "how techniques share a path that several find: by their densities, by the squares of these, or by "
-                  "densities that know that merges of an eye sub-path which has scattered before share its noise",
+       .meaning =
+           "how techniques share a path that several find: by their densities, by the squares of these, or by "
+           "densities where eye sub-paths end at the first place that does not only mirror or refract, if merges "
+           "find all light there: merges beyond it share its noise",
        .need = {combines, combines_nothing, kCombine}},
       {.key = "combined.layers",
        .member = at<&S::combined, &C::layers>(),

@@ -59,7 +59,7 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
       "vpm.quantity",
       "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as "
       "its photons show it, were it to go as the squared radius; vpm.varianceOfMeans: variance of the mean over "
-      "pixels");
+      "pixels; combined.NAME.weighted: what a technique finds, times its share; combined.NAME.unweighted: without");
   const std::optional<FilmErrors> errors = errors_of(result);
   if (errors) {
     const Rgbd& means = errors->variance_of_channel_means;

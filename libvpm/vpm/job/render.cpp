@@ -12,6 +12,7 @@
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
+#include "vpm/render/technique_layers.h"
 
 namespace vpm {
 namespace {
@@ -55,21 +56,24 @@ class ProgressNote {
   std::string error_;
 };
 
-/// Passes of a picture of another size do not add up.
-void check_size(const RenderResult& result, const Camera& camera) {
+/// Passes of a picture of another size, or of other layers, do not add up.
+void check_size(const RenderResult& result, const Camera& camera, size_t layers) {
   const Film& film = result.film;
   const size_t pixels = static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
   if (film.width() != camera.width || film.height() != camera.height ||
       (!result.discs.empty() && result.discs.size() != pixels))
     throw InputError(fmt::format("what is rendered so far has {} x {} pixels, but the camera {} x {}", film.width(),
                                  film.height(), camera.width, camera.height));
+  if (film.passes() > 0 && result.layers.size() != layers)
+    throw InputError(fmt::format("what is rendered so far has {} layers, but the settings ask for {}",
+                                 result.layers.size(), layers));
 }
 
 /// Adds the next pass.
 void add(RenderResult& result, const Pass& pass) {
   const int number = result.film.next_pass();
   result.film.add(number, pass.image, pass.correction);
-  result.layers.resize(pass.layers.size(), Film(pass.image.width, pass.image.height));
+  while (result.layers.size() < pass.layers.size()) result.layers.emplace_back(pass.image.width, pass.image.height);
   for (size_t i = 0; i < pass.layers.size(); ++i) result.layers[i].add(number, pass.layers[i]);
   result.errors.reset();
   result.discs.resize(pass.found.size());
@@ -101,7 +105,7 @@ double highest_error(const RenderResult& result) {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const RunControl& control) {
   validate(settings, facts_of(scene));
-  check_size(result, scene.camera);
+  check_size(result, scene.camera, layer_names(settings).size());
   const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
     const int pass = so_far.film.next_pass();
     switch (settings.integrator) {

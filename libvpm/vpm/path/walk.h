@@ -21,10 +21,10 @@ struct PathState {
 struct Track {
   Ray ray;
   MediumId medium = kVacuum;
-  float length = 0.0f;    // m from the ray's origin, to the event or to where the medium ends
-  float reach = 0.0f;     // m, to where the medium ends or the flight would have been cut
-  Rgb throughput{1.0f};   // of the path at the ray's origin
-  double integral = 0.0;  // Flight::integral
+  float length = 0.0f;          // m from the ray's origin, to the event or to where the medium ends
+  float reach = 0.0f;           // m, to where the medium ends or the flight would have been cut
+  Rgb throughput{1.0f};         // of the path at the ray's origin
+  double integral = kNotKnown;  // Flight::integral
 };
 
 enum class EventKind { collision, surface, limit, escape };

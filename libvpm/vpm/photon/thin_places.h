@@ -43,8 +43,8 @@ void visit_thin_places(const Medium& medium, const Track& track, const ThinParts
 inline Rgb power_along(const Medium& medium, const Track& track, double integral, const ThinParts& thin) {
   const Rgb flux = track.throughput / floor_in(medium, thin.density_floor);
   if (is_grey(medium.sigma_t)) return flux;
-  return flux * analog_weight(medium, channel_shares(track.throughput), integral, false) * medium.sigma_t /
-         max_channel(medium.sigma_t);
+  const Rgb relative = medium.sigma_t / max_channel(medium.sigma_t);  // first: coefficients may be as large as floats
+  return flux * relative * analog_weight(medium, channel_shares(track.throughput), integral, false);
 }
 
 }  // namespace vpm

@@ -33,9 +33,8 @@ MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings,
 /// Does all light reach the first vertex from the eye that is not specular by merges?
 bool merges_where_the_eye_looks(const Scene& scene, const TechniqueSet& techniques) {
   const Scattering scattering = scattering_of(scene);
-  const bool media = techniques.has(Technique::points_2d) || techniques.has(Technique::points_3d) ||
-                     techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams);
-  return (!scattering.surfaces || techniques.has(Technique::surface_merging)) && (!scattering.media || media);
+  return (!scattering.surfaces || techniques.has(Technique::surface_merging)) &&
+         (!scattering.media || techniques.merge_in_media());
 }
 
 TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& settings, const MergeKernels& kernels) {
@@ -43,6 +42,7 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
   const TechniqueSet& techniques = settings.combined.techniques;
   TechniqueCounts counts;
   counts.light = techniques.has(Technique::connections);
+  counts.run_into = counts.light && std::any_of(scene.lights.begin(), scene.lights.end(), can_be_hit);
   if (techniques.has(Technique::light_tracing)) counts.splats = paths / settings.samples_per_pixel;
   if (techniques.has(Technique::surface_merging))
     counts.surfaces = paths * kernel_size_2d(kernels.surface_kernel, kernels.surface);
@@ -162,32 +162,27 @@ RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most) {
 }
 
 bool merges(const TechniqueSet& techniques) {
-  return techniques.has(Technique::surface_merging) || techniques.has(Technique::points_3d) ||
-         techniques.has(Technique::points_2d) || techniques.has(Technique::short_beams) ||
-         techniques.has(Technique::long_beams);
+  return techniques.has(Technique::surface_merging) || techniques.merge_in_media();
 }
 
 Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                           const PassProgress& progress) {
   const CombinedPass ready(scene, settings, pass, stop);
-  if (!settings.combined.layers) {
-    const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return ready.radiance(ray, work); };
-    Pass result = render_image(scene, settings, pass, radiance, stop, progress);
-    ready.add_light_tracing(result.image);
-    result.statistics.merge(ready.statistics());
-    return result;
-  }
-  TechniqueLayers layers(scene.camera.width, scene.camera.height);
+  std::optional<TechniqueLayers> layers;
+  if (settings.combined.layers) layers.emplace(scene.camera.width, scene.camera.height);
   const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) {
     TechniqueParts parts;
-    const KernelEstimate estimate = ready.radiance(ray, work, &parts);
-    if (is_finite(estimate.value)) layers.add(work.pixel, parts, settings.samples_per_pixel);
+    const KernelEstimate estimate = ready.radiance(ray, work, layers ? &parts : nullptr);
+    if (layers && is_finite(estimate.value) && is_finite(estimate.correction))
+      layers->add(work.pixel, parts, settings.samples_per_pixel);
     return estimate;
   };
   Pass result = render_image(scene, settings, pass, radiance, stop, progress);
   ready.add_light_tracing(result.image);
-  ready.add_light_tracing(layers);
-  result.layers = layers.images();
+  if (layers) {
+    ready.add_light_tracing(*layers);
+    result.layers = layers->images();
+  }
   result.statistics.merge(ready.statistics());
   return result;
 }

@@ -57,7 +57,8 @@ struct FilmSums {
 /// only in the last bits of their floats.
 class Film {
  public:
-  static constexpr size_t kBytesOfPixel = 350;  // for estimates of sizes
+  static constexpr size_t kBytesOfPixel = 350;       // for estimates of sizes
+  static constexpr size_t kBytesOfPlainPixel = 120;  // of passes without corrections
   static constexpr int kGroups = FilmSums::kGroups;
 
   Film(int width, int height);

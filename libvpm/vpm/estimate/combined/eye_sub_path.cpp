@@ -129,7 +129,11 @@ bool EyeSubPath::visit(const Arrival& at) {
     if (!at_.only_specular && !c_.counts.deep) return false;
     sample_light(at);
     connect(at);
-    at.vertex.on_surface ? merge_surface(at) : merge_points_3d(at);
+    if (at.vertex.on_surface)
+      merge_surface(at);
+    else
+      merge_points_3d(at);
+    if (!c_.counts.deep && !c_.counts.run_into) return false;
   }
   if (!go_on(at)) return false;
   at_.only_specular &= at.vertex.specular;

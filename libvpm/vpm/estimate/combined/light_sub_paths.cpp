@@ -141,7 +141,7 @@ class LightSubPath {
                 stored_power(state_.throughput, VolumeForm::density_at_query, density, floor));
   }
 
-  bool merges_points() const { return c_.counts.points_2d > 0.0 || c_.counts.points_3d > 0.0; }
+  bool merges_points() const { return c_.counts.points_2d > 0.0 || c_.counts.merges_points_3d(true); }
 
   /// Of a power as stored_power() says.
   void keep_photon(MediumId medium, const Vec3& point, const Leg& leg, const Rgb& power) {

@@ -34,6 +34,7 @@ namespace vpm {
 struct TechniqueCounts {
   double connections = 0.0;  // of a vertex of a light sub-path, for each vertex of an eye sub-path; 0: none
   bool light = false;        // are lights sampled, and run into?
+  bool run_into = false;     // can some of them be?
   bool each_light = false;   // is each of them sampled at a vertex, or one that is drawn from all?
   double splats = 0.0;       // light sub-paths for each eye sub-path of a pixel; 0: no light tracing
   // The light sub-paths times the sizes of kernels, 1 over the integrals of their squares; 0: not merged.

@@ -48,6 +48,11 @@ class TechniqueSet {
   constexpr TechniqueSet() = default;
   constexpr bool has(Technique technique) const { return (bits_ & bit(technique)) != 0; }
   constexpr void set(Technique technique, bool in) { bits_ = in ? bits_ | bit(technique) : bits_ & ~bit(technique); }
+  /// Do any merge sub-paths in media, within kernels?
+  constexpr bool merge_in_media() const {
+    return has(Technique::points_3d) || has(Technique::points_2d) || has(Technique::short_beams) ||
+           has(Technique::long_beams);
+  }
   bool operator==(const TechniqueSet&) const = default;
 
  private:
@@ -57,8 +62,9 @@ class TechniqueSet {
 };
 
 /// How techniques that find the same path share it: in proportion to their densities, or to the squares of these
-/// [Veach1997, sec. 9.2]; or to densities that take the merges of an eye sub-path that has scattered before for those
-/// of one light sub-path, as they share its noise. The problem is that of [Grittmann2021], the rule is not theirs.
+/// [Veach1997, sec. 9.2]; or to densities, but of sub-paths from the eye that end at their first vertex which is not
+/// specular, where merges there find all light: merges beyond it share its noise. The problem is that of
+/// [Grittmann2021], the rule is not theirs.
 enum class Heuristic { balance, power, correlation_aware };
 
 }  // namespace vpm
