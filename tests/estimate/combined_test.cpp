@@ -81,6 +81,22 @@ TEST(Combined, IsTheSameBitForBitOnAnyNumberOfThreads) {
   EXPECT_EQ(one.pixels, three.pixels);
 }
 
+/// The report tells the largest radius of merges in media, and photons below the floor.
+TEST(Combined, StatisticsTellRadiiAndThinPlaces) {
+  RenderSettings settings = combined_settings_of(2'000);
+  settings.radii = RadiusSchedule::constant;
+  EXPECT_FLOAT_EQ(render_combined_pass(foggy_box(), settings, 0, kGoOn).statistics.last_volume_radius, 0.1f);
+  const auto grid = make_grid(centred_frame(16, 2.0 / 32.0), lattice_noise);
+  Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f), 0.9f), PointLight{Vec3(0.5f, 1.5f, 0.5f), Rgb(9.0f)});
+  scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {6, 6});
+  const auto below = [&](float floor) {
+    settings.density_floor = floor;
+    return render_combined_pass(scene, settings, 0, kGoOn).statistics.ledger.floored;
+  };
+  EXPECT_EQ(below(0.0f), 0u);
+  EXPECT_GT(below(0.3f), below(0.1f));
+}
+
 /// The weighted layers of all techniques sum to the picture, and keeping them changes nothing in it.
 TEST(Combined, LayersAreThePartsOfThePicture) {
   const Scene scene = foggy_box();

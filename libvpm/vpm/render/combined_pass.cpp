@@ -15,6 +15,7 @@ namespace {
 constexpr size_t kPathChunk = 2048;   // light sub-paths traced one after another
 constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are to connect to, and how many flights
 constexpr size_t kFewLights = 4;      // that are all sampled where an eye sub-path has one vertex for it
+constexpr float kBeamRadius = 0.25f;  // of that of points: wider beams cost as much time as they save in noise
 constexpr double kConnections = 1.0;  // of each vertex of an eye sub-path, to vertices of light sub-paths
 
 /// The radii of the pass. Those of media are the least that any of them has by default.
@@ -26,8 +27,8 @@ MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings,
   for (const Medium& medium : scene.media)
     if (medium.scatters()) first = std::min(first, first_radius(volume, scene, medium));
   const auto radius = [&](int dimension) { return gather_in_pass(volume, first, dimension, of).radius; };
-  return {surface.kernel,    volume.kernel, gather_in_pass(surface, first_radius(surface, scene), 2, of).radius,
-          0.25f * radius(1), radius(2),     radius(3)};
+  return {surface.kernel,          volume.kernel, gather_in_pass(surface, first_radius(surface, scene), 2, of).radius,
+          kBeamRadius * radius(1), radius(2),     radius(3)};
 }
 
 /// Does all light reach the first vertex from the eye that is not specular by merges?
@@ -116,7 +117,7 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   statistics_.beams = statistics_.flights = light_->beam_count();
   statistics_.planes = light_->planes().size();
   statistics_.photon_map_bytes = light_->memory_bytes() + splats_.capacity() * sizeof(Splat);
-  statistics_.last_volume_radius = kernels_.beams;
+  statistics_.last_volume_radius = std::max({kernels_.beams, kernels_.points_2d, kernels_.points_3d});
   statistics_.last_surface_radius = kernels_.surface;
 }
 

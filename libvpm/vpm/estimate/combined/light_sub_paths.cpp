@@ -137,6 +137,7 @@ class LightSubPath {
     const Medium& medium = c_.scene.media[at.vertex.medium];
     const float density = relative_density(medium, at.vertex.density);
     const float floor = medium.grid ? floor_in(medium, c_.counts.density_floor) : 0.0f;
+    if (density < floor) count(out_.ledger.floored);
     keep_photon(at.vertex.medium, at.vertex.point, at.leg,
                 stored_power(state_.throughput, VolumeForm::density_at_query, density, floor));
   }
