@@ -162,7 +162,7 @@ TEST(SceneFile, AutoIsReadWhereItIsWritten) {
 TEST(SceneFile, WhatIsLeftOutMayBeAutomatic) {
   const std::string path = write_scene(kCamera + kLight + "[surface]\nradius = 2\n[photons]\nstored = 70\n");
   const RenderJob loaded = load_scene(path, {"distance.strategy=delta"}, LeftOut::automatic);
-  EXPECT_EQ(loaded.automatic.keys, (Keys{"caustics.radius", "volume.radius"}));
+  EXPECT_EQ(loaded.automatic.keys, (Keys{"caustics.radius", "render.integrator", "volume.radius"}));
   EXPECT_EQ(loaded.settings.surface.radius.metres(), 2.0f);
   EXPECT_EQ(loaded.settings.distance.strategy, "delta");
   EXPECT_TRUE(load_scene(path, {"volume.gather=auto"}, LeftOut::automatic).automatic.has("volume.gather"));

@@ -5,6 +5,8 @@
 
 #include "vpm/base/error.h"
 #include "vpm/job/automatic.h"
+#include "vpm/job/choice_rules.h"
+#include "vpm/job/eye_blocks.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/pilot_error.h"
 
@@ -30,6 +32,24 @@ TEST(Automatic, RadiusStaysBetweenHalfAPixelAndATwentiethOfTheScene) {
   const ChosenRadius wide = choose_radius(density(2), 1e3, 3.0);
   EXPECT_FLOAT_EQ(wide.radius, 0.15f);
   EXPECT_EQ(wide.reason.substr(0, 11), "a twentieth");
+}
+
+/// A pilot of 512 rays of each block, which all show a mean of 1 but for one block, in one channel.
+PilotError pilot(double mean_there, double standard_error, double correction = 0.0) {
+  PilotError error{.seen = std::vector<SeenInBlock>(3 * kEyeBlocks, {1.0, 0.0, 0.0}), .rays = 512.0};
+  error.seen[70] = {mean_there, standard_error, correction};
+  return error;
+}
+
+TEST(Automatic, LightThatOthersShowForCertainIsNoise) {
+  constexpr double kAll = 3.0 * kEyeBlocks;
+  const double scale = 1.0 + 0.01;  // of relative MSE, where the block and the mean of all are 1
+  EXPECT_NEAR(unseen_light(pilot(0.0, 0.0), pilot(1.0, 0.0)), 512.0 / scale / kAll, 1e-9);
+  EXPECT_NEAR(unseen_light(pilot(0.0, 0.0), pilot(1.0, 0.1)), 512.0 * 0.6 * 0.6 / scale / kAll, 1e-9);
+  EXPECT_NEAR(unseen_light(pilot(0.2, 0.05), pilot(1.0, 0.1)), 512.0 * 0.2 * 0.2 / scale / kAll, 1e-9);
+  EXPECT_NEAR(unseen_light(pilot(0.0, 0.0), pilot(1.0, 0.0, -0.2)), 512.0 * 0.6 * 0.6 / scale / kAll, 1e-9);
+  EXPECT_EQ(unseen_light(pilot(1.0, 0.0), pilot(0.0, 0.0)), 0.0);  // brighter is not blind
+  EXPECT_EQ(unseen_light(pilot(0.5, 0.0), pilot(1.0, 0.2)), 0.0);  // within what is certain
 }
 
 TEST(Automatic, PhotonsCostWhatTheEyePassCosts) {

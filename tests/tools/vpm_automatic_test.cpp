@@ -27,8 +27,9 @@ class VpmAutomatic : public VpmRender {
 };
 
 TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
-  const std::string told_errors =
-      vpm_succeeds({"render", "open.toml", "--auto", "--set", "volume.gather=auto", "-o", "auto.exr"}).err;
+  const std::string told_errors = vpm_succeeds({"render", "open.toml", "--auto", "--set", "volume.gather=auto", "--set",
+                                                "render.integrator=photon", "-o", "auto.exr"})
+                                      .err;
   for (const char* key : {"distance.strategy", "volume.gather", "photons.emitted", "volume.radius", "surface.radius"})
     EXPECT_NE(told_errors.find(std::string("note: chosen ") + key), std::string::npos) << told_errors;
   std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
@@ -46,9 +47,22 @@ TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
   EXPECT_EQ(field_of(line, "photons.emitted"), settings["photons.emitted"].dump());
 }
 
+/// Whichever is chosen renders what it renders where it is asked for.
+TEST_F(VpmAutomatic, TheIntegratorIsChosenWhereItIsLeftOut) {
+  const std::string errors = vpm_succeeds({"render", "open.toml", "--auto", "-o", "auto.exr"}).err;
+  expect_words(errors, {"chosen render.integrator = ", "least error in a pilot", "photon ", " combined ", " path "});
+  std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
+  for (const std::string& word : told(errors)) again.push_back(word);
+  vpm_succeeds(again);
+  EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
+}
+
 TEST_F(VpmAutomatic, WhatIsGivenIsRenderedAsEver) {
+  const std::vector<std::string> given{"--set", "distance.strategy=regular", "--set", "render.integrator=photon"};
   vpm_succeeds({"render", "scene.toml", "-o", "given.exr"});
-  vpm_succeeds({"render", "scene.toml", "-o", "auto.exr", "--auto", "--set", "distance.strategy=regular"});
+  std::vector<std::string> automatic{"render", "scene.toml", "-o", "auto.exr", "--auto"};
+  automatic.insert(automatic.end(), given.begin(), given.end());
+  vpm_succeeds(automatic);
   EXPECT_TRUE(read_exr(path("given.exr")).pixels == read_exr(path("auto.exr")).pixels);
   EXPECT_EQ(report("given.json")["settings"], report("auto.json")["settings"]);
 }
@@ -67,7 +81,8 @@ TEST_F(VpmAutomatic, TheGatherInMediaIsChosenWhereItIsAskedFor) {
   const std::string chosen =
       line_of(vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "volume.gather=auto"}).err);
   expect_words(chosen, {"least error in a pilot", " beam ", " photon-beams ", " s each)"});
-  EXPECT_EQ(line_of(vpm_succeeds({"render", "open.toml", "--auto", "-o", "b.exr"}).err), "");
+  const std::string photons = "render.integrator=photon";
+  EXPECT_EQ(line_of(vpm_succeeds({"render", "open.toml", "--auto", "--set", photons, "-o", "b.exr"}).err), "");
   EXPECT_EQ(report("b.json")["settings"]["volume.gather"], "radius");
 }
 
@@ -104,7 +119,32 @@ file = "scene.toml"
 )");
   const auto result = vpm({"compare", "two.toml", "-o", "out"});
   EXPECT_EQ(result.status, 2);
-  expect_words(result.err, {"vpm compare chooses no settings", "name a value of volume.radius"});
+  expect_words(result.err, {"settings are chosen for a time, but budgets are in passes",
+                            "name a value of volume.radius", "unit = \"seconds\""});
+}
+
+/// A pilot is part of a run's time, and what it chose stands with the run.
+TEST_F(VpmAutomatic, ComparedMethodsMayChoose) {
+  write("chosen.toml", R"(
+title = "Chosen and given"
+budgets = [0.2]
+repetitions = 3
+[reference]
+error = 1e-2
+[[scenes]]
+name = "plume"
+file = "scene.toml"
+[[methods]]
+name = "chosen"
+set = { "render.integrator" = "auto", "volume.radius" = "auto" }
+[[methods]]
+name = "given"
+)");
+  vpm_succeeds({"compare", "chosen.toml", "-o", "out"});
+  const nlohmann::json results = nlohmann::json::parse(read("out/results.json"));
+  const nlohmann::json& methods = results.at("scenes").at(0).at("methods");
+  expect_words(methods.at(0).at("settings").get<std::string>(), {"; chosen: render.integrator="});
+  EXPECT_EQ(methods.at(1).at("settings").get<std::string>().find("chosen"), std::string::npos);
 }
 
 }  // namespace

@@ -102,8 +102,9 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->excludes(passes);
   command->add_option("--reference", options.reference,
                       "EXR image of the truth: log error against time to a CSV file next to the image");
-  command->add_flag("--auto", options.automatic,
-                    "Choose what the scene leaves out of radii, photons and distance strategy, and tell why");
+  command->add_flag(
+      "--auto", options.automatic,
+      "Choose what the scene leaves out of integrator, radii, photons and distance strategy, and tell why");
   command->add_option("--layers", options.layers, "Write these layers, too: combined (what each technique finds)")
       ->check(CLI::IsMember({"combined"}));
   CLI::Option* checkpoint =

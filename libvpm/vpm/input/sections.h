@@ -8,7 +8,7 @@
 
 #include "vpm/input/grid_file.h"
 #include "vpm/input/table_reader.h"
-#include "vpm/job/automatic.h"
+#include "vpm/job/choice.h"
 #include "vpm/job/validate.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/parts.h"

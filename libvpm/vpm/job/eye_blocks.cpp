@@ -17,9 +17,12 @@ float place_along(int pixels, size_t part, size_t i) {
 
 }  // namespace
 
-Ray ray_of_block(const Camera& camera, size_t block, size_t i) {
-  return camera.ray({place_along(camera.width, block % kBlocksOfEdge, i % kPixelsOfEdge),
-                     place_along(camera.height, block / kBlocksOfEdge, i / kPixelsOfEdge)});
+BlockRay ray_of_block(const Camera& camera, size_t block, size_t i) {
+  const float x = place_along(camera.width, block % kBlocksOfEdge, i % kPixelsOfEdge);
+  const float y = place_along(camera.height, block / kBlocksOfEdge, i / kPixelsOfEdge);
+  const int column = std::min(static_cast<int>(x), camera.width - 1);
+  const int row = std::min(static_cast<int>(y), camera.height - 1);
+  return {camera.ray({x, y}), static_cast<size_t>(row) * static_cast<size_t>(camera.width) + column};
 }
 
 }  // namespace vpm

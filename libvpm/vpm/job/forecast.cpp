@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "vpm/base/error.h"
-#include "vpm/job/automatic.h"
+#include "vpm/job/choice_rules.h"
 #include "vpm/render/combined_pass.h"
 
 namespace vpm {

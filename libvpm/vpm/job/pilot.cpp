@@ -9,6 +9,7 @@
 #include "vpm/base/progress.h"
 #include "vpm/base/stopwatch.h"
 #include "vpm/job/eye_blocks.h"
+#include "vpm/job/rays_of_pass.h"
 #include "vpm/path/follow.h"
 #include "vpm/photon/caustics.h"
 #include "vpm/photon/nearest_map.h"
@@ -16,7 +17,6 @@
 #include "vpm/photon/trace.h"
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/eye_path.h"
-#include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
 
 namespace vpm {
@@ -219,8 +219,9 @@ EyeCounters render_block(const Scene& scene, const RayRadiance& radiance, uint64
   const Stopwatch rendering;
   for (size_t i = 0; i < kRaysOfBlock && (i == 0 || rendering.seconds() < seconds); ++i) {
     Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kRaysOfBlock + i);
-    EyeWork work{rng, counters, scratch};
-    radiance(ray_of_block(scene.camera, block, i), work);
+    const BlockRay at = ray_of_block(scene.camera, block, i);
+    EyeWork work{rng, counters, scratch, at.pixel};
+    radiance(at.ray, work);
     ++counters.rays;
   }
   return counters;
@@ -251,12 +252,10 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
 PassCost time_combined_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
   constexpr uint64_t kPaths = 2000;
   const RenderSettings pilot = with_light_paths(pilot_settings(settings, settings.photons_emitted), kPaths);
-  const std::atomic<bool> never{false};
-  const CombinedPass ready(scene, pilot, 0, never);
-  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return ready.radiance(ray, work); };
-  const EyeCost eye = time_eye_pass(scene, pilot, radiance, seconds);
+  const RaysOfPass ready = rays_of_pass(scene, pilot, 0);
+  const EyeCost eye = time_eye_pass(scene, pilot, ready.radiance, seconds);
   const auto paths = static_cast<double>(pilot.photons_emitted), all = static_cast<double>(settings.photons_emitted);
-  const RenderStatistics& s = ready.statistics();
+  const RenderStatistics& s = ready.statistics;
   return {.photon = (s.trace_seconds + s.build_seconds) / paths,
           .eye = eye.seconds * (1.0 + eye.of_photons * (all / paths - 1.0)),
           .stored_per_photon = static_cast<double>(s.volume_photons + s.surface_photons) / paths};
@@ -386,11 +385,7 @@ PassCost time_photons(const Scene& scene, const RenderSettings& settings, PassOf
 PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
   if (settings.integrator == Integrator::path) {
     const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
-    const PathContext context = make_path_context(scene, pilot);
-    const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) {
-      return path_radiance(context, ray, medium_of_ray(scene, scene.camera_medium, ray), work.rng, work.counters);
-    };
-    return {.eye = time_eye_pass(scene, pilot, radiance, seconds).seconds};
+    return {.eye = time_eye_pass(scene, pilot, rays_of_pass(scene, pilot, 0).radiance, seconds).seconds};
   }
   if (settings.integrator == Integrator::combined) return time_combined_pass(scene, settings, 0.5 * seconds);
   const ReadyPass ready = make_ready_within(scene, settings, PassOf::picture, 0.5 * seconds);

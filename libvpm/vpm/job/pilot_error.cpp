@@ -1,5 +1,5 @@
 // Differences between passes and between rays of a pass tell the noise of photons and that of rays; products of
-// corrections of different passes tell bias.
+// corrections of different passes tell bias. Ways to render tell of each other what they have not seen.
 #include "vpm/job/pilot_error.h"
 
 #include <algorithm>
@@ -12,8 +12,7 @@
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/image/metrics.h"
 #include "vpm/job/eye_blocks.h"
-#include "vpm/render/eye_path.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/job/rays_of_pass.h"
 
 namespace vpm {
 namespace {
@@ -37,7 +36,8 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   const double all_rays = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
   const double affordable = half / (cost.eye / all_rays * double{2 * kEyeBlocks});
   SmallPasses small{settings};
-  small.share = std::clamp(half / (cost.photon * photons + cost.caustics), std::min(1.0, kFewest / photons), 1.0);
+  const double all_photons = cost.photon * photons + cost.caustics;  // s
+  if (all_photons > 0.0) small.share = std::clamp(half / all_photons, std::min(1.0, kFewest / photons), 1.0);
   small.rays = static_cast<size_t>(std::clamp(affordable, 1.0, double{kRaysOfBlock}));
   small.settings.seed = ~settings.seed;
   small.settings.radii = RadiusSchedule::constant;
@@ -47,14 +47,12 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   small.settings.caustics_emitted = part(static_cast<double>(settings.caustics_emitted));
   small.settings.guide.importons = part(static_cast<double>(settings.guide.importons));
   small.settings.flights = part(static_cast<double>(settings.flights));
+  small.settings.planes = part(static_cast<double>(settings.planes));
   return small;
 }
 
 std::vector<Twins> render_small(const Scene& scene, const SmallPasses& small, int pass) {
-  const Estimators estimators = plan_estimators(scene, small.settings, pass);
-  RenderStatistics unused;
-  prepare_pass(scene, small.settings, estimators, {.pass = pass, .stop = kNeverStopped}, unused);
-  const EyeContext context{scene, estimators, small.settings.max_events};
+  const RaysOfPass rays = rays_of_pass(scene, small.settings, pass);
   std::vector<Twins> found(kEyeBlocks * small.rays);
   parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
     EyeCounters counters;
@@ -62,10 +60,12 @@ std::vector<Twins> render_small(const Scene& scene, const SmallPasses& small, in
     for (size_t i = 0; i < small.rays; ++i) {
       const size_t number = block * small.rays + i;
       Rng rng(small.settings.seed, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), number);
-      EyeWork work{rng, counters, scratch};
-      const Ray ray = ray_of_block(scene.camera, block, i * kRaysOfBlock / small.rays);
-      for (KernelEstimate& twin : found[number])
-        twin = mean_of_samples(1, counters, [&](int) { return eye_radiance(context, ray, work); });
+      const BlockRay at = ray_of_block(scene.camera, block, i * kRaysOfBlock / small.rays);
+      EyeWork work{rng, counters, scratch, at.pixel};
+      for (KernelEstimate& twin : found[number]) {
+        twin = mean_of_samples(1, counters, [&](int) { return rays.radiance(at.ray, work); });
+        if (!rays.light_tracing.pixels.empty()) twin.value += rays.light_tracing.pixels[at.pixel];
+      }
     }
   });
   return found;
@@ -100,32 +100,79 @@ void add_place(const FoundByPass& found, size_t place, int channel, double scale
   sum.bias2 += (corrections * corrections - corrections2) / (n * (n - 1.0)) / scale;
 }
 
+/// What passes show in a channel of the places from `begin` to `end`. The standard error is no less than that of rays
+/// alone: a few passes are spread by chance.
+SeenInBlock seen_in_block(const FoundByPass& found, size_t begin, size_t end, int channel) {
+  const auto passes = static_cast<double>(found.size()), places = static_cast<double>(end - begin);
+  SeenInBlock seen;
+  seen.mean = mean_among(found, begin, end, channel);
+  double between = 0.0, within = 0.0;
+  for (const std::vector<Twins>& pass : found) {
+    double mean = 0.0;
+    for (size_t i = begin; i < end; ++i) {
+      const auto& [first, second] = pass[i];
+      const double difference = double{first.value[channel]} - double{second.value[channel]};
+      mean += 0.5 * (double{first.value[channel]} + double{second.value[channel]}) / places;
+      within += 0.25 * difference * difference;
+      seen.correction += 0.5 * (double{first.correction[channel]} + double{second.correction[channel]});
+    }
+    between += (mean - seen.mean) * (mean - seen.mean);
+  }
+  seen.correction /= passes * places;
+  const double of_rays = within / (passes * passes * places * places);
+  seen.standard_error = std::sqrt(std::max(between / (passes * (passes - 1.0)), of_rays));
+  return seen;
+}
+
 /// Relative to the means of blocks, as single values are noisy.
-PassError relative_errors(const FoundByPass& found, size_t rays) {
+PilotError relative_errors(const FoundByPass& found, size_t rays) {
+  PilotError error{.seen = std::vector<SeenInBlock>(3 * kEyeBlocks),
+                   .rays = static_cast<double>(2 * found.size() * rays)};
   PassError sum;
   for (int channel = 0; channel < 3; ++channel) {
     const double mean = mean_among(found, 0, kEyeBlocks * rays, channel);
     if (mean == 0.0) continue;
     for (size_t block = 0; block < kEyeBlocks; ++block) {
       const size_t begin = block * rays, end = begin + rays;
-      const double scale = relative_scale(mean_among(found, begin, end, channel), mean);
+      SeenInBlock& seen = error.seen[static_cast<size_t>(channel) * kEyeBlocks + block];
+      seen = seen_in_block(found, begin, end, channel);
+      const double scale = relative_scale(seen.mean, mean);
       for (size_t i = begin; i < end; ++i) add_place(found, i, channel, scale, sum);
     }
   }
   const double each = 1.0 / static_cast<double>(3 * kEyeBlocks * rays);
-  return {each * sum.rays, each * std::max(0.0, sum.photons), each * std::max(0.0, sum.bias2)};
+  error.pass = {each * sum.rays, each * std::max(0.0, sum.photons), each * std::max(0.0, sum.bias2)};
+  return error;
 }
 
 }  // namespace
 
-PassError error_of_pass(const Scene& scene, const RenderSettings& settings, const PassCost& cost, double seconds) {
+PilotError error_of_pass(const Scene& scene, const RenderSettings& settings, const PassCost& cost, double seconds) {
   const SmallPasses small = plan_small(scene, settings, cost, seconds);
   FoundByPass found;
   for (int pass = 0; pass < kSmallPasses; ++pass) found.push_back(render_small(scene, small, pass));
-  PassError error = relative_errors(found, small.rays);
-  error.rays /= settings.samples_per_pixel;
-  error.photons *= small.share;
+  PilotError error = relative_errors(found, small.rays);
+  error.pass.rays /= settings.samples_per_pixel;
+  error.pass.photons *= small.share;
   return error;
+}
+
+double unseen_light(const PilotError& error, const PilotError& other) {
+  constexpr double kSure = 4.0;  // standard errors
+  double sum = 0.0;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    const auto begin = other.seen.begin() + static_cast<std::ptrdiff_t>(channel * kEyeBlocks);
+    double mean = 0.0;
+    for (auto of = begin; of != begin + kEyeBlocks; ++of) mean += of->mean / double{kEyeBlocks};
+    if (mean <= 0.0) continue;
+    for (size_t i = channel * kEyeBlocks; i < (channel + 1) * kEyeBlocks; ++i) {
+      const SeenInBlock &own = error.seen[i], &there = other.seen[i];
+      const double least = there.mean - kSure * there.standard_error - 2.0 * std::abs(there.correction);
+      const double missing = std::max(0.0, least - own.mean - kSure * own.standard_error);
+      sum += error.rays * missing * missing / relative_scale(there.mean, mean);
+    }
+  }
+  return sum / double{3 * kEyeBlocks};
 }
 
 double error_after(const PassError& error, const RenderSettings& settings, int passes) {

@@ -1,6 +1,8 @@
 // What error a pass leaves, told by a few small passes of a pilot.
 #pragma once
 
+#include <vector>
+
 #include "vpm/job/pilot.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
@@ -13,9 +15,25 @@ struct PassError {
   double photons = 0.0;  // variance that is due to photons
   double bias2 = 0.0;    // what the kernels' corrections tell of the squared bias
 };
-/// Renders rays of blocks of pixels with photons of several seeds, in about so many seconds. Where the photons of these
-/// passes would take longer, they are fewer, and their noise is taken to go with one over their number.
-PassError error_of_pass(const Scene& scene, const RenderSettings& settings, const PassCost& cost, double seconds);
+
+/// What a block of pixels shows in one channel.
+struct SeenInBlock {
+  double mean = 0.0, standard_error = 0.0, correction = 0.0;  // W/(m^2 sr); of the kernels' bias
+};
+
+struct PilotError {
+  PassError pass{};
+  std::vector<SeenInBlock> seen{};  // channel by channel, of each block by block
+  double rays = 0.0;                // of each block, in all small passes
+};
+/// Renders rays of blocks of pixels with photons or light sub-paths of several seeds, in about so many seconds. Where
+/// those of a pass would take longer, they are fewer, and their noise is taken to go with one over their number.
+PilotError error_of_pass(const Scene& scene, const RenderSettings& settings, const PassCost& cost, double seconds);
+
+/// The relative MSE of one ray that is due to light which its rays have not met, but others show: more than four
+/// standard errors of either above what it shows. A ray that meets such light is taken to be rarer than one in all that
+/// a block has, and so its square is at least their number times that of the mean.
+double unseen_light(const PilotError& error, const PilotError& other);
 
 /// What is left of it after so many passes, >= 1. The noise of rays falls as one over them. That of photons and the
 /// bias go as radii do: all are taken to shrink as those of discs, whatever is gathered, as noise on surfaces is not

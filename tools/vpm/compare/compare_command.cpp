@@ -1,8 +1,10 @@
 // vpm compare: an experiment in, tables and a page out.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "commands.h"
 #include "compare/page.h"
@@ -45,14 +47,29 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
   return first;
 }
 
+/// Its settings, and those that each of its runs chooses.
+std::string settings_text(const RenderJob& loaded) {
+  std::string text = settings_line(loaded.settings);
+  if (loaded.automatic.any()) text += fmt::format("; chosen by each run: {}", fmt::join(loaded.automatic.keys, " "));
+  return text;
+}
+
+/// Only time tells what a pilot costs, and it chooses for some time; references have no end that is a time.
+void check_choices(const Entrant& entrant, CostUnit unit, const std::string& who) {
+  if (entrant.loaded.automatic.any() && unit != CostUnit::seconds)
+    throw InputError(
+        fmt::format("{}: settings are chosen for a time, but budgets are in {}: name a value of {}, or write "
+                    "unit = \"seconds\"",
+                    who, unit_name(unit), fmt::join(entrant.loaded.automatic.keys, ", ")));
+}
+
 /// `who` it is for, as messages name it.
 std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::string& who,
                                       const std::vector<std::string>& settings, const std::string& purpose) {
   try {
     auto entrant = std::make_unique<Entrant>(Entrant{load_scene(scene.file, joined(scene.settings, settings)), ""});
-    refuse_automatic(entrant->loaded, "vpm compare");
     entrant->identity = fmt::format("vpm {}; scene {}; {}; {}", version(), entrant->loaded.hash,
-                                    settings_line(entrant->loaded.settings), purpose);
+                                    settings_text(entrant->loaded), purpose);
     return entrant;
   } catch (const InputError& error) {
     throw InputError(fmt::format("scene '{}', {}: {}", scene.name, who, error.what()));
@@ -91,9 +108,11 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
   for (const ComparedScene& scene : plan.scenes) {
     Contest contest;
     contest.compared = &scene;
-    for (const Method& method : plan.methods)
-      contest.methods.push_back(
-          make_entrant(scene, fmt::format("method '{}'", method.name), method.settings, run_purpose(plan)));
+    for (const Method& method : plan.methods) {
+      const std::string who = fmt::format("method '{}'", method.name);
+      contest.methods.push_back(make_entrant(scene, who, method.settings, run_purpose(plan)));
+      check_choices(*contest.methods.back(), plan.unit, who);
+    }
     if (scene.source == ReferenceSource::exact) {
       contest.reference = exact_reference(scene);
     } else if (scene.source == ReferenceSource::rendered) {
@@ -101,6 +120,7 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
       contest.reference_entrant =
           make_entrant(scene, "reference", joined(plan.reference_settings, {seed}),
                        fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
+      refuse_automatic(contest.reference_entrant->loaded, "the reference of vpm compare");
       const Camera& camera = contest.reference_entrant->loaded.scene.camera;
       contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);
     } else {
@@ -146,9 +166,9 @@ void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan,
         const Entrant& entrant = *contest.methods[(turn + r) % methods];
         const std::string identity = run_identity(entrant, plan, static_cast<int>(r));
         if (!store.find_run(identity)) {
-          const std::vector<Snapshot> snapshots = run_method(entrant.loaded, plan, static_cast<int>(r), stop);
+          const MethodRun run = run_method(entrant.loaded, plan, static_cast<int>(r), stop);
           if (stop) return;
-          store.add_run(identity, snapshots);
+          store.add_run(identity, run);
         }
         bar.advance(1);
       }
@@ -200,6 +220,16 @@ void judge_biases(std::vector<SceneResults>& scenes) {
   judge(all);
 }
 
+/// "; chosen: key=value key=value", for each choice that a run made.
+std::string choices_text(const Entrant& entrant, const ComparisonPlan& plan, const Store& store) {
+  std::set<std::string> all;
+  for (int r = 0; r < plan.repetitions; ++r) all.insert(store.chosen(run_identity(entrant, plan, r)));
+  std::string text;
+  for (const std::string& chosen : all)
+    if (!chosen.empty()) text += "; chosen: " + chosen;
+  return text;
+}
+
 SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {
   SceneResults results;
   results.scene_text = read_whole_file(contest.compared->file);
@@ -209,7 +239,7 @@ SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, cons
   results.reference = reference_text(contest, results.reference_error);
   for (const auto& entrant : contest.methods) {
     results.hashes.push_back(entrant->loaded.hash);
-    results.settings.push_back(settings_line(entrant->loaded.settings));
+    results.settings.push_back(settings_text(entrant->loaded) + choices_text(*entrant, plan, store));
     std::vector<BudgetSummary> budgets;
     for (size_t b = 0; b < plan.budgets.size(); ++b)
       budgets.push_back(summarise(*entrant, contest.reference, plan, store, b));

@@ -3,7 +3,9 @@
 
 #include <ctime>
 
+#include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
+#include "vpm/job/automatic.h"
 #include "vpm/job/render.h"
 #include "vpm/job/setting.h"
 
@@ -37,16 +39,20 @@ RunCost counted(const RenderStatistics& s) {
 
 }  // namespace
 
-std::vector<Snapshot> run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition,
-                                 const std::atomic<bool>& stop) {
+MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition, const std::atomic<bool>& stop) {
   RenderSettings settings = job.settings;
   settings.seed = plan.seed + static_cast<uint64_t>(repetition);
-  settings.until = {.passes = kMostPasses};
-  std::vector<Snapshot> snapshots;
-  std::atomic<bool> done{false};
-  double cpu = 0.0, wall = 0.0;  // s, of rendering
+  double cpu = 0.0, wall = 0.0;  // s
   double cpu_begin = cpu_seconds();
   Stopwatch rendering;
+  MethodRun run;
+  if (job.automatic.any()) {
+    settings.until = {.seconds = plan.budgets.back() / thread_count()};
+    run.choices = choose_settings(job.scene, job.automatic, settings);
+  }
+  settings.until = {.passes = kMostPasses};
+  std::vector<Snapshot>& snapshots = run.snapshots;
+  std::atomic<bool> done{false};
   const auto look = [&](const RenderResult& so_far) {
     cpu += cpu_seconds() - cpu_begin;
     wall += rendering.seconds();
@@ -60,7 +66,7 @@ std::vector<Snapshot> run_method(const RenderJob& job, const ComparisonPlan& pla
     rendering = {};
   };
   render(job.scene, settings, nothing_rendered(job.scene.camera), {done, ProgressMode::never, look});
-  return snapshots;
+  return run;
 }
 
 RenderResult run_reference(const RenderJob& job, double error, const std::atomic<bool>& stop, ProgressMode progress) {

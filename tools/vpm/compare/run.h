@@ -7,6 +7,7 @@
 #include "vpm/base/progress.h"
 #include "vpm/image/image.h"
 #include "vpm/input/scene_file.h"
+#include "vpm/job/choice.h"
 #include "vpm/job/render.h"
 #include "vpm/study/compare/plan.h"
 
@@ -18,10 +19,16 @@ struct Snapshot {
   Image mean;
 };
 
-/// Renders passes until the last budget is passed. CPU time is that of rendering alone: what is done with snapshots
-/// does not count. Fewer snapshots than budgets where `stop` was set.
-std::vector<Snapshot> run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition,
-                                 const std::atomic<bool>& stop);
+/// A run, with what it chose before its passes.
+struct MethodRun {
+  std::vector<Choice> choices;
+  std::vector<Snapshot> snapshots;
+};
+
+/// Chooses what the job leaves to be chosen, for the time of the last budget, and renders passes until that is passed.
+/// CPU time is that of choosing and rendering: what is done with snapshots does not count. Fewer snapshots than budgets
+/// where `stop` was set.
+MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition, const std::atomic<bool>& stop);
 
 /// Renders a scene until its estimated relative MSE is down to `error`.
 RenderResult run_reference(const RenderJob& job, double error, const std::atomic<bool>& stop, ProgressMode progress);

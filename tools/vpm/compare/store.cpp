@@ -80,14 +80,24 @@ Image Store::picture(const std::string& identity, size_t budget) const {
   return read_exr(file("runs", identity, fmt::format(".{}.exr", budget)));
 }
 
-void Store::add_run(const std::string& identity, const std::vector<Snapshot>& snapshots) const {
+std::string Store::chosen(const std::string& identity) const {
+  std::ifstream stream(file("runs", identity, ".json"));
+  return Json::parse(stream).at("chosen");
+}
+
+void Store::add_run(const std::string& identity, const MethodRun& run) const {
+  const std::vector<Snapshot>& snapshots = run.snapshots;
+  std::string chosen;
+  for (const Choice& choice : run.choices)
+    chosen += fmt::format("{}{}={}", chosen.empty() ? "" : " ", choice.key, choice.value);
   Json costs = Json::array();
   for (size_t i = 0; i < snapshots.size(); ++i) {
     write_exr(file("runs", identity, fmt::format(".{}.exr", i)), snapshots[i].mean, {}, {{"vpm.run", identity}});
     costs.push_back(Json::parse(cost_json(snapshots[i].cost)));
   }
   // Last: with it the run is finished.
-  write_text(file("runs", identity, ".json"), Json{{"identity", identity}, {"budgets", costs}}.dump(1) + "\n");
+  write_text(file("runs", identity, ".json"),
+             Json{{"identity", identity}, {"chosen", chosen}, {"budgets", costs}}.dump(1) + "\n");
 }
 
 std::optional<Reference> Store::find_reference(const std::string& identity) const {

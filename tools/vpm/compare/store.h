@@ -23,7 +23,9 @@ class Store {
   std::optional<std::vector<RunCost>> find_run(const std::string& identity) const;
   /// The picture of a finished run at a budget, counted from 0.
   Image picture(const std::string& identity, size_t budget) const;
-  void add_run(const std::string& identity, const std::vector<Snapshot>& snapshots) const;
+  /// What a finished run chose, as "key=value key=value"; "" where that is nothing.
+  std::string chosen(const std::string& identity) const;
+  void add_run(const std::string& identity, const MethodRun& run) const;
 
   std::optional<Reference> find_reference(const std::string& identity) const;
   void add_reference(const std::string& identity, const Reference& reference) const;

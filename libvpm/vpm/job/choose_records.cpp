@@ -1,0 +1,143 @@
+// How many photons or light sub-paths a pass has, and within which radii they are gathered.
+#include "vpm/job/choose_records.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "vpm/estimate/pass_map.h"
+#include "vpm/job/choice_rules.h"
+#include "vpm/render/plan.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kPassesShare = 0.75;  // of the seconds of a render, that a pilot leaves to passes
+
+/// A gather radius to be chosen.
+struct OpenRadius {
+  const char* key;
+  AskedGather& gather;
+  const std::optional<MapDensity>& density;
+  double emitted;
+};
+
+/// Those of maps that the render has.
+std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& automatic,
+                                   const MapDensities& densities, RenderSettings& s) {
+  const Estimators planned = plan_estimators(scene, s, 0);
+  const auto has = [&](std::string_view section) {
+    for (const MapInfo& map : planned.maps())
+      if (map.section == section) return true;
+    return false;
+  };
+  const double emitted = photons_of_pass(s, densities.stored_per_photon);
+  const double aimed = s.caustics_emitted > 0 ? static_cast<double>(s.caustics_emitted) : emitted;
+  std::vector<OpenRadius> open;
+  if (automatic.has("volume.radius") && has("volume"))
+    open.push_back({"volume.radius", s.volume, densities.volume, emitted});
+  if (automatic.has("surface.radius") && has("surface"))
+    open.push_back({"surface.radius", s.surface, densities.surface, emitted});
+  if (automatic.has("caustics.radius") && has("caustics"))
+    open.push_back({"caustics.radius", s.caustics, densities.caustics, aimed});
+  return open;
+}
+
+/// Sets the radii that are chosen, for the settings' number of photons.
+std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
+                                 RenderSettings& settings) {
+  std::vector<Choice> choices;
+  const double diagonal = scene.bounds.diagonal();
+  for (const OpenRadius& open : open_radii(scene, automatic, densities, settings)) {
+    ChosenRadius chosen;
+    if (open.gather.goes_by_count())
+      chosen = {rounded_radius(kDefaultSearch * diagonal), "a tenth of the scene at the most: 'count' decides"};
+    else if (!open.density)
+      chosen = {rounded_radius(kDefaultRadius * diagonal), "a hundredth of the scene: the pilot met too few photons"};
+    else
+      chosen = choose_radius(*open.density, open.emitted, diagonal);
+    open.gather.radius = chosen.radius;
+    choices.push_back({open.key, fmt::format("{}", chosen.radius), chosen.reason});
+  }
+  return choices;
+}
+
+/// For points, whose eye pass takes about as long under radii that are chosen for any number of photons.
+ChosenCount choose_count_of_points(double seconds, const std::function<PassCost(uint64_t)>& cost_of) {
+  constexpr uint64_t kFirst = 20'000;    // photons
+  constexpr uint64_t kMost = 1'000'000;  // of a pilot that asks again with the number found
+  ChosenCount chosen{kFirst, ""};
+  for (int round = 0; round < 2; ++round) chosen = choose_count(cost_of(std::min(chosen.count, kMost)), seconds);
+  if (seconds == 0.0) return chosen;
+  return make_fit(chosen, seconds,
+                  [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
+}
+
+/// Costs a pass under radii as they would be, in timings of `limit` s at the most.
+Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
+                      double limit, RenderSettings& settings) {
+  const double seconds = settings.until.seconds;
+  RenderSettings tried = settings;
+  const auto cost_of = [&](uint64_t photons) {
+    tried.photons_emitted = photons;
+    choose_radii(scene, automatic, densities, tried);
+    return time_pass(scene, tried, limit);
+  };
+  const ChosenCount chosen = (settings.volume.gathers_flights() ? choose_count_of_flights : choose_count_of_points)(
+      kPassesShare * seconds, cost_of);
+  settings.photons_emitted = chosen.count;
+  return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
+}
+
+/// The photons and the radii that are to be chosen, for the settings' gathers, by timings of `limit` s at the most.
+std::vector<Choice> choose_photons_and_radii(const Scene& scene, const AutomaticSettings& automatic, double limit,
+                                             RenderSettings& settings) {
+  const bool photons = automatic.has("photons.emitted");
+  const bool radii =
+      automatic.has("volume.radius") || automatic.has("surface.radius") || automatic.has("caustics.radius");
+  if (plan_estimators(scene, settings, 0).maps().empty() || !(radii || photons)) return {};
+  std::vector<Choice> choices;
+  const MapDensities densities = map_densities(scene, settings);
+  if (photons) choices.push_back(choose_photons(scene, automatic, densities, limit, settings));
+  for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
+  return choices;
+}
+
+/// Light sub-paths as many as rays from the camera, and radii as photon maps of so many photons would have: neither
+/// goes by a clock.
+std::vector<Choice> choose_sub_paths_and_radii(const Scene& scene, const AutomaticSettings& automatic,
+                                               RenderSettings& settings) {
+  std::vector<Choice> choices;
+  if (automatic.has("photons.emitted")) {
+    constexpr double kMostSubPaths = 1e6;
+    const double rays = static_cast<double>(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
+    settings.photons_emitted = std::max(kLeastCount, static_cast<uint64_t>(rounded(std::min(rays, kMostSubPaths), 2)));
+    choices.push_back({"photons.emitted", fmt::format("{}", settings.photons_emitted),
+                       rays > kMostSubPaths ? "the most" : "as many as rays of a pass"});
+  }
+  if (!automatic.has("volume.radius") && !automatic.has("surface.radius")) return choices;
+  RenderSettings maps = settings;
+  maps.integrator = Integrator::photon;
+  maps.volume.mode = maps.surface.mode = GatherMode::radius;
+  for (Choice& choice : choose_radii(scene, automatic, map_densities(scene, maps), maps))
+    choices.push_back(std::move(choice));
+  settings.volume.radius = maps.volume.radius;
+  settings.surface.radius = maps.surface.radius;
+  return choices;
+}
+
+}  // namespace
+
+std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
+                                   RenderSettings& settings) {
+  switch (settings.integrator) {
+    case Integrator::path:
+      return {};
+    case Integrator::combined:
+      return choose_sub_paths_and_radii(scene, automatic, settings);
+    case Integrator::photon:
+      return choose_photons_and_radii(scene, automatic, limit, settings);
+  }
+  __builtin_unreachable();
+}
+
+}  // namespace vpm

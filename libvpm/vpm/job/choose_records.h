@@ -1,0 +1,18 @@
+// What a pass stores: a render chooses how much, and how far a gather reaches for it.
+#pragma once
+
+#include <vector>
+
+#include "vpm/job/choice.h"
+#include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// Chooses numbers of photons and radii that are to be chosen, and that the settings' integrator has a use for; puts
+/// them into the settings. Photons by timings of `limit` s at the most each. What techniques are combined with goes by
+/// no clock: light sub-paths as many as rays from the camera, and radii as photon maps of so many photons would have.
+std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
+                                   RenderSettings& settings);
+
+}  // namespace vpm

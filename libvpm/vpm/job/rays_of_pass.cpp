@@ -1,0 +1,58 @@
+// What each integrator reads is shared by the copies of its function.
+#include "vpm/job/rays_of_pass.h"
+
+#include <memory>
+#include <utility>
+
+#include "vpm/base/progress.h"
+#include "vpm/render/combined_pass.h"
+#include "vpm/render/eye_path.h"
+#include "vpm/render/path_tracer.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/render/plan.h"
+
+namespace vpm {
+namespace {
+
+RaysOfPass rays_of_path_pass(const Scene& scene, const RenderSettings& settings, int pass) {
+  const auto context = std::make_shared<const PathContext>(make_path_context(scene, settings, pass));
+  return {
+      [context, &scene](const Ray& ray, EyeWork& work) -> KernelEstimate {
+        return {path_radiance(*context, ray, medium_of_ray(scene, scene.camera_medium, ray), work.rng, work.counters)};
+      },
+      {}};
+}
+
+RaysOfPass rays_of_photon_pass(const Scene& scene, const RenderSettings& settings, int pass) {
+  const auto estimators = std::make_shared<const Estimators>(plan_estimators(scene, settings, pass));
+  RaysOfPass rays{[estimators, &scene, events = settings.max_events](const Ray& ray, EyeWork& work) {
+                    return eye_radiance({scene, *estimators, events}, ray, work);
+                  },
+                  {}};
+  prepare_pass(scene, settings, *estimators, {.pass = pass, .stop = kNeverStopped}, rays.statistics);
+  return rays;
+}
+
+RaysOfPass rays_of_combined_pass(const Scene& scene, const RenderSettings& settings, int pass) {
+  const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, kNeverStopped);
+  RaysOfPass rays{[ready](const Ray& ray, EyeWork& work) { return ready->radiance(ray, work); },
+                  Image(scene.camera.width, scene.camera.height), ready->statistics()};
+  ready->add_light_tracing(rays.light_tracing);
+  return rays;
+}
+
+}  // namespace
+
+RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass) {
+  switch (settings.integrator) {
+    case Integrator::path:
+      return rays_of_path_pass(scene, settings, pass);
+    case Integrator::combined:
+      return rays_of_combined_pass(scene, settings, pass);
+    case Integrator::photon:
+      return rays_of_photon_pass(scene, settings, pass);
+  }
+  __builtin_unreachable();
+}
+
+}  // namespace vpm

@@ -1,0 +1,20 @@
+// A pass of any integrator for a pilot, which follows only some of its rays.
+#pragma once
+
+#include "vpm/image/image.h"
+#include "vpm/render/image_pass.h"
+#include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// A pass with its photons or light sub-paths ready.
+struct RaysOfPass {
+  RayRadiance radiance;  // along rays from the camera; keeps what it reads
+  Image light_tracing;   // what light sub-paths add to each pixel; empty where they add nothing
+  RenderStatistics statistics{};
+};
+/// Makes pass number `pass` ready, which the scene must outlive.
+RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass);
+
+}  // namespace vpm

@@ -1,0 +1,185 @@
+// Each way is measured by itself, and then all by what the others have seen.
+#include "vpm/job/trials.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+
+#include "vpm/base/error.h"
+#include "vpm/job/choice_rules.h"
+#include "vpm/job/choose_records.h"
+#include "vpm/job/declare.h"
+#include "vpm/job/pilot_error.h"
+#include "vpm/job/render.h"
+#include "vpm/job/validate.h"
+#include "vpm/render/plan.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kTimingShare = 0.04;  // of the seconds of a render, for each of a few timings of a pass
+constexpr std::string_view kIntegratorKey = "render.integrator", kGatherKey = "volume.gather";
+
+// What may be tried: of equals the first is chosen.
+constexpr std::array kIntegratorsToTry{Integrator::photon, Integrator::combined, Integrator::path};
+constexpr std::array kGathersToTry{GatherMode::beam, GatherMode::photon_beams};
+
+/// Are photons in media to be gathered in a way that is chosen?
+bool gathers_in_media(const Scene& scene, const AutomaticSettings& automatic, RenderSettings settings) {
+  settings.integrator = Integrator::photon;
+  return automatic.has(kGatherKey) && !plan_estimators(scene, settings, 0).volume.empty();
+}
+
+/// A way to render, with all that it would choose.
+struct Trial {
+  RenderSettings settings;
+  std::string name;
+  std::vector<Choice> choices{};
+  double pass_seconds = 0.0;
+  PilotError error{};
+};
+
+/// One trial of each way, allowed or not. What is tried gathers along rays, which "corrected" does not correct ball by
+/// ball.
+std::vector<Trial> all_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
+  const bool any = automatic.has(kIntegratorKey);
+  const bool gathers =
+      gathers_in_media(scene, automatic, settings) && settings.volume.boundary != BoundaryRule::corrected;
+  std::vector<Trial> trials;
+  for (const Integrator integrator : kIntegratorsToTry) {
+    if (!any && integrator != settings.integrator) continue;
+    Trial trial{settings, word_of(integrator)};
+    trial.settings.integrator = integrator;
+    if (integrator != Integrator::photon || !gathers) {
+      trials.push_back(trial);
+      continue;
+    }
+    for (const GatherMode mode : kGathersToTry) {
+      trial.settings.volume.mode = mode;
+      trial.name = any ? fmt::format("{} by {}", word_of(integrator), word_of(mode)) : word_of(mode);
+      trials.push_back(trial);
+    }
+  }
+  return trials;
+}
+
+/// Those that the settings and the scene allow, and what is wrong with the others.
+struct OpenTrials {
+  std::vector<Trial> trials;
+  std::string refused;
+};
+OpenTrials open_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
+  OpenTrials open;
+  for (Trial& trial : all_trials(scene, automatic, settings)) {
+    try {
+      validate(trial.settings, facts_of(scene));
+      open.trials.push_back(std::move(trial));
+    } catch (const SettingError& error) {
+      open.refused += fmt::format("; not {}: {}", trial.name, error.wrong());
+    }
+  }
+  return open;
+}
+
+/// How long each timing of several trials may take, s.
+double limit_of_trial(const RenderSettings& settings, size_t trials) {
+  constexpr double kUnhurried = 1.0;  // where the time is not limited
+  return settings.until.seconds > 0.0 ? limit_of_timing(settings) / static_cast<double>(trials) : kUnhurried;
+}
+
+/// Chooses what else is to be chosen, and then measures what a pass costs and what error it leaves.
+void run_trial(const Scene& scene, const AutomaticSettings& automatic, double limit, Trial& trial) {
+  trial.choices = choose_records(scene, automatic, limit, trial.settings);
+  const PassCost cost = time_pass(scene, trial.settings, limit);
+  trial.pass_seconds = cost.seconds(photons_of_pass(trial.settings, cost.stored_per_photon));
+  trial.error = error_of_pass(scene, trial.settings, cost, limit);
+}
+
+/// The time after which trials are compared, s: that of the render, or else what the least number of the longest passes
+/// takes.
+double seconds_to_compare(const std::vector<Trial>& trials) {
+  double seconds = trials.front().settings.until.seconds;
+  if (seconds > 0.0) return seconds;
+  for (const Trial& trial : trials) seconds = std::max(seconds, kLeastPasses * trial.pass_seconds);
+  return seconds;
+}
+
+/// What each trial leaves after that time. Light that the rays of one have not met is noise of it.
+std::vector<double> errors_after(double seconds, std::vector<Trial>& trials) {
+  constexpr double kMostPasses = 10'000.0;  // that errors are compared after
+  std::vector<double> errors;
+  for (const Trial& trial : trials) {
+    PassError error = trial.error.pass;
+    double unseen = 0.0;
+    for (const Trial& other : trials) unseen = std::max(unseen, unseen_light(trial.error, other.error));
+    error.rays += unseen / trial.settings.samples_per_pixel;
+    const double passes = std::clamp(seconds / trial.pass_seconds, 1.0, kMostPasses);
+    errors.push_back(error_after(error, trial.settings, static_cast<int>(passes)));
+  }
+  return errors;
+}
+
+/// "least error in a pilot, as relative MSE after 20 s of passes: beam 0.01 (0.2 s each), photon-beams 0.02 (1 s each)"
+std::string reason_of(double seconds, const std::vector<Trial>& trials, const std::vector<double>& errors) {
+  std::string reason = fmt::format("least error in a pilot, as relative MSE after {:.2g} s of passes:", seconds);
+  for (size_t i = 0; i < trials.size(); ++i)
+    reason += fmt::format("{} {} {:.2g} ({:.2g} s each)", i > 0 ? "," : "", trials[i].name, errors[i],
+                          trials[i].pass_seconds);
+  return reason;
+}
+
+/// Tries all, and leaves the one with the least error first. Returns why.
+std::string put_best_first(const Scene& scene, const AutomaticSettings& automatic, std::vector<Trial>& trials) {
+  const double limit = limit_of_trial(trials.front().settings, trials.size());
+  for (Trial& trial : trials) run_trial(scene, automatic, limit, trial);
+  const double seconds = seconds_to_compare(trials);
+  const std::vector<double> errors = errors_after(seconds, trials);
+  std::string reason = reason_of(seconds, trials, errors);
+  std::swap(trials.front(), trials[least_error(errors)]);
+  return reason;
+}
+
+/// What was tried, with the reason: the integrator, and the gather of photons in media.
+std::vector<Choice> choices_of(const Scene& scene, const AutomaticSettings& automatic, const Trial& best,
+                               const std::string& reason) {
+  std::vector<Choice> choices;
+  const RenderSettings& settings = best.settings;
+  if (automatic.has(kIntegratorKey))
+    choices.push_back({std::string(kIntegratorKey), word_of(settings.integrator), reason});
+  if (settings.integrator == Integrator::photon && gathers_in_media(scene, automatic, settings)) {
+    const bool ball_by_ball = settings.volume.boundary == BoundaryRule::corrected;
+    const std::string why = ball_by_ball ? "only balls are corrected one by one, as 'boundary' asks for" : reason;
+    choices.push_back({std::string(kGatherKey), word_of(settings.volume.mode), choices.empty() ? why : "see there"});
+  }
+  for (const Choice& choice : best.choices) choices.push_back(choice);
+  return choices;
+}
+
+}  // namespace
+
+double limit_of_timing(const RenderSettings& settings) {
+  const double seconds = settings.until.seconds;
+  return seconds > 0.0 ? kTimingShare * seconds : kInfinity;
+}
+
+bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
+  if (automatic.has(kIntegratorKey)) return true;
+  if (settings.integrator == Integrator::combined && automatic.has(kGatherKey))
+    throw InputError(
+        fmt::format("{}: where render.integrator is \"combined\" it is of no use: leave it out", kGatherKey));
+  return settings.integrator == Integrator::photon && gathers_in_media(scene, automatic, settings);
+}
+
+std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
+  auto [trials, refused] = open_trials(scene, automatic, settings);
+  if (trials.empty()) throw InputError(fmt::format("nothing can be chosen{}", refused));
+  std::string reason;
+  if (trials.size() == 1 && refused.empty())
+    trials.front().choices = choose_records(scene, automatic, limit_of_timing(settings), trials.front().settings);
+  else
+    reason = put_best_first(scene, automatic, trials) + refused;
+  settings = trials.front().settings;
+  return choices_of(scene, automatic, trials.front(), reason);
+}
+
+}  // namespace vpm

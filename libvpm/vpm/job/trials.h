@@ -1,0 +1,24 @@
+// Ways to render that are tried, and of which the one that leaves the least error is chosen.
+#pragma once
+
+#include <vector>
+
+#include "vpm/job/choice.h"
+#include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// How long a timing of a pass may take where one way is timed alone, s.
+double limit_of_timing(const RenderSettings& settings);
+
+/// Is the integrator to be chosen, or the gather in media, where there is one? Throws InputError where a gather is to
+/// be chosen for an integrator that has none.
+bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings);
+
+/// Tries each way that the settings and the scene allow: chooses what else is to be chosen for it, measures what a pass
+/// costs and what error it leaves, and compares errors after the time of the render, or else after that of the least
+/// number of the longest passes. Puts the best one into the settings. Throws InputError where nothing is allowed.
+std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings);
+
+}  // namespace vpm
