@@ -70,10 +70,10 @@ float TableReader::number(const std::string& key, const Range& range, std::optio
   return static_cast<float>(checked_number(require(key), quoted(key, title_), range));
 }
 
-bool TableReader::says_auto(const std::string& key) {
+bool TableReader::says_auto(const std::string& key, const std::string& otherwise) {
   const Node* node = find(key);
   const std::string* word = node ? std::get_if<std::string>(&node->value) : nullptr;
-  if (word && *word != kAuto) refuse_word(key, *node, {"a number", kAuto});
+  if (word && *word != kAuto) refuse_word(key, *node, {otherwise, kAuto});
   return word != nullptr;
 }
 

@@ -24,8 +24,8 @@ class TableReader {
 
   bool has(const std::string& key);
   float number(const std::string& key, const Range& range, std::optional<float> fallback = {});
-  /// Does a key that holds a number otherwise say kAuto? Other words are refused.
-  bool says_auto(const std::string& key);
+  /// Does a key that holds `otherwise` say kAuto? Other words are refused.
+  bool says_auto(const std::string& key, const std::string& otherwise);
   uint64_t integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback = {});
   bool flag(const std::string& key, bool fallback);
   std::string string(const std::string& key, std::optional<std::string> fallback = {});

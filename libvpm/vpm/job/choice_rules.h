@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "vpm/job/pass_cost.h"
 #include "vpm/job/pilot.h"
 
 namespace vpm {

@@ -35,6 +35,8 @@ std::vector<Setting> combined_settings() {
        .domain = WordSet{names_of(std::span<const TechniqueInfo>(kTechniques)).words},
        .meaning = "which techniques find light; what none of them can find is missing",
        .default_text = "all but `\"long-beams\"` and `\"planes\"`",
+       .automatic = true,
+       .left_out_stays = true,
        .need = {combines, combines_nothing, kCombine}},
       {.key = "combined.heuristic",
        .member = at<&S::combined, &C::heuristic>(),

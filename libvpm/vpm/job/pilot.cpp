@@ -2,21 +2,14 @@
 #include "vpm/job/pilot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
-#include "vpm/base/stopwatch.h"
-#include "vpm/job/eye_blocks.h"
-#include "vpm/job/rays_of_pass.h"
 #include "vpm/path/follow.h"
-#include "vpm/photon/caustics.h"
 #include "vpm/photon/nearest_map.h"
 #include "vpm/photon/photon_beam.h"
 #include "vpm/photon/trace.h"
-#include "vpm/render/combined_pass.h"
-#include "vpm/render/eye_path.h"
 #include "vpm/render/photon_pass.h"
 
 namespace vpm {
@@ -151,15 +144,6 @@ uint64_t in_a_hurry(uint64_t photons, const RenderSettings& settings) {
   return static_cast<uint64_t>(static_cast<double>(photons) * share_of_photons(settings));
 }
 
-/// Of a seed of its own: what is chosen does not depend on the photons that the render will gather.
-RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
-  settings.seed = ~settings.seed;
-  settings.photons_emitted = photons;
-  settings.photons_stored = in_a_hurry(kStored, settings);
-  settings.radii = RadiusSchedule::constant;
-  return settings;
-}
-
 /// The records of all media together.
 template <class Record>
 std::vector<Record> of_all_media(const std::vector<std::vector<Record>>& by_medium) {
@@ -212,121 +196,15 @@ PilotPass trace(const Scene& scene, const RenderSettings& settings) {
   return {std::move(estimators), statistics.ledger};
 }
 
-/// Renders the rays of one block of pixels; the first of them, and others until so many seconds are over.
-EyeCounters render_block(const Scene& scene, const RayRadiance& radiance, uint64_t seed, size_t block, double seconds) {
-  EyeCounters counters;
-  EyeScratch scratch;
-  const Stopwatch rendering;
-  for (size_t i = 0; i < kRaysOfBlock && (i == 0 || rendering.seconds() < seconds); ++i) {
-    Rng rng(seed, rng_stream(RngUse::pilot, 1), block * kRaysOfBlock + i);
-    const BlockRay at = ray_of_block(scene.camera, block, i);
-    EyeWork work{rng, counters, scratch, at.pixel};
-    radiance(at.ray, work);
-    ++counters.rays;
-  }
-  return counters;
-}
-
-/// What an eye pass takes, told by rays of blocks of pixels all over the picture.
-struct EyeCost {
-  double seconds = 0.0;
-  double of_photons = 0.0;  // the share of them that goes with the number of photons
-};
-/// Takes about so many seconds.
-EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const RayRadiance& radiance, double seconds) {
-  constexpr double kSearch = 25.0;  // photons that are as dear as a search without any (papers/performance.md)
-  std::array<EyeCounters, kEyeBlocks> blocks;
-  const Stopwatch rendering;
-  parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
-    blocks[block] = render_block(scene, radiance, settings.seed, block, seconds / kEyeBlocks);
-  });
-  const double taken = rendering.seconds();
-  EyeCounters sum;
-  for (const EyeCounters& block : blocks) sum.merge(block);
-  const double all = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
-  const auto used = static_cast<double>(sum.gather.used), searches = static_cast<double>(sum.gather.searches);
-  return {taken * all / static_cast<double>(sum.rays), used / std::max(1.0, used + kSearch * searches)};
-}
-
-/// By a part of the light sub-paths.
-PassCost time_combined_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
-  constexpr uint64_t kPaths = 2000;
-  const RenderSettings pilot = with_light_paths(pilot_settings(settings, settings.photons_emitted), kPaths);
-  const RaysOfPass ready = rays_of_pass(scene, pilot, 0);
-  const EyeCost eye = time_eye_pass(scene, pilot, ready.radiance, seconds);
-  const auto paths = static_cast<double>(pilot.photons_emitted), all = static_cast<double>(settings.photons_emitted);
-  const RenderStatistics& s = ready.statistics;
-  return {.photon = (s.trace_seconds + s.build_seconds) / paths,
-          .eye = eye.seconds * (1.0 + eye.of_photons * (all / paths - 1.0)),
-          .stored_per_photon = static_cast<double>(s.volume_photons + s.surface_photons) / paths};
-}
-
-/// A part of a pass made ready, and what that took.
-struct ReadyPass {
-  RenderSettings settings;
-  Estimators estimators;
-  RenderStatistics statistics;
-};
-ReadyPass make_ready(const Scene& scene, const RenderSettings& settings, PassOf of) {
-  ReadyPass ready{
-      settings,
-      of == PassOf::picture ? plan_estimators(scene, settings, 0) : plan_surface_estimators(scene, settings, 0),
-      {}};
-  prepare_pass(scene, settings, ready.estimators, {.stop = kNeverStopped}, ready.statistics);
-  return ready;
-}
-
-/// A share of a pass's photons, and of those that are aimed for caustics, one of either at the least.
-RenderSettings part_of(RenderSettings pass, double share, double photons) {
-  const auto part = [&](double count) { return static_cast<uint64_t>(std::max(1.0, std::round(share * count))); };
-  pass.photons_emitted = part(photons);
-  pass.caustics_emitted = std::min(pass.caustics_emitted, part(static_cast<double>(pass.caustics_emitted)));
-  return pass;
-}
-
-/// Makes as large a part of a pass ready as that many seconds allow, a thousand of its photons at the least.
-ReadyPass make_ready_within(const Scene& scene, const RenderSettings& settings, PassOf of, double seconds) {
-  constexpr double kFewest = 1000.0, kMost = 0x1p40;
-  const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
-  const auto stored = static_cast<double>(pilot.photons_stored);  // of either kind at the most
-  const auto caustics = static_cast<double>(settings.caustics_emitted);
-  // Where nothing but the stored photons is limited, each is taken to be stored once: the share may end above 1.
-  const double photons = photons_of_pass(settings, 1.0);
-  const double limit = settings.photons_emitted > 0 ? static_cast<double>(settings.photons_emitted) : kMost;
-  const double largest = std::min(std::min(limit, kMost) / photons, caustics > stored ? stored / caustics : kInfinity);
-  const Stopwatch tracing;
-  for (double share = std::isfinite(seconds) ? kFewest / std::max(photons, caustics) : largest;;) {
-    share = std::min(share, largest);
-    ReadyPass ready = make_ready(scene, part_of(pilot, share, photons), of);
-    const RenderStatistics& s = ready.statistics;
-    const double taken = s.trace_seconds + s.caustic_seconds + s.build_seconds, left = seconds - tracing.seconds();
-    const bool stored_all = std::max(s.volume_photons, s.surface_photons) >= pilot.photons_stored;
-    const bool traced_none = s.ledger.emitted_count == 0;  // there is no map
-    if (share == largest || stored_all || traced_none || left < 2.0 * taken) return ready;
-    share *= std::clamp(0.5 * left / std::max(taken, 1e-6), 2.0, 16.0);
-  }
-}
-
-/// What a pass's photons cost, told by a part of them. Sorting goes by the number stored.
-PassCost cost_of_photons(const RenderSettings& settings, const ReadyPass& ready) {
-  const RenderStatistics& s = ready.statistics;
-  if (s.ledger.emitted_count == 0) return {};
-  const auto emitted = static_cast<double>(s.ledger.emitted_count), aimed = static_cast<double>(s.aimed_photons);
-  const double others = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons) - aimed;
-  const auto flights = static_cast<double>(s.flights);
-  const double sorting = s.build_seconds / std::max(1.0, others + aimed + flights);  // s, of one photon or flight
-  PassCost cost;
-  cost.photon = (s.trace_seconds + sorting * (others + flights)) / emitted;
-  cost.stored_per_photon = others / emitted;
-  cost.flights_per_photon = flights / emitted;
-  if (settings.caustics_emitted == 0) return cost;
-  const uint64_t all = settings.caustics_emitted, part = ready.settings.caustics_emitted;
-  cost.stored_caustics = aimed * static_cast<double>(all) / static_cast<double>(part);
-  cost.caustics = s.caustic_seconds * caustic_paths(all) / caustic_paths(part) + sorting * cost.stored_caustics;
-  return cost;
-}
-
 }  // namespace
+
+RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
+  settings.seed = ~settings.seed;
+  settings.photons_emitted = photons;
+  settings.photons_stored = in_a_hurry(kStored, settings);
+  settings.radii = RadiusSchedule::constant;
+  return settings;
+}
 
 std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSettings& settings) {
   std::vector<StrategyCost> costs;
@@ -376,30 +254,6 @@ double photons_of_pass(const RenderSettings& settings, double stored_per_photon)
   if (settings.photons_stored == 0 || stored_per_photon == 0.0) return limit;
   const double full = static_cast<double>(settings.photons_stored) / stored_per_photon;
   return settings.photons_emitted == 0 ? full : std::min(limit, full);
-}
-
-PassCost time_photons(const Scene& scene, const RenderSettings& settings, PassOf of, double seconds) {
-  return cost_of_photons(settings, make_ready_within(scene, settings, of, seconds));
-}
-
-PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
-  if (settings.integrator == Integrator::path) {
-    const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
-    return {.eye = time_eye_pass(scene, pilot, rays_of_pass(scene, pilot, 0).radiance, seconds).seconds};
-  }
-  if (settings.integrator == Integrator::combined) return time_combined_pass(scene, settings, 0.5 * seconds);
-  const ReadyPass ready = make_ready_within(scene, settings, PassOf::picture, 0.5 * seconds);
-  const EyeContext context{scene, ready.estimators, settings.max_events};
-  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); };
-  const EyeCost eye = time_eye_pass(scene, ready.settings, radiance, 0.5 * seconds);
-  const RenderStatistics& s = ready.statistics;
-  PassCost cost = cost_of_photons(settings, ready);
-  const auto found = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons + s.flights);
-  const double photons = photons_of_pass(settings, cost.stored_per_photon);
-  const double whole = cost.stored(photons) + photons * cost.flights_per_photon;
-  const double more = std::max(1.0, whole / std::max(1.0, found));
-  cost.eye = s.guide_seconds + eye.seconds * (1.0 + eye.of_photons * (more - 1.0));
-  return cost;
 }
 
 }  // namespace vpm

@@ -39,30 +39,8 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings);
 /// The photons that a pass emits: the settings', or as many as fill the maps, of which so many are stored each.
 double photons_of_pass(const RenderSettings& settings, double stored_per_photon);
 
-/// What a pass costs.
-struct PassCost {
-  double photon = 0.0;              // s: tracing and sorting, of one emitted photon; 0 where none is
-  double eye = 0.0;                 // s: the eye pass, and learning what guides photons
-  double stored_per_photon = 0.0;   // by all maps
-  double caustics = 0.0;            // s: tracing and sorting, of all photons that are aimed for caustics
-  double stored_caustics = 0.0;     // of these
-  double flights_per_photon = 0.0;  // recorded, of which some become beams or planes
-
-  /// s: of what does not go by the number of photons.
-  double rest() const { return eye + caustics; }
-  /// s: of a pass that emits so many photons.
-  double seconds(double photons) const { return rest() + photons * photon; }
-  /// By all maps of a pass that emits so many photons.
-  double stored(double photons) const { return stored_caustics + photons * stored_per_photon; }
-};
-/// Times the photons of a pass, of either kind a million stored ones at the most, and a sample of its rays, a path
-/// tracer's, too. Takes about so many seconds at the most: then photons are fewer than the settings say, and the eye
-/// pass is told from how many it finds of these.
-PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds = kInfinity);
-
-/// What passes show: a picture what the eye sees, a light map surfaces alone.
-enum class PassOf { picture, light_map };
-/// The same of the photons alone: the eye pass costs nothing.
-PassCost time_photons(const Scene& scene, const RenderSettings& settings, PassOf of, double seconds);
+/// The settings of a pilot that emits so many photons, with a seed of their own: what is chosen does not depend on the
+/// photons that the render will gather.
+RenderSettings pilot_settings(RenderSettings settings, uint64_t photons);
 
 }  // namespace vpm

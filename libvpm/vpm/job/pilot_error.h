@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "vpm/job/pilot.h"
+#include "vpm/job/pass_cost.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
 

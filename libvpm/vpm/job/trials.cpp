@@ -11,6 +11,7 @@
 #include "vpm/job/declare.h"
 #include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
+#include "vpm/job/setting.h"
 #include "vpm/job/validate.h"
 #include "vpm/render/plan.h"
 
@@ -18,7 +19,8 @@ namespace vpm {
 namespace {
 
 constexpr double kTimingShare = 0.04;  // of the seconds of a render, for each of a few timings of a pass
-constexpr std::string_view kIntegratorKey = "render.integrator", kGatherKey = "volume.gather";
+constexpr std::string_view kIntegratorKey = "render.integrator", kGatherKey = "volume.gather",
+                           kTechniquesKey = "combined.techniques";
 
 // What may be tried: of equals the first is chosen.
 constexpr std::array kIntegratorsToTry{Integrator::photon, Integrator::combined, Integrator::path};
@@ -39,26 +41,45 @@ struct Trial {
   PilotError error{};
 };
 
-/// One trial of each way, allowed or not. What is tried gathers along rays, which "corrected" does not correct ball by
-/// ball.
+/// One trial of photon maps, or one for each gather in media that may be chosen. What is tried gathers along rays,
+/// which "corrected" does not correct ball by ball.
+std::vector<Trial> trials_of_maps(const Scene& scene, const AutomaticSettings& automatic, const Trial& photons) {
+  if (!gathers_in_media(scene, automatic, photons.settings) ||
+      photons.settings.volume.boundary == BoundaryRule::corrected)
+    return {photons};
+  std::vector<Trial> trials;
+  for (const GatherMode mode : kGathersToTry) {
+    trials.push_back(photons);
+    trials.back().settings.volume.mode = mode;
+    trials.back().name = automatic.has(kIntegratorKey) ? photons.name + " by " + word_of(mode) : word_of(mode);
+  }
+  return trials;
+}
+
+bool chooses_techniques(const AutomaticSettings& automatic) {
+  return automatic.has(kIntegratorKey) || automatic.has(kTechniquesKey);
+}
+
+/// One trial of combined techniques, or of those that are used without asking, with and without beams: beams cost most.
+std::vector<Trial> trials_of_techniques(const Scene& scene, const AutomaticSettings& automatic, const Trial& all) {
+  if (!chooses_techniques(automatic) || !scattering_of(scene).media) return {all};
+  Trial points = all;
+  points.settings.combined.techniques.set(Technique::short_beams, false);
+  points.name += " without short-beams";
+  return {points, all};
+}
+
+/// One trial of each way, allowed or not.
 std::vector<Trial> all_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
-  const bool any = automatic.has(kIntegratorKey);
-  const bool gathers =
-      gathers_in_media(scene, automatic, settings) && settings.volume.boundary != BoundaryRule::corrected;
   std::vector<Trial> trials;
   for (const Integrator integrator : kIntegratorsToTry) {
-    if (!any && integrator != settings.integrator) continue;
+    if (!automatic.has(kIntegratorKey) && integrator != settings.integrator) continue;
     Trial trial{settings, word_of(integrator)};
     trial.settings.integrator = integrator;
-    if (integrator != Integrator::photon || !gathers) {
-      trials.push_back(trial);
-      continue;
-    }
-    for (const GatherMode mode : kGathersToTry) {
-      trial.settings.volume.mode = mode;
-      trial.name = any ? fmt::format("{} by {}", word_of(integrator), word_of(mode)) : word_of(mode);
-      trials.push_back(trial);
-    }
+    std::vector<Trial> more = integrator == Integrator::photon     ? trials_of_maps(scene, automatic, trial)
+                              : integrator == Integrator::combined ? trials_of_techniques(scene, automatic, trial)
+                                                                   : std::vector<Trial>{trial};
+    for (Trial& each : more) trials.push_back(std::move(each));
   }
   return trials;
 }
@@ -139,7 +160,7 @@ std::string put_best_first(const Scene& scene, const AutomaticSettings& automati
   return reason;
 }
 
-/// What was tried, with the reason: the integrator, and the gather of photons in media.
+/// What was tried, with the reason: the integrator, and the gather of photons in media, or the techniques.
 std::vector<Choice> choices_of(const Scene& scene, const AutomaticSettings& automatic, const Trial& best,
                                const std::string& reason) {
   std::vector<Choice> choices;
@@ -151,6 +172,10 @@ std::vector<Choice> choices_of(const Scene& scene, const AutomaticSettings& auto
     const std::string why = ball_by_ball ? "only balls are corrected one by one, as 'boundary' asks for" : reason;
     choices.push_back({std::string(kGatherKey), word_of(settings.volume.mode), choices.empty() ? why : "see there"});
   }
+  if (settings.integrator == Integrator::combined && chooses_techniques(automatic))
+    choices.push_back({std::string(kTechniquesKey),
+                       std::get<std::string>(find_setting(kTechniquesKey, settings)->member.get(settings)),
+                       choices.empty() ? reason : "see there"});
   for (const Choice& choice : best.choices) choices.push_back(choice);
   return choices;
 }
@@ -167,6 +192,7 @@ bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, con
   if (settings.integrator == Integrator::combined && automatic.has(kGatherKey))
     throw InputError(
         fmt::format("{}: where render.integrator is \"combined\" it is of no use: leave it out", kGatherKey));
+  if (settings.integrator == Integrator::combined) return automatic.has(kTechniquesKey);
   return settings.integrator == Integrator::photon && gathers_in_media(scene, automatic, settings);
 }
 

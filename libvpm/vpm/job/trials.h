@@ -12,8 +12,8 @@ namespace vpm {
 /// How long a timing of a pass may take where one way is timed alone, s.
 double limit_of_timing(const RenderSettings& settings);
 
-/// Is the integrator to be chosen, or the gather in media, where there is one? Throws InputError where a gather is to
-/// be chosen for an integrator that has none.
+/// Are the integrator, the gather in media or the combined techniques to be chosen, where there are such? Throws
+/// InputError where a gather is to be chosen for an integrator that has none.
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings);
 
 /// Tries each way that the settings and the scene allow: chooses what else is to be chosen for it, measures what a pass

@@ -48,6 +48,7 @@ struct Flying {
 }  // namespace
 
 Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters) {
+  count(counters.rays);
   Encounter met = scene.geometry.encounter(ray, t_max);
   if (!met && t_max < kInfinity) return met;
   const MediumId known = met ? medium_before(scene, met, ray.direction, medium) : scene.world_medium;

@@ -39,6 +39,7 @@ struct Event {
 
 /// What a walk counts.
 struct WalkCounters {
+  uint64_t rays = 0;                 // rays through the scene's surfaces, each to what it meets first
   uint64_t lookups = 0;              // look-ups of density
   uint64_t bricks = 0;               // bricks of density grids whose bounds were looked up
   uint64_t null_collisions = 0;      // null collisions of all flights
@@ -48,10 +49,13 @@ struct WalkCounters {
 
   static constexpr auto counters() {
     using W = WalkCounters;
-    return std::tuple{
-        Counter{"density_lookups", &W::lookups},         Counter{"bricks_crossed", &W::bricks},
-        Counter{"null_collisions", &W::null_collisions}, Counter{"majorant_violations", &W::majorant_violations},
-        Counter{"boundary_crossings", &W::crossings},    Counter{"met_in_another_medium", &W::medium_mismatches}};
+    return std::tuple{Counter{"rays_traced", &W::rays},
+                      Counter{"density_lookups", &W::lookups},
+                      Counter{"bricks_crossed", &W::bricks},
+                      Counter{"null_collisions", &W::null_collisions},
+                      Counter{"majorant_violations", &W::majorant_violations},
+                      Counter{"boundary_crossings", &W::crossings},
+                      Counter{"met_in_another_medium", &W::medium_mismatches}};
   }
   void merge(const WalkCounters& other) { merge_counters(*this, other); }
 };

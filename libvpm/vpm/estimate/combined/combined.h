@@ -79,9 +79,12 @@ struct TechniqueParts {
   std::array<Rgb, kTechniques.size()> weighted{}, unweighted{};
 
   void add(Technique technique, const Rgb& found, double share) {
+    add_both(technique, found * static_cast<float>(share), found);
+  }
+  void add_both(Technique technique, const Rgb& with_shares, const Rgb& without) {
     const auto number = static_cast<size_t>(technique);
-    weighted[number] += found * static_cast<float>(share);
-    unweighted[number] += found;
+    weighted[number] += with_shares;
+    unweighted[number] += without;
   }
 };
 

@@ -108,7 +108,8 @@ uint32_t VertexMap<Record>::visit_near_ray(const Ray& ray, const Interval& inter
   if (size_ == 0) return 0;
   uint32_t visited = 0;
   const Vec3 o = ray.origin, w = ray.direction;
-  boxes_.visit_leaves(ray, interval, [&](uint32_t number) {
+  const float t0 = interval.t0, t1 = interval.t1;
+  boxes_.visit_leaves(ray, interval, [&, o, w, t0, t1](uint32_t number) {
     const Leaf& leaf = leaves_[number];
     float distances2[kBlock], places[kBlock], near2[kBlock];
     uint32_t near[kBlock];
@@ -116,10 +117,9 @@ uint32_t VertexMap<Record>::visit_near_ray(const Ray& ray, const Interval& inter
       const float x = leaf.x[i] - o.x, y = leaf.y[i] - o.y, z = leaf.z[i] - o.z;
       const float t = x * w.x + y * w.y + z * w.z;
       const float across_x = x - t * w.x, across_y = y - t * w.y, across_z = z - t * w.z;
-      const bool beside = t >= interval.t0 && t < interval.t1;
       const float across2 = across_x * across_x + across_y * across_y + across_z * across_z;
-      distances2[i] = beside ? across2 : kInfinity;
       places[i] = t;
+      distances2[i] = (t >= t0) & (t < t1) ? across2 : kInfinity;
     }
     const uint32_t found = append_below(distances2, kBlock, radius * radius, 0, near2, near);
     for (uint32_t i = 0; i < found; ++i) visit(records_[number * kBlock + near[i]], near2[i], places[near[i]]);

@@ -8,7 +8,7 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/warp.h"
-#include "vpm/estimate/combined/mis_weights.h"
+#include "vpm/estimate/combined/shares_along_ray.h"
 #include "vpm/scene/camera.h"
 #include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/lights.h"
@@ -242,8 +242,6 @@ double term_of(const MergeTerms& terms, Found::By by) {
       return terms.surface;
     case Found::By::points_3d:
       return terms.points_3d;
-    case Found::By::points_2d:
-      return terms.points_2d;
     case Found::By::short_beams:
       return terms.short_beams;
     case Found::By::long_beams:
@@ -251,6 +249,17 @@ double term_of(const MergeTerms& terms, Found::By by) {
     default:
       return terms.planes;
   }
+}
+
+/// As photons around rays from the camera have it.
+double share_along_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, size_t i) {
+  const Junction& at = path.junctions[i];
+  const Rgb& passed = path.transmittances[i];
+  const MediumPhoton photon{path.direction(i - 1), Rgb(1.0f), traced.light[i].sums.turn,
+                            over_colliding(at.sigma_t, path.leg(i - 1)), behind_merge(counts, traced.light[i].sums)};
+  const SharesAlongRay::Place place{path.leg(i).distance, 1.0, at.kept, mean_channel(passed),
+                                    mean_channel(at.sigma_t * passed)};
+  return SharesAlongRay(counts, traced.eye_leaves[i + 1]).of(photon, density_on(path, i, true), place);
 }
 
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
@@ -268,6 +277,7 @@ double share_of(const WholePath& path, const TechniqueCounts& counts, const SubP
         shares_of_connection(counts, traced.light_leaves[i], at_eye, traced.eye_leaves[i + 1], at_light);
     return found.by == By::run_into ? shares.run_into : shares.connected;
   }
+  if (found.by == By::points_2d) return share_along_ray(path, counts, traced, i);
   const Junction& at = path.junctions[i];
   const SubPathSums& light = traced.light[i].sums;
   const OverColliding from_light = over_colliding(at.sigma_t, path.leg(i - 1));

@@ -1,0 +1,67 @@
+// Linear in the counts. The coefficients are those of least relative squares, none negative.
+#include "vpm/job/counted_cost.h"
+
+namespace vpm {
+namespace {
+
+constexpr double kNanosecond = 1e-9;  // s
+
+/// What each of them takes, ns.
+struct EyeCosts {
+  double camera_ray, ray, lookup, surface_query, volume_query, shadow_ray, visited, used;
+};
+constexpr EyeCosts kPaths{400.0, 220.0, 30.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+constexpr EyeCosts kCombined{0.0, 430.0, 30.0, 380.0, 250.0, 50.0, 6.2, 19.0};
+constexpr EyeCosts kMapsAlongRays{0.0, 300.0, 31.0, 180.0, 3700.0, 130.0, 2.2, 2.6};
+constexpr EyeCosts kMapsAtPoints{280.0, 320.0, 44.0, 0.0, 360.0, 0.0, 0.0, 16.0};
+
+const EyeCosts& costs_of(const RenderSettings& settings) {
+  if (settings.integrator == Integrator::path) return kPaths;
+  if (settings.integrator == Integrator::combined) return kCombined;
+  const GatherMode mode = settings.volume.mode;
+  const bool at_points = mode == GatherMode::radius || mode == GatherMode::nearest || mode == GatherMode::beams_points;
+  return at_points ? kMapsAtPoints : kMapsAlongRays;
+}
+
+/// The same of photons and light sub-paths.
+struct PhotonCosts {
+  double emitted, ray, collision, surface_hit, lookup, null_collision, stored_in_media, stored_on_surfaces, flight;
+};
+constexpr PhotonCosts kPhotons{0.0, 360.0, 0.0, 55.0, 86.0, 88.0, 115.0, 0.0, 310.0};
+constexpr PhotonCosts kSubPaths{116.0, 274.0, 990.0, 360.0, 23.0, 430.0, 0.0, 390.0, 1010.0};
+
+double times(double each, uint64_t number) { return each * static_cast<double>(number) * kNanosecond; }
+
+}  // namespace
+
+CountedWork counted_work(const RenderSettings& settings, const EyeCounters& eye) {
+  const EyeCosts& each = costs_of(settings);
+  CountedWork work;
+  work.of_photons = times(each.visited, eye.gather.visited) + times(each.used, eye.gather.used);
+  work.seconds = work.of_photons + times(each.camera_ray, eye.rays) + times(each.ray, eye.walk.rays) +
+                 times(each.lookup, eye.walk.lookups) + times(each.surface_query, eye.surface_queries) +
+                 times(each.volume_query, eye.volume_queries) + times(each.shadow_ray, eye.shadow_rays);
+  return work;
+}
+
+double counted_seconds_of_photons(const RenderSettings& settings, const RenderStatistics& pass) {
+  const PhotonCosts& each = settings.integrator == Integrator::combined ? kSubPaths : kPhotons;
+  const Ledger& traced = pass.ledger;
+  return times(each.emitted, traced.emitted_count) + times(each.ray, traced.walk.rays) +
+         times(each.collision, traced.collisions) + times(each.surface_hit, traced.surface_hits) +
+         times(each.lookup, traced.walk.lookups) + times(each.null_collision, traced.walk.null_collisions) +
+         times(each.stored_in_media, pass.volume_photons) + times(each.stored_on_surfaces, pass.surface_photons) +
+         times(each.flight, pass.flights);
+}
+
+double counted_seconds_of_caustics(double paths) {
+  constexpr double kPath = 1500.0;  // ns
+  return kPath * paths * kNanosecond;
+}
+
+double counted_seconds_of_guide(uint64_t importons) {
+  constexpr double kImporton = 3000.0;  // ns
+  return times(kImporton, importons);
+}
+
+}  // namespace vpm
