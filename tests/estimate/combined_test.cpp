@@ -24,7 +24,7 @@ TEST(VertexMap, FindsWhatASearchThroughAllFinds) {
     Rng rng(1, rng_stream(RngUse::test, 1), static_cast<uint64_t>(count));
     std::vector<PlacedRecord<uint32_t>> vertices;
     for (int i = 0; i < count; ++i) vertices.push_back({random_place(rng), static_cast<uint32_t>(i)});
-    const VertexMap<uint32_t> map(vertices, 1.5f * kRadius);
+    const VertexMap<RecordLeaf<uint32_t>> map(vertices, 1.5f * kRadius);
     for (int query = 0; query < 50; ++query) {
       const Vec3 point = random_place(rng);
       const Ray ray{point, uniform_sphere(rng.uniform2())};
@@ -37,9 +37,12 @@ TEST(VertexMap, FindsWhatASearchThroughAllFinds) {
         if (t >= interval.t0 && t < interval.t1 && square - t * t < kRadius * kRadius) beside.insert(i);
       }
       map.visit_near(point, kRadius, [&](uint32_t i, float) { EXPECT_TRUE(near_found.insert(i).second); });
-      map.visit_near_ray(ray, interval, kRadius, [&](uint32_t i, float, float t) {
-        EXPECT_TRUE(beside_found.insert(i).second);
-        EXPECT_NEAR(t, glm::dot(vertices[i].point - point, ray.direction), 1e-6f);
+      map.visit_leaves_near_ray(ray, interval, kRadius, [&](const auto& leaf, const auto& found) {
+        for (size_t i = 0; i < kBlock; ++i) {
+          if (found.distances2[i] >= kRadius * kRadius) continue;
+          EXPECT_TRUE(beside_found.insert(leaf[i]).second);
+          EXPECT_NEAR(found.places[i], glm::dot(vertices[leaf[i]].point - point, ray.direction), 1e-6f);
+        }
       });
       EXPECT_EQ(near_found, near);
       EXPECT_EQ(beside_found, beside);

@@ -2,6 +2,8 @@
 #include "vpm/job/trials.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 
@@ -60,13 +62,22 @@ bool chooses_techniques(const AutomaticSettings& automatic) {
   return automatic.has(kIntegratorKey) || automatic.has(kTechniquesKey);
 }
 
-/// One trial of combined techniques, or of those that are used without asking, with and without beams: beams cost most.
+/// One trial of combined techniques, or of those that are used without asking; without beams, where there are such, as
+/// they cost most, and without light tracing, whose shadow rays may cost more than they are worth.
 std::vector<Trial> trials_of_techniques(const Scene& scene, const AutomaticSettings& automatic, const Trial& all) {
-  if (!chooses_techniques(automatic) || !scattering_of(scene).media) return {all};
-  Trial points = all;
-  points.settings.combined.techniques.set(Technique::short_beams, false);
-  points.name += " without short-beams";
-  return {points, all};
+  if (!chooses_techniques(automatic)) return {all};
+  const auto without = [&](std::initializer_list<Technique> left_out) {
+    Trial trial = all;
+    std::vector<std::string_view> names;
+    for (const Technique technique : left_out) {
+      trial.settings.combined.techniques.set(technique, false);
+      names.push_back(kTechniques[static_cast<size_t>(technique)].name);
+    }
+    trial.name += fmt::format(" without {}", fmt::join(names, ", "));
+    return trial;
+  };
+  if (!scattering_of(scene).media) return {without({Technique::light_tracing}), all};
+  return {without({Technique::short_beams, Technique::light_tracing}), without({Technique::short_beams}), all};
 }
 
 /// One trial of each way, allowed or not.

@@ -48,16 +48,16 @@ class SortedLight {
   /// By PlaneCrossing::number.
   const FlightStart& plane_start(size_t number) const { return paths_.plane_starts[number]; }
   /// Photons on surfaces, but those straight from lights that are sampled, and in a medium.
-  const VertexMap<SurfacePhoton>& on_surfaces() const { return on_surfaces_; }
-  const VertexMap<MediumPhoton>& in_medium(MediumId medium) const { return in_media_[medium]; }
+  const VertexMap<RecordLeaf<SurfacePhoton>>& on_surfaces() const { return on_surfaces_; }
+  const VertexMap<MediumPhotonLeaf>& in_medium(MediumId medium) const { return in_media_[medium]; }
   size_t beam_count() const;
   size_t memory_bytes() const;
 
  private:
   LightSubPaths paths_;
-  VertexMap<SurfacePhoton> on_surfaces_;
-  std::vector<VertexMap<MediumPhoton>> in_media_;     // by medium
-  std::vector<LightBeams> short_beams_, long_beams_;  // by medium
+  VertexMap<RecordLeaf<SurfacePhoton>> on_surfaces_;
+  std::vector<VertexMap<MediumPhotonLeaf>> in_media_;  // by medium
+  std::vector<LightBeams> short_beams_, long_beams_;   // by medium
   PhotonPlaneList planes_;
 };
 

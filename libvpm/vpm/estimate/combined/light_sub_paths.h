@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "vpm/estimate/combined/mis_weights.h"
-#include "vpm/estimate/combined/vertex_map.h"
+#include "vpm/estimate/combined/medium_photon.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/ledger.h"
@@ -17,16 +16,6 @@ namespace vpm {
 struct LightVertex {
   Arrival at;
   Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
-};
-
-/// A photon in a medium, for merges: one that collided or, where a grid is thin, flew past (thin_places.h).
-struct MediumPhoton {
-  Vec3 travel{0.0f};  // unit
-  Rgb power{0.0f};    // W over the density relative to the medium's largest, see stored_power()
-  Vec3d turn{0.0};    // SubPathSums::turn
-  // As they would be where the density is 1:
-  OverColliding arrived;  // of the leg that led there
-  BehindMerge behind;
 };
 
 /// How a flight began of which a part, through one medium, is kept.

@@ -7,7 +7,7 @@ namespace vpm {
 
 void EyeSubPath::merge_points_3d(const Arrival& at) {
   const PathVertex& vertex = at.vertex;
-  const VertexMap<MediumPhoton>& map = c_.light.in_medium(vertex.medium);
+  const VertexMap<MediumPhotonLeaf>& map = c_.light.in_medium(vertex.medium);
   if (!c_.counts.merges_points_3d(at_.only_specular) || map.size() == 0) return;
   const Medium& medium = c_.scene.media[vertex.medium];
   const float radius = c_.kernels.points_3d;

@@ -1,60 +1,71 @@
 // The shares of photons that are merged around one ray from the camera.
 #pragma once
 
-#include "vpm/estimate/combined/light_sub_paths.h"
+#include "vpm/estimate/combined/medium_photon.h"
 
 namespace vpm {
 
 /// The share of points-2d in what a photon brings to a ray that comes straight from the camera, or over mirrors and
 /// glass alone. It is what merges_in_medium() has over all_at_merge(), where all terms are divided by that of the merge
 /// itself: the density of the medium then goes out of most of them, and what the ray alone decides is computed once.
+/// `kSquares` says whether the heuristic weighs by squares: a vector loop has no room for a question.
+template <bool kSquares>
 class SharesAlongRay {
  public:
   SharesAlongRay(const TechniqueCounts& counts, const Departure& eye)
-      : counts_(counts),
-        travel_(eye.direction),
-        adjacent_(eye.adjacent),
-        behind_(eye.behind),
-        per_forward_(1.0 / eye.forward),
-        crossed_(counts.short_beams > 0.0 || counts.long_beams > 0.0) {}
+      : travel_(eye.direction),
+        per_point_(of_points(counts, 1.0)),
+        in_balls_(of_points(counts, counts.merges_points_3d(true) ? counts.points_3d : 0.0)),
+        short_beams_(of_points(counts, counts.short_beams)),
+        long_beams_(of_points(counts, counts.long_beams)),
+        planes_(of_points(counts, counts.planes)),
+        adjacent_(of_points(counts, eye.adjacent / eye.forward)),
+        per_forward_(of_points(counts, 1.0 / eye.forward)),
+        behind_(static_cast<float>(eye.behind)) {}
+
+  /// What beams and planes add to all densities, for each photon of a leaf, if the density at it were 1.
+  Lanes of_flights(const MediumPhotonLeaf& leaf) const {
+    Lanes flights{};
+    if (short_beams_ + long_beams_ + planes_ == 0.0f) return flights;
+    for (size_t i = 0; i < kBlock; ++i) {
+      const float sine = glm::length(glm::cross(leaf.travel(i), travel_));
+      const float determinant = std::abs(glm::dot(leaf.turn(i), travel_));
+      flights[i] = weigh(short_beams_ * sine * leaf.passing[i]) + weigh(long_beams_ * sine * leaf.sent[i]) +
+                   weigh(planes_ * determinant * leaf.sent[i]);
+    }
+    return flights;
+  }
 
   /// A place on the ray.
   struct Place {
-    double distance = 0.0;  // from the departure, m
-    double density = 0.0;   // of the medium, > 0
-    double kept = 1.0;      // Junction::kept
-    double passed = 1.0;    // the transmittance from the departure, a mean over channels
-    double sigma_t = 0.0;   // the same of extinction at density 1 times transmittance, 1/m, > 0
+    float distance = 0.0f;  // from the departure, m
+    float density = 0.0f;   // of the medium, > 0
+    float kept = 1.0f;      // Junction::kept
+    float passed = 1.0f;    // the transmittance from the departure, a mean over channels
+    float sigma_t = 0.0f;   // the same of extinction at density 1 times transmittance, 1/m, > 0
   };
-  /// `phase` is that of scattering towards the eye, 1/sr.
-  double of(const MediumPhoton& photon, double phase, const Place& at) const {
-    const double inverse = 1.0 / (counts_.points_2d * at.kept);
-    const double scattered = counts_.weigh(phase);
-    double all = 1.0;
-    if (counts_.merges_points_3d(true))
-      all += counts_.weigh(counts_.points_3d * at.kept * inverse * at.density * at.sigma_t);
-    if (crossed_ || counts_.planes > 0.0) all += of_flights(photon, inverse / at.density);
-    all += (photon.behind.adjacent + scattered * photon.behind.further) * counts_.weigh(at.sigma_t * inverse);
-    const double of_eye = inverse * per_forward_;
-    all += counts_.weigh(adjacent_ * at.distance * at.distance * of_eye);
-    all += scattered * behind_ * counts_.weigh(at.passed * of_eye);
-    return 1.0 / all;
+  /// Of a photon with these BehindMerge and of_flights(); `phase` is that of scattering towards the eye, 1/sr.
+  float of(float adjacent, float further, float flights, float phase, const Place& at) const {
+    const float per_kept = 1.0f / at.kept, scattered = weigh(phase);
+    float all = 1.0f + weigh(in_balls_ * at.density * at.sigma_t);
+    all += weigh(per_kept / at.density) * flights;
+    all += (adjacent + scattered * further) * weigh(at.sigma_t * per_point_ * per_kept);
+    all += weigh(adjacent_ * at.distance * at.distance * per_kept);
+    all += scattered * behind_ * weigh(at.passed * per_forward_ * per_kept);
+    return 1.0f / all;
   }
 
  private:
-  double of_flights(const MediumPhoton& photon, double inverse) const {
-    const Angles angles = angles_between(photon.travel, photon.turn, travel_);
-    return counts_.weigh(counts_.short_beams * angles.sine * photon.arrived.passing * inverse) +
-           counts_.weigh(counts_.long_beams * angles.sine * photon.arrived.sent * inverse) +
-           counts_.weigh(counts_.planes * angles.determinant * photon.arrived.sent * inverse);
-  }
+  static float of_points(const TechniqueCounts& counts, double x) { return static_cast<float>(x / counts.points_2d); }
+  static float weigh(float x) { return kSquares ? x * x : x; }
 
-  const TechniqueCounts& counts_;
-  Vec3 travel_;         // of the eye's ray, unit
-  double adjacent_;     // Departure::adjacent
-  double behind_;       // Departure::behind
-  double per_forward_;  // sr: 1 over Departure::forward
-  bool crossed_;        // are there beams?
+  Vec3 travel_;  // of the eye's ray, unit
+  // All over TechniqueCounts::points_2d:
+  float per_point_;  // 1
+  float in_balls_, short_beams_, long_beams_, planes_;
+  float adjacent_;     // Departure::adjacent over Departure::forward
+  float per_forward_;  // 1 over Departure::forward
+  float behind_;       // Departure::behind, itself
 };
 
 }  // namespace vpm

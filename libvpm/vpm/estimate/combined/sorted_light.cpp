@@ -7,8 +7,8 @@
 namespace vpm {
 namespace {
 
-VertexMap<SurfacePhoton> sort_surfaces(const std::vector<LightVertex>& vertices, const TechniqueCounts& counts,
-                                       float radius) {
+VertexMap<RecordLeaf<SurfacePhoton>> sort_surfaces(const std::vector<LightVertex>& vertices,
+                                                   const TechniqueCounts& counts, float radius) {
   if (counts.surfaces == 0.0) return {};
   std::vector<PlacedRecord<SurfacePhoton>> photons;
   for (const LightVertex& light : vertices) {
@@ -37,7 +37,7 @@ SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, cons
   const float reach = std::max(kernels.points_2d, kernels.points_3d);
   const float scale = 1.0f / static_cast<float>(paths_.ledger.emitted_count);
   for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m) {
-    in_media_.push_back(VertexMap<MediumPhoton>(paths_.photons[m], reach));
+    in_media_.push_back(VertexMap<MediumPhotonLeaf>(paths_.photons[m], reach));
     paths_.photons[m] = {};
   }
   short_beams_ = sorted_beams(paths_.short_beams, kernels.beams, scale);
@@ -55,7 +55,7 @@ size_t SortedLight::beam_count() const {
 size_t SortedLight::memory_bytes() const {
   size_t bytes = paths_.vertices.capacity() * sizeof(LightVertex) + on_surfaces_.memory_bytes();
   bytes += planes_.memory_bytes() + paths_.plane_starts.capacity() * sizeof(FlightStart);
-  for (const VertexMap<MediumPhoton>& map : in_media_) bytes += map.memory_bytes();
+  for (const VertexMap<MediumPhotonLeaf>& map : in_media_) bytes += map.memory_bytes();
   for (const auto* beams : {&short_beams_, &long_beams_})
     for (const LightBeams& of_medium : *beams)
       bytes += of_medium.map.memory_bytes() + of_medium.starts.capacity() * sizeof(FlightStart);

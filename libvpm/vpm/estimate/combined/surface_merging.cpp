@@ -8,7 +8,7 @@
 namespace vpm {
 
 void EyeSubPath::merge_surface(const Arrival& at) {
-  const VertexMap<SurfacePhoton>& map = c_.light.on_surfaces();
+  const VertexMap<RecordLeaf<SurfacePhoton>>& map = c_.light.on_surfaces();
   if (!c_.counts.merges_surfaces(at_.only_specular) || map.size() == 0) return;
   const float radius = c_.kernels.surface;
   const auto kernel = kernel_of<2>(c_.kernels.surface_kernel, radius);

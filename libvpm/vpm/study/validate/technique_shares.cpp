@@ -255,11 +255,18 @@ double term_of(const MergeTerms& terms, Found::By by) {
 double share_along_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, size_t i) {
   const Junction& at = path.junctions[i];
   const Rgb& passed = path.transmittances[i];
-  const MediumPhoton photon{path.direction(i - 1), Rgb(1.0f), traced.light[i].sums.turn,
-                            over_colliding(at.sigma_t, path.leg(i - 1)), behind_merge(counts, traced.light[i].sums)};
-  const SharesAlongRay::Place place{path.leg(i).distance, 1.0, at.kept, mean_channel(passed),
-                                    mean_channel(at.sigma_t * passed)};
-  return SharesAlongRay(counts, traced.eye_leaves[i + 1]).of(photon, density_on(path, i, true), place);
+  MediumPhotonLeaf leaf;
+  leaf.set(0, {path.direction(i - 1), Rgb(1.0f), traced.light[i].sums.turn, over_colliding(at.sigma_t, path.leg(i - 1)),
+               behind_merge(counts, traced.light[i].sums)});
+  const auto share = [&](const auto& shares) {
+    const auto phase = static_cast<float>(density_on(path, i, true));
+    return double{shares.of(leaf.adjacent[0], leaf.further[0], shares.of_flights(leaf)[0], phase,
+                            {static_cast<float>(path.leg(i).distance), 1.0f, static_cast<float>(at.kept),
+                             mean_channel(passed), mean_channel(at.sigma_t * passed)})};
+  };
+  const Departure& eye = traced.eye_leaves[i + 1];
+  return counts.heuristic == Heuristic::power ? share(SharesAlongRay<true>(counts, eye))
+                                              : share(SharesAlongRay<false>(counts, eye));
 }
 
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
