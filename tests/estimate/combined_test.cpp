@@ -165,6 +165,26 @@ TEST(Combined, LightTracingFillsPixelsAsTheirFiltersSay) {
   EXPECT_LT(here, 0.5 * difference(traced, sampled, -1));
 }
 
+/// A ball of glass straight before the camera, and a lamp behind it: what two faces send back is the light times
+/// 2 F / (1 + F). Each sample follows both sides, so that it finds nearly all of that, and never the whole lamp.
+TEST(Combined, FollowsBothSidesOfGlass) {
+  Scene scene;
+  add_shape(scene, SphereShape{Vec3(0.0f), 1.0f}, Dielectric{1.5f});
+  const TriangleMesh lamp = quad_mesh(Vec3d(-5, -5, 6), Vec3d(0, 10, 0), Vec3d(10, 0, 0));
+  scene.lights.push_back(QuadLight{Vec3(-5, -5, 6), Vec3(0, 10, 0), Vec3(10, 0, 0), Rgb(1.0f)});
+  add_shape(scene, lamp, Lambertian{Rgb(0.0f)}, nullptr, 0);
+  scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 0.5f, {16, 16});
+  scene.geometry.commit();
+  finish(scene);
+  const Image picture = render_combined_pass(scene, combined_settings_of(100), 0, kGoOn).image;
+  for (const Rgb& pixel : picture.pixels) {
+    EXPECT_GT(pixel.g, 0.039f);
+    EXPECT_LT(pixel.g, 0.09f);
+  }
+  constexpr double kFresnel = 0.04;
+  EXPECT_NEAR(channel_means(picture).g, 2.0 * kFresnel / (1.0 + kFresnel), 0.003);  // 256 samples: 4 standard errors
+}
+
 /// Samples that were dropped as they were not finite, in a few passes by all techniques.
 uint64_t dropped(const Scene& scene, const RenderSettings& settings) {
   uint64_t count = 0;

@@ -310,6 +310,16 @@ TEST(Automatic, TechniquesAreChosen) {
   EXPECT_EQ(settings_line(again), settings_line(settings));
 }
 
+/// A pass of so many photons takes far longer than the time asked for, whatever it is worth; one of paths does not.
+TEST(Automatic, WhatDoesNotFitIntoTheTimeIsNotChosen) {
+  RenderSettings settings;
+  settings.photons_emitted = 100'000'000;
+  settings.volume.radius = settings.surface.radius = 0.1f;
+  settings.until.seconds = 0.5;
+  choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, settings);
+  EXPECT_EQ(settings.integrator, Integrator::path);
+}
+
 TEST(Automatic, IntegratorsThatTheSettingsRefuseAreNotTried) {
   RenderSettings guided;
   guided.guide.importons = 1000;
@@ -359,17 +369,16 @@ TEST(Automatic, GathersThatTheSettingsRefuseAreNotTried) {
   EXPECT_EQ(chosen_gather(thin, ball_by_ball).value, "radius");
 }
 
-/// Combined techniques take radii as photon maps by points have them, and as many light sub-paths as rays.
+/// Combined techniques take radii as photon maps by points have them, for the light sub-paths that are chosen.
 TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMaps) {
   const Scene scene = cloud_over_floor(true);
   RenderSettings combined;
   combined.integrator = Integrator::combined;
-  combined.samples_per_pixel = 3;
   combined.surface.mode = GatherMode::nearest;  // which merges do not go by
   const AutomaticSettings automatic{{"photons.emitted", "volume.radius", "surface.radius"}};
   EXPECT_EQ(choose_settings(scene, automatic, combined).size(), 3u);
-  const double rays = 3.0 * scene.camera.width * scene.camera.height;
-  EXPECT_NEAR(static_cast<double>(combined.photons_emitted), std::max(1000.0, rays), 0.05 * rays);
+  EXPECT_GE(combined.photons_emitted, kLeastCount);
+  EXPECT_LE(combined.photons_emitted, 100'000u);  // of a picture of 3000 pixels
   RenderSettings maps;
   maps.photons_emitted = combined.photons_emitted;
   choose_settings(scene, {{"volume.radius", "surface.radius"}}, maps);

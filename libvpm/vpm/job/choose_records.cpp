@@ -42,12 +42,22 @@ std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& 
   return open;
 }
 
+/// The photon maps whose radii merges have, where techniques are combined; else the settings themselves.
+RenderSettings as_maps(const RenderSettings& settings) {
+  RenderSettings maps = settings;
+  if (settings.integrator != Integrator::combined) return maps;
+  maps.integrator = Integrator::photon;
+  maps.volume.mode = maps.surface.mode = GatherMode::radius;
+  return maps;
+}
+
 /// Sets the radii that are chosen, for the settings' number of photons.
 std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
                                  RenderSettings& settings) {
   std::vector<Choice> choices;
+  RenderSettings maps = as_maps(settings);
   const double diagonal = scene.bounds.diagonal();
-  for (const OpenRadius& open : open_radii(scene, automatic, densities, settings)) {
+  for (const OpenRadius& open : open_radii(scene, automatic, densities, maps)) {
     ChosenRadius chosen;
     if (open.gather.goes_by_count())
       chosen = {rounded_radius(kDefaultSearch * diagonal), "a tenth of the scene at the most: 'count' decides"};
@@ -58,6 +68,9 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
     open.gather.radius = chosen.radius;
     choices.push_back({open.key, fmt::format("{}", chosen.radius), chosen.reason});
   }
+  settings.volume.radius = maps.volume.radius;
+  settings.surface.radius = maps.surface.radius;
+  settings.caustics.radius = maps.caustics.radius;
   return choices;
 }
 
@@ -72,6 +85,14 @@ ChosenCount choose_count_of_points(double seconds, const std::function<PassCost(
                   [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
 }
 
+/// Do rays from the eye meet more of what a pass stores where there is more of it, whatever radii are chosen?
+bool crosses_flights(const RenderSettings& settings) {
+  const TechniqueSet& techniques = settings.combined.techniques;
+  return settings.integrator == Integrator::combined
+             ? techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams)
+             : settings.volume.gathers_flights();
+}
+
 /// Costs a pass under radii as they would be, in timings of `limit` s at the most.
 Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
                       double limit, RenderSettings& settings) {
@@ -82,62 +103,27 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
     choose_radii(scene, automatic, densities, tried);
     return time_pass(scene, tried, limit);
   };
-  const ChosenCount chosen = (settings.volume.gathers_flights() ? choose_count_of_flights : choose_count_of_points)(
-      kPassesShare * seconds, cost_of);
+  const ChosenCount chosen =
+      (crosses_flights(settings) ? choose_count_of_flights : choose_count_of_points)(kPassesShare * seconds, cost_of);
   settings.photons_emitted = chosen.count;
   return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
-}
-
-/// The photons and the radii that are to be chosen, for the settings' gathers, by timings of `limit` s at the most.
-std::vector<Choice> choose_photons_and_radii(const Scene& scene, const AutomaticSettings& automatic, double limit,
-                                             RenderSettings& settings) {
-  const bool photons = automatic.has("photons.emitted");
-  const bool radii =
-      automatic.has("volume.radius") || automatic.has("surface.radius") || automatic.has("caustics.radius");
-  if (plan_estimators(scene, settings, 0).maps().empty() || !(radii || photons)) return {};
-  std::vector<Choice> choices;
-  const MapDensities densities = map_densities(scene, settings);
-  if (photons) choices.push_back(choose_photons(scene, automatic, densities, limit, settings));
-  for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
-  return choices;
-}
-
-/// Light sub-paths as many as rays from the camera, and radii as photon maps of so many photons would have: neither
-/// goes by a clock.
-std::vector<Choice> choose_sub_paths_and_radii(const Scene& scene, const AutomaticSettings& automatic,
-                                               RenderSettings& settings) {
-  std::vector<Choice> choices;
-  if (automatic.has("photons.emitted")) {
-    constexpr double kMostSubPaths = 1e6;
-    const double rays = static_cast<double>(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
-    settings.photons_emitted = std::max(kLeastCount, static_cast<uint64_t>(rounded(std::min(rays, kMostSubPaths), 2)));
-    choices.push_back({"photons.emitted", fmt::format("{}", settings.photons_emitted),
-                       rays > kMostSubPaths ? "the most" : "as many as rays of a pass"});
-  }
-  if (!automatic.has("volume.radius") && !automatic.has("surface.radius")) return choices;
-  RenderSettings maps = settings;
-  maps.integrator = Integrator::photon;
-  maps.volume.mode = maps.surface.mode = GatherMode::radius;
-  for (Choice& choice : choose_radii(scene, automatic, map_densities(scene, maps), maps))
-    choices.push_back(std::move(choice));
-  settings.volume.radius = maps.volume.radius;
-  settings.surface.radius = maps.surface.radius;
-  return choices;
 }
 
 }  // namespace
 
 std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
                                    RenderSettings& settings) {
-  switch (settings.integrator) {
-    case Integrator::path:
-      return {};
-    case Integrator::combined:
-      return choose_sub_paths_and_radii(scene, automatic, settings);
-    case Integrator::photon:
-      return choose_photons_and_radii(scene, automatic, limit, settings);
-  }
-  __builtin_unreachable();
+  if (settings.integrator == Integrator::path) return {};
+  const bool photons = automatic.has("photons.emitted");
+  const bool radii =
+      automatic.has("volume.radius") || automatic.has("surface.radius") || automatic.has("caustics.radius");
+  const RenderSettings maps = as_maps(settings);
+  if (plan_estimators(scene, maps, 0).maps().empty() || !(radii || photons)) return {};
+  std::vector<Choice> choices;
+  const MapDensities densities = map_densities(scene, maps);
+  if (photons) choices.push_back(choose_photons(scene, automatic, densities, limit, settings));
+  for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
+  return choices;
 }
 
 }  // namespace vpm

@@ -10,8 +10,8 @@
 namespace vpm {
 
 /// Chooses numbers of photons and radii that are to be chosen, and that the settings' integrator has a use for; puts
-/// them into the settings. Photons by timings of `limit` s at the most each. What techniques are combined with goes by
-/// no clock: light sub-paths as many as rays from the camera, and radii as photon maps of so many photons would have.
+/// them into the settings; photons, or light sub-paths, by timings of `limit` s at the most each. Where techniques are
+/// combined, radii are those that photon maps of as many photons would have.
 std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
                                    RenderSettings& settings);
 

@@ -11,13 +11,18 @@ struct EyeCosts {
   double camera_ray, ray, lookup, surface_query, volume_query, shadow_ray, visited, used;
 };
 constexpr EyeCosts kPaths{400.0, 220.0, 30.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-constexpr EyeCosts kCombined{0.0, 430.0, 30.0, 380.0, 250.0, 50.0, 6.2, 19.0};
+constexpr EyeCosts kCombinedWithBeams{0.0, 380.0, 33.0, 0.0, 0.0, 5.0, 2.0, 53.0};
+constexpr EyeCosts kCombinedPoints{0.0, 0.0, 72.0, 1960.0, 250.0, 480.0, 1.9, 6.5};
 constexpr EyeCosts kMapsAlongRays{0.0, 300.0, 31.0, 180.0, 3700.0, 130.0, 2.2, 2.6};
 constexpr EyeCosts kMapsAtPoints{280.0, 320.0, 44.0, 0.0, 360.0, 0.0, 0.0, 16.0};
 
 const EyeCosts& costs_of(const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return kPaths;
-  if (settings.integrator == Integrator::combined) return kCombined;
+  if (settings.integrator == Integrator::combined) {
+    const TechniqueSet& techniques = settings.combined.techniques;
+    const bool beams = techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams);
+    return beams ? kCombinedWithBeams : kCombinedPoints;
+  }
   const GatherMode mode = settings.volume.mode;
   const bool at_points = mode == GatherMode::radius || mode == GatherMode::nearest || mode == GatherMode::beams_points;
   return at_points ? kMapsAtPoints : kMapsAlongRays;

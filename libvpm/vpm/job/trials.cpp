@@ -11,6 +11,7 @@
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/choose_records.h"
 #include "vpm/job/declare.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
 #include "vpm/job/setting.h"
@@ -136,11 +137,23 @@ double seconds_to_compare(const std::vector<Trial>& trials) {
   return seconds;
 }
 
-/// What each trial leaves after that time. Light that the rays of one have not met is noise of it.
-std::vector<double> errors_after(double seconds, std::vector<Trial>& trials) {
+/// Does a pass fit into the time that is asked for, if any is?
+bool fits(const Trial& trial) {
+  const double seconds = trial.settings.until.seconds;
+  return seconds == 0.0 || trial.pass_seconds <= longest_time(seconds);
+}
+
+/// What each trial leaves after that time. Light that the rays of one have not met is noise of it. Nothing good is said
+/// of those of which no pass fits, where others do; where none does, the quickest is best.
+std::vector<double> errors_after(double seconds, const std::vector<Trial>& trials) {
   constexpr double kMostPasses = 10'000.0;  // that errors are compared after
+  const bool any_fits = std::any_of(trials.begin(), trials.end(), fits);
   std::vector<double> errors;
   for (const Trial& trial : trials) {
+    if (!fits(trial)) {
+      errors.push_back(any_fits ? kInfinity : trial.pass_seconds);
+      continue;
+    }
     PassError error = trial.error.pass;
     double unseen = 0.0;
     for (const Trial& other : trials) unseen = std::max(unseen, unseen_light(trial.error, other.error));

@@ -4,22 +4,12 @@
 #include <array>
 #include <cassert>
 
+#include "vpm/path/both_sides.h"
 #include "vpm/path/walk.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
 namespace {
-
-/// Both sides of smooth glass are followed where the weaker one has at least this part of the path's start. The parts
-/// of all branches together are at most 1, so there are at most 256 of them.
-constexpr float kLeastBranch = 0x1p-8f;
-/// The most branches that wait at a time. The stronger side waits while the weaker one is followed, which has at most
-/// half of what there was: that happens eight times at the most.
-constexpr size_t kMostWaiting = 8;
-/// A side that gets a smaller fraction of the light than this asks the estimators only with a probability: that
-/// fraction over this one. They take nearly all of the time, and what they find varies little. Lamps, which make the
-/// noise, are seen by all branches.
-constexpr float kAlwaysAsks = 0.5f;
 
 /// A place on an eye path, from which it goes on.
 struct Branch {
@@ -110,9 +100,9 @@ class EyePath {
   /// Goes on from a specular surface: to both sides of smooth glass, where the weaker one is worth it, else to one side
   /// that is drawn. Returns whether the path goes on.
   bool go_on(const Hit& hit, const Material& material) {
-    const auto reflected = reflected_fraction(material, hit.shading_normal, at_.state.ray.direction);
-    if (reflected && max_channel(at_.state.throughput) * std::min(*reflected, 1.0f - *reflected) >= kLeastBranch) {
-      follow_both_sides(hit, material, *reflected);
+    const float part = max_channel(at_.state.throughput);
+    if (const std::optional<BothSides> sides = both_sides(material, hit, at_.state.ray.direction, part)) {
+      follow_both_sides(hit, *sides);
       return true;
     }
     Scatter scatter;
@@ -123,22 +113,19 @@ class EyePath {
   }
 
   /// Goes on to the weaker side and leaves the stronger one for later.
-  void follow_both_sides(const Hit& hit, const Material& material, float reflected) {
-    const Vec3 travel = at_.state.ray.direction;
-    const Branch back = side(hit, sample_scatter(material, hit, travel, 0.0f, Vec2(0.0f)), reflected);
-    const Branch beyond = side(hit, sample_scatter(material, hit, travel, reflected, Vec2(0.0f)), 1.0f - reflected);
-    const bool mostly_beyond = reflected < 0.5f;
+  void follow_both_sides(const Hit& hit, const BothSides& sides) {
+    const Branch back = side(hit, sides.back, sides.reflected);
+    const Branch beyond = side(hit, sides.beyond, 1.0f - sides.reflected);
     assert(waiting_ < kMostWaiting);
-    branches_[waiting_++] = mostly_beyond ? beyond : back;
-    at_ = mostly_beyond ? back : beyond;
+    branches_[waiting_++] = sides.mostly_beyond() ? beyond : back;
+    at_ = sides.mostly_beyond() ? back : beyond;
   }
 
   Branch side(const Hit& hit, const Scatter& scatter, float fraction) {
     Branch branch = at_;
     branch.state.throughput *= scatter.weight * fraction;
     branch.radiance_scale *= scatter.radiance_scale;
-    if (fraction < kAlwaysAsks)
-      branch.asks *= work_.rng.uniform() * kAlwaysAsks < fraction ? kAlwaysAsks / fraction : 0.0f;
+    branch.asks *= asks_with(fraction, work_.rng);
     leave_along(c_.scene, hit, scatter, branch.state);
     branch.start = towards(hit, branch.state.ray.direction);
     return branch;

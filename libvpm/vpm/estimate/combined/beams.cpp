@@ -49,8 +49,7 @@ void EyeSubPath::merge_beam(Technique technique, const FlightStart& start, const
   const BehindMerge light = behind_merge(c_.counts, at_end);
   const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, to_eye, there, place));
   const double all = all_at_merge(c_.counts, merges, light, phase, eye, phase);
-  const Rgb value =
-      at_.state.throughput * to_eye.transmittance * medium.sigma_s * power * left * (density * phase / found.sine[i]);
+  const Rgb value = asked() * to_eye.transmittance * medium.sigma_s * power * left * (density * phase / found.sine[i]);
   add_merged(technique, value, kernel, (is_long ? merges.long_beams : merges.short_beams) / all);
 }
 

@@ -1,6 +1,8 @@
 // The walk of a sub-path from the eye.
 #include "vpm/estimate/combined/eye_sub_path.h"
 
+#include <cassert>
+
 #include "vpm/base/count.h"
 #include "vpm/surface/shading.h"
 
@@ -14,6 +16,10 @@ EyeSubPath::EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& 
 
 KernelEstimate EyeSubPath::follow() {
   follow_branch();
+  while (waiting_ > 0) {
+    at_ = branches_[--waiting_];
+    follow_branch();
+  }
   return radiance_;
 }
 
@@ -45,7 +51,7 @@ bool EyeSubPath::Along::pass(const Stretch& stretch) {
   const Interval interval{0.0f, stretch.length};
   DensityIntegralsAlong& integrals = path.work_.scratch.integrals;
   count(path.work_.counters.walk.lookups, integrals.walk(&around, ray, interval));
-  if (around.scatters()) {
+  if (around.scatters() && path.at_.asks > 0.0f) {
     through_scattering = true;
     path.merge_points_2d(*this, interval);
     path.merge_beams(Technique::short_beams, *this, interval);
@@ -66,7 +72,8 @@ std::optional<Arrival> EyeSubPath::pass_through() {
   if (along.through_scattering) branch_off();
   at_.state.throughput *= along.passed;
   if (is_black(at_.state.throughput)) return std::nullopt;
-  if (!survive_roulette(max_channel(glm::abs(at_.state.throughput)), at_.state, work_.rng)) return std::nullopt;
+  const float kept = max_channel(glm::abs(at_.state.throughput)) / at_.part;  // sides of glass are weak as they are
+  if (!survive_roulette(kept, at_.state, work_.rng)) return std::nullopt;
   at_.state.ray = along.ray;
   at_.state.medium = along.medium;
   if (!hit) {
@@ -79,6 +86,8 @@ std::optional<Arrival> EyeSubPath::pass_through() {
 
 void EyeSubPath::branch_off() {
   const Branch start = at_;
+  at_.state.throughput = asked();
+  at_.asks = 1.0f;
   Rgb passed(1.0f);
   const Event event = fly_to_event(passed);
   if (event.kind == EventKind::collision && visit(arrive_at(event, passed))) {
@@ -127,6 +136,9 @@ bool EyeSubPath::visit(const Arrival& at) {
   if (is_black(at_.state.throughput)) return false;
   if (!at.vertex.specular) {
     if (!at_.only_specular && !c_.counts.deep) return false;
+    if (at_.asks == 0.0f) return false;
+    at_.state.throughput = asked();
+    at_.asks = 1.0f;
     sample_light(at);
     connect(at);
     if (at.vertex.on_surface)
@@ -142,6 +154,11 @@ bool EyeSubPath::visit(const Arrival& at) {
 
 bool EyeSubPath::go_on(const Arrival& at) {
   const PathVertex& vertex = at.vertex;
+  if (vertex.specular && at_.only_specular)
+    if (const auto sides = both_sides(vertex.material, vertex.hit, at_.state.ray.direction, at_.part)) {
+      follow_both_sides(at, *sides);
+      return true;
+    }
   Onward onward;
   if (!vertex.on_surface) {
     const Medium& medium = c_.scene.media[vertex.medium];
@@ -160,6 +177,26 @@ bool EyeSubPath::go_on(const Arrival& at) {
   onward.direction = at_.state.ray.direction;
   at_.from = depart_into(at, onward);
   return true;
+}
+
+void EyeSubPath::follow_both_sides(const Arrival& at, const BothSides& sides) {
+  Branch back = side(at, sides.back, sides.reflected);
+  Branch beyond = side(at, sides.beyond, 1.0f - sides.reflected);
+  Branch& stronger = sides.mostly_beyond() ? beyond : back;
+  ++stronger.events;  // of this vertex: the loop counts that of the branch that it follows now
+  assert(waiting_ < kMostWaiting);
+  branches_[waiting_++] = stronger;
+  at_ = sides.mostly_beyond() ? back : beyond;
+}
+
+EyeSubPath::Branch EyeSubPath::side(const Arrival& at, const Scatter& scatter, float fraction) const {
+  Branch branch = at_;
+  branch.state.throughput *= scatter.weight * (fraction * scatter.radiance_scale);
+  branch.part *= fraction;
+  branch.asks *= asks_with(fraction, work_.rng);
+  leave_along(c_.scene, at.vertex.hit, scatter, branch.state);
+  branch.from = depart_into(at, {branch.state.ray.direction, 1.0, scatter.radiance_scale});
+  return branch;
 }
 
 // --- Sums

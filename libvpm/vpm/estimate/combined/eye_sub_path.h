@@ -1,10 +1,12 @@
 // One sub-path from the eye, event by event. What it meets of those from the lights has a file for each technique.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "vpm/estimate/combined/combined.h"
 #include "vpm/estimate/kernel_sum.h"
+#include "vpm/path/both_sides.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/path/stretches.h"
 
@@ -23,6 +25,8 @@ class EyeSubPath {
     PathState state;
     Departure from;
     bool only_specular = true;  // are there no other vertices yet?
+    float part = 1.0f;          // of the camera's ray, where glass has sent the rest to other branches
+    float asks = 1.0f;          // the weight of what techniques find but for lamps that are run into, see asks_with()
     int events = 0;             // so far
   };
 
@@ -56,8 +60,13 @@ class EyeSubPath {
   Arrival arrive_at(const Event& event, const Rgb& passed);
   /// Finds light at a vertex. Returns whether the sub-path goes on from there.
   bool visit(const Arrival& at);
-  /// Draws how the sub-path goes on.
+  /// Draws how the sub-path goes on; at smooth glass that only specular vertices have led to, to both sides.
   bool go_on(const Arrival& at);
+  /// Goes on to the weaker side of glass and leaves the stronger one for later.
+  void follow_both_sides(const Arrival& at, const BothSides& sides);
+  Branch side(const Arrival& at, const Scatter& scatter, float fraction) const;
+  /// The throughput of what techniques find along the ray.
+  Rgb asked() const { return at_.state.throughput * at_.asks; }
 
   // connections.cpp
   void see_environment(const Rgb& passed);
@@ -99,6 +108,8 @@ class EyeSubPath {
   EyeWork& work_;
   TechniqueParts* parts_;
   Branch at_;
+  std::array<Branch, kMostWaiting> branches_;  // the first `waiting_`
+  size_t waiting_ = 0;
   KernelEstimate radiance_;
 };
 

@@ -39,7 +39,7 @@ void EyeSubPath::merge_plane(const Along& along, const PlaneCrossing& crossing) 
   const BehindMerge light = behind_merge(c_.counts, at_end);
   const BehindMerge eye = behind_merge(c_.counts, arrive(c_.counts, at_.from, to_eye, there, place));
   const double all = all_at_merge(c_.counts, merges, light, phase, eye, phase);
-  const Rgb value = at_.state.throughput * to_eye.transmittance * medium.sigma_s * scattered * from_turn.transmittance *
+  const Rgb value = asked() * to_eye.transmittance * medium.sigma_s * scattered * from_turn.transmittance *
                     (density * phase / crossing.determinant / static_cast<float>(c_.light_paths));
   add(Technique::planes, KernelEstimate(value), merges.planes / all);
   count(work_.counters.gather.used);

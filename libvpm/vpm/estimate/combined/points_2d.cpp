@@ -137,8 +137,7 @@ void EyeSubPath::merge_points_2d(const Along& along, const Interval& interval) {
       medium.phase);
   count(work_.counters.gather.visited, visited);
   count(work_.counters.gather.used, sum_of(merged.number));
-  const Rgb each =
-      at_.state.throughput * medium.albedo() * (kernel_norm<2>(kernel, radius) / static_cast<float>(c_.light_paths));
+  const Rgb each = asked() * medium.albedo() * (kernel_norm<2>(kernel, radius) / static_cast<float>(c_.light_paths));
   const KernelEstimate all{sum_of(merged.value) * each, sum_of(merged.correction) * each};
   radiance_ += all;
   if (parts_) parts_->add_both(Technique::points_2d, all.value, sum_of(merged.unweighted) * each);
