@@ -1,5 +1,6 @@
 // The combined estimator: its maps, and that its pictures depend on no threads.
 #include "vpm/estimate/combined/combined.h"
+#include "vpm/estimate/combined/shares_along_ray.h"
 
 #include <gtest/gtest.h>
 
@@ -163,6 +164,20 @@ TEST(Combined, LightTracingFillsPixelsAsTheirFiltersSay) {
   const double here = difference(traced, sampled, 0);
   EXPECT_LT(here, 0.5 * difference(traced, sampled, 1));
   EXPECT_LT(here, 0.5 * difference(traced, sampled, -1));
+}
+
+/// At the rim of a pixel's filter the density of rays is 0: light tracing then has the whole of the light, if it is
+/// used at all.
+TEST(SharesAlongRay, AreNumbersWhereAPixelDrawsNoRay) {
+  TechniqueCounts counts;
+  counts.points_2d = 0.5;
+  Departure eye = depart_from_camera(counts, {Vec3(0.0f), Vec3(0, 0, 1)}, 0.0);
+  const SharesAlongRay<false>::Place place{2.0f, 1.0f, 1.0f, 0.5f};
+  EXPECT_EQ(SharesAlongRay<false>(counts, eye, 1.0f).of(1.0f, 0.0f, 0.0f, 0.1f, place), 1.0f / 1.5f);
+  eye.adjacent = 3.0;
+  const float beside_light_tracing = SharesAlongRay<false>(counts, eye, 1.0f).of(1.0f, 0.0f, 0.0f, 0.1f, place);
+  EXPECT_GE(beside_light_tracing, 0.0f);
+  EXPECT_LT(beside_light_tracing, 1e-29f);
 }
 
 /// A ball of glass straight before the camera, and a lamp behind it: what two faces send back is the light times

@@ -57,6 +57,19 @@ TEST_F(VpmAutomatic, TheIntegratorIsChosenWhereItIsLeftOut) {
   EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
 }
 
+/// Techniques, too, are told as --set takes them.
+TEST_F(VpmAutomatic, TechniquesAreToldAsOptionsTakeThem) {
+  const std::string combined = "render.integrator=combined";
+  const std::string errors =
+      vpm_succeeds({"render", "scene.toml", "--set", combined, "--set", "combined.techniques=auto", "-o", "auto.exr"})
+          .err;
+  std::vector<std::string> again{"render", "scene.toml", "--set", combined, "-o", "again.exr"};
+  for (const std::string& word : told(errors)) again.push_back(word);
+  ASSERT_EQ(again.size(), 6u + 2u) << errors;
+  vpm_succeeds(again);
+  EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
+}
+
 TEST_F(VpmAutomatic, WhatIsGivenIsRenderedAsEver) {
   const std::vector<std::string> given{"--set", "distance.strategy=regular", "--set", "render.integrator=photon"};
   vpm_succeeds({"render", "scene.toml", "-o", "given.exr"});

@@ -48,9 +48,11 @@ std::optional<SettingValue> read_value(TableReader& table, const Setting& settin
     const std::string word = table.choice<std::string>(key, allowed);
     return setting.automatic && word == kAuto ? std::nullopt : std::optional<SettingValue>(word);
   }
-  const auto* set = std::get_if<WordSet>(&setting.domain);
-  if (setting.automatic && table.says_auto(key, set ? "an array of words" : "a number")) return std::nullopt;
-  if (set) return read_word_set(table, key, *set);
+  if (const auto* set = std::get_if<WordSet>(&setting.domain)) {
+    if (setting.automatic && table.says(key, std::string(kAuto))) return std::nullopt;
+    return read_word_set(table, key, *set);
+  }
+  if (setting.automatic && table.says_auto(key)) return std::nullopt;
   if (const auto* integers = std::get_if<Integers>(&setting.domain))
     return table.integer(key, integers->lo, std::min(integers->hi, kLargestOfToml));
   if (const auto* numbers = std::get_if<Numbers>(&setting.domain)) return table.number(key, numbers->range);

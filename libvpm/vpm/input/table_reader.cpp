@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "vpm/job/setting.h"
+
 namespace vpm {
 namespace {
 
@@ -70,11 +72,17 @@ float TableReader::number(const std::string& key, const Range& range, std::optio
   return static_cast<float>(checked_number(require(key), quoted(key, title_), range));
 }
 
-bool TableReader::says_auto(const std::string& key, const std::string& otherwise) {
+bool TableReader::says_auto(const std::string& key) {
   const Node* node = find(key);
   const std::string* word = node ? std::get_if<std::string>(&node->value) : nullptr;
-  if (word && *word != kAuto) refuse_word(key, *node, {otherwise, kAuto});
+  if (word && *word != kAuto) refuse_word(key, *node, {"a number", kAuto});
   return word != nullptr;
+}
+
+bool TableReader::says(const std::string& key, const std::string& text) {
+  const Node* node = find(key);
+  const std::string* word = node ? std::get_if<std::string>(&node->value) : nullptr;
+  return word && *word == text;
 }
 
 uint64_t TableReader::integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback) {
@@ -151,11 +159,16 @@ Rgb TableReader::rgb(const std::string& key, const Range& range, std::optional<R
 
 std::vector<std::string> TableReader::words(const std::string& key, const std::vector<std::string>& allowed) {
   const Node& node = require(key);
-  if (!node.array() || node.array()->empty())
+  std::vector<Node> elements;
+  if (const auto* joined = std::get_if<std::string>(&node.value))
+    for (std::string& word : words_in(*joined)) elements.push_back({node.place, std::move(word)});
+  else if (node.array())
+    elements = *node.array();
+  if (elements.empty())
     fail(key, quoted(key, title_) + " must be an array of words, not " + (node.array() ? "empty" : kind_of(node)),
          suggest("", allowed, "it can hold"));
   std::vector<std::string> found;
-  for (const Node& element : *node.array()) {
+  for (const Node& element : elements) {
     const auto* word = std::get_if<std::string>(&element.value);
     if (!word || std::find(allowed.begin(), allowed.end(), *word) == allowed.end())
       fail_at(element.place, quoted(key, title_) + " cannot hold " + (word ? "'" + *word + "'" : kind_of(element)),

@@ -24,8 +24,10 @@ class TableReader {
 
   bool has(const std::string& key);
   float number(const std::string& key, const Range& range, std::optional<float> fallback = {});
-  /// Does a key that holds `otherwise` say kAuto? Other words are refused.
-  bool says_auto(const std::string& key, const std::string& otherwise);
+  /// Does a key that holds a number otherwise say kAuto? Other words are refused.
+  bool says_auto(const std::string& key);
+  /// Does a key hold this text?
+  bool says(const std::string& key, const std::string& text);
   uint64_t integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback = {});
   bool flag(const std::string& key, bool fallback);
   std::string string(const std::string& key, std::optional<std::string> fallback = {});
@@ -44,7 +46,7 @@ class TableReader {
   template <class T>
   T choice(const std::string& key, const std::vector<std::pair<std::string, T>>& words, std::optional<T> fallback = {});
 
-  /// An array of some of these words, not empty, each at most once.
+  /// An array of some of these words, not empty, each at most once; or a text of them joined by "+".
   std::vector<std::string> words(const std::string& key, const std::vector<std::string>& allowed);
 
   /// The node of a key; null where it is missing. Marks the key as known.

@@ -10,10 +10,11 @@
 
 namespace vpm {
 
-/// Chooses what is asked for, after a short pilot, and puts it into the settings. Radii and the strategy are a pure
-/// function of scene and settings: the strategy's cost is counted, not timed. The number of photons, the gather in
-/// media and the integrator are not, they rest on times; radii go by them. What the scene has no use for is left alone.
-/// Throws InputError where this program counts nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
+/// Chooses what is asked for, after a short pilot, and puts it into the settings. What is chosen is a pure function of
+/// scene and settings, on any machine and number of threads: costs are counted, not timed. Only where a time is asked
+/// for, passes are timed: then the numbers of photons, the gather in media, the integrator, and the radii that go by
+/// these depend on the machine. What the scene has no use for is left alone. Throws InputError where this program
+/// counts nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings);
 
 /// Puts a choice made earlier into the settings. Throws InputError where it is none: a setting that is not declared

@@ -2,6 +2,7 @@
 #include "vpm/job/eye_blocks.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vpm {
 namespace {
@@ -9,10 +10,11 @@ namespace {
 constexpr size_t kBlocksOfEdge = 8, kPixelsOfEdge = 8;
 static_assert(kBlocksOfEdge * kBlocksOfEdge == kEyeBlocks && kPixelsOfEdge * kPixelsOfEdge == kRaysOfBlock);
 
-/// A place along an edge of the picture, pixels; cut off at the borders of small pictures.
+/// A place along an edge of the picture, the middle of a pixel; cut off at the borders of small pictures.
 float place_along(int pixels, size_t part, size_t i) {
-  const float middle = static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocksOfEdge;
-  return std::clamp(middle + static_cast<float>(i) - 0.5f * kPixelsOfEdge + 0.5f, 0.0f, static_cast<float>(pixels));
+  const float middle = std::floor(static_cast<float>(pixels) * (static_cast<float>(part) + 0.5f) / kBlocksOfEdge);
+  const float place = middle + static_cast<float>(i) - 0.5f * kPixelsOfEdge + 0.5f;
+  return std::clamp(place, 0.5f, static_cast<float>(pixels) - 0.5f);
 }
 
 }  // namespace

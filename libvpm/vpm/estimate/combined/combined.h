@@ -50,6 +50,8 @@ class SortedLight {
   /// Photons on surfaces, but those straight from lights that are sampled, and in a medium.
   const VertexMap<RecordLeaf<SurfacePhoton>>& on_surfaces() const { return on_surfaces_; }
   const VertexMap<MediumPhotonLeaf>& in_medium(MediumId medium) const { return in_media_[medium]; }
+  /// behind_scale() in a medium.
+  double scale_in(MediumId medium) const { return scales_[medium]; }
   size_t beam_count() const;
   size_t memory_bytes() const;
 
@@ -57,6 +59,7 @@ class SortedLight {
   LightSubPaths paths_;
   VertexMap<RecordLeaf<SurfacePhoton>> on_surfaces_;
   std::vector<VertexMap<MediumPhotonLeaf>> in_media_;  // by medium
+  std::vector<double> scales_;                         // likewise
   std::vector<LightBeams> short_beams_, long_beams_;   // by medium
   PhotonPlaneList planes_;
 };

@@ -16,8 +16,14 @@ struct MediumPhoton {
   Vec3d turn{0.0};    // SubPathSums::turn
   // As they would be where the density is 1:
   OverColliding arrived;  // of the leg that led there
-  BehindMerge behind;
+  BehindMerge behind;     // in maps times behind_scale()
 };
+
+/// Makes BehindMerge a number without a unit, by the density of points-2d in a medium of that extinction at density 1,
+/// 1/m, a mean over channels: a float has room for it, however large a scene is.
+inline double behind_scale(const TechniqueCounts& counts, double sigma_t) {
+  return counts.points_2d > 0.0 && sigma_t > 0.0 ? counts.weigh(sigma_t / counts.points_2d) : 1.0;
+}
 
 /// A number for each photon of a leaf.
 using Lanes = std::array<float, kBlock>;
@@ -54,7 +60,7 @@ struct alignas(64) MediumPhotonLeaf : LeafPlaces {
   float passing[kBlock], sent[kBlock], adjacent[kBlock], further[kBlock];
 
  private:
-  /// Beside such a density the share of any other technique is 0, to the last digit.
+  /// Beside so much the share of a merge is 0, to the last digit.
   static float finite(double density) { return static_cast<float>(std::min(density, 1e30)); }
 };
 

@@ -56,6 +56,7 @@ struct RayMerges {
   float before;       // from the departure to there, m
   float radius;       // m
   float floor;        // of relative densities, below which photons are kept along flights
+  float per_sigma_t;  // 1 over the sum over channels of extinction at density 1, m
   float per_largest;  // 1 over the largest density
 };
 
@@ -77,12 +78,11 @@ void merge_leaf(const RayMerges<Shares>& ray, const PhaseFunction& phase, Profil
     const Rgb passed(ray.passed.r * exp_negative(-sigma_t.r * places.integral[i]),
                      ray.passed.g * exp_negative(-sigma_t.g * places.integral[i]),
                      ray.passed.b * exp_negative(-sigma_t.b * places.integral[i]));
-    const float arriving = (sigma_t.r * passed.r + sigma_t.g * passed.g + sigma_t.b * passed.b) / 3.0f;
-    const bool counts = (relative > 0.0f) & (arriving > 0.0f);
+    const float colliding = (sigma_t.r * passed.r + sigma_t.g * passed.g + sigma_t.b * passed.b) * ray.per_sigma_t;
+    const bool counts = (relative > 0.0f) & (colliding > 0.0f);
     const float scattered = phase.value(leaf.travel(i), -ray.travel);
     const typename Shares::Place at{ray.before + places.distance[i], counts ? places.density[i] : 1.0f,
-                                    std::max(1.0f, ray.floor / (counts ? relative : 1.0f)),
-                                    (passed.r + passed.g + passed.b) / 3.0f, arriving};
+                                    std::max(1.0f, ray.floor / (counts ? relative : 1.0f)), colliding};
     const float share = shares.of(leaf.adjacent[i], leaf.further[i], flights[i], scattered, at);
     const KernelPair<float> spread = profile(counts ? beside.distances2[i] * inverse2 : 1.0f);
     const float found = counts ? relative * scattered : 0.0f;
@@ -109,7 +109,7 @@ void EyeSubPath::merge_points_2d(const Along& along, const Interval& interval) {
   if (c_.counts.points_2d == 0.0 || map.size() == 0) return;
   const Medium& medium = c_.scene.media[along.medium];
   const KernelKind kernel = c_.kernels.volume_kernel;
-  const float radius = c_.kernels.points_2d;
+  const float radius = c_.kernels.points_2d, sigma_t = mean_channel(medium.sigma_t);
   MergedAlong merged;
   const auto merge_all = [&](auto shares, const auto& phase, auto profile) {
     const RayMerges<decltype(shares)> ray{medium,
@@ -119,6 +119,7 @@ void EyeSubPath::merge_points_2d(const Along& along, const Interval& interval) {
                                           glm::distance(at_.from.point, along.ray.origin),
                                           radius,
                                           medium.grid ? floor_in(medium, c_.counts.density_floor) : 0.0f,
+                                          1.0f / (3.0f * sigma_t),
                                           relative_density(medium, 1.0f)};
     return map.visit_leaves_near_ray(along.ray, interval, radius, [&](const auto& leaf, const auto& beside) {
       const Places places = places_beside(medium, work_.scratch.integrals, beside, radius * radius);
@@ -127,8 +128,8 @@ void EyeSubPath::merge_points_2d(const Along& along, const Interval& interval) {
   };
   const auto merge = [&](const auto& phase, auto profile) {
     return c_.counts.heuristic == Heuristic::power
-               ? merge_all(SharesAlongRay<true>(c_.counts, at_.from), phase, profile)
-               : merge_all(SharesAlongRay<false>(c_.counts, at_.from), phase, profile);
+               ? merge_all(SharesAlongRay<true>(c_.counts, at_.from, sigma_t), phase, profile)
+               : merge_all(SharesAlongRay<false>(c_.counts, at_.from, sigma_t), phase, profile);
   };
   count(work_.counters.volume_queries);
   count(work_.counters.gather.searches);

@@ -16,6 +16,7 @@ void EyeSubPath::merge_points_3d(const Arrival& at) {
   Rgb each = at_.state.throughput * (relative_density(medium, vertex.density) / static_cast<float>(c_.light_paths));
   for (int c = 0; c < 3; ++c)
     each[c] *= at.junction.sigma_t[c] > 0.0f ? medium.albedo()[c] / at.junction.sigma_t[c] : 0.0f;
+  const double scale = c_.light.scale_in(vertex.medium);
   count(work_.counters.volume_queries);
   count(work_.counters.gather.searches);
   const auto merge = [&](const MediumPhoton& photon, float distance2) {
@@ -26,7 +27,7 @@ void EyeSubPath::merge_points_3d(const Arrival& at) {
                          angles_between(photon.travel, photon.turn, vertex.travel), at_.only_specular);
     const BehindMerge eye = behind_merge(c_.counts, with_turn(c_.counts, at.sums, photon.travel, arrived.passing));
     const double all =
-        all_at_merge(c_.counts, merges, photon.behind.over(c_.counts.weigh(vertex.density)), phase, eye, phase);
+        all_at_merge(c_.counts, merges, photon.behind.over(scale * c_.counts.weigh(vertex.density)), phase, eye, phase);
     add_merged(Technique::points_3d, each * photon.power * phase, kernel(distance2), merges.points_3d / all);
   };
   count(work_.counters.gather.visited, map.visit_near(vertex.point, radius, merge));

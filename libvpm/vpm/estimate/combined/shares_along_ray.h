@@ -1,6 +1,9 @@
 // The shares of photons that are merged around one ray from the camera.
 #pragma once
 
+#include <algorithm>
+#include <cassert>
+
 #include "vpm/estimate/combined/medium_photon.h"
 
 namespace vpm {
@@ -12,16 +15,16 @@ namespace vpm {
 template <bool kSquares>
 class SharesAlongRay {
  public:
-  SharesAlongRay(const TechniqueCounts& counts, const Departure& eye)
+  /// In a medium of that extinction at density 1, 1/m, a mean over channels, > 0.
+  SharesAlongRay(const TechniqueCounts& counts, const Departure& eye, float sigma_t)
       : travel_(eye.direction),
-        per_point_(of_points(counts, 1.0)),
-        in_balls_(of_points(counts, counts.merges_points_3d(true) ? counts.points_3d : 0.0)),
+        in_balls_(of_points(counts, counts.merges_points_3d(true) ? counts.points_3d * sigma_t : 0.0)),
         short_beams_(of_points(counts, counts.short_beams)),
         long_beams_(of_points(counts, counts.long_beams)),
         planes_(of_points(counts, counts.planes)),
-        adjacent_(of_points(counts, eye.adjacent / eye.forward)),
-        per_forward_(of_points(counts, 1.0 / eye.forward)),
-        behind_(static_cast<float>(eye.behind)) {}
+        adjacent_(of_points(counts, eye.adjacent > 0.0 ? eye.adjacent / eye.forward : 0.0)) {
+    assert(eye.behind == 0.0);  // nothing but the camera can be connected to, and not over mirrors or glass
+  }
 
   /// What beams and planes add to all densities, for each photon of a leaf, if the density at it were 1.
   Lanes of_flights(const MediumPhotonLeaf& leaf) const {
@@ -41,31 +44,29 @@ class SharesAlongRay {
     float distance = 0.0f;  // from the departure, m
     float density = 0.0f;   // of the medium, > 0
     float kept = 1.0f;      // Junction::kept
-    float passed = 1.0f;    // the transmittance from the departure, a mean over channels
-    float sigma_t = 0.0f;   // the same of extinction at density 1 times transmittance, 1/m, > 0
+    float colliding =
+        0.0f;  // extinction times transmittance from the departure over extinction, of means over channels
   };
   /// Of a photon with these BehindMerge and of_flights(); `phase` is that of scattering towards the eye, 1/sr.
   float of(float adjacent, float further, float flights, float phase, const Place& at) const {
-    const float per_kept = 1.0f / at.kept, scattered = weigh(phase);
-    float all = 1.0f + weigh(in_balls_ * at.density * at.sigma_t);
+    const float per_kept = 1.0f / at.kept;
+    float all = 1.0f + weigh(in_balls_ * at.density * at.colliding);
     all += weigh(per_kept / at.density) * flights;
-    all += (adjacent + scattered * further) * weigh(at.sigma_t * per_point_ * per_kept);
+    all += (adjacent + weigh(phase) * further) * weigh(at.colliding * per_kept);
     all += weigh(adjacent_ * at.distance * at.distance * per_kept);
-    all += scattered * behind_ * weigh(at.passed * per_forward_ * per_kept);
     return 1.0f / all;
   }
 
  private:
-  static float of_points(const TechniqueCounts& counts, double x) { return static_cast<float>(x / counts.points_2d); }
+  /// Over TechniqueCounts::points_2d. Where it is more than a float holds, no share is left.
+  static float of_points(const TechniqueCounts& counts, double x) {
+    return static_cast<float>(std::min(x / counts.points_2d, 1e30));
+  }
   static float weigh(float x) { return kSquares ? x * x : x; }
 
   Vec3 travel_;  // of the eye's ray, unit
-  // All over TechniqueCounts::points_2d:
-  float per_point_;  // 1
   float in_balls_, short_beams_, long_beams_, planes_;
-  float adjacent_;     // Departure::adjacent over Departure::forward
-  float per_forward_;  // 1 over Departure::forward
-  float behind_;       // Departure::behind, itself
+  float adjacent_;  // Departure::adjacent over Departure::forward
 };
 
 }  // namespace vpm

@@ -37,6 +37,9 @@ SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, cons
   const float reach = std::max(kernels.points_2d, kernels.points_3d);
   const float scale = 1.0f / static_cast<float>(paths_.ledger.emitted_count);
   for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m) {
+    scales_.push_back(behind_scale(counts, mean_channel(scene.media[m].sigma_t)));
+    for (PlacedRecord<MediumPhoton>& photon : paths_.photons[m])
+      photon.record.behind = photon.record.behind.over(1.0 / scales_.back());
     in_media_.push_back(VertexMap<MediumPhotonLeaf>(paths_.photons[m], reach));
     paths_.photons[m] = {};
   }

@@ -48,7 +48,8 @@ Rgb random_colour(Rng& rng, float lo, float hi) {
 /// specular.
 WholePath random_path(Rng& rng, int events) {
   WholePath path;
-  for (int i = 0; i < events + 2; ++i) path.points.push_back(random_point(rng));
+  const float size = std::pow(10.0f, 8.0f * rng.uniform() - 4.0f);  // from a tenth of a millimetre to ten kilometres
+  for (int i = 0; i < events + 2; ++i) path.points.push_back(size * random_point(rng));
   for (int i = 0; i <= events; ++i) path.transmittances.push_back(random_colour(rng, 0.01f, 1.0f));
   const size_t n = path.points.size();
   path.vertices.resize(n);
@@ -254,19 +255,20 @@ double term_of(const MergeTerms& terms, Found::By by) {
 /// As photons around rays from the camera have it.
 double share_along_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, size_t i) {
   const Junction& at = path.junctions[i];
-  const Rgb& passed = path.transmittances[i];
+  const double sigma_t = mean_channel(at.sigma_t);
   MediumPhotonLeaf leaf;
   leaf.set(0, {path.direction(i - 1), Rgb(1.0f), traced.light[i].sums.turn, over_colliding(at.sigma_t, path.leg(i - 1)),
-               behind_merge(counts, traced.light[i].sums)});
+               behind_merge(counts, traced.light[i].sums).over(1.0 / behind_scale(counts, sigma_t))});
   const auto share = [&](const auto& shares) {
     const auto phase = static_cast<float>(density_on(path, i, true));
     return double{shares.of(leaf.adjacent[0], leaf.further[0], shares.of_flights(leaf)[0], phase,
                             {static_cast<float>(path.leg(i).distance), 1.0f, static_cast<float>(at.kept),
-                             mean_channel(passed), mean_channel(at.sigma_t * passed)})};
+                             static_cast<float>(mean_channel(at.sigma_t * path.transmittances[i]) / sigma_t)})};
   };
   const Departure& eye = traced.eye_leaves[i + 1];
-  return counts.heuristic == Heuristic::power ? share(SharesAlongRay<true>(counts, eye))
-                                              : share(SharesAlongRay<false>(counts, eye));
+  const auto mean = static_cast<float>(sigma_t);
+  return counts.heuristic == Heuristic::power ? share(SharesAlongRay<true>(counts, eye, mean))
+                                              : share(SharesAlongRay<false>(counts, eye, mean));
 }
 
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
