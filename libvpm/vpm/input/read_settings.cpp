@@ -80,6 +80,9 @@ void read_setting(TableReader& table, const Setting& setting, RenderSettings& s,
     return;
   }
   if (another_serves(setting, s)) return;
+  if (setting.section() == "combined" && automatic.has("render.integrator"))
+    table.fail(setting.name(), "whether techniques are combined is to be chosen: 'integrator' of [render] is \"auto\"",
+               "leave out [combined], or write integrator = \"combined\" in [render]");
   if (!setting.needed(s)) table.fail(setting.name(), setting.need.wrong(s), std::string(setting.need.right));
   refuse_in_place_of(table, setting);
   if (const std::optional<SettingValue> value = read_value(table, setting))

@@ -15,7 +15,7 @@ struct BlockRay {
   Ray ray;
   size_t pixel;
 };
-/// Ray number `i` < kRaysOfBlock of a block.
-BlockRay ray_of_block(const Camera& camera, size_t block, size_t i);
+/// Ray number `i` < kRaysOfBlock of a block, through a place of its pixel that the camera's filter draws.
+BlockRay ray_of_block(const Camera& camera, size_t block, size_t i, const Vec2& u);
 
 }  // namespace vpm

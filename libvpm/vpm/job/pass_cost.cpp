@@ -10,6 +10,7 @@
 #include "vpm/base/stopwatch.h"
 #include "vpm/job/counted_cost.h"
 #include "vpm/job/eye_blocks.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/rays_of_pass.h"
 #include "vpm/photon/caustics.h"
@@ -31,7 +32,7 @@ EyeCounters render_block(const Scene& scene, const RenderSettings& settings, con
   };
   for (size_t i = 0; i < kRaysOfBlock && (i == 0 || taken() < seconds); ++i) {
     Rng rng(settings.seed, rng_stream(RngUse::pilot, 1), block * kRaysOfBlock + i);
-    const BlockRay at = ray_of_block(scene.camera, block, i);
+    const BlockRay at = ray_of_block(scene.camera, block, i, rng.uniform2());
     EyeWork work{rng, counters, scratch, at.pixel};
     radiance(at.ray, work);
     ++counters.rays;
@@ -71,16 +72,20 @@ double seconds_of_photons(const RenderSettings& settings, const RenderStatistics
   return goes_by_clock(settings) ? s.trace_seconds + s.build_seconds : counted_seconds_of_photons(settings, s);
 }
 
-/// By as many light sub-paths as take a half of the time.
+/// By as many light sub-paths as take a half of the time. All that they store counts as photons of a map that take as
+/// much memory.
 PassCost time_combined_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
   constexpr uint64_t kFirst = 1000;
+  constexpr double kMostBytes = 2e8;
   const auto all = static_cast<double>(settings.photons_emitted);
   RenderSettings pilot = with_light_paths(pilot_settings(settings, settings.photons_emitted), kFirst);
   RaysOfPass ready = rays_of_pass(scene, pilot, 0);
   const auto each = [&] {
     return seconds_of_photons(pilot, ready.statistics) / static_cast<double>(pilot.photons_emitted);
   };
-  const double affordable = std::min(all, 0.5 * seconds / std::max(1e-9, each()));
+  const double bytes =
+      static_cast<double>(ready.statistics.photon_map_bytes) / static_cast<double>(pilot.photons_emitted);
+  const double affordable = std::min({all, 0.5 * seconds / std::max(1e-9, each()), kMostBytes / std::max(1.0, bytes)});
   if (affordable > 2.0 * kFirst) {
     pilot = with_light_paths(pilot_settings(settings, settings.photons_emitted), static_cast<uint64_t>(affordable));
     ready = rays_of_pass(scene, pilot, 0);
@@ -90,7 +95,7 @@ PassCost time_combined_pass(const Scene& scene, const RenderSettings& settings, 
   const RenderStatistics& s = ready.statistics;
   return {.photon = each(),
           .eye = with_more_photons(eye, all / paths),
-          .stored_per_photon = static_cast<double>(s.volume_photons + s.surface_photons) / paths};
+          .stored_per_photon = static_cast<double>(s.photon_map_bytes) / (kMapBytes * paths)};
 }
 
 /// A part of a pass made ready, and what that took.

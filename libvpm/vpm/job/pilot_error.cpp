@@ -60,7 +60,7 @@ std::vector<Twins> render_small(const Scene& scene, const SmallPasses& small, in
     for (size_t i = 0; i < small.rays; ++i) {
       const size_t number = block * small.rays + i;
       Rng rng(small.settings.seed, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), number);
-      const BlockRay at = ray_of_block(scene.camera, block, i * kRaysOfBlock / small.rays);
+      const BlockRay at = ray_of_block(scene.camera, block, i * kRaysOfBlock / small.rays, rng.uniform2());
       EyeWork work{rng, counters, scratch, at.pixel};
       for (KernelEstimate& twin : found[number]) {
         twin = mean_of_samples(1, counters, [&](int) { return rays.radiance(at.ray, work); });

@@ -167,9 +167,11 @@ std::vector<double> errors_after(double seconds, const std::vector<Trial>& trial
 /// "least error in a pilot, as relative MSE after 20 s of passes: beam 0.01 (0.2 s each), photon-beams 0.02 (1 s each)"
 std::string reason_of(double seconds, const std::vector<Trial>& trials, const std::vector<double>& errors) {
   std::string reason = fmt::format("least error in a pilot, as relative MSE after {:.2g} s of passes:", seconds);
-  for (size_t i = 0; i < trials.size(); ++i)
-    reason += fmt::format("{} {} {:.2g} ({:.2g} s each)", i > 0 ? "," : "", trials[i].name, errors[i],
-                          trials[i].pass_seconds);
+  for (size_t i = 0; i < trials.size(); ++i) {
+    const std::string error = fits(trials[i]) ? fmt::format(" {:.2g}", errors[i]) : "";
+    reason += fmt::format("{} {}{} ({:.2g} s each{})", i > 0 ? "," : "", trials[i].name, error, trials[i].pass_seconds,
+                          error.empty() ? ", too long" : "");
+  }
   return reason;
 }
 

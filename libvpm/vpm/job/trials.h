@@ -13,7 +13,7 @@ namespace vpm {
 double limit_of_timing(const RenderSettings& settings);
 
 /// Are the integrator, the gather in media or the combined techniques to be chosen, where there are such? Throws
-/// InputError where a gather is to be chosen for an integrator that has none.
+/// InputError where a gather is to be chosen beside combined techniques, which have none.
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings);
 
 /// Tries each way that the settings and the scene allow: chooses what else is to be chosen for it, measures what a pass

@@ -41,6 +41,21 @@ std::optional<Image> layer(const ExrChannels& file, const std::string& prefix) {
   return image;
 }
 
+/// What `read` makes of a run in a file; nothing where there is none of that identity.
+template <class Read>
+auto read_run(const fs::path& path, const std::string& identity, Read&& read) -> std::optional<decltype(read(Json()))> {
+  std::ifstream stream(path);
+  if (!stream) return std::nullopt;
+  try {
+    const Json run = Json::parse(stream);
+    if (run.at("identity") != identity) return std::nullopt;
+    return read(run);
+  } catch (const Json::exception& error) {
+    throw InputError(
+        fmt::format("{}: the run is damaged: {}; remove the file, and it is repeated", path.string(), error.what()));
+  }
+}
+
 }  // namespace
 
 std::string cost_json(const RunCost& cost) {
@@ -61,19 +76,11 @@ fs::path Store::file(const char* kind, const std::string& identity, const std::s
 }
 
 std::optional<std::vector<RunCost>> Store::find_run(const std::string& identity) const {
-  const fs::path path = file("runs", identity, ".json");
-  std::ifstream stream(path);
-  if (!stream) return std::nullopt;
-  try {
-    const Json run = Json::parse(stream);
-    if (run.at("identity") != identity) return std::nullopt;
+  return read_run(file("runs", identity, ".json"), identity, [](const Json& run) {
     std::vector<RunCost> costs;
     for (const Json& cost : run.at("budgets")) costs.push_back(cost_of(cost));
     return costs;
-  } catch (const Json::exception& error) {
-    throw InputError(
-        fmt::format("{}: the run is damaged: {}; remove the file, and it is repeated", path.string(), error.what()));
-  }
+  });
 }
 
 Image Store::picture(const std::string& identity, size_t budget) const {
@@ -81,8 +88,8 @@ Image Store::picture(const std::string& identity, size_t budget) const {
 }
 
 std::string Store::chosen(const std::string& identity) const {
-  std::ifstream stream(file("runs", identity, ".json"));
-  return Json::parse(stream).at("chosen");
+  const auto chosen = [](const Json& run) { return run.at("chosen").get<std::string>(); };
+  return read_run(file("runs", identity, ".json"), identity, chosen).value_or("");
 }
 
 void Store::add_run(const std::string& identity, const MethodRun& run) const {

@@ -83,7 +83,7 @@ void merge_leaf(const RayMerges<Shares>& ray, const PhaseFunction& phase, Profil
     const float scattered = phase.value(leaf.travel(i), -ray.travel);
     const typename Shares::Place at{ray.before + places.distance[i], counts ? places.density[i] : 1.0f,
                                     std::max(1.0f, ray.floor / (counts ? relative : 1.0f)), colliding};
-    const float share = shares.of(leaf.adjacent[i], leaf.further[i], flights[i], scattered, at);
+    const float share = !counts ? 0.0f : shares.of(leaf.adjacent[i], leaf.further[i], flights[i], scattered, at);
     const KernelPair<float> spread = profile(counts ? beside.distances2[i] * inverse2 : 1.0f);
     const float found = counts ? relative * scattered : 0.0f;
     light[0][i] = passed.r * leaf.power_r[i] * found;
