@@ -285,10 +285,13 @@ TEST_F(VpmBinary, TellsItsVersionAndItsGrids) {
 }
 
 TEST_F(VpmBinary, FailsWhereItsOutputCannotBeWritten) {
-  Process process({"/bin/sh", "-c", std::string(VPM_BINARY) + " media > /dev/full"}, {20.0, 0, folder_.string()});
-  const ProcessResult result = process.wait();
-  EXPECT_EQ(result.status, 1);
-  expect_words(result.err, {"standard output", "No space left"});
+  for (const char* arguments : {" media", " --version", " help"}) {
+    Process process({"/bin/sh", "-c", VPM_BINARY + (arguments + std::string(" > /dev/full"))},
+                    {20.0, 0, folder_.string()});
+    const ProcessResult result = process.wait();
+    EXPECT_EQ(result.status, 1) << arguments;
+    expect_words(result.err, {"standard output", "No space left"});
+  }
 }
 
 TEST_F(VpmBinary, MakesTheSameGridEachTime) {

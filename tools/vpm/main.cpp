@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <limits>
 #include <new>
+#include <sstream>
 
 #include "commands.h"
 #include "vpm/base/error.h"
@@ -261,7 +263,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::ParseError& refusal) {
-    return app.exit(refusal) == 0 ? 0 : kBadInput;
+    std::ostringstream told;  // in a stream of its own main() would not see that it cannot be written
+    const int status = app.exit(refusal, told, std::cerr);
+    fmt::print("{}", told.str());
+    return status == 0 ? 0 : kBadInput;
   }
   if (app.got_subcommand("render")) return render_command(render);
   if (app.got_subcommand("bake")) return bake_command(bake);

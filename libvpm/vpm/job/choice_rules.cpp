@@ -12,9 +12,8 @@
 namespace vpm {
 namespace {
 
-constexpr double kLargestRadius = 0.05;  // of the scene's diagonal
-constexpr double kLeastRadius = 0.5;     // pixels
-constexpr double kLeastShare = 0.125;    // of what the eye pass costs, for photons
+constexpr double kLeastRadius = 0.5;   // pixels
+constexpr double kLeastShare = 0.125;  // of what the eye pass costs, for photons
 
 }  // namespace
 

@@ -23,7 +23,7 @@ struct ChosenRadius {
 /// The radius within which kPhotonsWithin of `emitted` photons or of their flights lie, but no less than half a pixel,
 /// as finer kernels show as noise, and no more than a twentieth of `diagonal` (m), as wider ones blur the scene.
 ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal);
-inline constexpr double kPhotonsWithin = 50.0;
+inline constexpr double kPhotonsWithin = 50.0, kLargestRadius = 0.05;  // the latter of the diagonal
 
 struct ChosenCount {
   uint64_t count = 0;  // of two digits

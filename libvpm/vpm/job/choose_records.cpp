@@ -62,7 +62,7 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
     if (open.gather.goes_by_count())
       chosen = {rounded_radius(kDefaultSearch * diagonal), "a tenth of the scene at the most: 'count' decides"};
     else if (!open.density)
-      chosen = {rounded_radius(kDefaultRadius * diagonal), "a hundredth of the scene: the pilot met too few photons"};
+      chosen = {rounded_radius(kLargestRadius * diagonal), "a twentieth of the scene: the pilot met too few photons"};
     else
       chosen = choose_radius(*open.density, open.emitted, diagonal);
     open.gather.radius = chosen.radius;

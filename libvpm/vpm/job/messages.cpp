@@ -97,6 +97,13 @@ size_t negative_pixels(const Film& film) {
                                            [](const Rgb& p) { return p.r < 0.0f || p.g < 0.0f || p.b < 0.0f; }));
 }
 
+/// Is the picture black, though there are lights?
+bool finds_no_light(const Scene& scene, const Film& film) {
+  const Image mean = film.mean();
+  return !scene.lights.empty() && film.passes() > 0 &&
+         std::all_of(mean.pixels.begin(), mean.pixels.end(), [](const Rgb& p) { return is_black(p); });
+}
+
 /// The warnings about what is rendered, and about the picture of it.
 std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& job, const RenderResult& result) {
   std::vector<std::string> warnings = warnings_about(shown, job.settings, result.statistics);
@@ -105,6 +112,10 @@ std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& 
         fmt::format("{} pixels are negative in a channel, as weights of changing sign make them where photons are few; "
                     "the preview shows them as 0",
                     negative));
+  if (finds_no_light(job.scene, result.film))
+    warnings.emplace_back(
+        "the picture is black: no light was found, and no error tells what is missing; another render.integrator, or "
+        "more passes, may find some");
   if (const double error = job.settings.until.error; error > 0.0 && highest_error(result) > error)
     warnings.push_back(
         fmt::format("a relative MSE below {:g} is not reached after {}", error, passes_text(result.film.passes())));

@@ -24,6 +24,7 @@ namespace {
 constexpr double kTimingShare = 0.04;  // of the seconds of a render, for each of a few timings of a pass
 constexpr std::string_view kIntegratorKey = "render.integrator", kGatherKey = "volume.gather",
                            kTechniquesKey = "combined.techniques";
+constexpr const char* kSeeIntegrator = "with render.integrator, see there";
 
 // What may be tried: of equals the first is chosen.
 constexpr std::array kIntegratorsToTry{Integrator::photon, Integrator::combined, Integrator::path};
@@ -103,12 +104,16 @@ struct OpenTrials {
 };
 OpenTrials open_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   OpenTrials open;
+  std::string last;  // of several ways of the same integrator, which have the same fault
   for (Trial& trial : all_trials(scene, automatic, settings)) {
     try {
       validate(trial.settings, facts_of(scene));
       open.trials.push_back(std::move(trial));
     } catch (const SettingError& error) {
-      open.refused += fmt::format("; not {}: {}", trial.name, error.wrong());
+      const bool combined = trial.settings.integrator == Integrator::combined;
+      const std::string name = combined ? word_of(Integrator::combined) : trial.name;
+      if (error.wrong() != last) open.refused += fmt::format("; not {}: {}", name, error.wrong());
+      last = error.wrong();
     }
   }
   return open;
@@ -116,7 +121,7 @@ OpenTrials open_trials(const Scene& scene, const AutomaticSettings& automatic, c
 
 /// How long each timing of several trials may take, s.
 double limit_of_trial(const RenderSettings& settings, size_t trials) {
-  constexpr double kUnhurried = 1.0;  // where the time is not limited
+  constexpr double kUnhurried = 0.25;  // where the time is not limited
   return settings.until.seconds > 0.0 ? limit_of_timing(settings) / static_cast<double>(trials) : kUnhurried;
 }
 
@@ -196,12 +201,12 @@ std::vector<Choice> choices_of(const Scene& scene, const AutomaticSettings& auto
   if (settings.integrator == Integrator::photon && gathers_in_media(scene, automatic, settings)) {
     const bool ball_by_ball = settings.volume.boundary == BoundaryRule::corrected;
     const std::string why = ball_by_ball ? "only balls are corrected one by one, as 'boundary' asks for" : reason;
-    choices.push_back({std::string(kGatherKey), word_of(settings.volume.mode), choices.empty() ? why : "see there"});
+    choices.push_back({std::string(kGatherKey), word_of(settings.volume.mode), choices.empty() ? why : kSeeIntegrator});
   }
   if (settings.integrator == Integrator::combined && chooses_techniques(automatic))
     choices.push_back({std::string(kTechniquesKey),
                        std::get<std::string>(find_setting(kTechniquesKey, settings)->member.get(settings)),
-                       choices.empty() ? reason : "see there"});
+                       choices.empty() ? reason : kSeeIntegrator});
   for (const Choice& choice : best.choices) choices.push_back(choice);
   return choices;
 }
