@@ -157,7 +157,7 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
   refuses(kRender, "it is no checkpoint");
-  std::ofstream(path_) << "vpm checkpoint of a render\nformat 5\nidentity 2\nrender.seed=1\n";
+  std::ofstream(path_) << "vpm checkpoint of a render\nformat 6\nidentity 2\nrender.seed=1\n";
   refuses(kRender, "it is damaged or not whole");
   write_checkpoint(path_, kRender, some_result());
   const uintmax_t size = fs::file_size(path_);
@@ -194,11 +194,11 @@ std::string bytes_of(T number) {
 TEST_F(Checkpoint, OfAnotherFormatIsRefused) {
   write_checkpoint(path_, kRender, some_result());
   const std::string content = bytes();
-  put(with(content, "format 5\n", "format 6\n"));
-  refuses(kRender, "it is written by another format of checkpoints, 6; this program reads 5");
+  put(with(content, "format 6\n", "format 7\n"));
+  refuses(kRender, "it is written by another format of checkpoints, 7; this program reads 6");
   EXPECT_THROW(checkpoint_identity(path_), InputError);
-  put(with(content, "format 5\n", ""));  // as they were before they told it
-  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 5");
+  put(with(content, "format 6\n", ""));  // as they were before they told it
+  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 6");
 }
 
 TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
@@ -274,7 +274,7 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
   };
   constexpr const char* kOld = "format_1";  // a whole file, written before files told their format
   put(seed(folder / kOld));
-  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 5; render again");
+  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 6; render again");
   int accepted = 0;
   size_t refused = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
