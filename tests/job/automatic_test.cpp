@@ -189,13 +189,13 @@ TEST(Automatic, TimesNoPhotonsWhereThereIsNoMap) {
 }
 
 /// A closed room full of fog with a lamp, as in scenes/fog_room.toml, seen from within.
-AssembledScene foggy_room(float sigma_t) {
+AssembledScene foggy_room(float sigma_t, const Light& light = PointLight{Vec3(0.0f, 0.9f, 0.0f), Rgb(1.0f)}) {
   AssembledScene parts;
   Scene& scene = parts.scene;
   scene.media.push_back(make_medium(nullptr, Rgb(sigma_t), 0.9f));
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Lambertian{Rgb(0.5f)}, &media);
-  scene.lights.push_back(PointLight{Vec3(0.0f, 0.9f, 0.0f), Rgb(1.0f)});
+  scene.lights.push_back(light);
   scene.camera = make_camera(Vec3(0.0f, 0.0f, 0.95f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 75.0f, {128, 128});
   scene.camera_medium = 0;
   scene.geometry.commit();
@@ -226,10 +226,8 @@ TEST(SlowAutomatic, BeamsLeaveTimeForPasses) {
 /// too noisy for a scale; and the lamp has a size, as the variance of paths has no bound beside a point of light.
 class TheErrorOfAPass : public testing::TestWithParam<Integrator> {};
 TEST_P(TheErrorOfAPass, IsThatOfTheFilm) {
-  AssembledScene room = foggy_room(0.5f);
-  room.scene.lights = {QuadLight{Vec3(-0.2f, 0.9f, -0.2f), Vec3(0.4f, 0.0f, 0.0f), Vec3(0.0f, 0.0f, 0.4f)}};
-  finish(room.scene);
-  const RenderJob job = make_job(std::move(room));
+  const QuadLight lamp{Vec3(-0.2f, 0.9f, -0.2f), Vec3(0.4f, 0.0f, 0.0f), Vec3(0.0f, 0.0f, 0.4f)};
+  const RenderJob job = make_job(foggy_room(0.5f, lamp));
   RenderSettings settings;
   settings.integrator = GetParam();
   settings.volume.mode = GatherMode::beam;
