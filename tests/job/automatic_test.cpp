@@ -3,37 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include "support/scenes.h"
+#include "job/pilot_scenes.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/declare.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
-#include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
 #include "vpm/job/setting.h"
 
 namespace vpm {
 namespace {
-
-/// A floor below a cloud whose densities differ from brick to brick, seen from the side.
-Scene cloud_over_floor(bool grid) {
-  Scene scene;
-  std::shared_ptr<const DensityGrid> noise;
-  if (grid) noise = make_grid(centred_frame(16, 2.0 / 32.0), lattice_noise);
-  scene.media.push_back(make_medium(noise, Rgb(2.0f), 0.9f));
-  const Interface media{0, kVacuum};
-  add_shape(scene, box_mesh(Vec3d(-0.9), Vec3d(0.9)), Boundary{}, &media);
-  add_shape(scene, quad_mesh(Vec3d(-3.0, -1.5, 3.0), Vec3d(6.0, 0.0, 0.0), Vec3d(0.0, 0.0, -6.0)),
-            Lambertian{Rgb(0.5f)});
-  scene.lights.push_back(PointLight{Vec3(0.0f, 3.0f, 0.0f), Rgb(10.0f)});
-  scene.camera = make_camera(Vec3(0.0f, 0.5f, 5.0f), Vec3(0.0f, -0.5f, 0.0f), Vec3(0.0f, 1.0f, 0.0f), 45.0f, {64, 48});
-  scene.geometry.commit();
-  finish(scene);
-  return scene;
-}
 
 /// No clock decides where no time is asked for: all that can be chosen is.
 TEST(Automatic, ChoosesTheSameOnAnyNumberOfThreads) {
@@ -113,19 +95,6 @@ TEST(Automatic, CountsTheExactStrategies) {
   EXPECT_EQ(costs[0].cost, std::max({costs[0].cost, costs[1].cost, costs[2].cost, costs[3].cost}));
 }
 
-/// A box of 2 m of a medium, and a parallel light through all of its height.
-Scene lit_evenly(float sigma_t) {
-  Scene scene;
-  scene.media.push_back(make_medium(nullptr, Rgb(sigma_t), 1.0f));
-  const Interface media{0, kVacuum};
-  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
-  scene.lights.push_back(BeamLight{Vec3(0.0f, 2.0f, 0.0f), Vec3(0.0f, -1.0f, 0.0f), 0.9f, Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.0f, 0.0f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 10.0f, {64, 64});
-  scene.geometry.commit();
-  finish(scene);
-  return scene;
-}
-
 /// As many photons lie within the radius chosen as the rule says, in air so thin that light stays what it is.
 TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
   const Scene scene = lit_evenly(0.01f);
@@ -188,21 +157,6 @@ TEST(Automatic, TimesNoPhotonsWhereThereIsNoMap) {
   EXPECT_GT(cost.eye, 0.0);
 }
 
-/// A closed room full of fog with a lamp, as in scenes/fog_room.toml, seen from within.
-AssembledScene foggy_room(float sigma_t, const Light& light = PointLight{Vec3(0.0f, 0.9f, 0.0f), Rgb(1.0f)}) {
-  AssembledScene parts;
-  Scene& scene = parts.scene;
-  scene.media.push_back(make_medium(nullptr, Rgb(sigma_t), 0.9f));
-  const Interface media{0, kVacuum};
-  add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Lambertian{Rgb(0.5f)}, &media);
-  scene.lights.push_back(light);
-  scene.camera = make_camera(Vec3(0.0f, 0.0f, 0.95f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 75.0f, {128, 128});
-  scene.camera_medium = 0;
-  scene.geometry.commit();
-  finish(scene);
-  return parts;
-}
-
 /// Where other work comes and goes, a pass takes now longer, now shorter than the pilot's: one try of three is to do.
 TEST(SlowAutomatic, BeamsLeaveTimeForPasses) {
   constexpr double kSeconds = 4.0;
@@ -219,152 +173,6 @@ TEST(SlowAutomatic, BeamsLeaveTimeForPasses) {
     fits = result.seconds < longest_time(kSeconds) && result.film.passes() >= kLeastPasses;
   }
   EXPECT_TRUE(fits);
-}
-
-/// A pilot's error is that of passes, as the film tells it, whether it has time or renders a ray of each block among a
-/// twentieth of the photons: the film's own scale is that of pixels, so that the two differ. Pixels of a few paths are
-/// too noisy for a scale; and the lamp has a size, as the variance of paths has no bound beside a point of light.
-class TheErrorOfAPass : public testing::TestWithParam<Integrator> {};
-TEST_P(TheErrorOfAPass, IsThatOfTheFilm) {
-  const QuadLight lamp{Vec3(-0.2f, 0.9f, -0.2f), Vec3(0.4f, 0.0f, 0.0f), Vec3(0.0f, 0.0f, 0.4f)};
-  const RenderJob job = make_job(foggy_room(0.5f, lamp));
-  RenderSettings settings;
-  settings.integrator = GetParam();
-  settings.volume.mode = GatherMode::beam;
-  settings.volume.radius = 0.1f;
-  settings.surface.radius = 0.2f;
-  settings.photons_emitted = GetParam() == Integrator::combined ? 4'000 : 20'000;
-  settings.radii = RadiusSchedule::constant;
-  settings.until.passes = GetParam() == Integrator::path ? 64 : 8;
-  const FilmErrors film = render(job.scene, settings, nothing_rendered(job.scene.camera)).errors.value();
-  const PassCost cost = time_pass(job.scene, settings);
-  for (const double seconds : {double{kInfinity}, 0.0}) {
-    if (GetParam() == Integrator::path && seconds == 0.0) continue;  // a few hundred rays tell little of paths
-    const PassError error = error_of_pass(job.scene, settings, cost, seconds).pass;
-    const double variance = error.rays + error.photons;
-    EXPECT_NEAR(variance / (settings.until.passes * film.variance_part.value), 1.0, 0.4) << seconds;
-    EXPECT_LT(error.bias2, variance);
-  }
-}
-INSTANTIATE_TEST_SUITE_P(Automatic, TheErrorOfAPass,
-                         testing::Values(Integrator::photon, Integrator::path, Integrator::combined),
-                         [](const auto& of) { return word_of(of.param); });
-
-/// The integrator that is chosen, with its reason.
-Choice chosen_integrator(const Scene& scene, RenderSettings settings) {
-  settings.photons_emitted = 5'000;
-  const AutomaticSettings automatic{{"render.integrator", "volume.radius", "surface.radius"}};
-  const std::vector<Choice> choices = choose_settings(scene, automatic, settings);
-  EXPECT_EQ(choices.at(0).key, "render.integrator");
-  EXPECT_EQ(choices.at(0).value, word_of(settings.integrator));
-  for (const char* part : {"least error in a pilot", "photon ", " path "})
-    EXPECT_NE(choices.at(0).reason.find(part), std::string::npos) << choices.at(0).reason;
-  return choices.at(0);
-}
-
-/// A grey floor under an even sky: shadow rays find all light at once.
-TEST(Automatic, PathsAreChosenUnderAnEvenSky) {
-  Scene scene;
-  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
-            Lambertian{Rgb(0.5f)});
-  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.0f, 3.0f, 0.0f), Vec3(0.0f), Vec3(0.0f, 0.0f, -1.0f), 40.0f, {64, 64});
-  scene.geometry.commit();
-  finish(scene);
-  const Choice choice = chosen_integrator(scene, {});
-  EXPECT_EQ(choice.value, "path") << choice.reason;
-}
-
-/// What lights the floor came through a ball of glass, which shadow rays do not pass: paths are black, and do not pass
-/// for quiet ones.
-TEST(Automatic, PathsAreNotChosenWhereTheyDoNotFindTheLight) {
-  Scene scene;
-  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
-            Lambertian{Rgb(0.5f)});
-  add_shape(scene, SphereShape{Vec3(0.0f, 1.0f, 0.0f), 0.5f}, Dielectric{1.5f});
-  scene.lights.push_back(PointLight{Vec3(0.0f, 1.0f, 0.0f), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.0f, 0.4f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 40.0f, {64, 64});
-  scene.geometry.commit();
-  finish(scene);
-  const Choice choice = chosen_integrator(scene, {});
-  EXPECT_NE(choice.value, "path") << choice.reason;
-}
-
-/// Techniques may be chosen alone, and are where the integrator is.
-TEST(Automatic, TechniquesAreChosen) {
-  const Scene scene = foggy_room(0.5f).scene;
-  RenderSettings settings;
-  settings.integrator = Integrator::combined;
-  settings.photons_emitted = 2'000;
-  settings.volume.radius = settings.surface.radius = 0.1f;
-  const std::vector<Choice> choices = choose_settings(scene, {{"combined.techniques"}}, settings);
-  ASSERT_EQ(choices.size(), 1u);
-  EXPECT_EQ(choices[0].key, "combined.techniques");
-  for (const char* part : {"least error in a pilot", " combined without short-beams ", " combined "})
-    EXPECT_NE(choices[0].reason.find(part), std::string::npos) << choices[0].reason;
-  RenderSettings again = settings;
-  again.combined.techniques = {};
-  set_chosen(again, choices[0].key, choices[0].value);
-  EXPECT_EQ(settings_line(again), settings_line(settings));
-}
-
-/// A pass of so many photons takes far longer than the time asked for, whatever it is worth; one of paths does not.
-TEST(Automatic, WhatDoesNotFitIntoTheTimeIsNotChosen) {
-  RenderSettings settings;
-  settings.photons_emitted = 100'000'000;
-  settings.volume.radius = settings.surface.radius = 0.1f;
-  settings.until.seconds = 0.5;
-  choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, settings);
-  EXPECT_EQ(settings.integrator, Integrator::path);
-}
-
-TEST(Automatic, IntegratorsThatTheSettingsRefuseAreNotTried) {
-  RenderSettings guided;
-  guided.guide.importons = 1000;
-  const Choice choice = chosen_integrator(cloud_over_floor(true), guided);
-  EXPECT_NE(choice.reason.find("not combined: "), std::string::npos) << choice.reason;
-}
-
-/// What is chosen for volume.gather, with its reason, and a radius for it; photons are given.
-Choice chosen_gather(const Scene& scene, RenderSettings settings) {
-  settings.photons_emitted = 20'000;
-  settings.surface.radius = 0.1f;
-  const std::vector<Choice> choices = choose_settings(scene, {{"volume.gather", "volume.radius"}}, settings);
-  EXPECT_EQ(choices.size(), 2u);
-  EXPECT_EQ(choices.at(0).key, "volume.gather");
-  EXPECT_EQ(choices.at(0).value, word_of(settings.volume.mode));
-  EXPECT_EQ(choices.at(1).key, "volume.radius");
-  return choices.at(0);
-}
-
-/// In thin air few photons collide, but all fly.
-TEST(Automatic, BeamsAreGatheredWhereFewPhotonsCollide) {
-  const Choice choice = chosen_gather(lit_evenly(0.01f), {});
-  EXPECT_EQ(choice.value, "photon-beams") << choice.reason;
-  for (const char* part : {"least error in a pilot", " beam ", " photon-beams "})
-    EXPECT_NE(choice.reason.find(part), std::string::npos) << choice.reason;
-}
-
-/// In a dense medium photons collide often, and a flight says little more than the collision at its end.
-TEST(Automatic, PointsAreGatheredWherePhotonsCollideOften) {
-  const Choice choice = chosen_gather(foggy_room(5.0f).scene, {});
-  EXPECT_EQ(choice.value, "beam") << choice.reason;
-}
-
-TEST(Automatic, GathersThatTheSettingsRefuseAreNotTried) {
-  const Scene thin = lit_evenly(0.01f);
-  RenderSettings merged;
-  merged.photons_in_cube = 10;
-  RenderSettings biased;
-  biased.distance.strategy = "mean-extinction";
-  for (const RenderSettings& settings : {merged, biased}) {
-    const Choice choice = chosen_gather(thin, settings);
-    EXPECT_EQ(choice.value, "beam");
-    EXPECT_NE(choice.reason.find("not photon-beams: "), std::string::npos) << choice.reason;
-  }
-  RenderSettings ball_by_ball;
-  ball_by_ball.volume.boundary = BoundaryRule::corrected;
-  EXPECT_EQ(chosen_gather(thin, ball_by_ball).value, "radius");
 }
 
 /// Combined techniques take radii as photon maps by points have them, for the light sub-paths that are chosen.

@@ -76,7 +76,7 @@ double seconds_of_photons(const RenderSettings& settings, const RenderStatistics
 /// much memory.
 PassCost time_combined_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
   constexpr uint64_t kFirst = 1000;
-  constexpr double kMostBytes = 2e8;
+  constexpr double kMostBytes = 2e8;  // of what they store
   const auto all = static_cast<double>(settings.photons_emitted);
   RenderSettings pilot = with_light_paths(pilot_settings(settings, settings.photons_emitted), kFirst);
   RaysOfPass ready = rays_of_pass(scene, pilot, 0);
@@ -174,6 +174,7 @@ PassCost cost_of_photons(const RenderSettings& settings, const ReadyPass& ready)
   cost.caustics = caustic_seconds(ready) * caustic_paths(all) / caustic_paths(part) + sorting * cost.stored_caustics;
   return cost;
 }
+
 }  // namespace
 
 bool goes_by_clock(const RenderSettings& settings) { return settings.until.seconds > 0.0 || !kCounts; }
@@ -201,4 +202,5 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
   cost.eye = guide + with_more_photons(eye, std::max(1.0, whole / std::max(1.0, found)));
   return cost;
 }
+
 }  // namespace vpm

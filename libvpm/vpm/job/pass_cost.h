@@ -26,7 +26,8 @@ struct PassCost {
   /// By all maps of a pass that emits so many photons.
   double stored(double photons) const { return stored_caustics + photons * stored_per_photon; }
 };
-/// Renders with the photons of a pass, of either kind a million stored ones at the most, a sample of its rays. Takes
+/// Renders with the photons of a pass, of either kind a million stored ones at the most, or with as many of its light
+/// sub-paths as 200 MB hold, a sample of its rays. Takes
 /// about so many seconds at the most, of a clock or counted: then photons are fewer than the settings say, and the eye
 /// pass is told from how many it finds of these.
 PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds = kInfinity);

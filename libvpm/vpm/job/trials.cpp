@@ -67,7 +67,7 @@ bool chooses_techniques(const AutomaticSettings& automatic) {
 /// One trial of combined techniques, or of those that are used without asking; without beams, where there are such, as
 /// they cost most, and without light tracing, whose shadow rays may cost more than they are worth.
 std::vector<Trial> trials_of_techniques(const Scene& scene, const AutomaticSettings& automatic, const Trial& all) {
-  if (!chooses_techniques(automatic)) return {all};
+  if (!chooses_techniques(automatic) || all.settings.combined.techniques != TechniqueSet()) return {all};
   const auto without = [&](std::initializer_list<Technique> left_out) {
     Trial trial = all;
     std::vector<std::string_view> names;
