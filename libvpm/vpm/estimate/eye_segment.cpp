@@ -11,9 +11,11 @@ Interval clip(const Ray& ray, const Interval& interval, const Box& box, float ma
 
 const DensityIntegralsAlong& EyeSegment::integrals(EyeWork& work) const {
   DensityIntegralsAlong& integrals = work.scratch.integrals;
-  if (walked_) return integrals;
+  const EyeSegment*& walked_last = work.scratch.integrals_of;  // others may have walked since
+  if (walked_ && walked_last == this) return integrals;
   count(work.counters.walk.lookups, integrals.walk(medium(), ray, interval));
   walked_ = true;
+  walked_last = this;
   integral_ = integrals.integral();
   return integrals;
 }

@@ -51,7 +51,7 @@ class EyeSegment {
   const Borders borders;
 
  private:
-  mutable bool walked_ = false;             // by integrals()
+  mutable bool walked_ = false;             // by integrals(), if EyeScratch has them still
   mutable std::optional<double> integral_;  // m
 };
 

@@ -9,15 +9,20 @@
 #include "vpm/estimate/volume/march.h"
 #include "vpm/medium/density_integrals_along.h"
 #include "vpm/path/walk.h"
+#include "vpm/photon/photon_beam_map.h"
 
 namespace vpm {
 
+class EyeSegment;
+
 /// Buffers, one set for each thread. They outlive rays, so that rays allocate nothing.
 struct EyeScratch {
-  DensityIntegralsAlong integrals;  // of the current segment
+  DensityIntegralsAlong integrals;           // of the last segment that asked for them
+  const EyeSegment* integrals_of = nullptr;  // that segment
   Marcher marcher;
-  Neighbours neighbours;      // of the last gather by count
-  std::vector<Track> tracks;  // of the last flight
+  Neighbours neighbours;           // of the last gather by count
+  std::vector<Track> tracks;       // of the last flight
+  PhotonBeamMap::Selection beams;  // near the last bundle of rays
 };
 
 struct EyeWork {
@@ -28,6 +33,16 @@ struct EyeWork {
 
   /// The counters and the memory for gathers along the ray.
   GatherWork gather() { return {counters.gather, scratch.neighbours}; }
+};
+
+/// How many rays from the camera are followed together at the most.
+inline constexpr size_t kEyeRays = 64;
+
+/// A ray from the camera.
+struct EyeRay {
+  Ray ray;
+  EyeWork work;
+  KernelEstimate radiance{};  // that is estimated along it, W/(m^2 sr)
 };
 
 }  // namespace vpm

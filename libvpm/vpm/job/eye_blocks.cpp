@@ -6,7 +6,9 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kBlocksOfEdge = 8, kPixelsOfEdge = 8;
+constexpr size_t kBlocksOfEdge = 8, kPixelsOfEdge = 8, kPixelsOfSquare = 4;
+constexpr size_t kSquaresOfEdge = kPixelsOfEdge / kPixelsOfSquare;
+static_assert(kPixelsOfSquare * kPixelsOfSquare == kBlock);
 static_assert(kBlocksOfEdge * kBlocksOfEdge == kEyeBlocks && kPixelsOfEdge * kPixelsOfEdge == kRaysOfBlock);
 
 /// A pixel along an edge of the picture; in small pictures some are the same.
@@ -17,11 +19,17 @@ int pixel_along(int pixels, size_t part, size_t i) {
 
 }  // namespace
 
-BlockRay ray_of_block(const Camera& camera, size_t block, size_t i, const Vec2& u) {
-  const int x = pixel_along(camera.width, block % kBlocksOfEdge, i % kPixelsOfEdge);
-  const int y = pixel_along(camera.height, block / kBlocksOfEdge, i / kPixelsOfEdge);
-  const Vec2 place = Vec2(x, y) + 0.5f + sample_filter(camera.filter, u);
-  return {camera.ray(place), static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x)};
+void RaysOfBlock::add(size_t i, const Rng& random) {
+  // Squares of kBlock pixels one after another.
+  const size_t square = i / kBlock, within = i % kBlock;
+  const size_t column = square % kSquaresOfEdge * kPixelsOfSquare + within % kPixelsOfSquare;
+  const size_t row = square / kSquaresOfEdge * kPixelsOfSquare + within / kPixelsOfSquare;
+  const int x = pixel_along(camera_.width, block_ % kBlocksOfEdge, column);
+  const int y = pixel_along(camera_.height, block_ / kBlocksOfEdge, row);
+  Rng& rng = rngs_[rays_.size()].emplace(random);
+  const Vec2 place = Vec2(x, y) + 0.5f + sample_filter(camera_.filter, rng.uniform2());
+  const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera_.width) + static_cast<size_t>(x);
+  rays_.push_back({camera_.ray(place), {rng, counters_, scratch_, pixel}});
 }
 
 }  // namespace vpm

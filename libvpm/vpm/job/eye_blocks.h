@@ -1,21 +1,38 @@
 // Rays of blocks of pixels all over the picture: a pilot takes them for those of all pixels.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "vpm/estimate/eye_work.h"
 #include "vpm/scene/camera.h"
 
 namespace vpm {
 
-inline constexpr size_t kEyeBlocks = 64;    // eight in either direction
-inline constexpr size_t kRaysOfBlock = 64;  // of as many pixels in a square; in small pictures some are the same
+inline constexpr size_t kEyeBlocks = 64;          // eight in either direction
+inline constexpr size_t kRaysOfBlock = kEyeRays;  // of pixels in a square; in small pictures some are the same
 
-/// A ray, and the pixel that it belongs to, numbered row by row.
-struct BlockRay {
-  Ray ray;
-  size_t pixel;
+/// Some rays of a block, to be followed together.
+class RaysOfBlock {
+ public:
+  RaysOfBlock(const Camera& camera, size_t block, EyeCounters& counters, EyeScratch& scratch)
+      : camera_(camera), block_(block), counters_(counters), scratch_(scratch) {}
+
+  /// Adds ray number `i` < kRaysOfBlock, through a place of its pixel that the camera's filter draws, up to that many
+  /// times. Rays in a row lie side by side.
+  void add(size_t i, const Rng& rng);
+  std::span<EyeRay> all() { return rays_; }
+
+ private:
+  const Camera& camera_;
+  size_t block_;
+  EyeCounters& counters_;
+  EyeScratch& scratch_;
+  std::array<std::optional<Rng>, kRaysOfBlock> rngs_;
+  std::vector<EyeRay> rays_;
 };
-/// Ray number `i` < kRaysOfBlock of a block, through a place of its pixel that the camera's filter draws.
-BlockRay ray_of_block(const Camera& camera, size_t block, size_t i, const Vec2& u);
 
 }  // namespace vpm

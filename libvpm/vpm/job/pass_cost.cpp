@@ -21,21 +21,23 @@
 namespace vpm {
 namespace {
 
-/// Renders the rays of one block of pixels; the first of them, and others until so many seconds are over.
-EyeCounters render_block(const Scene& scene, const RenderSettings& settings, const RayRadiance& radiance, size_t block,
-                         double seconds) {
+/// Renders rays of one block of pixels: one, and all others together where so many seconds allow, else one by one until
+/// these are over.
+EyeCounters render_block(const Scene& scene, const RenderSettings& settings, const RadianceOfRays& radiance,
+                         size_t block, double seconds) {
   EyeCounters counters;
   EyeScratch scratch;
   const Stopwatch rendering;
   const auto taken = [&] {
     return goes_by_clock(settings) ? rendering.seconds() : counted_work(settings, counters).seconds;
   };
-  for (size_t i = 0; i < kRaysOfBlock && (i == 0 || taken() < seconds); ++i) {
-    Rng rng(settings.seed, rng_stream(RngUse::pilot, 1), block * kRaysOfBlock + i);
-    const BlockRay at = ray_of_block(scene.camera, block, i, rng.uniform2());
-    EyeWork work{rng, counters, scratch, at.pixel};
-    radiance(at.ray, work);
-    ++counters.rays;
+  for (size_t i = 0; i < kRaysOfBlock && (i == 0 || taken() < seconds);) {
+    const bool together = i == 1 && kRaysOfBlock * taken() < seconds;
+    const size_t end = together ? kRaysOfBlock : i + 1;
+    RaysOfBlock rays(scene.camera, block, counters, scratch);
+    for (; i < end; ++i) rays.add(i, Rng(settings.seed, rng_stream(RngUse::pilot, 1), block * kRaysOfBlock + i));
+    radiance(rays.all());
+    counters.rays += rays.all().size();
   }
   return counters;
 }
@@ -46,7 +48,8 @@ struct EyeCost {
   double of_photons = 0.0;  // the share of them that goes with the number of photons; 0 where nothing is counted
 };
 /// Takes about so many seconds.
-EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const RayRadiance& radiance, double seconds) {
+EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const RadianceOfRays& radiance,
+                      double seconds) {
   std::array<EyeCounters, kEyeBlocks> blocks;
   const Stopwatch rendering;
   parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
@@ -191,7 +194,7 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
   if (settings.integrator == Integrator::combined) return time_combined_pass(scene, settings, seconds);
   const ReadyPass ready = make_ready_within(scene, settings, PassOf::picture, 0.5 * seconds);
   const EyeContext context{scene, ready.estimators, settings.max_events};
-  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); };
+  const RadianceOfRays radiance = [&](std::span<EyeRay> rays) { eye_radiance(context, rays); };
   const EyeCost eye = time_eye_pass(scene, ready.settings, radiance, 0.5 * seconds);
   const RenderStatistics& s = ready.statistics;
   PassCost cost = cost_of_photons(settings, ready);

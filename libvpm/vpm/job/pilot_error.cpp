@@ -12,6 +12,7 @@
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/image/metrics.h"
 #include "vpm/job/eye_blocks.h"
+#include "vpm/job/pilot.h"
 #include "vpm/job/rays_of_pass.h"
 
 namespace vpm {
@@ -51,21 +52,29 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   return small;
 }
 
+/// What a ray finds, with the light that is traced to its pixel; black where that is no number.
+KernelEstimate found_by(const EyeRay& ray, const Image& light_tracing) {
+  EyeCounters counters;
+  KernelEstimate found = mean_of_samples(1, counters, [&](int) { return ray.radiance; });
+  if (!light_tracing.pixels.empty()) found.value += light_tracing.pixels[ray.work.pixel];
+  return found;
+}
+
 std::vector<Twins> render_small(const Scene& scene, const SmallPasses& small, int pass) {
-  const RaysOfPass rays = rays_of_pass(scene, small.settings, pass);
+  const RaysOfPass ready = rays_of_pass(scene, small.settings, pass);
   std::vector<Twins> found(kEyeBlocks * small.rays);
   parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
     EyeCounters counters;
     EyeScratch scratch;
-    for (size_t i = 0; i < small.rays; ++i) {
-      const size_t number = block * small.rays + i;
-      Rng rng(small.settings.seed, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), number);
-      const BlockRay at = ray_of_block(scene.camera, block, i * kRaysOfBlock / small.rays, rng.uniform2());
-      EyeWork work{rng, counters, scratch, at.pixel};
-      for (KernelEstimate& twin : found[number]) {
-        twin = mean_of_samples(1, counters, [&](int) { return rays.radiance(at.ray, work); });
-        if (!rays.light_tracing.pixels.empty()) twin.value += rays.light_tracing.pixels[at.pixel];
-      }
+    RaysOfBlock rays(scene.camera, block, counters, scratch);
+    for (size_t i = 0; i < small.rays; ++i)
+      rays.add(
+          i * kRaysOfBlock / small.rays,
+          Rng(small.settings.seed, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), block * small.rays + i));
+    for (size_t twin = 0; twin < 2; ++twin) {
+      ready.radiance(rays.all());
+      for (size_t i = 0; i < small.rays; ++i)
+        found[block * small.rays + i][twin] = found_by(rays.all()[i], ready.light_tracing);
     }
   });
   return found;

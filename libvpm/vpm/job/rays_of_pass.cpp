@@ -16,17 +16,16 @@ namespace {
 
 RaysOfPass rays_of_path_pass(const Scene& scene, const RenderSettings& settings, int pass) {
   const auto context = std::make_shared<const PathContext>(make_path_context(scene, settings, pass));
-  return {
-      [context, &scene](const Ray& ray, EyeWork& work) -> KernelEstimate {
-        return {path_radiance(*context, ray, medium_of_ray(scene, scene.camera_medium, ray), work.rng, work.counters)};
-      },
-      {}};
+  const auto radiance = [context, &scene](const Ray& ray, EyeWork& work) -> KernelEstimate {
+    return {path_radiance(*context, ray, medium_of_ray(scene, scene.camera_medium, ray), work.rng, work.counters)};
+  };
+  return {ray_by_ray(radiance), {}};
 }
 
 RaysOfPass rays_of_photon_pass(const Scene& scene, const RenderSettings& settings, int pass) {
   const auto estimators = std::make_shared<const Estimators>(plan_estimators(scene, settings, pass));
-  RaysOfPass rays{[estimators, &scene, events = settings.max_events](const Ray& ray, EyeWork& work) {
-                    return eye_radiance({scene, *estimators, events}, ray, work);
+  RaysOfPass rays{[estimators, &scene, events = settings.max_events](std::span<EyeRay> of) {
+                    eye_radiance({scene, *estimators, events}, of);
                   },
                   {}};
   prepare_pass(scene, settings, *estimators, {.pass = pass, .stop = kNeverStopped}, rays.statistics);
@@ -35,7 +34,7 @@ RaysOfPass rays_of_photon_pass(const Scene& scene, const RenderSettings& setting
 
 RaysOfPass rays_of_combined_pass(const Scene& scene, const RenderSettings& settings, int pass) {
   const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, kNeverStopped);
-  RaysOfPass rays{[ready](const Ray& ray, EyeWork& work) { return ready->radiance(ray, work); },
+  RaysOfPass rays{ray_by_ray([ready](const Ray& ray, EyeWork& work) { return ready->radiance(ray, work); }),
                   Image(scene.camera.width, scene.camera.height), ready->statistics()};
   ready->add_light_tracing(rays.light_tracing);
   return rays;

@@ -10,8 +10,8 @@ namespace vpm {
 
 /// A pass with its photons or light sub-paths ready.
 struct RaysOfPass {
-  RayRadiance radiance;  // along rays from the camera; keeps what it reads
-  Image light_tracing;   // what light sub-paths add to each pixel; empty where the integrator has none
+  RadianceOfRays radiance;  // keeps what it reads
+  Image light_tracing;      // what light sub-paths add to each pixel; empty where the integrator has none
   RenderStatistics statistics{};
 };
 /// Makes pass number `pass` ready, which the scene must outlive.

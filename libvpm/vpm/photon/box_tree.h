@@ -1,5 +1,5 @@
-// A hierarchy of boxes over leaves, for rays and for points. The sixteen boxes below a box are met at once: four levels
-// of the binary tree that leaves are sorted by (leaf_order.h).
+// A hierarchy of boxes over leaves, for rays, bundles of rays and points. The sixteen boxes below a box are met at
+// once: four levels of the binary tree that leaves are sorted by (leaf_order.h).
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "vpm/base/below.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/vec.h"
+#include "vpm/photon/ray_bundle.h"
 
 namespace vpm {
 
@@ -27,6 +28,9 @@ class BoxTree {
   /// The same for the leaves whose boxes hold the point.
   template <class Visit>
   void visit_leaves(const Vec3& point, Visit&& visit) const;
+  /// The same for the leaves of which some place may lie among the rays of a bundle.
+  template <class Visit>
+  void visit_leaves(const RayBundle& bundle, Visit&& visit) const;
 
   size_t memory_bytes() const { return 6 * lo_[0].capacity() * sizeof(float); }
 
@@ -53,6 +57,8 @@ class BoxTree {
   uint32_t meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
   /// Likewise, for the boxes that hold the point.
   uint32_t meet(const Vec3& point, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
+  /// Likewise, for the boxes that no plane around the bundle parts from it.
+  uint32_t meet(const RayBundle& bundle, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
   /// Visits the leaves that meet() finds.
   template <class Where, class Visit>
   void descend(const Where& where, Visit&& visit) const;
@@ -107,6 +113,26 @@ inline uint32_t BoxTree::meet(const Vec3& point, size_t place, uint32_t count, u
   return append_below(missed, count, 0.5f, first, unused, met);
 }
 
+inline uint32_t BoxTree::meet(const RayBundle& bundle, size_t place, uint32_t count, uint32_t first,
+                              uint32_t* met) const {
+  const HalfSpaces& region = bundle.region();
+  const Vec3 apex = bundle.apex();
+  float least_inside[kBlock], missed[kBlock], unused[kBlock];  // of all planes, m, of the corner that is most inside
+  std::fill_n(least_inside, kBlock, kInfinity);
+  for (int k = 0; k < region.count(); ++k) {
+    const Vec3 n = region.normal(k);
+    const float offset = region.offset(k);
+    const float *x = (n.x > 0.0f ? hi_ : lo_)[0].data() + place, *y = (n.y > 0.0f ? hi_ : lo_)[1].data() + place,
+                *z = (n.z > 0.0f ? hi_ : lo_)[2].data() + place;
+    for (uint32_t i = 0; i < kBlock; ++i) {
+      const float inside = n.x * (x[i] - apex.x) + n.y * (y[i] - apex.y) + n.z * (z[i] - apex.z) - offset;
+      least_inside[i] = std::min(least_inside[i], inside);
+    }
+  }
+  for (uint32_t i = 0; i < kBlock; ++i) missed[i] = least_inside[i] >= 0.0f ? 0.0f : 1.0f;
+  return append_below(missed, count, 0.5f, first, unused, met);
+}
+
 template <class Visit>
 void BoxTree::visit_leaves(const Ray& ray, const Interval& interval, Visit&& visit) const {
   descend(make_beam(ray, interval), visit);
@@ -115,6 +141,11 @@ void BoxTree::visit_leaves(const Ray& ray, const Interval& interval, Visit&& vis
 template <class Visit>
 void BoxTree::visit_leaves(const Vec3& point, Visit&& visit) const {
   descend(point, visit);
+}
+
+template <class Visit>
+void BoxTree::visit_leaves(const RayBundle& bundle, Visit&& visit) const {
+  descend(bundle, visit);
 }
 
 template <class Where, class Visit>

@@ -21,6 +21,9 @@ class HalfSpaces {
     normal_[count_] = normal;
     offset_[count_++] = offset;
   }
+  int count() const { return count_; }
+  const Vec3& normal(int i) const { return normal_[i]; }
+  float offset(int i) const { return offset_[i]; }
   bool hold(const Vec3& place) const {
     bool inside = true;
     for (int i = 0; i < count_; ++i) inside &= glm::dot(normal_[i], place) >= offset_[i];

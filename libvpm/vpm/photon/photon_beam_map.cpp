@@ -169,6 +169,33 @@ void PhotonBeamMap::Owners::put(size_t i, const Rgb& power, float from_origin, u
   b[i] = power.b;
 }
 
+void PhotonBeamMap::Selection::add(const Leaf& leaf, const Owners& owners, size_t i) {
+  const size_t number = size_ / kBlock, place = size_ % kBlock;
+  if (number == leaves_.size()) {
+    leaves_.emplace_back();
+    owners_.emplace_back();
+  }
+  if (place == 0) std::fill_n(leaves_[number].half, kBlock, -1.0f);
+  leaves_[number].put(place, {leaf.x[i], leaf.y[i], leaf.z[i]}, {leaf.dx[i], leaf.dy[i], leaf.dz[i]}, leaf.half[i]);
+  owners_[number].put(place, {owners.r[i], owners.g[i], owners.b[i]}, owners.from[i], owners.beam[i]);
+  ++size_;
+}
+
+uint32_t PhotonBeamMap::select(const RayBundle& bundle, Selection& near) const {
+  near.radius_ = radius_;
+  near.size_ = 0;
+  if (size_ == 0) return 0;
+  uint32_t visited = 0;
+  boxes_.visit_leaves(bundle, [&](uint32_t leaf) {
+    float missed[kBlock];
+    test(leaves_[leaf], bundle, radius_, missed);
+    for (size_t i = 0; i < kBlock; ++i)
+      if (missed[i] < 0.5f) near.add(leaves_[leaf], owners_[leaf], i);
+    count(visited, kBlock);
+  });
+  return visited;
+}
+
 size_t PhotonBeamMap::memory_bytes() const {
   return sizeof(*this) + boxes_.memory_bytes() + leaves_.capacity() * (sizeof(Leaf) + sizeof(Owners));
 }

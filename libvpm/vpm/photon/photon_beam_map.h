@@ -33,6 +33,18 @@ struct BeamCrossings : BeamPlaces {
   float sine[kMost];  // of the angle between the two, > 0
 };
 
+/// Pieces of beams that rays of a bundle may pass closely.
+struct BundledBeams {
+  static constexpr size_t kMost = 128;
+
+  size_t size = 0;
+  float x[kMost], y[kMost], z[kMost];     // of their middles from the bundle's apex, m
+  float dx[kMost], dy[kMost], dz[kMost];  // directions, unit
+  float half[kMost];                      // of their lengths, m
+  float r[kMost], g[kMost], b[kMost];     // the beam's power at its origin, W
+  uint32_t beam[kMost];                   // its number in the list that the map was made of
+};
+
 class PhotonBeamMap {
  public:
   PhotonBeamMap() = default;
@@ -43,6 +55,9 @@ class PhotonBeamMap {
   /// the ray in the interval; some at a time, in a fixed order. Returns how many pieces of beams it looked at.
   template <class Visit>
   uint32_t visit_crossings(const Ray& ray, const Interval& interval, Visit&& visit) const;
+  class Selection;
+  /// Makes `near` those pieces that rays of a bundle may pass closely. Returns how many it looked at.
+  uint32_t select(const RayBundle& bundle, Selection& near) const;
   /// Calls visit(const BeamPlaces&) for the beams that have a perpendicular to the point, no longer than the radius; in
   /// the same way.
   template <class Visit>
@@ -79,10 +94,12 @@ class PhotonBeamMap {
   void test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval, float* missed) const;
   /// The same for a point.
   void test(const Leaf& leaf, const Vec3& point, float* missed) const;
+  /// The same for the rays of a bundle; some pieces that they pass by a little further away are not missed.
+  static void test(const Leaf& leaf, const RayBundle& bundle, float radius, float* missed);
   /// `search` hands the number of each leaf that it visits, and which pieces of it are missed, to its argument; `use`
-  /// takes the pieces that are not, up to BeamPlaces::kMost at a time. Returns how many pieces were looked at.
-  template <class Search, class Use>
-  uint32_t collect(Search&& search, Use&& use) const;
+  /// takes the pieces that are not, up to kMost at a time. Returns how many pieces were looked at.
+  template <size_t kMost, class Search, class Use>
+  static uint32_t collect(Search&& search, Use&& use);
   /// What pieces and their beams say of themselves; their middles as places.
   void read(const uint32_t* pieces, size_t count, const Vec3& from, BeamPlaces& found) const;
   void cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame, BeamCrossings& found) const;
@@ -94,6 +111,25 @@ class PhotonBeamMap {
   std::vector<Owners> owners_;
   BoxTree boxes_;
   Box bounds_;
+};
+
+/// Some pieces of a map, for bundles that are parts of another. Keeps its memory when it is filled anew.
+class PhotonBeamMap::Selection {
+ public:
+  /// Calls visit(const BundledBeams&) for the pieces near the rays of a bundle, in a fixed order. Returns how many it
+  /// looked at.
+  template <class Visit>
+  uint32_t visit_near_bundle(const RayBundle& bundle, Visit&& visit) const;
+
+ private:
+  friend class PhotonBeamMap;
+  void add(const Leaf& leaf, const Owners& owners, size_t i);
+  void read(const uint32_t* pieces, size_t count, const Vec3& apex, BundledBeams& found) const;
+
+  float radius_ = 0.0f;  // m
+  size_t size_ = 0;
+  std::vector<Leaf> leaves_;
+  std::vector<Owners> owners_;
 };
 
 inline void PhotonBeamMap::test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval,
@@ -132,6 +168,51 @@ inline void PhotonBeamMap::test(const Leaf& leaf, const Vec3& point, float* miss
     const bool on_piece = s >= -half[i] && s < half[i];
     missed[i] = near && on_piece ? 0.0f : 1.0f;
   }
+}
+
+inline void PhotonBeamMap::test(const Leaf& leaf, const RayBundle& bundle, float radius, float* missed) {
+  const auto& [px, py, pz, dx, dy, dz, half] = leaf;
+  const HalfSpaces& region = bundle.region();
+  const Vec3 apex = bundle.apex();
+  const float reach = 1.0001f * radius;
+  // Each plane, moved by the radius, cuts off a part of a piece; what no plane cuts off lies among the rays.
+  float begin[kBlock], end[kBlock];  // m from the middle
+  for (uint32_t i = 0; i < kBlock; ++i) {
+    begin[i] = -half[i];
+    end[i] = half[i];
+  }
+  for (int k = 0; k < region.count(); ++k) {
+    const Vec3 n = region.normal(k);
+    const float least = region.offset(k) - reach;
+    for (uint32_t i = 0; i < kBlock; ++i) {
+      const float depth = n.x * (px[i] - apex.x) + n.y * (py[i] - apex.y) + n.z * (pz[i] - apex.z) - least;
+      const float rise = n.x * dx[i] + n.y * dy[i] + n.z * dz[i], at = -depth / rise;
+      begin[i] = rise > 0.0f ? std::max(begin[i], at) : begin[i];
+      end[i] = rise < 0.0f ? std::min(end[i], at) : rise == 0.0f && depth < 0.0f ? -kInfinity : end[i];
+    }
+  }
+  for (uint32_t i = 0; i < kBlock; ++i) missed[i] = begin[i] <= end[i] ? 0.0f : 1.0f;
+}
+
+inline void PhotonBeamMap::Selection::read(const uint32_t* pieces, size_t count, const Vec3& apex,
+                                           BundledBeams& found) const {
+  for (size_t i = 0; i < count; ++i) {
+    const Leaf& leaf = leaves_[pieces[i] / kBlock];
+    const Owners& of = owners_[pieces[i] / kBlock];
+    const uint32_t p = pieces[i] % kBlock;
+    found.x[i] = leaf.x[p] - apex.x;
+    found.y[i] = leaf.y[p] - apex.y;
+    found.z[i] = leaf.z[p] - apex.z;
+    found.dx[i] = leaf.dx[p];
+    found.dy[i] = leaf.dy[p];
+    found.dz[i] = leaf.dz[p];
+    found.half[i] = leaf.half[p];
+    found.r[i] = of.r[p];
+    found.g[i] = of.g[p];
+    found.b[i] = of.b[p];
+    found.beam[i] = of.beam[p];
+  }
+  found.size = count;
 }
 
 inline void PhotonBeamMap::read(const uint32_t* pieces, size_t count, const Vec3& from, BeamPlaces& found) const {
@@ -188,15 +269,15 @@ inline void PhotonBeamMap::stand_beside(const uint32_t* pieces, size_t count, co
   }
 }
 
-template <class Search, class Use>
-uint32_t PhotonBeamMap::collect(Search&& search, Use&& use) const {
-  uint32_t pieces[BeamPlaces::kMost + kBlock];
+template <size_t kMost, class Search, class Use>
+uint32_t PhotonBeamMap::collect(Search&& search, Use&& use) {
+  uint32_t pieces[kMost + kBlock];
   float unused[kBlock];
   size_t count_found = 0;
   uint32_t visited = 0;
   search([&](uint32_t leaf, const float* missed) {
     count_found += append_below(missed, kBlock, 0.5f, leaf * kBlock, unused, pieces + count_found);
-    if (count_found > BeamPlaces::kMost - kBlock) {
+    if (count_found > kMost - kBlock) {
       use(pieces, count_found);
       count_found = 0;
     }
@@ -218,8 +299,24 @@ uint32_t PhotonBeamMap::visit_crossings(const Ray& ray, const Interval& interval
       use_leaf(leaf, missed);
     });
   };
-  return collect(search, [&](const uint32_t* pieces, size_t number) {
+  return collect<BeamPlaces::kMost>(search, [&](const uint32_t* pieces, size_t number) {
     cross(pieces, number, ray, frame, found);
+    visit(std::as_const(found));
+  });
+}
+
+template <class Visit>
+uint32_t PhotonBeamMap::Selection::visit_near_bundle(const RayBundle& bundle, Visit&& visit) const {
+  BundledBeams found;
+  const auto search = [&](auto&& use_leaf) {
+    for (uint32_t leaf = 0; leaf < chunk_count(size_, kBlock); ++leaf) {
+      float missed[kBlock];
+      test(leaves_[leaf], bundle, radius_, missed);
+      use_leaf(leaf, missed);
+    }
+  };
+  return collect<BundledBeams::kMost>(search, [&](const uint32_t* pieces, size_t number) {
+    read(pieces, number, bundle.apex(), found);
     visit(std::as_const(found));
   });
 }
@@ -235,7 +332,7 @@ uint32_t PhotonBeamMap::visit_near(const Vec3& point, Visit&& visit) const {
       use_leaf(leaf, missed);
     });
   };
-  return collect(search, [&](const uint32_t* pieces, size_t number) {
+  return collect<BeamPlaces::kMost>(search, [&](const uint32_t* pieces, size_t number) {
     stand_beside(pieces, number, point, found);
     visit(std::as_const(found));
   });

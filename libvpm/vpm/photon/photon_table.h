@@ -8,6 +8,7 @@
 
 #include "vpm/base/below.h"
 #include "vpm/base/vec.h"
+#include "vpm/photon/half_spaces.h"
 #include "vpm/photon/photon.h"
 
 namespace vpm {
@@ -34,6 +35,10 @@ class PhotonTable {
   /// the ray lies outside the interval.
   template <class Visit>
   void for_each_block(size_t begin, size_t end, const Ray& ray, const Interval& interval, Visit&& visit) const;
+
+  /// The same with how far photons lie outside of half spaces, which are counted from `origin`: m, below 0 inside.
+  template <class Visit>
+  void for_each_block(size_t begin, size_t end, const Vec3& origin, const HalfSpaces& region, Visit&& visit) const;
 
   Vec3 position(size_t i) const { return {x_[i], y_[i], z_[i]}; }
   const Payload& payload(size_t i) const { return payload_[i]; }
@@ -79,6 +84,24 @@ void PhotonTable::for_each_block(size_t begin, size_t end, const Ray& ray, const
       d2[i] = beyond > 0.0f ? kInfinity : across;
     }
     visit(d2, static_cast<uint32_t>(std::min<size_t>(kBlock, end - block)), static_cast<uint32_t>(block));
+  }
+}
+
+template <class Visit>
+void PhotonTable::for_each_block(size_t begin, size_t end, const Vec3& origin, const HalfSpaces& region,
+                                 Visit&& visit) const {
+  const Vec3 o = origin;
+  for (size_t block = begin; block < end; block += kBlock) {
+    const float *x = &x_[block], *y = &y_[block], *z = &z_[block];
+    float outside[kBlock];
+    std::fill_n(outside, kBlock, -kInfinity);
+    for (int k = 0; k < region.count(); ++k) {
+      const Vec3 n = region.normal(k);
+      const float offset = region.offset(k);
+      for (uint32_t i = 0; i < kBlock; ++i)
+        outside[i] = std::max(outside[i], offset - n.x * (x[i] - o.x) - n.y * (y[i] - o.y) - n.z * (z[i] - o.z));
+    }
+    visit(outside, static_cast<uint32_t>(std::min<size_t>(kBlock, end - block)), static_cast<uint32_t>(block));
   }
 }
 

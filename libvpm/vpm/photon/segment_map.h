@@ -54,6 +54,16 @@ struct PhotonsNearRay {
   const float* radius;    // m
 };
 
+/// Photons that rays of a bundle may pass more closely than their radii.
+struct BundledPhotons {
+  static constexpr size_t kMost = 128;
+
+  size_t size = 0;
+  float x[kMost], y[kMost], z[kMost];     // from the bundle's apex, m
+  float dx[kMost], dy[kMost], dz[kMost];  // their directions of travel, unit
+  float r[kMost], g[kMost], b[kMost];     // powers, W, over the photons emitted
+};
+
 class SegmentMap {
  public:
   SegmentMap() = default;
@@ -64,6 +74,11 @@ class SegmentMap {
   /// time, in a fixed order. Returns how many photons it computed the distance of.
   template <class Visit>
   uint32_t visit_near_ray(const BesideRay& there, Visit&& visit) const;
+
+  /// Calls visit(const BundledPhotons&) for those near the rays of a bundle, some at a time, in a fixed order. Returns
+  /// how many photons it looked at.
+  template <class Visit>
+  uint32_t visit_near_bundle(const RayBundle& bundle, Visit&& visit) const;
 
   const PhotonTable& photons() const { return photons_; }
   float radius(size_t i) const;  // m, of photon `i` in the map's order
@@ -126,6 +141,48 @@ void SegmentMap::unpack(const BesideRay& there, const NearPhotons& near, Visit&&
   std::fill(radius + count, radius + batch.size(), radius[0]);
   std::fill(distance + count, distance + batch.size(), distance[0]);
   visit(PhotonsNearRay{batch, distance, radius});
+}
+
+template <class Visit>
+uint32_t SegmentMap::visit_near_bundle(const RayBundle& bundle, Visit&& visit) const {
+  if (size() == 0) return 0;
+  const Vec3 apex = bundle.apex();
+  uint32_t near[BundledPhotons::kMost + kBlock], visited = 0;
+  float unused[kBlock];
+  size_t found = 0;
+  BundledPhotons photons;
+  const auto use = [&] {
+    for (size_t i = 0; i < found; ++i) {
+      const Vec3 offset = photons_.position(near[i]) - apex;
+      const PhotonTable::Payload& payload = photons_.payload(near[i]);
+      const Vec3 travel = payload.travel.unpack();
+      const Rgb power = payload.power.unpack();
+      photons.x[i] = offset.x;
+      photons.y[i] = offset.y;
+      photons.z[i] = offset.z;
+      photons.dx[i] = travel.x;
+      photons.dy[i] = travel.y;
+      photons.dz[i] = travel.z;
+      photons.r[i] = power.r;
+      photons.g[i] = power.g;
+      photons.b[i] = power.b;
+    }
+    photons.size = found;
+    if (found > 0) visit(std::as_const(photons));
+    found = 0;
+  };
+  boxes_.visit_leaves(bundle, [&](uint32_t leaf) {
+    const size_t begin = leaf_begin(size(), leaves_, leaf), end = leaf_begin(size(), leaves_, leaf + 1);
+    const float reach = 1.0001f * radius_[leaf];
+    photons_.for_each_block(begin, end, apex, bundle.region(),
+                            [&](const float* outside, uint32_t number, uint32_t first) {
+                              found += append_below(outside, number, reach, first, unused, near + found);
+                              if (found > BundledPhotons::kMost - kBlock) use();
+                            });
+    count(visited, end - begin);
+  });
+  use();
+  return visited;
 }
 
 template <class Visit>

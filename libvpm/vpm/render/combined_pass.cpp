@@ -171,14 +171,14 @@ Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, in
   const CombinedPass ready(scene, settings, pass, stop);
   std::optional<TechniqueLayers> layers;
   if (settings.combined.layers) layers.emplace(scene.camera.width, scene.camera.height);
-  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) {
+  const auto radiance = [&](const Ray& ray, EyeWork& work) {
     TechniqueParts parts;
     const KernelEstimate estimate = ready.radiance(ray, work, layers ? &parts : nullptr);
     if (layers && is_finite(estimate.value) && is_finite(estimate.correction))
       layers->add(work.pixel, parts, settings.samples_per_pixel);
     return estimate;
   };
-  Pass result = render_image(scene, settings, pass, radiance, stop, progress);
+  Pass result = render_image(scene, settings, pass, ray_by_ray(radiance), stop, progress);
   ready.add_light_tracing(result.image);
   if (layers) {
     ready.add_light_tracing(*layers);

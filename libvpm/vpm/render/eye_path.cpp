@@ -32,52 +32,78 @@ class EyePath {
         work_(work),
         at_{.state = {ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)}} {}
 
-  KernelEstimate follow() {
+  /// Follows the path, and all that it branches into, to the end.
+  void follow() {
     follow_branch();
     while (waiting_ > 0) {
       at_ = branches_[--waiting_];
       follow_branch();
     }
-    return radiance_;
   }
+  const KernelEstimate& radiance() const { return radiance_; }
+
+  /// Goes on to the next surface or boundary, whatever lies on the way. False where the path is cut.
+  bool begin_segment() {
+    if (at_.events >= c_.max_events) {
+      ++work_.counters.cut_paths;
+      return false;
+    }
+    const Ray& ray = at_.state.ray;
+    met_ = meet(c_.scene, ray, kInfinity, at_.state.medium, work_.counters.walk);
+    const Interval interval{0.0f, met_ ? met_.hits[0].t : kInfinity};
+    const Vec3 end = met_ ? towards(met_.hits[0], -ray.direction) : Vec3(0.0f);
+    segment_.emplace(c_.scene, ray, interval, at_.state.medium, seen(), Borders{at_.start, end});
+    return true;
+  }
+
+  /// Adds what media scatter towards the eye along the segment.
+  void gather() {
+    const uint64_t used = work_.counters.gather.used;
+    if (at_.asks > 0.0f)
+      for (const auto& estimator : c_.estimators.volume) add(Rgb(at_.asks) * estimator->along(*segment_, work_));
+    work_.counters.used_in_media += work_.counters.gather.used - used;
+  }
+
+  /// Attenuates by the segment, and goes on from what ends it. False where the branch ends.
+  bool end_segment() {
+    at_.state.throughput *= segment_->transmittance(work_);
+    if (is_black(at_.state.throughput)) return false;
+    if (!met_) {
+      see_environment();
+      return false;
+    }
+    const Hit& hit = met_.hits[0];
+    const Material material = material_at(c_.scene, hit);
+    see_emitter(hit);
+    if (is_boundary(material)) {  // no event
+      cross_boundaries(c_.scene, met_, at_.state.ray, at_.state.medium, work_.counters.walk);
+      at_.start = towards(hit, at_.state.ray.direction);
+      return true;
+    }
+    if (is_rough(material)) {
+      see_surface(hit, material);
+      return false;
+    }
+    ++at_.events;
+    return go_on(hit, material);
+  }
+
+  bool is_straight() const { return at_.events == 0; }
+  const EyeSegment& segment() const { return *segment_; }
+  EyeWork& work() { return work_; }
+  void add(const KernelEstimate& found) { radiance_ += found; }
 
  private:
   /// Goes on to the branch's end.
   void follow_branch() {
-    Ray& ray = at_.state.ray;
-    while (at_.events < c_.max_events) {
-      const Encounter met = meet(c_.scene, ray, kInfinity, at_.state.medium, work_.counters.walk);
-      cross({0.0f, met ? met.hits[0].t : kInfinity}, met ? towards(met.hits[0], -ray.direction) : Vec3(0.0f));
-      if (is_black(at_.state.throughput)) return;
-      if (!met) return see_environment();
-      const Hit& hit = met.hits[0];
-      const Material material = material_at(c_.scene, hit);
-      see_emitter(hit);
-      if (is_boundary(material)) {  // no event
-        cross_boundaries(c_.scene, met, ray, at_.state.medium, work_.counters.walk);
-        at_.start = towards(hit, ray.direction);
-        continue;
-      }
-      if (is_rough(material)) return see_surface(hit, material);
-      ++at_.events;
-      if (!go_on(hit, material)) return;
+    while (begin_segment()) {
+      gather();
+      if (!end_segment()) return;
     }
-    ++work_.counters.cut_paths;
   }
 
   /// What radiance counts for that arrives at the present place.
   Rgb seen() const { return at_.state.throughput * at_.radiance_scale; }
-
-  /// Adds what media scatter towards the eye along the segment, which ends at a surface of the normal `end`, and
-  /// attenuates by it.
-  void cross(const Interval& interval, const Vec3& end) {
-    const EyeSegment segment(c_.scene, at_.state.ray, interval, at_.state.medium, seen(), {at_.start, end});
-    const uint64_t used = work_.counters.gather.used;
-    if (at_.asks > 0.0f)
-      for (const auto& estimator : c_.estimators.volume) radiance_ += Rgb(at_.asks) * estimator->along(segment, work_);
-    work_.counters.used_in_media += work_.counters.gather.used - used;
-    at_.state.throughput *= segment.transmittance(work_);
-  }
 
   void see_environment() {
     for (const Light& light : c_.scene.lights)
@@ -136,13 +162,76 @@ class EyePath {
   Branch at_;
   std::array<Branch, kMostWaiting> branches_;  // the first `waiting_`
   size_t waiting_ = 0;
+  Encounter met_;                      // at the end of the segment
+  std::optional<EyeSegment> segment_;  // that the path is on
   KernelEstimate radiance_;
 };
+
+/// Paths of some rays of a bundle.
+class EyePaths {
+ public:
+  void add(EyePath& path) { paths_[size_++] = &path; }
+  std::span<EyePath* const> all() const { return {paths_.data(), size_}; }
+  bool empty() const { return size_ == 0; }
+
+ private:
+  std::array<EyePath*, kEyeRays> paths_;
+  size_t size_ = 0;
+};
+
+/// Gathers along the segments of paths that are in one homogeneous medium.
+void gather_together(const EyeContext& context, const Vec3& camera, std::span<EyePath* const> paths) {
+  std::array<BundledSegment, kEyeRays> segments{};
+  for (size_t i = 0; i < paths.size(); ++i) segments[i] = {&paths[i]->segment(), &paths[i]->work()};
+  EyeCounters& counters = paths.front()->work().counters;
+  const uint64_t used = counters.gather.used;
+  const SegmentBundle bundle(segments.data(), paths.size());
+  for (const auto& estimator : context.estimators.volume) estimator->along_bundle(camera, bundle);
+  counters.used_in_media += counters.gather.used - used;
+  for (size_t i = 0; i < paths.size(); ++i) paths[i]->add(segments[i].light);
+}
+
+/// Gathers along the segments of all paths, together where they are in the same homogeneous medium.
+void gather_by_media(const EyeContext& context, const Vec3& camera, EyePaths paths) {
+  while (!paths.empty()) {
+    const EyeSegment& first = paths.all().front()->segment();
+    EyePaths alike, others;
+    for (EyePath* path : paths.all()) (path->segment().number == first.number ? alike : others).add(*path);
+    if (first.medium() && first.medium()->homogeneous() && alike.all().size() > 1)
+      gather_together(context, camera, alike.all());
+    else
+      for (EyePath* path : alike.all()) path->gather();
+    paths = others;
+  }
+}
 
 }  // namespace
 
 KernelEstimate eye_radiance(const EyeContext& context, const Ray& camera_ray, EyeWork& work) {
-  return EyePath(context, camera_ray, work).follow();
+  EyePath path(context, camera_ray, work);
+  path.follow();
+  return path.radiance();
+}
+
+void eye_radiance(const EyeContext& context, std::span<EyeRay> rays) {
+  std::array<std::optional<EyePath>, kEyeRays> paths;
+  EyePaths straight;
+  for (size_t i = 0; i < rays.size(); ++i) straight.add(paths[i].emplace(context, rays[i].ray, rays[i].work));
+  while (!straight.empty()) {
+    EyePaths on_segments;
+    for (EyePath* path : straight.all())
+      if (path->begin_segment()) on_segments.add(*path);
+    gather_by_media(context, rays.front().ray.origin, on_segments);
+    straight = {};
+    for (EyePath* path : on_segments.all()) {
+      if (!path->end_segment()) continue;
+      if (path->is_straight())
+        straight.add(*path);
+      else
+        path->follow();
+    }
+  }
+  for (size_t i = 0; i < rays.size(); ++i) rays[i].radiance = paths[i]->radiance();
 }
 
 }  // namespace vpm

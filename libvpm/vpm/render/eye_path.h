@@ -1,6 +1,8 @@
 // The eye's side of photon mapping: the radiance along one camera ray.
 #pragma once
 
+#include <span>
+
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -17,5 +19,8 @@ struct EyeContext {
 /// finds, and ends the path. At smooth glass the path goes on to both sides, each weighed by its fraction of the light,
 /// until the weaker one is worth little; then one side is drawn. Returns radiance, W/(m^2 sr).
 KernelEstimate eye_radiance(const EyeContext& context, const Ray& camera_ray, EyeWork& work);
+/// The same for up to kEyeRays rays that lie side by side. As long as they go straight on from the camera they are
+/// followed together, so that estimators can gather for all of them at once.
+void eye_radiance(const EyeContext& context, std::span<EyeRay> rays);
 
 }  // namespace vpm

@@ -1,31 +1,75 @@
 // Tiles of pixels, each pixel sample with random numbers of its own.
 #include "vpm/render/image_pass.h"
 
+#include <array>
+#include <vector>
+
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
 
 namespace vpm {
 namespace {
 
-constexpr int kTile = 16;  // pixels along an edge; a tile is a chunk of parallel work
+constexpr int kTile = 16;      // pixels along an edge; a tile is a chunk of parallel work
+constexpr int kBlockEdge = 8;  // of pixels whose rays are followed together
+static_assert(kBlockEdge * kBlockEdge == kEyeRays && kTile % kBlockEdge == 0);
+
+/// A rectangle of pixels, without `end`, in an order in which kBlock after kBlock lie side by side.
+class PixelBlock {
+ public:
+  PixelBlock(const glm::ivec2& begin, const glm::ivec2& end) {
+    constexpr int kSquare = 4;  // pixels along an edge
+    static_assert(kSquare * kSquare == kBlock);
+    for (int y = begin.y; y < end.y; y += kSquare)
+      for (int x = begin.x; x < end.x; x += kSquare) add({x, y}, glm::min(glm::ivec2(x, y) + kSquare, end));
+  }
+  std::span<const glm::ivec2> pixels() const { return {pixels_.data(), size_}; }
+
+ private:
+  void add(const glm::ivec2& begin, const glm::ivec2& end) {
+    for (int y = begin.y; y < end.y; ++y)
+      for (int x = begin.x; x < end.x; ++x) pixels_[size_++] = {x, y};
+  }
+
+  std::array<glm::ivec2, kEyeRays> pixels_;
+  size_t size_ = 0;
+};
 
 /// What the rays of a tile share.
 struct TileWork {
   EyeCounters& counters;
   EyeScratch scratch;
+  std::vector<Rng> rngs{};  // of the rays of a block
+  std::vector<EyeRay> rays{};
 };
 
-KernelEstimate render_pixel(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
-                            const glm::ivec2& pixel, TileWork& tile) {
+/// One sample of each pixel of a block.
+void sample_block(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
+                  const PixelBlock& block, int sample, TileWork& tile) {
   const Camera& camera = scene.camera;
   const int samples = settings.samples_per_pixel;
-  const size_t number = static_cast<size_t>(pixel.y) * camera.width + pixel.x;
-  return mean_of_samples(samples, tile.counters, [&](int s) {
-    Rng rng(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)), number * samples + s);
+  tile.rays.clear();
+  tile.rngs.clear();
+  tile.rngs.reserve(kEyeRays);
+  for (const glm::ivec2& pixel : block.pixels()) {
+    const size_t number = static_cast<size_t>(pixel.y) * camera.width + pixel.x;
+    Rng& rng = tile.rngs.emplace_back(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)),
+                                      number * samples + sample);
     const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(camera.filter, rng.uniform2());
-    EyeWork work{rng, tile.counters, tile.scratch, number};
-    return radiance(camera.ray(film), work);
-  });
+    tile.rays.push_back({camera.ray(film), {rng, tile.counters, tile.scratch, number}});
+  }
+  radiance(tile.rays);
+}
+
+void render_block(const Scene& scene, const RenderSettings& settings, const RadianceOfRays& radiance,
+                  const PixelBlock& block, TileWork& tile, int number, Pass& pass) {
+  std::array<SampleMean, kEyeRays> means;
+  for (int sample = 0; sample < settings.samples_per_pixel; ++sample) {
+    sample_block(scene, settings, number, radiance, block, sample, tile);
+    for (size_t i = 0; i < tile.rays.size(); ++i) means[i].add(tile.rays[i].radiance, tile.counters);
+  }
+  for (size_t i = 0; i < block.pixels().size(); ++i)
+    pass.set(block.pixels()[i].x, block.pixels()[i].y, means[i].mean());
 }
 
 }  // namespace
@@ -34,7 +78,7 @@ uint64_t tile_count(const Camera& camera) {
   return chunk_count(static_cast<size_t>(camera.width), kTile) * chunk_count(static_cast<size_t>(camera.height), kTile);
 }
 
-Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
+Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
                   const std::atomic<bool>& stop, const PassProgress& progress) {
   const Stopwatch rendering;
   const Camera& camera = scene.camera;
@@ -48,9 +92,12 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
     if (stop) return;
     const int x0 = static_cast<int>(tile % tiles_x) * kTile, y0 = static_cast<int>(tile / tiles_x) * kTile;
     TileWork work{counters[tile], {}};
-    for (int y = y0; y < std::min(y0 + kTile, camera.height); ++y)
-      for (int x = x0; x < std::min(x0 + kTile, camera.width); ++x)
-        result.set(x, y, render_pixel(scene, settings, pass, radiance, {x, y}, work));
+    const glm::ivec2 end = glm::min(glm::ivec2(x0, y0) + kTile, glm::ivec2(camera.width, camera.height));
+    for (int y = y0; y < end.y; y += kBlockEdge)
+      for (int x = x0; x < end.x; x += kBlockEdge) {
+        const PixelBlock block({x, y}, glm::min(glm::ivec2(x, y) + kBlockEdge, end));
+        render_block(scene, settings, radiance, block, work, pass, result);
+      }
     bar.advance();
     if (progress.tiles) progress.tiles->advance();
   });

@@ -1,8 +1,10 @@
 // One pass over the pixels, in tiles, whatever estimates a ray's radiance.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
+#include <span>
 
 #include "vpm/base/count.h"
 #include "vpm/estimate/eye_work.h"
@@ -15,30 +17,50 @@ namespace vpm {
 /// The units of work of a pass's image.
 uint64_t tile_count(const Camera& camera);
 
-/// Estimates the radiance along a camera ray, W/(m^2 sr), and its correction. Called from many threads, for each pixel
-/// from one.
-using RayRadiance = std::function<KernelEstimate(const Ray& ray, EyeWork& work)>;
+/// Estimates the radiance along each of up to kEyeRays camera rays that lie side by side. Called from many threads, for
+/// each pixel from one.
+using RadianceOfRays = std::function<void(std::span<EyeRay> rays)>;
 
-/// The mean of sample(0), sample(1), ... sample(samples - 1). Those that are not finite are counted and left out as
-/// black.
-template <class Sample>
-KernelEstimate mean_of_samples(int samples, EyeCounters& counters, Sample&& sample) {
-  KernelPair<Rgbd> sum;
-  for (int s = 0; s < samples; ++s) {
-    const KernelEstimate estimate = sample(s);
+/// Makes one of a function of one ray: of(const Ray&, EyeWork&) returns a KernelEstimate.
+template <class OfRay>
+RadianceOfRays ray_by_ray(OfRay&& of) {
+  return [of](std::span<EyeRay> rays) {
+    for (EyeRay& each : rays) each.radiance = of(each.ray, each.work);
+  };
+}
+
+/// The mean of samples. Those that are not finite are counted and left out as black.
+class SampleMean {
+ public:
+  void add(const KernelEstimate& sample, EyeCounters& counters) {
     count(counters.rays);
-    if (is_finite(estimate.value) && is_finite(estimate.correction))
-      sum += {Rgbd(estimate.value), Rgbd(estimate.correction)};
+    ++samples_;
+    if (is_finite(sample.value) && is_finite(sample.correction))
+      sum_ += {Rgbd(sample.value), Rgbd(sample.correction)};
     else
       ++counters.non_finite;
   }
-  const auto n = static_cast<double>(samples);
-  return {Rgb(sum.value / n), Rgb(sum.correction / n)};
+  KernelEstimate mean() const {
+    const double n = std::max(1, samples_);
+    return {Rgb(sum_.value / n), Rgb(sum_.correction / n)};
+  }
+
+ private:
+  KernelPair<Rgbd> sum_;
+  int samples_ = 0;
+};
+
+/// The SampleMean of sample(0), sample(1), ... sample(samples - 1).
+template <class Sample>
+KernelEstimate mean_of_samples(int samples, EyeCounters& counters, Sample&& sample) {
+  SampleMean mean;
+  for (int s = 0; s < samples; ++s) mean.add(sample(s), counters);
+  return mean.mean();
 }
 
-/// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel, by mean_of_samples(). Once
+/// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel, a SampleMean. Once
 /// `stop` is set it returns as soon as it can, and its image must not be used.
-Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RayRadiance& radiance,
+Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
                   const std::atomic<bool>& stop, const PassProgress& progress = {});
 
 }  // namespace vpm

@@ -69,7 +69,7 @@ Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const
   const Estimators estimators = plan_estimators(scene, settings, run.pass, discs);
   prepare_pass(scene, settings, estimators, run, statistics);
   const EyeContext context{scene, estimators, settings.max_events};
-  const RayRadiance radiance = [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); };
+  const RadianceOfRays radiance = [&](std::span<EyeRay> rays) { eye_radiance(context, rays); };
   Pass result = render_image(scene, settings, run.pass, radiance, run.stop, run.progress);
   if (estimators.surface) result.found = estimators.surface->take_found();
   result.statistics.merge(statistics);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "vpm/base/count.h"
+#include "vpm/path/direct_light.h"
 #include "vpm/path/stretches.h"
 #include "vpm/photon/recorder.h"
 #include "vpm/photon/thin_places.h"

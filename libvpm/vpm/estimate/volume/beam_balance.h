@@ -11,6 +11,8 @@ namespace vpm {
 /// [Krivanek2014]: these two share light, and their shares sum to 1. The size of a kernel is that of a constant one of
 /// the same variance.
 ///
+/// A Real is a float, or Floats of many rays.
+///
 /// Beside planes, light whose last flight began at a collision is shared by beams and planes instead. Per photon, a
 /// beam then needs a collision at that place, with a probability as sigma_s, and a plane crosses the ray with one as
 /// the determinant [Bitterli2017].
@@ -21,14 +23,19 @@ struct BeamBalance {
 
   /// The share of beams over the sine (> 0) between the directions of light and ray: bounded where sigma_t, 1/m, that
   /// of the place on the ray, is above 0.
-  float of_beams_over_sine(float sine, float sigma_t) const { return line / (line * sine + disc * sigma_t); }
+  template <class Real>
+  Real of_beams_over_sine(const Real& sine, float sigma_t) const {
+    return line / (line * sine + disc * sigma_t);
+  }
   /// The share of collisions.
-  float of_collisions(float sine, float sigma_t) const {
-    return sigma_t > 0.0f ? disc * sigma_t / (line * sine + disc * sigma_t) : 0.0f;
+  template <class Real>
+  Real of_collisions(const Real& sine, float sigma_t) const {
+    return sigma_t > 0.0f ? disc * sigma_t / (line * sine + disc * sigma_t) : Real{};
   }
   /// The share of beams over the sine, beside planes, for the scattering coefficient where the flight began, 1/m, and
   /// the volume that its direction, the one before and the ray's span: bounded unless both sine and volume are near 0.
-  float of_beams_beside_planes_over_sine(float sine, float sigma_s, float determinant) const {
+  template <class Real>
+  Real of_beams_beside_planes_over_sine(const Real& sine, float sigma_s, const Real& determinant) const {
     return line * sigma_s / (line * sine * sigma_s + plane * determinant);
   }
   /// The share of planes over the determinant (> 0), likewise.

@@ -1,6 +1,7 @@
 // Photons near rays, and the transmittance from their projections onto the ray to the eye.
 #include "vpm/estimate/volume/beam_radiance.h"
 
+#include "vpm/estimate/volume/bundle_gather.h"
 #include "vpm/estimate/volume/pass_to_eye.h"
 #include "vpm/photon/stored_power.h"
 
@@ -34,6 +35,59 @@ KernelEstimate gather(const EyeSegment& segment, const SegmentRegion& region, co
   return over_share(light, region.share(found.radius, seen, work.rng), work.counters.gather);
 }
 
+/// What one photon adds to the lanes.
+template <class P, class Profile>
+struct PhotonBeside {
+  const SegmentLanes& rays;
+  const P& phase;
+  Profile profile;
+  Rgb sigma_t;
+  float radius;
+  const BeamBalance* balance;
+
+  void add(const BundledPhotons& photons, size_t p, LaneEstimates& sums) const {
+    const Vec3 place(photons.x[p], photons.y[p], photons.z[p]), travel(photons.dx[p], photons.dy[p], photons.dz[p]);
+    const float radius2 = radius * radius;
+    const Floats3 offset = place - rays.from;
+    const Floats t = dot(offset, rays.along);
+    const Floats3 across = offset - t * rays.along;
+    const Floats distance2 = dot(across, across);
+    const LaneMask inside = (distance2 < radius2) & (t >= rays.t0) & (t < rays.t1) & rays.hold(offset);
+    Floats weight = phase_values(phase, travel, -1.0f * rays.along);
+    if (balance) weight *= shares(travel);
+    weight = inside ? weight : Floats{};
+    sums.used -= inside;
+    add_light({photons.r[p], photons.g[p], photons.b[p]}, sigma_t, rays.distances_to_eye(offset), weight,
+              profiles(profile, min(distance2 * (1.0f / radius2), all_lanes(1.0f))), sums);
+  }
+
+  /// Beside beams.
+  Floats shares(const Vec3& travel) const {
+    const Floats3 normal = cross(travel, rays.along);
+    return balance->of_collisions(sqrt(dot(normal, normal)), mean_channel(sigma_t));
+  }
+};
+
+LaneTotals sum_beside(const Medium& medium, const BeamMap& map, const GatherLanes& lanes, const BeamBalance* balance,
+                      GatherCounters& counters) {
+  const float radius = map.settings.radius, norm = kernel_norm_2d(map.settings.kernel, radius);
+  LaneTotals totals;
+  const auto sum = [&](const auto& phase, auto profile) {
+    const PhotonBeside beside{lanes.segments(), phase, profile, medium.sigma_t, radius, balance};
+    const auto visit = [&](const BundledPhotons& photons) {
+      LaneEstimates sums;
+      for (size_t p = 0; p < photons.size; ++p) beside.add(photons, p, sums);
+      totals.add(sums, norm);
+      count(counters.visited, photons.size * lanes.size());
+    };
+    count(counters.visited, map.photons.visit_near_bundle(lanes.rays(), visit));
+  };
+  std::visit([&](const auto& p) { with_kernel<2>(map.settings.kernel, [&](auto profile) { sum(p, profile); }); },
+             medium.phase);
+  counters.used += totals.used();
+  return totals;
+}
+
 }  // namespace
 
 BeamMap make_beam_map(std::vector<Photon>& photons, const GatherSettings& gather, float shrunk, uint64_t emitted,
@@ -53,12 +107,43 @@ KernelEstimate photons_beside(const EyeSegment& segment, const BeamMap& map, Vol
   return near.empty() ? KernelEstimate() : gather(segment, region, near, map, form, balance, work);
 }
 
+/// Of up to kBlock segments.
+void photons_beside_block(const Vec3& apex, SegmentBundle bundle, const BeamMap& map, VolumeForm form,
+                          const BeamBalance* balance) {
+  constexpr float kMostRadii = 4.0f;  // wide bundles look at photons that few of their rays use
+  const float radius = map.settings.radius;
+  if (map.photons.size() == 0) return;
+  const auto one_by_one = [&] {
+    for (BundledSegment& of : bundle) of.light += photons_beside(*of.segment, map, form, balance, *of.work);
+  };
+  if (map.settings.beam_count > 0 || !is_narrow(apex, bundle, map.photons.bounds(), radius, kMostRadii))
+    return one_by_one();
+  GatherLanes lanes(apex, bundle, map.settings, Spread::discs, map.photons.bounds());
+  EyeCounters& counters = bundle.front().work->counters;
+  count(counters.volume_queries, bundle.size());
+  count(counters.gather.searches, bundle.size());
+  if (!lanes.any()) return;
+  if (!lanes.ahead()) return one_by_one();
+  const Medium& medium = *bundle.front().segment->medium();
+  const LaneTotals found = sum_beside(medium, map, lanes, balance, counters.gather);
+  lanes.add(found, source_factor(medium));
+}
+
+void photons_beside_bundle(const Vec3& apex, SegmentBundle bundle, const BeamMap& map, VolumeForm form,
+                           const BeamBalance* balance) {
+  each_block(bundle, [&](SegmentBundle block) { photons_beside_block(apex, block, map, form, balance); });
+}
+
 void BeamRadiance::build(uint64_t emitted, RenderStatistics& statistics) {
   maps_.build(
       emitted, statistics,
       [&](std::vector<Photon>& photons, const GatherSettings& gather, float shrunk, uint64_t of, RenderStatistics& s) {
         return make_beam_map(photons, gather, shrunk, of, maps_.settings().pass, s);
       });
+}
+
+void BeamRadiance::along_bundle(const Vec3& apex, SegmentBundle bundle) const {
+  photons_beside_bundle(apex, bundle, maps_[bundle.front().segment->number], maps_.settings().form, nullptr);
 }
 
 KernelEstimate BeamRadiance::along(const EyeSegment& segment, EyeWork& work) const {

@@ -16,6 +16,10 @@ BeamMap make_beam_map(std::vector<Photon>& photons, const GatherSettings& gather
 KernelEstimate photons_beside(const EyeSegment& segment, const BeamMap& map, VolumeForm form,
                               const BeamBalance* balance, EyeWork& work);
 
+/// Adds the same to the light of a bundle's segments.
+void photons_beside_bundle(const Vec3& apex, SegmentBundle bundle, const BeamMap& map, VolumeForm form,
+                           const BeamBalance* balance);
+
 class BeamRadiance final : public VolumeEstimator {
  public:
   BeamRadiance(const Scene& scene, const VolumeMapSettings& settings) : maps_(scene, settings, 2) {}
@@ -25,6 +29,7 @@ class BeamRadiance final : public VolumeEstimator {
   Recorders recorders() override { return maps_.recorders(); }
   void build(uint64_t emitted, RenderStatistics& statistics) override;
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
+  void along_bundle(const Vec3& apex, SegmentBundle bundle) const override;
 
  private:
   VolumeMaps<BeamMap> maps_;

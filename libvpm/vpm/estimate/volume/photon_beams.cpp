@@ -1,6 +1,7 @@
 // L = sum over beams of Phi W(s) sigma_s p T(t) K(distance) / sine of the angle [Jarosz2011].
 #include "vpm/estimate/volume/photon_beams.h"
 
+#include <limits>
 #include <variant>
 
 namespace vpm {
@@ -12,6 +13,48 @@ VolumeMapSettings with_beams(const PhotonBeamSettings& settings) {
   maps.turned &= !settings.planes;
   return maps;
 }
+
+/// What one piece of a beam adds to the lanes. In a grey medium the beam keeps its power as far as its photon comes.
+template <class P, class Profile>
+struct BeamAcross {
+  const SegmentLanes& rays;
+  const P& phase;
+  Profile profile;
+  Rgb sigma_t;
+  float radius;
+  BeamBalance balance;
+
+  /// `from`: the direction before the collision that the beam begins at, and `sigma_s` there, 1/m, if it is shared with
+  /// planes; 0: it is not.
+  void add(const BundledBeams& beams, size_t p, const Vec3& from, float sigma_s, LaneEstimates& sums) const {
+    const Vec3 direction(beams.dx[p], beams.dy[p], beams.dz[p]);
+    const float half = beams.half[p], radius2 = radius * radius;
+    // Both lines as seen along the ray, as in PhotonBeamMap::cross().
+    const Floats3 middle = Vec3(beams.x[p], beams.y[p], beams.z[p]) - rays.from;
+    const Floats a = dot(middle, rays.right), b = dot(middle, rays.up);
+    const Floats da = dot(direction, rays.right), db = dot(direction, rays.up);
+    const Floats sine2 = da * da + db * db, across = a * db - b * da;
+    const Floats per_sine2 = 1.0f / max(sine2, all_lanes(std::numeric_limits<float>::min()));
+    const Floats s = Floats{} - (a * da + b * db) * per_sine2, distance2 = across * across * per_sine2;
+    const Floats3 place = middle + s * direction;
+    const Floats t = dot(place, rays.along);
+    const LaneMask met = (distance2 < radius2) & (s >= -half) & (s < half) & (t >= rays.t0) & (t < rays.t1) &
+                         (sine2 > 0.0f) & rays.hold(place);
+    if (!any(met)) return;
+    const Floats sine = sqrt(sine2);
+    Floats weight = phase_values(phase, direction, -1.0f * rays.along);
+    if (sigma_s > 0.0f) {
+      const Floats determinant = dot(glm::cross(from, direction), rays.along);
+      weight *= balance.of_beams_beside_planes_over_sine(sine, sigma_s, max(determinant, -1.0f * determinant));
+    } else {
+      weight *= balance.of_beams_over_sine(sine, mean_channel(sigma_t));
+    }
+    weight = met ? weight : Floats{};
+    sums.used -= met;
+    add_light({beams.r[p], beams.g[p], beams.b[p]}, sigma_t, rays.distances_to_eye(place), weight,
+              profiles(profile, min(distance2 * (1.0f / radius2), all_lanes(1.0f))), sums);
+  }
+};
 
 }  // namespace
 
@@ -63,6 +106,61 @@ KernelEstimate PhotonBeams::beams_along(const EyeSegment& segment, const Map& ma
   const SegmentRegion region(segment, map.settings, Spread::lines);
   const Interval near = clip(segment.ray, region.reach(), map.beams.bounds(), map.settings.radius);
   return near.empty() ? KernelEstimate() : gather(segment, region, near, map, work);
+}
+
+void PhotonBeams::along_bundle(const Vec3& apex, SegmentBundle bundle) const {
+  const MediumId medium = bundle.front().segment->number;
+  const Map& map = beams_[medium];
+  beams_along_bundle(apex, bundle, map);
+  photons_beside_bundle(apex, bundle, collisions_[medium], collisions_.settings().form, &map.balance);
+}
+
+void PhotonBeams::beams_along_bundle(const Vec3& apex, SegmentBundle bundle, const Map& map) const {
+  constexpr float kMostRadii = 16.0f;  // of blocks: wide ones look at beams that few of their rays cross
+  if (map.beams.size() == 0) return;
+  const Medium& medium = *bundle.front().segment->medium();
+  const bool fades = beams_.settings().long_beams || !is_grey(medium.sigma_t);
+  const auto one_by_one = [&](SegmentBundle some) {
+    for (BundledSegment& of : some) of.light += beams_along(*of.segment, map, *of.work);
+  };
+  if (fades || !is_narrow(apex, bundle, map.beams.bounds(), map.settings.radius, 2.0f * kMostRadii))
+    return one_by_one(bundle);
+  EyeWork& work = *bundle.front().work;
+  GatherCounters& counters = work.counters.gather;
+  count(work.counters.volume_queries, bundle.size());
+  count(counters.searches, bundle.size());
+  count(counters.visited,
+        map.beams.select(rays_of(apex, bundle, map.beams.bounds(), map.settings.radius), work.scratch.beams));
+  each_block(bundle, [&](SegmentBundle block) {
+    GatherLanes lanes(apex, block, map.settings, Spread::lines, map.beams.bounds());
+    if (!lanes.any()) return;
+    if (!lanes.ahead()) return one_by_one(block);
+    lanes.add(sum_in_lanes(medium, map, work.scratch.beams, lanes, counters),
+              scattering_of_beams(medium, beams_.settings().maps.form));
+  });
+}
+
+LaneTotals PhotonBeams::sum_in_lanes(const Medium& medium, const Map& map, const PhotonBeamMap::Selection& near,
+                                     const GatherLanes& lanes, GatherCounters& counters) const {
+  const float radius = map.settings.radius, norm = kernel_norm_1d(map.settings.kernel, radius);
+  LaneTotals totals;
+  const auto sum = [&](const auto& phase, auto profile) {
+    const BeamAcross across{lanes.segments(), phase, profile, medium.sigma_t, radius, map.balance};
+    const auto visit = [&](const BundledBeams& beams) {
+      LaneEstimates sums;
+      for (size_t p = 0; p < beams.size; ++p) {
+        const Begin begin = map.begins.empty() ? Begin{Vec3(0.0f), 0.0f} : map.begins[beams.beam[p]];
+        across.add(beams, p, begin.from, begin.sigma_s, sums);
+      }
+      totals.add(sums, norm);
+      count(counters.visited, beams.size * lanes.size());
+    };
+    count(counters.visited, near.visit_near_bundle(lanes.rays(), visit));
+  };
+  std::visit([&](const auto& p) { with_kernel<1>(map.settings.kernel, [&](auto profile) { sum(p, profile); }); },
+             medium.phase);
+  counters.used += totals.used();
+  return totals;
 }
 
 /// Beams beyond the region have no share. Returns how many have one.

@@ -6,6 +6,7 @@
 #include "vpm/estimate/segment_region.h"
 #include "vpm/estimate/volume/beam_maps.h"
 #include "vpm/estimate/volume/beam_radiance.h"
+#include "vpm/estimate/volume/bundle_gather.h"
 #include "vpm/estimate/volume/pass_to_eye.h"
 
 namespace vpm {
@@ -23,6 +24,7 @@ class PhotonBeams final : public VolumeEstimator {
   /// build() beside planes, one for this share of the flights; 0: there are none.
   void build_beside(float kept_planes, uint64_t emitted, RenderStatistics& statistics);
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
+  void along_bundle(const Vec3& apex, SegmentBundle bundle) const override;
   const BeamBalance& balance(MediumId medium) const { return beams_[medium].balance; }
 
  private:
@@ -46,6 +48,9 @@ class PhotonBeams final : public VolumeEstimator {
   /// What passes to the eye, times what is left of beams' powers where they cross; and the beams' shares over sines.
   size_t pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map, const PassToEye& pass,
                     const BeamCrossings& found, Passed& passed, float* share) const;
+  void beams_along_bundle(const Vec3& apex, SegmentBundle bundle, const Map& map) const;
+  LaneTotals sum_in_lanes(const Medium& medium, const Map& map, const PhotonBeamMap::Selection& near,
+                          const GatherLanes& lanes, GatherCounters& counters) const;
   void share_with_planes(const Vec3& ray, const Map& map, const BeamCrossings& found, float* share) const;
 
   BeamMaps<Map> beams_;

@@ -52,6 +52,12 @@ KernelEstimate PhotonPlanes::along(const EyeSegment& segment, EyeWork& work) con
   return light;
 }
 
+void PhotonPlanes::along_bundle(const Vec3& apex, SegmentBundle bundle) const {
+  beams_.along_bundle(apex, bundle);
+  for (BundledSegment& of : bundle)
+    if (of.segment->medium()->scatters()) of.light += planes_along(*of.segment, *of.work);
+}
+
 Rgb PhotonPlanes::planes_along(const EyeSegment& segment, EyeWork& work) const {
   const Medium& medium = *segment.medium();
   const Interval interval = medium.clip(segment.ray, segment.interval);

@@ -30,6 +30,7 @@ class PhotonPlanes final : public VolumeEstimator {
   Recorders recorders() override;
   void build(uint64_t emitted, RenderStatistics& statistics) override;
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
+  void along_bundle(const Vec3& apex, SegmentBundle bundle) const override;
 
  private:
   Rgb planes_along(const EyeSegment& segment, EyeWork& work) const;

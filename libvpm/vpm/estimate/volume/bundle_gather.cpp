@@ -1,0 +1,79 @@
+// Regions lane by lane, as a segment alone has them.
+#include "vpm/estimate/volume/bundle_gather.h"
+
+namespace vpm {
+
+namespace {
+
+using Directions = std::array<Vec3, kEyeRays>;
+
+std::span<const Vec3> directions_of(SegmentBundle bundle, Directions& directions) {
+  for (size_t i = 0; i < bundle.size(); ++i) directions[i] = bundle[i].segment->ray.direction;
+  return {directions.data(), bundle.size()};
+}
+
+/// How far, from the apex, rays come near the bounds at all, m.
+float farthest_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius) {
+  float farthest = 0.0f;
+  for (const BundledSegment& of : bundle) {
+    const Ray& ray = of.segment->ray;
+    // Past the ends there may be photons of the region, but not farther than the segment is long.
+    const Interval near = clip(ray, {0.0f, 2.0f * of.segment->interval.t1}, bounds, radius);
+    if (!near.empty()) farthest = std::max(farthest, glm::distance(apex, ray.origin) + near.t1);
+  }
+  return farthest;
+}
+
+}  // namespace
+
+bool is_narrow(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius, float most_radii) {
+  Directions directions;
+  const float spread = spread_of(directions_of(bundle, directions));
+  return 0.5f * farthest_of(apex, bundle, bounds, radius) * spread <= most_radii * radius;
+}
+
+RayBundle rays_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius) {
+  Directions directions;
+  return {apex, directions_of(bundle, directions), farthest_of(apex, bundle, bounds, radius) + radius};
+}
+
+GatherLanes::GatherLanes(const Vec3& apex, SegmentBundle bundle, const GatherSettings& settings, Spread spread,
+                         const Box& bounds)
+    : apex_(apex), bundle_(bundle), radius_(settings.radius) {
+  for (size_t i = 0; i < bundle.size(); ++i) {
+    const EyeSegment& segment = *bundle[i].segment;
+    const SegmentRegion& region = regions_[i].emplace(segment, settings, spread);
+    const Interval near = clip(segment.ray, region.reach(), bounds, radius_);
+    if (near.empty()) {
+      regions_[i].reset();
+      continue;
+    }
+    lanes_.set(i, segment, region, near, apex);
+    const float from = glm::distance(apex, segment.ray.origin);
+    nearest_ = std::min(nearest_, from + near.t0);
+    farthest_ = std::max(farthest_, from + near.t1);
+  }
+}
+
+RayBundle GatherLanes::rays() const {
+  Directions directions;
+  return {apex_, directions_of(bundle_, directions), farthest_ + radius_};
+}
+
+void GatherLanes::add(const LaneTotals& found, const Rgb& factor) {
+  for (size_t i = 0; i < bundle_.size(); ++i) {
+    if (!regions_[i]) continue;
+    const EyeSegment& segment = *bundle_[i].segment;
+    EyeWork& work = *bundle_[i].work;
+    const KernelEstimate light{Rgb(found.total(i).value) * segment.throughput * factor,
+                               Rgb(found.total(i).correction) * segment.throughput * factor};
+    if (regions_[i]->whole() || is_black(light.value)) {
+      bundle_[i].light += light;
+      continue;
+    }
+    const SeenAlong seen(segment.medium()->sigma_t, segment.interval, nullptr);
+    bundle_[i].light += over_share(light, regions_[i]->share(radius_, seen, work.rng), work.counters.gather);
+  }
+}
+
+}  // namespace vpm

@@ -1,0 +1,87 @@
+// Gathering along the segments of a bundle of rays at once, in one homogeneous medium.
+#pragma once
+
+#include <algorithm>
+
+#include "vpm/base/exp_negative.h"
+#include "vpm/estimate/volume/estimator.h"
+#include "vpm/estimate/volume/segment_lanes.h"
+#include "vpm/photon/ray_bundle.h"
+
+namespace vpm {
+
+/// Calls use(bundle of up to kBlock segments) for the segments of rays that lie side by side, kBlock after kBlock.
+template <class Use>
+void each_block(SegmentBundle bundle, Use&& use) {
+  for (size_t first = 0; first < bundle.size(); first += kBlock)
+    use(bundle.subspan(first, std::min<size_t>(kBlock, bundle.size() - first)));
+}
+
+/// Is a bundle so narrow that most of what one of its rays finds is found by the others, too? `bounds` of all that is
+/// gathered, `most_radii`: how wide it may be, half way along its longest segment.
+bool is_narrow(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius, float most_radii);
+
+/// The rays of a bundle, as far as what is gathered within the radius of its bounds.
+RayBundle rays_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius);
+
+/// Up to kBlock segments of a bundle in lanes, each with its region.
+class GatherLanes {
+ public:
+  GatherLanes(const Vec3& apex, SegmentBundle bundle, const GatherSettings& settings, Spread spread, const Box& bounds);
+
+  /// Does any segment come near what is gathered?
+  bool any() const { return farthest_ > nearest_; }
+  /// Do all places of their regions lie on the rays' side of the apex, so that rays() holds them?
+  bool ahead() const { return nearest_ >= 0.0f; }
+  const SegmentLanes& segments() const { return lanes_; }
+  size_t size() const { return bundle_.size(); }
+  RayBundle rays() const;
+  /// Adds to the segments' light what was found, times `factor`, over the share of what there is to be found.
+  void add(const LaneTotals& found, const Rgb& factor);
+
+ private:
+  Vec3 apex_;
+  SegmentBundle bundle_;
+  float radius_;                                 // m
+  float nearest_ = kInfinity, farthest_ = 0.0f;  // of the segments' parts, m from the apex
+  SegmentLanes lanes_;
+  std::array<std::optional<SegmentRegion>, kBlock> regions_;  // of those that come near
+};
+
+/// Adds a photon's or a beam's power, attenuated over distances to the eye, m, and times `weight` and a kernel.
+[[gnu::always_inline]] inline void add_light(const Rgb& power, const Rgb& sigma_t, const Floats& distances,
+                                             const Floats& weight, const KernelPair<Floats>& kernel,
+                                             LaneEstimates& sums) {
+  Floats value, correction;
+  for (int c = 0; c < 3; ++c) {
+    if (c == 0 || sigma_t[c] != sigma_t[c - 1]) {
+      const Floats passed = weight * exp_negative(-sigma_t[c] * distances);
+      value = passed * kernel.value;
+      correction = passed * kernel.correction;
+    }
+    sums.value[c] += power[c] * value;
+    sums.correction[c] += power[c] * correction;
+  }
+}
+
+/// A kernel's profile and its correction.
+template <class Profile>
+KernelPair<Floats> profiles(const Profile& profile, const Floats& q) {
+  KernelPair<Floats> kernel;
+  for (size_t i = 0; i < kBlock; ++i) {
+    const KernelPair<float> spread = profile(q[i]);
+    kernel.value[i] = spread.value;
+    kernel.correction[i] = spread.correction;
+  }
+  return kernel;
+}
+
+/// The phase function from one direction of travel to many, 1/sr.
+template <class P>
+Floats phase_values(const P& phase, const Vec3& before, const Floats3& after) {
+  Floats values;
+  for (size_t i = 0; i < kBlock; ++i) values[i] = phase.value(before, after[i]);
+  return values;
+}
+
+}  // namespace vpm

@@ -1,0 +1,156 @@
+// Rays from the camera followed together find what each finds alone.
+#include <gtest/gtest.h>
+
+#include "support/scenes.h"
+#include "vpm/render/eye_path.h"
+#include "vpm/render/photon_pass.h"
+
+namespace vpm {
+namespace {
+
+constexpr int kEdge = 8;  // rays along an edge of a bundle
+
+Medium fog(const Rgb& sigma_t, const Phase& phase) {
+  Medium medium = make_medium(nullptr, sigma_t);
+  medium.sigma_s = 0.8f * sigma_t;
+  medium.phase = phase;
+  return medium;
+}
+
+void light_up(Scene& scene) {
+  const QuadLight lamp{Vec3(-0.5f, 1.9f, -0.5f), Vec3(1, 0, 0), Vec3(0, 0, 1), Rgb(10.0f, 8.0f, 6.0f)};
+  scene.lights.push_back(lamp);
+  add_shape(scene, quad_mesh(lamp.corner, lamp.edge_u, lamp.edge_v), Lambertian{Rgb(0.0f)}, nullptr, 0);
+}
+
+/// A room full of fog, with a ball of glass.
+Scene room(const Medium& medium) {
+  Scene scene;
+  scene.media.push_back(medium);
+  const Interface media{0, kVacuum};
+  add_shape(scene, box_mesh(Vec3d(-2.0), Vec3d(2.0)), Lambertian{Rgb(0.5f)}, &media);
+  const Interface glass{kVacuum, 0};
+  add_shape(scene, SphereShape{Vec3(0.7f, -0.5f, -0.7f), 0.6f}, Dielectric{1.5f}, &glass);
+  light_up(scene);
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+/// Two balls of fog side by side, and a grid, over a floor.
+Scene balls(const Medium& medium) {
+  Scene scene;
+  scene.media = {medium, fog(Rgb(3.0f, 1.0f, 0.5f), Isotropic{})};
+  const Interface left{0, kVacuum}, right{1, kVacuum};
+  add_shape(scene, SphereShape{Vec3(-0.6f, 0.0f, 0.0f), 0.6f}, Boundary{}, &left);
+  add_shape(scene, SphereShape{Vec3(0.6f, 0.0f, 0.0f), 0.6f}, Boundary{}, &right);
+  add_shape(scene, quad_mesh(Vec3(-2, -1, -2), Vec3(0, 0, 4), Vec3(4, 0, 0)), Lambertian{Rgb(0.5f)});
+  light_up(scene);
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+/// Rays of a bundle, each with random numbers of its own.
+struct Bundle {
+  EyeCounters counters{};
+  EyeScratch scratch{};
+  std::vector<Rng> rngs{};
+  std::vector<EyeRay> rays{};
+
+  Bundle(const Vec3& from, const Vec3& towards, float width) {
+    const Vec3 ahead = glm::normalize(towards - from);
+    Vec3 right, up;
+    make_frame(ahead, right, up);
+    rngs.reserve(kEdge * kEdge);
+    for (int i = 0; i < kEdge * kEdge; ++i) {
+      const Vec2 place = (Vec2(i % kEdge, i / kEdge) / float{kEdge} - 0.5f) * width;
+      Rng& rng = rngs.emplace_back(5, rng_stream(RngUse::test, 0), static_cast<uint64_t>(i));
+      rays.push_back({{from, glm::normalize(ahead + place.x * right + place.y * up)}, {rng, counters, scratch}});
+    }
+  }
+};
+
+/// How many of the photons that bundles find are found by their rays alone, too.
+void expect_alike(const Scene& scene, const RenderSettings& settings, const Vec3& from, const Vec3& towards) {
+  const Estimators estimators = plan_estimators(scene, settings, 0);
+  RenderStatistics statistics;
+  prepare_pass(scene, settings, estimators, {.stop = kNeverStopped}, statistics);
+  const EyeContext context{scene, estimators};
+  for (const float width : {0.05f, 0.8f}) {
+    Bundle together(from, towards, width), alone(from, towards, width);
+    eye_radiance(context, together.rays);
+    float largest = 0.0f;
+    for (EyeRay& ray : alone.rays) {
+      ray.radiance = eye_radiance(context, ray.ray, ray.work);
+      largest = std::max(largest, max_channel(ray.radiance.value));
+    }
+    ASSERT_GT(largest, 0.0f);
+    for (size_t i = 0; i < alone.rays.size(); ++i) {
+      const KernelEstimate &a = together.rays[i].radiance, &b = alone.rays[i].radiance;
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(a.value[c], b.value[c], 2e-4f * largest) << i;
+        EXPECT_NEAR(a.correction[c], b.correction[c], 2e-4f * largest) << i;
+      }
+    }
+    const auto used = static_cast<double>(alone.counters.gather.used);
+    EXPECT_GT(used, 100.0);
+    EXPECT_NEAR(static_cast<double>(together.counters.gather.used), used, 1e-4 * used + 2.0);
+    EXPECT_EQ(together.counters.used_in_media,
+              together.counters.gather.used - alone.counters.gather.used + alone.counters.used_in_media);
+  }
+}
+
+RenderSettings settings_of(GatherMode mode, KernelKind kernel, BoundaryRule boundary) {
+  RenderSettings settings;
+  settings.photons_emitted = 2000;
+  settings.planes = 50;
+  settings.volume.mode = mode;
+  settings.volume.radius = mode == GatherMode::beam ? 0.2f : 0.1f;
+  settings.volume.kernel = kernel;
+  settings.volume.boundary = boundary;
+  return settings;
+}
+
+constexpr std::array kModes{GatherMode::beam, GatherMode::photon_beams, GatherMode::photon_planes};
+
+TEST(EyeRays, TogetherFindWhatEachFindsAlone) {
+  const Scene grey = room(fog(Rgb(0.7f), HenyeyGreenstein{0.6f}));
+  for (const GatherMode mode : kModes)
+    for (const BoundaryRule boundary : {BoundaryRule::none, BoundaryRule::ends})
+      for (const Vec3& towards : {Vec3(-2.0f, 0.3f, -2.0f), Vec3(0.7f, -0.5f, -0.7f)}) {  // the corner, the glass
+        SCOPED_TRACE(static_cast<int>(mode));
+        expect_alike(grey, settings_of(mode, KernelKind::epanechnikov, boundary), Vec3(0.2f, 0.1f, 1.7f), towards);
+      }
+}
+
+TEST(EyeRays, HaveEveryKernelAndPhaseFunction) {
+  for (const Phase& phase : {Phase(Isotropic{}), Phase(Rayleigh{}), Phase(HenyeyGreenstein{-0.4f})}) {
+    const Scene scene = room(fog(Rgb(0.7f), phase));
+    for (const KernelInfo& info : kKernels)
+      for (const GatherMode mode : {GatherMode::beam, GatherMode::photon_beams})
+        expect_alike(scene, settings_of(mode, info.kind, BoundaryRule::ends), Vec3(0.2f, 0.1f, 1.7f),
+                     Vec3(-1.0f, 0.3f, -2.0f));
+  }
+}
+
+TEST(EyeRays, MayBeInDifferentMedia) {
+  const Scene scene = balls(fog(Rgb(2.0f, 1.0f, 0.2f), Isotropic{}));
+  for (const GatherMode mode : kModes)
+    for (const Vec3& towards : {Vec3(0.0f), Vec3(-0.9f, 0.1f, 0.0f)}) {
+      SCOPED_TRACE(static_cast<int>(mode));
+      expect_alike(scene, settings_of(mode, KernelKind::epanechnikov, BoundaryRule::ends), Vec3(0.0f, 0.3f, 3.0f),
+                   towards);
+    }
+}
+
+// Kernels reach past the border that a slanted ray enters by, and so behind a camera that stands right before it.
+TEST(EyeRays, MayBeginJustBeforeABorder) {
+  Scene scene = boxed_medium(fog(Rgb(1.0f), Isotropic{}), ConstantEnvironment{Rgb(1.0f)});
+  for (const GatherMode mode : kModes)
+    expect_alike(scene, settings_of(mode, KernelKind::epanechnikov, BoundaryRule::ends), Vec3(0.0f, 1.01f, 0.9f),
+                 Vec3(0.0f, 0.8f, 0.0f));
+}
+
+}  // namespace
+}  // namespace vpm
