@@ -38,7 +38,7 @@ KernelEstimate gather(const EyeSegment& segment, const SegmentRegion& region, co
 /// What one photon adds to the lanes.
 template <class P, class Profile>
 struct PhotonBeside {
-  const SegmentLanes& rays;
+  const SegmentLanes& segments;
   const P& phase;
   Profile profile;
   Rgb sigma_t;
@@ -48,22 +48,23 @@ struct PhotonBeside {
   void add(const BundledPhotons& photons, size_t p, LaneEstimates& sums) const {
     const Vec3 place(photons.x[p], photons.y[p], photons.z[p]), travel(photons.dx[p], photons.dy[p], photons.dz[p]);
     const float radius2 = radius * radius;
+    const RayLanes& rays = segments.rays();
     const Floats3 offset = place - rays.from;
     const Floats t = dot(offset, rays.along);
     const Floats3 across = offset - t * rays.along;
     const Floats distance2 = dot(across, across);
-    const LaneMask inside = (distance2 < radius2) & (t >= rays.t0) & (t < rays.t1) & rays.hold(offset);
+    const LaneMask inside = (distance2 < radius2) & (t >= rays.t0) & (t < rays.t1) & segments.hold(offset);
     Floats weight = phase_values(phase, travel, -1.0f * rays.along);
     if (balance) weight *= shares(travel);
     weight = inside ? weight : Floats{};
     sums.used -= inside;
-    add_light({photons.r[p], photons.g[p], photons.b[p]}, sigma_t, rays.distances_to_eye(offset), weight,
+    add_light({photons.r[p], photons.g[p], photons.b[p]}, sigma_t, segments.distances_to_eye(offset), weight,
               profiles(profile, min(distance2 * (1.0f / radius2), all_lanes(1.0f))), sums);
   }
 
   /// Beside beams.
   Floats shares(const Vec3& travel) const {
-    const Floats3 normal = cross(travel, rays.along);
+    const Floats3 normal = cross(travel, segments.rays().along);
     return balance->of_collisions(sqrt(dot(normal, normal)), mean_channel(sigma_t));
   }
 };

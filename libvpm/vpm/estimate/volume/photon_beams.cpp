@@ -1,7 +1,6 @@
 // L = sum over beams of Phi W(s) sigma_s p T(t) K(distance) / sine of the angle [Jarosz2011].
 #include "vpm/estimate/volume/photon_beams.h"
 
-#include <limits>
 #include <variant>
 
 namespace vpm {
@@ -17,7 +16,7 @@ VolumeMapSettings with_beams(const PhotonBeamSettings& settings) {
 /// What one piece of a beam adds to the lanes. In a grey medium the beam keeps its power as far as its photon comes.
 template <class P, class Profile>
 struct BeamAcross {
-  const SegmentLanes& rays;
+  const SegmentLanes& segments;
   const P& phase;
   Profile profile;
   Rgb sigma_t;
@@ -28,31 +27,22 @@ struct BeamAcross {
   /// planes; 0: it is not.
   void add(const BundledBeams& beams, size_t p, const Vec3& from, float sigma_s, LaneEstimates& sums) const {
     const Vec3 direction(beams.dx[p], beams.dy[p], beams.dz[p]);
-    const float half = beams.half[p], radius2 = radius * radius;
-    // Both lines as seen along the ray, as in PhotonBeamMap::cross().
-    const Floats3 middle = Vec3(beams.x[p], beams.y[p], beams.z[p]) - rays.from;
-    const Floats a = dot(middle, rays.right), b = dot(middle, rays.up);
-    const Floats da = dot(direction, rays.right), db = dot(direction, rays.up);
-    const Floats sine2 = da * da + db * db, across = a * db - b * da;
-    const Floats per_sine2 = 1.0f / max(sine2, all_lanes(std::numeric_limits<float>::min()));
-    const Floats s = Floats{} - (a * da + b * db) * per_sine2, distance2 = across * across * per_sine2;
-    const Floats3 place = middle + s * direction;
-    const Floats t = dot(place, rays.along);
-    const LaneMask met = (distance2 < radius2) & (s >= -half) & (s < half) & (t >= rays.t0) & (t < rays.t1) &
-                         (sine2 > 0.0f) & rays.hold(place);
+    const CrossingLanes crossing = cross(beams, p, segments.rays(), radius);
+    const LaneMask met = crossing.met & segments.hold(crossing.places);
     if (!any(met)) return;
-    const Floats sine = sqrt(sine2);
-    Floats weight = phase_values(phase, direction, -1.0f * rays.along);
+    const Floats3& along = segments.rays().along;
+    const Floats sine = sqrt(crossing.sine2);
+    Floats weight = phase_values(phase, direction, -1.0f * along);
     if (sigma_s > 0.0f) {
-      const Floats determinant = dot(glm::cross(from, direction), rays.along);
+      const Floats determinant = dot(glm::cross(from, direction), along);
       weight *= balance.of_beams_beside_planes_over_sine(sine, sigma_s, max(determinant, -1.0f * determinant));
     } else {
       weight *= balance.of_beams_over_sine(sine, mean_channel(sigma_t));
     }
     weight = met ? weight : Floats{};
     sums.used -= met;
-    add_light({beams.r[p], beams.g[p], beams.b[p]}, sigma_t, rays.distances_to_eye(place), weight,
-              profiles(profile, min(distance2 * (1.0f / radius2), all_lanes(1.0f))), sums);
+    add_light({beams.r[p], beams.g[p], beams.b[p]}, sigma_t, segments.distances_to_eye(crossing.places), weight,
+              profiles(profile, min(crossing.distance2 * (1.0f / (radius * radius)), all_lanes(1.0f))), sums);
   }
 };
 

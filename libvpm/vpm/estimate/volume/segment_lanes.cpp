@@ -7,15 +7,7 @@ namespace vpm {
 
 void SegmentLanes::set(size_t lane, const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
                        const Vec3& apex) {
-  const Ray& ray = segment.ray;
-  Vec3 to_right, upwards;
-  make_frame(ray.direction, to_right, upwards);
-  from.set(lane, ray.origin - apex);
-  along.set(lane, ray.direction);
-  right.set(lane, to_right);
-  up.set(lane, upwards);
-  t0[lane] = near.t0;
-  t1[lane] = near.t1;
+  rays_.set(lane, segment.ray, near, apex);
   const PlaneDistances distances = region.distances();
   slope_.set(lane, distances.slope);
   plane_[lane] = distances.from;

@@ -1,8 +1,8 @@
 // Segments of rays that lie side by side, a lane for each: whatever is gathered is taken to all of them at once.
 #pragma once
 
-#include "vpm/base/floats.h"
 #include "vpm/estimate/segment_region.h"
+#include "vpm/photon/ray_lanes.h"
 
 namespace vpm {
 
@@ -26,10 +26,7 @@ class SegmentLanes {
     return max(start_, min(past_start, 2.0f * end_ - past_start)) - start_;
   }
 
-  // The rays:
-  Floats3 from;                        // origins, m from the bundle's apex
-  Floats3 along, right, up;            // directions, unit, and two across each
-  Floats t0{}, t1 = all_lanes(-1.0f);  // the parts of them, m
+  const RayLanes& rays() const { return rays_; }
 
  private:
   struct Plane {
@@ -37,6 +34,7 @@ class SegmentLanes {
     Floats offset = all_lanes(-kInfinity);
   };
 
+  RayLanes rays_;
   Floats3 slope_;  // PlaneDistances
   Floats plane_{};
   Floats start_{}, end_{};  // Mirrored
