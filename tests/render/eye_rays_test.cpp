@@ -134,6 +134,17 @@ TEST(EyeRays, HaveEveryKernelAndPhaseFunction) {
   }
 }
 
+// What beams have left of their powers, in chromatic fog and beyond the collisions of their photons.
+TEST(EyeRays, CrossBeamsThatFade) {
+  for (const Rgb& sigma_t : {Rgb(0.7f), Rgb(1.5f, 0.7f, 0.2f)})
+    for (const BeamLength length : {BeamLength::short_beams, BeamLength::long_beams}) {
+      const Scene scene = room(fog(sigma_t, Isotropic{}));
+      RenderSettings settings = settings_of(GatherMode::photon_beams, KernelKind::epanechnikov, BoundaryRule::ends);
+      settings.beam_length = length;
+      expect_alike(scene, settings, Vec3(0.2f, 0.1f, 1.7f), Vec3(-1.0f, 0.3f, -2.0f));
+    }
+}
+
 TEST(EyeRays, MayBeInDifferentMedia) {
   const Scene scene = balls(fog(Rgb(2.0f, 1.0f, 0.2f), Isotropic{}));
   for (const GatherMode mode : kModes)

@@ -35,9 +35,9 @@ Scene foggy_room(float sigma_t) {
 }
 
 std::vector<PhotonBeam> room_beams(const Scene& scene, size_t count) {
-  BeamRecorder recorder(scene, any_photon);
+  BeamRecorder recorder(scene, any_photon, {});
   TraceSettings settings;
-  settings.stored = count;
+  settings.emitted = count;  // each photon flies once at the least
   Progress silent("photons", 0, false);
   trace_photons(scene, *make_distance_strategy({}), settings, {&recorder}, silent);
   std::vector<PhotonBeam> beams = std::move(recorder.beams[0]);

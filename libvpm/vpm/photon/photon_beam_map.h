@@ -41,6 +41,7 @@ struct BundledBeams {
   float x[kMost], y[kMost], z[kMost];     // of their middles from the bundle's apex, m
   float dx[kMost], dy[kMost], dz[kMost];  // directions, unit
   float half[kMost];                      // of their lengths, m
+  float from[kMost];                      // of their middles from the beam's origin, m
   float r[kMost], g[kMost], b[kMost];     // the beam's power at its origin, W
   uint32_t beam[kMost];                   // its number in the list that the map was made of
 };
@@ -207,6 +208,7 @@ inline void PhotonBeamMap::Selection::read(const uint32_t* pieces, size_t count,
     found.dy[i] = leaf.dy[p];
     found.dz[i] = leaf.dz[p];
     found.half[i] = leaf.half[p];
+    found.from[i] = of.from[p];
     found.r[i] = of.r[p];
     found.g[i] = of.g[p];
     found.b[i] = of.b[p];

@@ -63,6 +63,15 @@ class GatherLanes {
     sums.correction[c] += power[c] * correction;
   }
 }
+/// The same where of the power only `left` comes so far, channel by channel.
+inline void add_light(const Rgb& power, const std::array<Floats, 3>& left, const Rgb& sigma_t, const Floats& distances,
+                      const Floats& weight, const KernelPair<Floats>& kernel, LaneEstimates& sums) {
+  for (int c = 0; c < 3; ++c) {
+    const Floats light = power[c] * left[c] * weight * exp_negative(-sigma_t[c] * distances);
+    sums.value[c] += light * kernel.value;
+    sums.correction[c] += light * kernel.correction;
+  }
+}
 
 /// A kernel's profile and its correction.
 template <class Profile>

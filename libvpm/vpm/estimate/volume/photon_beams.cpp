@@ -1,7 +1,11 @@
 // L = sum over beams of Phi W(s) sigma_s p T(t) K(distance) / sine of the angle [Jarosz2011].
 #include "vpm/estimate/volume/photon_beams.h"
 
+#include <algorithm>
+#include <limits>
 #include <variant>
+
+#include "vpm/medium/distance/mixture.h"
 
 namespace vpm {
 namespace {
@@ -13,7 +17,23 @@ VolumeMapSettings with_beams(const PhotonBeamSettings& settings) {
   return maps;
 }
 
-/// What one piece of a beam adds to the lanes. In a grey medium the beam keeps its power as far as its photon comes.
+/// What is left of a beam's power at these distances from its origin, m, channel by channel, in a homogeneous medium:
+/// multiply_by_left() of many rays.
+std::array<Floats, 3> left_along(const Rgb& sigma_t, bool long_beams, const Rgb& power, const Floats& s) {
+  const Rgb shares = channel_shares(power);
+  const float least = long_beams ? 0.0f : std::min(sigma_t.r, std::min(sigma_t.g, sigma_t.b));
+  std::array<Floats, 3> left;
+  Floats mixture{};
+  for (int c = 0; c < 3; ++c) {
+    left[c] = exp_negative((least - sigma_t[c]) * max(s, Floats{}));
+    mixture += shares[c] * left[c];
+  }
+  if (!long_beams)
+    for (Floats& channel : left) channel /= max(mixture, all_lanes(std::numeric_limits<float>::min()));
+  return left;
+}
+
+/// What one piece of a beam adds to the lanes.
 template <class P, class Profile>
 struct BeamAcross {
   const SegmentLanes& segments;
@@ -22,6 +42,7 @@ struct BeamAcross {
   Rgb sigma_t;
   float radius;
   BeamBalance balance;
+  bool long_beams;
 
   /// `from`: the direction before the collision that the beam begins at, and `sigma_s` there, 1/m, if it is shared with
   /// planes; 0: it is not.
@@ -41,8 +62,14 @@ struct BeamAcross {
     }
     weight = met ? weight : Floats{};
     sums.used -= met;
-    add_light({beams.r[p], beams.g[p], beams.b[p]}, sigma_t, segments.distances_to_eye(crossing.places), weight,
-              profiles(profile, min(crossing.distance2 * (1.0f / (radius * radius)), all_lanes(1.0f))), sums);
+    const Rgb power(beams.r[p], beams.g[p], beams.b[p]);
+    const Floats distances = segments.distances_to_eye(crossing.places);
+    const Floats q = min(crossing.distance2 * (1.0f / (radius * radius)), all_lanes(1.0f));
+    if (long_beams || !is_grey(sigma_t))
+      add_light(power, left_along(sigma_t, long_beams, power, crossing.s), sigma_t, distances, weight,
+                profiles(profile, q), sums);
+    else
+      add_light(power, sigma_t, distances, weight, profiles(profile, q), sums);
   }
 };
 
@@ -109,12 +136,10 @@ void PhotonBeams::beams_along_bundle(const Vec3& apex, SegmentBundle bundle, con
   constexpr float kMostRadii = 16.0f;  // of blocks: wide ones look at beams that few of their rays cross
   if (map.beams.size() == 0) return;
   const Medium& medium = *bundle.front().segment->medium();
-  const bool fades = beams_.settings().long_beams || !is_grey(medium.sigma_t);
   const auto one_by_one = [&](SegmentBundle some) {
     for (BundledSegment& of : some) of.light += beams_along(*of.segment, map, *of.work);
   };
-  if (fades || !is_narrow(apex, bundle, map.beams.bounds(), map.settings.radius, 2.0f * kMostRadii))
-    return one_by_one(bundle);
+  if (!is_narrow(apex, bundle, map.beams.bounds(), map.settings.radius, 2.0f * kMostRadii)) return one_by_one(bundle);
   EyeWork& work = *bundle.front().work;
   GatherCounters& counters = work.counters.gather;
   count(work.counters.volume_queries, bundle.size());
@@ -135,7 +160,8 @@ LaneTotals PhotonBeams::sum_in_lanes(const Medium& medium, const Map& map, const
   const float radius = map.settings.radius, norm = kernel_norm_1d(map.settings.kernel, radius);
   LaneTotals totals;
   const auto sum = [&](const auto& phase, auto profile) {
-    const BeamAcross across{lanes.segments(), phase, profile, medium.sigma_t, radius, map.balance};
+    const BeamAcross across{
+        lanes.segments(), phase, profile, medium.sigma_t, radius, map.balance, beams_.settings().long_beams};
     const auto visit = [&](const BundledBeams& beams) {
       LaneEstimates sums;
       for (size_t p = 0; p < beams.size; ++p) {
