@@ -29,7 +29,8 @@ float farthest_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, flo
 bool is_narrow(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius, float most_radii) {
   Directions directions;
   const float spread = spread_of(directions_of(bundle, directions));
-  return 0.5f * farthest_of(apex, bundle, bounds, radius) * spread <= most_radii * radius;
+  const float free_path = 1.0f / mean_channel(bundle.front().segment->medium()->sigma_t);
+  return std::min(0.5f * farthest_of(apex, bundle, bounds, radius), free_path) * spread <= most_radii * radius;
 }
 
 RayBundle rays_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius) {

@@ -18,7 +18,7 @@ void each_block(SegmentBundle bundle, Use&& use) {
 }
 
 /// Is a bundle so narrow that most of what one of its rays finds is found by the others, too? `bounds` of all that is
-/// gathered, `most_radii`: how wide it may be, half way along its longest segment.
+/// gathered, `most_radii`: how wide it may be, half way along its longest segment, or where light has come a free path.
 bool is_narrow(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius, float most_radii);
 
 /// The rays of a bundle, as far as what is gathered within the radius of its bounds.

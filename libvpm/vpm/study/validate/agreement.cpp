@@ -383,6 +383,8 @@ std::vector<Check> combine_in_chromatic_cloud(const Effort& effort) {
   const Measured reference = by_path_tracer(scene, base, effort.count(80'000, 600'000));
   NamedSettings sets;
   append_combined(sets, base, true, false, true);
+  sets.emplace_back("photon beams alone", base);  // what they have left of their powers is looked up ray by ray
+  sets.back().second.volume.mode = GatherMode::photon_beams;
   std::vector<Check> checks;
   for (auto& [name, settings] : sets) {
     settings.seed = effort.seed_of("chromatic cloud, " + name);
