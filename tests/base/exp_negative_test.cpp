@@ -33,5 +33,14 @@ TEST(ExpNegative, EndsWellAtTheEnds) {
     EXPECT_EQ(exp_negative(x), 0.0f);
 }
 
+TEST(ExpNegative, IsTheSameOfManyNumbersAtOnce) {
+  for (uint32_t bits = 0; bits <= std::bit_cast<uint32_t>(90.0f); bits += 61 * kBlock) {
+    Floats x;
+    for (uint32_t i = 0; i < kBlock; ++i) x[i] = -std::bit_cast<float>(bits + 61 * i);
+    const Floats all = exp_negative(x);
+    for (uint32_t i = 0; i < kBlock; ++i) ASSERT_EQ(all[i], exp_negative(x[i])) << x[i];
+  }
+}
+
 }  // namespace
 }  // namespace vpm

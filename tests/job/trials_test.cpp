@@ -157,7 +157,7 @@ TEST(Automatic, BeamsAreGatheredWhereFewPhotonsCollide) {
 
 /// In a dense medium photons collide often, and a flight says little more than the collision at its end.
 TEST(Automatic, PointsAreGatheredWherePhotonsCollideOften) {
-  const Choice choice = chosen_gather(foggy_room(5.0f).scene, {});
+  const Choice choice = chosen_gather(foggy_room(20.0f).scene, {});
   EXPECT_EQ(choice.value, "beam") << choice.reason;
 }
 

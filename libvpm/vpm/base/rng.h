@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "vpm/base/vec.h"
 
@@ -21,7 +22,8 @@ enum class RngUse : uint64_t {
   caustic_scout = 9,
   pilot = 10,
   flight = 11,
-  plane = 12
+  plane = 12,
+  sequence = 13
 };
 
 /// A permuted congruential generator with 128 bits of state [ONeill2014, sec. 6.3, XSL RR]. Equal (seed, stream,
@@ -35,8 +37,15 @@ class Rng {
     state_ = (static_cast<Uint128>(mix(low ^ h)) << 64) | low;
   }
 
+  /// The next draws are these, before those of the generator. They must stay where they are until they are drawn.
+  void lead(std::span<const uint64_t> draws) {
+    lead_ = draws.data();
+    lead_end_ = lead_ + draws.size();
+  }
+
   /// 64 uniform bits.
   uint64_t bits() {
+    if (lead_ != lead_end_) return *lead_++;
     state_ = state_ * kMultiplier + kIncrement;
     const auto folded = static_cast<uint64_t>(state_ >> 64) ^ static_cast<uint64_t>(state_);
     const auto turn = static_cast<unsigned>(state_ >> 122);
@@ -67,6 +76,8 @@ class Rng {
   }
 
   Uint128 state_;
+  const uint64_t* lead_ = nullptr;  // draws that come first
+  const uint64_t* lead_end_ = nullptr;
 };
 
 /// The stream number of one use in one pass.

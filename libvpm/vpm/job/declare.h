@@ -28,6 +28,10 @@ struct WordsOf<Heuristic> {
   static constexpr std::array<std::string_view, 3> words{"balance", "power", "correlation-aware"};
 };
 template <>
+struct WordsOf<PhotonSequence> {
+  static constexpr std::array<std::string_view, 2> words{"sobol", "random"};
+};
+template <>
 struct WordsOf<RadiusSchedule> {
   static constexpr std::array<std::string_view, 3> words{"constant", "per-pass", "per-pixel"};
 };

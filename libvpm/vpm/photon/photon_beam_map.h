@@ -14,17 +14,22 @@
 
 namespace vpm {
 
-/// Places on beams, those nearest to a ray or to a point that the beams pass more closely than a radius.
-struct BeamPlaces {
-  static constexpr size_t kMost = 256;
+/// Places on up to N beams.
+template <size_t N>
+struct PlacesOnBeams {
+  static constexpr size_t kMost = N;
 
   size_t size = 0;
-  uint32_t beam[kMost];                   // its number in the list that the map was made of
-  float s[kMost];                         // along the beam, m from its origin
-  float distance2[kMost];                 // from the ray's line or the point, m^2
-  float x[kMost], y[kMost], z[kMost];     // of the place from the ray's origin or from the point, m
-  float dx[kMost], dy[kMost], dz[kMost];  // the beam's direction, unit
-  float r[kMost], g[kMost], b[kMost];     // its power at its origin, W
+  uint32_t beam[N];           // its number in the list that the map was made of
+  float s[N];                 // along the beam, m from its origin
+  float x[N], y[N], z[N];     // of the place from the origin of a ray or bundle, or from a point, m
+  float dx[N], dy[N], dz[N];  // the beam's direction, unit
+  float r[N], g[N], b[N];     // its power at its origin, W
+};
+
+/// Those nearest to a ray or to a point that the beams pass more closely than a radius.
+struct BeamPlaces : PlacesOnBeams<256> {
+  float distance2[kMost];  // from the ray's line or the point, m^2
 };
 
 /// Those nearest to a ray, with the other end of the common perpendicular of the two lines.
@@ -33,17 +38,9 @@ struct BeamCrossings : BeamPlaces {
   float sine[kMost];  // of the angle between the two, > 0
 };
 
-/// Pieces of beams that rays of a bundle may pass closely.
-struct BundledBeams {
-  static constexpr size_t kMost = 128;
-
-  size_t size = 0;
-  float x[kMost], y[kMost], z[kMost];     // of their middles from the bundle's apex, m
-  float dx[kMost], dy[kMost], dz[kMost];  // directions, unit
-  float half[kMost];                      // of their lengths, m
-  float from[kMost];                      // of their middles from the beam's origin, m
-  float r[kMost], g[kMost], b[kMost];     // the beam's power at its origin, W
-  uint32_t beam[kMost];                   // its number in the list that the map was made of
+/// The middles of pieces of beams that rays of a bundle may pass closely.
+struct BundledBeams : PlacesOnBeams<128> {
+  float half[kMost];  // of the pieces' lengths, m
 };
 
 class PhotonBeamMap {
@@ -101,8 +98,10 @@ class PhotonBeamMap {
   /// takes the pieces that are not, up to kMost at a time. Returns how many pieces were looked at.
   template <size_t kMost, class Search, class Use>
   static uint32_t collect(Search&& search, Use&& use);
-  /// What pieces and their beams say of themselves; their middles as places.
-  void read(const uint32_t* pieces, size_t count, const Vec3& from, BeamPlaces& found) const;
+  /// The middles of pieces as places.
+  template <size_t N>
+  static void read(const std::vector<Leaf>& leaves, const std::vector<Owners>& owners, const uint32_t* pieces,
+                   size_t count, const Vec3& from, PlacesOnBeams<N>& found);
   void cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame, BeamCrossings& found) const;
   void stand_beside(const uint32_t* pieces, size_t count, const Vec3& point, BeamPlaces& found) const;
 
@@ -125,7 +124,6 @@ class PhotonBeamMap::Selection {
  private:
   friend class PhotonBeamMap;
   void add(const Leaf& leaf, const Owners& owners, size_t i);
-  void read(const uint32_t* pieces, size_t count, const Vec3& apex, BundledBeams& found) const;
 
   float radius_ = 0.0f;  // m
   size_t size_ = 0;
@@ -195,32 +193,12 @@ inline void PhotonBeamMap::test(const Leaf& leaf, const RayBundle& bundle, float
   for (uint32_t i = 0; i < kBlock; ++i) missed[i] = begin[i] <= end[i] ? 0.0f : 1.0f;
 }
 
-inline void PhotonBeamMap::Selection::read(const uint32_t* pieces, size_t count, const Vec3& apex,
-                                           BundledBeams& found) const {
+template <size_t N>
+void PhotonBeamMap::read(const std::vector<Leaf>& leaves, const std::vector<Owners>& owners, const uint32_t* pieces,
+                         size_t count, const Vec3& from, PlacesOnBeams<N>& found) {
   for (size_t i = 0; i < count; ++i) {
-    const Leaf& leaf = leaves_[pieces[i] / kBlock];
-    const Owners& of = owners_[pieces[i] / kBlock];
-    const uint32_t p = pieces[i] % kBlock;
-    found.x[i] = leaf.x[p] - apex.x;
-    found.y[i] = leaf.y[p] - apex.y;
-    found.z[i] = leaf.z[p] - apex.z;
-    found.dx[i] = leaf.dx[p];
-    found.dy[i] = leaf.dy[p];
-    found.dz[i] = leaf.dz[p];
-    found.half[i] = leaf.half[p];
-    found.from[i] = of.from[p];
-    found.r[i] = of.r[p];
-    found.g[i] = of.g[p];
-    found.b[i] = of.b[p];
-    found.beam[i] = of.beam[p];
-  }
-  found.size = count;
-}
-
-inline void PhotonBeamMap::read(const uint32_t* pieces, size_t count, const Vec3& from, BeamPlaces& found) const {
-  for (size_t i = 0; i < count; ++i) {
-    const Leaf& leaf = leaves_[pieces[i] / kBlock];
-    const Owners& of = owners_[pieces[i] / kBlock];
+    const Leaf& leaf = leaves[pieces[i] / kBlock];
+    const Owners& of = owners[pieces[i] / kBlock];
     const uint32_t p = pieces[i] % kBlock;
     found.x[i] = leaf.x[p] - from.x;
     found.y[i] = leaf.y[p] - from.y;
@@ -239,7 +217,7 @@ inline void PhotonBeamMap::read(const uint32_t* pieces, size_t count, const Vec3
 
 inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray& ray, const Frame& frame,
                                  BeamCrossings& found) const {
-  read(pieces, count, ray.origin, found);
+  read(leaves_, owners_, pieces, count, ray.origin, found);
   const Vec3 right = frame.right, up = frame.up, along = frame.along;
   for (size_t i = 0; i < count; ++i) {
     const Vec3 middle(found.x[i], found.y[i], found.z[i]), d(found.dx[i], found.dy[i], found.dz[i]);
@@ -258,7 +236,7 @@ inline void PhotonBeamMap::cross(const uint32_t* pieces, size_t count, const Ray
 
 inline void PhotonBeamMap::stand_beside(const uint32_t* pieces, size_t count, const Vec3& point,
                                         BeamPlaces& found) const {
-  read(pieces, count, point, found);
+  read(leaves_, owners_, pieces, count, point, found);
   for (size_t i = 0; i < count; ++i) {
     const Vec3 middle(found.x[i], found.y[i], found.z[i]), d(found.dx[i], found.dy[i], found.dz[i]);
     const float s = -glm::dot(middle, d);
@@ -318,7 +296,8 @@ uint32_t PhotonBeamMap::Selection::visit_near_bundle(const RayBundle& bundle, Vi
     }
   };
   return collect<BundledBeams::kMost>(search, [&](const uint32_t* pieces, size_t number) {
-    read(pieces, number, bundle.apex(), found);
+    read(leaves_, owners_, pieces, number, bundle.apex(), found);
+    for (size_t i = 0; i < number; ++i) found.half[i] = leaves_[pieces[i] / kBlock].half[pieces[i] % kBlock];
     visit(std::as_const(found));
   });
 }

@@ -46,7 +46,7 @@ inline CrossingLanes cross(const BundledBeams& beams, size_t p, const RayLanes& 
   const Floats sine2 = da * da + db * db, across = a * db - b * da;
   const Floats per_sine2 = 1.0f / max(sine2, all_lanes(std::numeric_limits<float>::min()));
   const Floats s = Floats{} - (a * da + b * db) * per_sine2;  // along the beam from the middle, m
-  CrossingLanes crossing{middle + s * direction, s + beams.from[p], across * across * per_sine2, sine2, {}};
+  CrossingLanes crossing{middle + s * direction, s + beams.s[p], across * across * per_sine2, sine2, {}};
   const Floats t = dot(crossing.places, rays.along);
   crossing.met = (crossing.distance2 < radius * radius) & (s >= -half) & (s < half) & (t >= rays.t0) & (t < rays.t1) &
                  (sine2 > 0.0f);

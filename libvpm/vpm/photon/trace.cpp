@@ -30,8 +30,9 @@ struct Part {
 /// One photon on its way, with the branches it is followed by, and where it leaves its traces.
 class PhotonPath {
  public:
-  PhotonPath(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings, Part& out)
-      : scene_(scene), strategy_(strategy), settings_(settings), out_(out) {
+  PhotonPath(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,
+             const PhotonNumbers& numbers, Part& out)
+      : scene_(scene), strategy_(strategy), settings_(settings), numbers_(numbers), out_(out) {
     if (settings.guide && settings.guide->directions) directions_ = &*settings.guide->directions;
     for (const auto& recorder : out.recorders) {
       const RecordNeeds needs = recorder->needs();
@@ -43,7 +44,7 @@ class PhotonPath {
 
   /// Emits and follows photon number `index`.
   void trace(uint64_t index) {
-    Rng rng(settings_.seed, rng_stream(RngUse::photon, settings_.pass), index);
+    Rng rng = numbers_.of(index, lead_);
     number_ = index;
     emit(rng);
     if (alive_) fly(rng);
@@ -207,6 +208,8 @@ class PhotonPath {
   const Scene& scene_;
   const DistanceStrategy& strategy_;
   const TraceSettings& settings_;
+  const PhotonNumbers& numbers_;
+  PhotonNumbers::Lead lead_;
   Part& out_;
   Recorders of_flights_, of_collisions_, of_hits_;  // those of `out_` that are told of these
   const DirectionGuide* directions_ = nullptr;      // null: scattering is not guided
@@ -282,6 +285,8 @@ Part empty_part(const Recorders& recorders) {
 
 Ledger trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,
                      const Recorders& recorders, Progress& progress) {
+  const PhotonNumbers numbers(settings.guide ? PhotonSequence::random : settings.sequence, settings.seed,
+                              settings.pass);
   Joined joined{recorders};
   Tally traced(recorders.size());
   std::vector<Part> parts;
@@ -293,7 +298,7 @@ Ledger trace_photons(const Scene& scene, const DistanceStrategy& strategy, const
       if (task == 0) return joined.add(parts, settings);
       Part& part = next[task - 1] = empty_part(recorders);
       if (is_stopped(settings)) return;
-      PhotonPath path(scene, strategy, settings, part);
+      PhotonPath path(scene, strategy, settings, numbers, part);
       const uint64_t begin = first + (task - 1) * kPhotonChunk, end = std::min(begin + kPhotonChunk, last);
       for (uint64_t i = begin; i < end; ++i) path.trace(i);
       progress.advance(end - begin);

@@ -8,6 +8,7 @@
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/photon/ledger.h"
 #include "vpm/photon/photon_guide.h"
+#include "vpm/photon/photon_numbers.h"
 #include "vpm/photon/recorder.h"
 #include "vpm/scene/scene.h"
 
@@ -17,12 +18,13 @@ namespace vpm {
 struct TraceSettings {
   uint64_t seed = 1;
   uint64_t pass = 0;
-  uint64_t emitted = 0;                // photons to emit at the most; 0: no limit, `stored` decides
-  uint64_t stored = 0;                 // stop once a recorder has that many (PhotonRecorder::stored()); 0: no limit
-  int max_events = 100'000;            // of one photon
-  const PhotonGuide* guide = nullptr;  // where photons are emitted and scattered; null: as power is
-  bool split = false;                  // with a guide: by importance also on their way
-  const std::atomic<bool>* stop = nullptr;  // once true, tracing ends soon, and its photons must not be used
+  uint64_t emitted = 0;      // photons to emit at the most; 0: no limit, `stored` decides
+  uint64_t stored = 0;       // stop once a recorder has that many (PhotonRecorder::stored()); 0: no limit
+  int max_events = 100'000;  // of one photon
+  PhotonSequence sequence = PhotonSequence::random;  // of the numbers that photons which no guide emits start with
+  const PhotonGuide* guide = nullptr;                // where photons are emitted and scattered; null: as power is
+  bool split = false;                                // with a guide: by importance also on their way
+  const std::atomic<bool>* stop = nullptr;           // once true, tracing ends soon, and its photons must not be used
 };
 
 /// Traces photons in parallel and deposits what becomes of them into the recorders. Photon i depends on (seed, pass, i)

@@ -61,25 +61,26 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
   return counts;
 }
 
-/// A few sub-paths more than those of the pass, with all their flights as planes.
-LightSubPaths few_paths(const LightTracing& tracing, uint64_t paths, uint64_t number) {
+/// A few sub-paths that are independent of those of the pass, with all their flights as planes.
+LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& numbers, uint64_t first, uint64_t number) {
   TechniqueCounts counts;
   counts.plane_share = 1.0;
   LightSubPaths few(tracing.scene.media.size());
-  trace_light_sub_paths(
-      {tracing.scene, tracing.strategy, tracing.transmittance, counts, tracing.seed, tracing.pass, tracing.max_events},
-      paths, paths + number, few);
+  trace_light_sub_paths({tracing.scene, tracing.strategy, tracing.transmittance, counts, numbers, tracing.max_events},
+                        first, first + number, few);
   return few;
 }
 
 /// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
 /// latter has kConnections, one at the most; and which part of flights makes as many planes as are asked for. A few
 /// sub-paths tell, as weights must be known while all are traced.
-void count_by_few(const LightTracing& tracing, const RenderSettings& settings, TechniqueCounts& counts) {
+void count_by_few(const LightTracing& tracing, const RenderSettings& settings, int pass, TechniqueCounts& counts) {
   const uint64_t paths = settings.photons_emitted, number = std::min(paths, kFewPaths);
   const bool planes = settings.combined.techniques.has(Technique::planes);
   if (!counts.light && !planes) return;
-  const LightSubPaths few = few_paths(tracing, paths, number);
+  // Numbers beyond those of the pass: at random, as points of one scrambling tell of each other.
+  const PhotonNumbers numbers(PhotonSequence::random, settings.seed, static_cast<uint64_t>(pass));
+  const LightSubPaths few = few_paths(tracing, numbers, paths, number);
   const auto part = [&](double asked, size_t found) {  // of what so many light sub-paths have
     return std::min(1.0, asked * static_cast<double>(number) / std::max(1.0, static_cast<double>(found)));
   };
@@ -99,10 +100,10 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
       transmittance_(make_transmittance_estimator({})),
       kernels_(kernels_of_pass(scene, settings, pass)),
       counts_(counts_of_pass(scene, settings, kernels_)) {
-  const LightTracing tracing{
-      scene, *strategy_, *transmittance_, counts_, settings.seed, static_cast<uint64_t>(pass), max_events_};
+  const PhotonNumbers numbers(settings.photon_sequence, settings.seed, static_cast<uint64_t>(pass));
+  const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_};
   const Stopwatch clock;
-  count_by_few(tracing, settings, counts_);
+  count_by_few(tracing, settings, pass, counts_);
   LightSubPaths light = trace(tracing, stop);
   statistics_.trace_seconds = clock.seconds();
   statistics_.ledger = light.ledger;

@@ -15,6 +15,7 @@ TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run)
   TraceSettings trace;
   trace.seed = settings.seed;
   trace.pass = static_cast<uint64_t>(run.pass);
+  trace.sequence = settings.photon_sequence;
   trace.emitted = settings.photons_emitted;
   trace.stored = settings.photons_stored;
   trace.max_events = settings.max_events;

@@ -222,8 +222,9 @@ void LightSubPaths::join(LightSubPaths& part) {
 
 void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths) {
   std::vector<Track> tracks;
+  PhotonNumbers::Lead lead;
   for (uint64_t i = begin; i < end; ++i) {
-    Rng rng(tracing.seed, rng_stream(RngUse::photon, tracing.pass), i);
+    Rng rng = tracing.numbers.of(i, lead);
     LightSubPath(tracing, paths, tracks, rng).trace();
   }
 }

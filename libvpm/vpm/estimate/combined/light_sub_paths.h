@@ -8,6 +8,7 @@
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/ledger.h"
 #include "vpm/photon/photon_beam.h"
+#include "vpm/photon/photon_numbers.h"
 #include "vpm/photon/photon_plane.h"
 
 namespace vpm {
@@ -60,15 +61,15 @@ struct LightTracing {
   const DistanceStrategy& strategy;
   const TransmittanceEstimator& transmittance;  // exact
   const TechniqueCounts& counts;
-  uint64_t seed = 1;
-  uint64_t pass = 0;
+  const PhotonNumbers& numbers;
   int max_events = 100'000;  // of one sub-path
 };
 
 /// Light tracing: connects a vertex, with the power that arrives there, W, to the camera.
 void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng& rng, LightSubPaths& paths);
 
-/// Traces the light sub-paths of these numbers one after another. Sub-path i depends on (seed, pass, i) alone.
+/// Traces the light sub-paths of these numbers one after another. Sub-path i depends on its
+/// random numbers alone.
 void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths);
 
 }  // namespace vpm

@@ -120,11 +120,11 @@ void photons_beside_block(const Vec3& apex, SegmentBundle bundle, const BeamMap&
   if (map.settings.beam_count > 0 || !is_narrow(apex, bundle, map.photons.bounds(), radius, kMostRadii))
     return one_by_one();
   GatherLanes lanes(apex, bundle, map.settings, Spread::discs, map.photons.bounds());
+  if (!lanes.any()) return;
+  if (!lanes.ahead()) return one_by_one();
   EyeCounters& counters = bundle.front().work->counters;
   count(counters.volume_queries, bundle.size());
   count(counters.gather.searches, bundle.size());
-  if (!lanes.any()) return;
-  if (!lanes.ahead()) return one_by_one();
   const Medium& medium = *bundle.front().segment->medium();
   const LaneTotals found = sum_beside(medium, map, lanes, balance, counters.gather);
   lanes.add(found, source_factor(medium));

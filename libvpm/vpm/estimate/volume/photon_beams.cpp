@@ -142,14 +142,14 @@ void PhotonBeams::beams_along_bundle(const Vec3& apex, SegmentBundle bundle, con
   if (!is_narrow(apex, bundle, map.beams.bounds(), map.settings.radius, 2.0f * kMostRadii)) return one_by_one(bundle);
   EyeWork& work = *bundle.front().work;
   GatherCounters& counters = work.counters.gather;
-  count(work.counters.volume_queries, bundle.size());
-  count(counters.searches, bundle.size());
   count(counters.visited,
         map.beams.select(rays_of(apex, bundle, map.beams.bounds(), map.settings.radius), work.scratch.beams));
   each_block(bundle, [&](SegmentBundle block) {
     GatherLanes lanes(apex, block, map.settings, Spread::lines, map.beams.bounds());
     if (!lanes.any()) return;
     if (!lanes.ahead()) return one_by_one(block);
+    count(work.counters.volume_queries, block.size());
+    count(counters.searches, block.size());
     lanes.add(sum_in_lanes(medium, map, work.scratch.beams, lanes, counters),
               scattering_of_beams(medium, beams_.settings().maps.form));
   });

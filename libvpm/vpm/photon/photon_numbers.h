@@ -1,0 +1,33 @@
+// The random numbers of photon paths, of which the first may be of low discrepancy.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "vpm/base/rng.h"
+#include "vpm/base/sobol.h"
+#include "vpm/photon/photon_sequence.h"
+
+namespace vpm {
+
+/// Random numbers for the photon paths of one pass. Those of each path are uniform and independent of each other, and
+/// those of different passes are independent; paths of one pass are so only where the sequence is random.
+class PhotonNumbers {
+ public:
+  PhotonNumbers(PhotonSequence sequence, uint64_t seed, uint64_t pass);
+
+  static constexpr size_t kLead = 12;
+  /// The first draws of a path: emission (light, choice, face, place, direction), and twice flight and scattering
+  /// (distance, choice, direction), where each of these draws once.
+  using Lead = std::array<uint64_t, kLead>;
+
+  /// The random numbers of a path. `lead`, which they may refer to, must stay until they have been drawn.
+  Rng of(uint64_t photon, Lead& lead) const;
+
+ private:
+  uint64_t seed_, pass_;
+  std::optional<ScrambledSobol> sobol_;
+};
+
+}  // namespace vpm
