@@ -232,7 +232,7 @@ TEST(Follow, SplitPathsKeepAllPower) {
   double cut = 0.0;
   for (uint64_t i = 0; i < 100; ++i) {
     Rng rng(1, rng_stream(RngUse::test, 0), i);
-    const Walk walk{scene, *strategy, counters, 40};
+    const Walk walk{scene, *strategy, counters, 30};
     Splitter splitter(walk, rng);
     splitter.trace({{Vec3(0.0f), Vec3(1, 0, 0)}, 0, Rgb(1.0f)});
     EXPECT_EQ(splitter.escaped + splitter.cut_power, 1.0) << i;

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/tails.h"
+#include "vpm/photon/emission.h"
 #include "vpm/photon/stored_power.h"
 #include "vpm/study/sample_moments.h"
 
@@ -294,6 +296,49 @@ TEST(PhotonTracing, CutsEndlessPathsAndCountsThem) {
   const Ledger ledger = trace(scene, "homogeneous", settings).ledger;
   EXPECT_EQ(ledger.cut_count, 50u);
   EXPECT_NEAR(ledger.cut.r, ledger.emitted.r, 1e-6 * ledger.emitted.r);
+}
+
+/// Points of the sequence reach the draws that they are meant for: of 1024 photons one collides in each interval of
+/// equal probability, and each absorbs or scatters into one interval of the second collision's direction. Random ones
+/// leave more than a third of the intervals empty; rounded places may fall beyond the border of theirs.
+TEST(PhotonTracing, DistancesAndDirectionsAreEvenByTheSequence) {
+  Scene scene;
+  scene.media.push_back(make_medium(nullptr, Rgb(2.0f), 1.0f));
+  scene.world_medium = 0;
+  scene.lights.push_back(PointLight{Vec3(0.0f), Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  for (const std::string strategy : {"homogeneous", "regular", "delta"}) {
+    ListSettings settings;
+    settings.emitted = 1024;
+    settings.max_events = 2;
+    settings.sequence = PhotonSequence::sobol;
+    const std::vector<Photon> photons = trace(scene, strategy, settings).volume[0];
+    ASSERT_EQ(photons.size(), 2 * 1024u);
+    std::set<int> distances, heights;
+    for (size_t i = 0; i < photons.size(); i += 2) {
+      distances.insert(static_cast<int>(-1024.0 * std::expm1(-2.0 * glm::length(Vec3d(photons[i].position)))));
+      const Vec3d flight = glm::normalize(Vec3d(photons[i + 1].position - photons[i].position));
+      heights.insert(static_cast<int>(512.0 * (1.0 + flight.z)));
+    }
+    EXPECT_GT(distances.size(), 1000u) << strategy;
+    if (strategy == "delta") continue;  // it asks whether a collision is real
+    EXPECT_GT(heights.size(), 1000u) << strategy;
+  }
+}
+
+/// Photons that find cache points start all over a lamp, as the others do.
+TEST(PhotonTracing, PhotonsThatFindCachePointsStartEverywhere) {
+  const PhotonNumbers numbers(PhotonSequence::sobol, 1, 0);
+  constexpr size_t kNumbers = 1 << 14, kParts = 16;
+  std::array<int, kParts> found{};
+  for (uint64_t i = 0; i < kNumbers; ++i) {
+    if (!finds_cache_points(i)) continue;
+    PhotonNumbers::Lead lead;
+    Rng rng = numbers.of(i, lead);
+    ++found[static_cast<size_t>(draw_emission_point(rng).numbers.place.x * kParts)];
+  }
+  for (const int count : found) EXPECT_NEAR(count, kNumbers / kParts / 4, 16);  // of 256: random ones are off by 14
 }
 
 }  // namespace

@@ -79,9 +79,9 @@ std::vector<Setting> declare_photons() {
       {.key = "photons.sequence",
        .member = at<&S::photon_sequence>(),
        .domain = words_of<PhotonSequence>(),
-       .meaning = "what emission, the first flights and the first scattering of each photon are drawn from: points of "
+       .meaning = "what emission, the first flights and the first scattering of photons are drawn from: points of "
                   "Sobol's sequence, scrambled anew for each pass, which lie more evenly and leave less noise in fog; "
-                  "or random numbers, as always where importance guides photons"},
+                  "or random numbers, as always where importance guides photons or caustics aim them"},
       {.key = "photons.in_cube",
        .member = at<&S::photons_in_cube>(),
        .domain = Integers{0, 1'000'000},

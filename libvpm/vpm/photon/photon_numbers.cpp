@@ -15,7 +15,7 @@ struct Dimensions {
 // The first dimensions of the sequence are spread best together: the place and direction of emission have them, and
 // the first distance, which all beams and photons in media depend on.
 constexpr std::array<Dimensions, PhotonNumbers::kLead> kDimensions{
-    {{5}, {6}, {7}, {0, 1}, {2, 3}, {4}, {8}, {9, 10}, {11}, {12}, {13, 14}, {15}}};
+    {{5}, {6}, {7}, {0, 1}, {2, 3}, {4}, {8}, {9, 10}, {11}, {12}, {13, 14}}};
 
 }  // namespace
 

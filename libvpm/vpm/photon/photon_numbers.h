@@ -17,9 +17,10 @@ class PhotonNumbers {
  public:
   PhotonNumbers(PhotonSequence sequence, uint64_t seed, uint64_t pass);
 
-  static constexpr size_t kLead = 12;
-  /// The first draws of a path: emission (light, choice, face, place, direction), and twice flight and scattering
-  /// (distance, choice, direction), where each of these draws once.
+  static constexpr size_t kLead = 11;
+  /// The first draws of a path: emission (light, choice, face, place, direction), and twice distance, choice and
+  /// direction, as a path in a grey medium draws them. Where more is drawn, as in colour and by null collisions, the
+  /// dimensions are others' than these.
   using Lead = std::array<uint64_t, kLead>;
 
   /// The random numbers of a path. `lead`, which they may refer to, must stay until they have been drawn.

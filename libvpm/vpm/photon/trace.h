@@ -27,9 +27,9 @@ struct TraceSettings {
   const std::atomic<bool>* stop = nullptr;           // once true, tracing ends soon, and its photons must not be used
 };
 
-/// Traces photons in parallel and deposits what becomes of them into the recorders. Photon i depends on (seed, pass, i)
-/// alone, and the recorders are told of photons as if these came one after the other. Returns the ledger; the powers
-/// that recorders see are those of photons, not yet divided by `emitted_count`.
+/// Traces photons in parallel and deposits what becomes of them into the recorders. Photon i depends on the sequence
+/// and (seed, pass, i) alone, and the recorders are told of photons as if these came one after the other. Returns the
+/// ledger; the powers that recorders see are those of photons, not yet divided by `emitted_count`.
 ///
 /// Recorders are told of every collision before the choice between absorption and scattering (photons that weighted
 /// strategies made lighter than a tenth of what was emitted first play roulette), and of every hit of a surface before

@@ -68,8 +68,7 @@ struct LightTracing {
 /// Light tracing: connects a vertex, with the power that arrives there, W, to the camera.
 void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng& rng, LightSubPaths& paths);
 
-/// Traces the light sub-paths of these numbers one after another. Sub-path i depends on its
-/// random numbers alone.
+/// Traces the light sub-paths of these numbers one after another. Sub-path i depends on `numbers` and i alone.
 void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths);
 
 }  // namespace vpm

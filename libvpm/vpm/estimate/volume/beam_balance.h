@@ -9,7 +9,7 @@ namespace vpm {
 /// The shares of the light that is scattered at a place of the ray, having arrived there in some direction. Per photon,
 /// a beam comes within the kernel with a probability as 1D kernel x sine, a collision as sigma_t x 2D kernel
 /// [Krivanek2014]: these two share light, and their shares sum to 1. The size of a kernel is that of a constant one of
-/// the same variance.
+/// the same variance. Long beams are weighed as short ones: their shares sum to 1 as well.
 ///
 /// A Real is a float, or Floats of many rays.
 ///

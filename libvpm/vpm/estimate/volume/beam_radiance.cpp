@@ -123,8 +123,8 @@ void photons_beside_block(const Vec3& apex, SegmentBundle bundle, const BeamMap&
   if (!lanes.any()) return;
   if (!lanes.ahead()) return one_by_one();
   EyeCounters& counters = bundle.front().work->counters;
-  count(counters.volume_queries, bundle.size());
-  count(counters.gather.searches, bundle.size());
+  count(counters.volume_queries, lanes.searching());
+  count(counters.gather.searches, lanes.searching());
   const Medium& medium = *bundle.front().segment->medium();
   const LaneTotals found = sum_beside(medium, map, lanes, balance, counters.gather);
   lanes.add(found, source_factor(medium));

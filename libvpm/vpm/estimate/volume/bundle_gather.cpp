@@ -12,16 +12,18 @@ std::span<const Vec3> directions_of(SegmentBundle bundle, Directions& directions
   return {directions.data(), bundle.size()};
 }
 
-/// How far, from the apex, rays come near the bounds at all, m.
-float farthest_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius) {
-  float farthest = 0.0f;
+/// How far, from the apex, rays are near the bounds, m; empty where none is.
+Interval reach_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius) {
+  Interval reach{kInfinity, 0.0f};
   for (const BundledSegment& of : bundle) {
     const Ray& ray = of.segment->ray;
     // Past the ends there may be photons of the region, but not farther than the segment is long.
     const Interval near = clip(ray, {0.0f, 2.0f * of.segment->interval.t1}, bounds, radius);
-    if (!near.empty()) farthest = std::max(farthest, glm::distance(apex, ray.origin) + near.t1);
+    if (near.empty()) continue;
+    const float before = glm::distance(apex, ray.origin);
+    reach = {std::min(reach.t0, before + near.t0), std::max(reach.t1, before + near.t1)};
   }
-  return farthest;
+  return reach;
 }
 
 }  // namespace
@@ -30,12 +32,13 @@ bool is_narrow(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float 
   Directions directions;
   const float spread = spread_of(directions_of(bundle, directions));
   const float free_path = 1.0f / mean_channel(bundle.front().segment->medium()->sigma_t);
-  return std::min(0.5f * farthest_of(apex, bundle, bounds, radius), free_path) * spread <= most_radii * radius;
+  const auto [nearest, farthest] = reach_of(apex, bundle, bounds, radius);
+  return std::min(0.5f * (nearest + farthest), nearest + free_path) * spread <= most_radii * radius;
 }
 
 RayBundle rays_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius) {
   Directions directions;
-  return {apex, directions_of(bundle, directions), farthest_of(apex, bundle, bounds, radius) + radius};
+  return {apex, directions_of(bundle, directions), reach_of(apex, bundle, bounds, radius).t1 + radius};
 }
 
 GatherLanes::GatherLanes(const Vec3& apex, SegmentBundle bundle, const GatherSettings& settings, Spread spread,
@@ -49,6 +52,7 @@ GatherLanes::GatherLanes(const Vec3& apex, SegmentBundle bundle, const GatherSet
       regions_[i].reset();
       continue;
     }
+    ++searching_;
     lanes_.set(i, segment, region, near, apex);
     const float from = glm::distance(apex, segment.ray.origin);
     nearest_ = std::min(nearest_, from + near.t0);

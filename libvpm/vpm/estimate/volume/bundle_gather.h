@@ -18,7 +18,8 @@ void each_block(SegmentBundle bundle, Use&& use) {
 }
 
 /// Is a bundle so narrow that most of what one of its rays finds is found by the others, too? `bounds` of all that is
-/// gathered, `most_radii`: how wide it may be, half way along its longest segment, or where light has come a free path.
+/// gathered, `most_radii`: how wide it may be, half way between the ends of what its segments reach, or where light
+/// has come a free path.
 bool is_narrow(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius, float most_radii);
 
 /// The rays of a bundle, as far as what is gathered within the radius of its bounds.
@@ -35,6 +36,8 @@ class GatherLanes {
   bool ahead() const { return nearest_ >= 0.0f; }
   const SegmentLanes& segments() const { return lanes_; }
   size_t size() const { return bundle_.size(); }
+  /// How many segments come near it.
+  size_t searching() const { return searching_; }
   RayBundle rays() const;
   /// Adds to the segments' light what was found, times `factor`, over the share of what there is to be found.
   void add(const LaneTotals& found, const Rgb& factor);
@@ -44,6 +47,7 @@ class GatherLanes {
   SegmentBundle bundle_;
   float radius_;                                 // m
   float nearest_ = kInfinity, farthest_ = 0.0f;  // of the segments' parts, m from the apex
+  size_t searching_ = 0;
   SegmentLanes lanes_;
   std::array<std::optional<SegmentRegion>, kBlock> regions_;  // of those that come near
 };

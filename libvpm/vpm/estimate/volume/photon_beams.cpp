@@ -148,8 +148,8 @@ void PhotonBeams::beams_along_bundle(const Vec3& apex, SegmentBundle bundle, con
     GatherLanes lanes(apex, block, map.settings, Spread::lines, map.beams.bounds());
     if (!lanes.any()) return;
     if (!lanes.ahead()) return one_by_one(block);
-    count(work.counters.volume_queries, block.size());
-    count(counters.searches, block.size());
+    count(work.counters.volume_queries, lanes.searching());
+    count(counters.searches, lanes.searching());
     lanes.add(sum_in_lanes(medium, map, work.scratch.beams, lanes, counters),
               scattering_of_beams(medium, beams_.settings().maps.form));
   });
