@@ -25,12 +25,16 @@ struct Crossed {
     finish(scene);
   }
 
+  VolumeForm form = VolumeForm::density_at_query;
+  bool long_beams = false;
+
   Rgb light_of(const std::vector<PhotonBeam>& beams, KernelKind kernel = KernelKind::epanechnikov,
                const std::vector<Photon>& collisions = {}) {
     const AskedGather gather{.mode = GatherMode::photon_beams, .radius = kBeamRadius, .kernel = kernel};
     VolumeMapSettings maps;
     maps.gather = gather;
-    PhotonBeams estimator(scene, {.maps = maps});
+    maps.form = form;
+    PhotonBeams estimator(scene, {.maps = maps, .long_beams = long_beams});
     static_cast<BeamRecorder*>(estimator.recorders()[0])->beams[0] = beams;
     static_cast<CollisionRecorder*>(estimator.recorders()[1])->photons[0] = collisions;
     RenderStatistics statistics;
@@ -114,6 +118,32 @@ TEST(PhotonBeams, ChromaticBeamsCarryTheWeightsOfTheirMixture) {
       0.75f / kBeamRadius * (1.0f - 0.16f) / 0.5f / (4.0f * kPi) * share_of_beams(KernelKind::epanechnikov, 0.5f, 1.4f);
   const Rgb light = power * weight * 0.5f * sigma_t * glm::exp(-sigma_t * 1.2f) * kernel;
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], light[c], 1e-4f * light[c]);
+}
+
+/// In a grid whose density rises evenly, 0.2 + 0.3 x + 2 z: what scatters is the density on the ray or on the beam, and
+/// light has come through the density between. A long beam's photon need not have come so far.
+TEST(PhotonBeams, AreAttenuatedByTheDensityOnTheirWay) {
+  const GridFrame frame = centred_frame(16, 0.25);
+  Crossed crossed(make_medium(make_grid(frame,
+                                        [](int x, int y, int z) {
+                                          const Vec3d at = 0.25 * Vec3d(x, y, z);
+                                          return std::max(0.0, 0.2 + 0.3 * at.x + 2.0 * at.z);
+                                        }),
+                              Rgb(0.7f)));
+  const float on_ray = 0.2f + 0.3f * 1.2f, on_beam = on_ray + 2.0f * 0.04f;
+  const float to_eye = std::exp(-0.7f * (0.2f * 1.2f + 0.15f * 1.2f * 1.2f));
+  const float middle = 1.2f - 0.25f * std::cos(kPi / 6);  // of the beam before the crossing, which rises with x alone
+  const float come = std::exp(-0.7f * 0.5f * (0.2f + 0.3f * middle + 2.0f * 0.04f));
+  const float kernel = 0.75f / kBeamRadius * (1.0f - 0.16f) / 0.5f / (4.0f * kPi);
+  for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon})
+    for (const bool long_beams : {false, true}) {
+      crossed.form = form;
+      crossed.long_beams = long_beams;
+      const float density = form == VolumeForm::density_at_query ? on_ray : on_beam;
+      const float light = 3.0f * 0.5f * 0.7f * density * to_eye * kernel * (long_beams ? come : 1.0f) *
+                          share_of_beams(KernelKind::epanechnikov, 0.5f, 0.7f * on_ray);
+      EXPECT_NEAR(crossed.light_of({slanted(0.6f)}).r, light, 1e-3f * light) << long_beams;
+    }
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ class RaysOfBlock {
  public:
   RaysOfBlock(const Camera& camera, size_t block, EyeCounters& counters, EyeScratch& scratch)
       : camera_(camera), block_(block), counters_(counters), scratch_(scratch) {}
+  RaysOfBlock(const RaysOfBlock&) = delete;  // its rays refer to its random numbers
+  RaysOfBlock& operator=(const RaysOfBlock&) = delete;
 
   /// Adds ray number `i` < kRaysOfBlock, through a place of its pixel that the camera's filter draws, up to that many
   /// times. Rays in a row lie side by side.

@@ -89,25 +89,6 @@ LaneTotals sum_beside(const Medium& medium, const BeamMap& map, const GatherLane
   return totals;
 }
 
-}  // namespace
-
-BeamMap make_beam_map(std::vector<Photon>& photons, const GatherSettings& gather, float shrunk, uint64_t emitted,
-                      const PassOfMaps& pass, RenderStatistics& statistics) {
-  merge_photons(photons, gather, pass, statistics);
-  const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
-  BeamMap map{gather, SegmentMap(std::exchange(photons, {}), {gather.radius, gather.beam_count, shrunk}, scale)};
-  statistics.photon_map_bytes += map.photons.memory_bytes();
-  return map;
-}
-
-KernelEstimate photons_beside(const EyeSegment& segment, const BeamMap& map, VolumeForm form,
-                              const BeamBalance* balance, EyeWork& work) {
-  if (map.photons.size() == 0) return {};
-  const SegmentRegion region(segment, map.settings, Spread::discs);
-  const Interval near = clip(segment.ray, region.reach(), map.photons.bounds(), map.settings.radius);
-  return near.empty() ? KernelEstimate() : gather(segment, region, near, map, form, balance, work);
-}
-
 /// Of up to kBlock segments.
 void photons_beside_block(const Vec3& apex, SegmentBundle bundle, const BeamMap& map, VolumeForm form,
                           const BeamBalance* balance) {
@@ -128,6 +109,25 @@ void photons_beside_block(const Vec3& apex, SegmentBundle bundle, const BeamMap&
   const Medium& medium = *bundle.front().segment->medium();
   const LaneTotals found = sum_beside(medium, map, lanes, balance, counters.gather);
   lanes.add(found, source_factor(medium));
+}
+
+}  // namespace
+
+BeamMap make_beam_map(std::vector<Photon>& photons, const GatherSettings& gather, float shrunk, uint64_t emitted,
+                      const PassOfMaps& pass, RenderStatistics& statistics) {
+  merge_photons(photons, gather, pass, statistics);
+  const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
+  BeamMap map{gather, SegmentMap(std::exchange(photons, {}), {gather.radius, gather.beam_count, shrunk}, scale)};
+  statistics.photon_map_bytes += map.photons.memory_bytes();
+  return map;
+}
+
+KernelEstimate photons_beside(const EyeSegment& segment, const BeamMap& map, VolumeForm form,
+                              const BeamBalance* balance, EyeWork& work) {
+  if (map.photons.size() == 0) return {};
+  const SegmentRegion region(segment, map.settings, Spread::discs);
+  const Interval near = clip(segment.ray, region.reach(), map.photons.bounds(), map.settings.radius);
+  return near.empty() ? KernelEstimate() : gather(segment, region, near, map, form, balance, work);
 }
 
 void photons_beside_bundle(const Vec3& apex, SegmentBundle bundle, const BeamMap& map, VolumeForm form,
