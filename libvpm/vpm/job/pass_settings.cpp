@@ -81,7 +81,8 @@ std::vector<Setting> declare_photons() {
        .domain = words_of<PhotonSequence>(),
        .meaning = "what emission, the first flights and the first scattering of photons are drawn from: points of "
                   "Sobol's sequence, scrambled anew for each pass, which lie more evenly and leave less noise in fog; "
-                  "or random numbers, as always where importance guides photons or caustics aim them"},
+                  "or random numbers, as always where importance guides photons, caustics aim them, the nearest are "
+                  "gathered, or they find places for irradiance"},
       {.key = "photons.in_cube",
        .member = at<&S::photons_in_cube>(),
        .domain = Integers{0, 1'000'000},

@@ -15,7 +15,7 @@ struct Dimensions {
 // The first dimensions of the sequence are spread best together: the place and direction of emission have them, and
 // the first distance, which all beams and photons in media depend on.
 constexpr std::array<Dimensions, PhotonNumbers::kLead> kDimensions{
-    {{5}, {6}, {7}, {0, 1}, {2, 3}, {4}, {8}, {9, 10}, {11}, {12}, {13, 14}}};
+    {{5}, {6}, {7}, {0, 1}, {2, 3}, {15}, {4}, {8}, {9, 10}, {kGenerator}, {11}, {12}, {13, 14}}};
 
 }  // namespace
 
@@ -29,8 +29,11 @@ Rng PhotonNumbers::of(uint64_t photon, Lead& lead) const {
   const ScrambledSobol::Point point = (*sobol_)[static_cast<uint32_t>(photon)];
   for (size_t i = 0; i < kLead; ++i) {
     const auto [upper, lower] = kDimensions[i];
-    const uint64_t low = lower == kGenerator ? rng.bits() >> 32 : point[static_cast<size_t>(lower)];
-    lead[i] = (uint64_t{point[static_cast<size_t>(upper)]} << 32) | low;
+    const auto half = [&](int dimension) -> uint64_t {
+      return dimension == kGenerator ? rng.bits() >> 32 : point[static_cast<size_t>(dimension)];
+    };
+    lead[i] = half(upper) << 32;
+    lead[i] |= half(lower);
   }
   rng.lead(lead);
   return rng;

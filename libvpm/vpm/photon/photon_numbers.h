@@ -17,10 +17,10 @@ class PhotonNumbers {
  public:
   PhotonNumbers(PhotonSequence sequence, uint64_t seed, uint64_t pass);
 
-  static constexpr size_t kLead = 11;
-  /// The first draws of a path: emission (light, choice, face, place, direction), and twice distance, choice and
-  /// direction, as a path in a grey medium draws them. Where more is drawn, as in colour and by null collisions, the
-  /// dimensions are others' than these.
+  static constexpr size_t kLead = 13;
+  /// The first draws of a path: emission (light, choice, face, place, direction), and twice flight (channel, distance)
+  /// and scattering (choice, direction), as strategies without null collisions draw them. Others draw more, or no
+  /// channel, and their draws have the dimensions of others.
   using Lead = std::array<uint64_t, kLead>;
 
   /// The random numbers of a path. `lead`, which they may refer to, must stay until they have been drawn.

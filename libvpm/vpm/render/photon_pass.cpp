@@ -11,11 +11,20 @@
 namespace vpm {
 namespace {
 
+/// Points of a sequence keep away from each other. Estimates that take photons for independent of each other would be
+/// biased: density by how far the nearest ones are, and irradiance at places that photons found.
+PhotonSequence sequence_of(const RenderSettings& settings) {
+  const bool independent =
+      settings.volume.mode == GatherMode::nearest || settings.surface.mode == GatherMode::nearest ||
+      settings.caustics.mode == GatherMode::nearest || settings.end_irradiance == EndIrradiance::precomputed;
+  return independent ? PhotonSequence::random : settings.photon_sequence;
+}
+
 TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run) {
   TraceSettings trace;
   trace.seed = settings.seed;
   trace.pass = static_cast<uint64_t>(run.pass);
-  trace.sequence = settings.photon_sequence;
+  trace.sequence = sequence_of(settings);
   trace.emitted = settings.photons_emitted;
   trace.stored = settings.photons_stored;
   trace.max_events = settings.max_events;

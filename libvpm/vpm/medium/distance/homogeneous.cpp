@@ -10,7 +10,7 @@ Flight Homogeneous::sample(const Medium& medium, const Ray&, const Interval& int
                            Rng& rng) const {
   assert(medium.homogeneous());
   const Rgb shares = channel_shares(power);
-  const double sigma_t = draw_channel(medium.sigma_t, shares, rng);
+  const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
   const double target = rng.exponential();
   const double reach = interval.length();
   Flight flight;

@@ -24,7 +24,7 @@ Rgb analog_weight(const Medium& medium, const Rgb& shares, double integral, bool
 Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& rate,
                           const Rgb& power, Rng& rng) {
   const Rgbd shares(channel_shares(power));
-  const double drawn = draw_channel(rate, Rgb(shares), rng);
+  const double drawn = pick_channel(rate, Rgb(shares), rng.uniform());
   const double target = rng.exponential();
   const double reach = std::min<double>(interval.length(), kEndless);
   const double distance = drawn > 0.0 ? target / drawn : kEndless;

@@ -17,10 +17,8 @@ inline Rgb channel_shares(const Rgb& power) {
   return sum > 0.0f ? magnitudes / sum : Rgb(1.0f / 3.0f);
 }
 
-/// The value of a channel that is drawn by `shares`. Where all have the same there is nothing to draw.
-inline float draw_channel(const Rgb& values, const Rgb& shares, Rng& rng) {
-  if (is_grey(values)) return values.r;
-  const float u = rng.uniform();
+/// The value of the channel that a uniform number picks by `shares`.
+inline float pick_channel(const Rgb& values, const Rgb& shares, float u) {
   if (u < shares.r) return values.r;
   return u < shares.r + shares.g ? values.g : values.b;
 }

@@ -12,7 +12,7 @@ namespace vpm {
 Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                         Rng& rng) const {
   const Rgb shares = channel_shares(power);
-  const double sigma_t = draw_channel(medium.sigma_t, shares, rng);
+  const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
   const double target = rng.exponential() / sigma_t;
   const Interval inside = medium.clip(ray, interval);
   const double length = step_ * static_cast<double>(medium.voxel_size());

@@ -22,7 +22,7 @@ constexpr double kShortest = 1.0 / 16.0;  // of the longest step: very dense med
 Flight RayMarchAdaptive::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                                 Rng& rng) const {
   const Rgb shares = channel_shares(power);
-  const double sigma_t = draw_channel(medium.sigma_t, shares, rng);
+  const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
   const double target = rng.exponential() / sigma_t;  // density integral to cross; infinite at sigma_t = 0
   const double longest = step_ * static_cast<double>(medium.voxel_size());
   const double integral_of_step = optical_step_ / static_cast<double>(max_channel(medium.sigma_t));

@@ -8,7 +8,7 @@ namespace vpm {
 Flight Regular::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                        Rng& rng) const {
   const Rgb shares = channel_shares(power);
-  const double sigma_t = draw_channel(medium.sigma_t, shares, rng);
+  const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
   const double target = rng.exponential() / sigma_t;  // density integral to cross; infinite at sigma_t = 0
   Flight flight;
   flight.t = interval.t1;
