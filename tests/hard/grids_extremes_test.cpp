@@ -177,7 +177,6 @@ TEST(GridsExtremes, DensitiesAtTheEndsOfFloatGiveTheSamePicture) {
     for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
       for (const GatherMode gather : {GatherMode::radius, GatherMode::nearest}) {
         RenderSettings settings = settings_of(4000, 0.125f);
-        settings.photon_sequence = PhotonSequence::random;
         settings.volume_form = form;
         settings.volume_direct = direct;
         settings.volume.mode = gather;

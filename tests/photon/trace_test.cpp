@@ -11,7 +11,6 @@
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/tails.h"
-#include "vpm/photon/emission.h"
 #include "vpm/photon/stored_power.h"
 #include "vpm/study/sample_moments.h"
 
@@ -325,20 +324,6 @@ TEST(PhotonTracing, DistancesAndDirectionsAreEvenByTheSequence) {
     if (strategy == "delta") continue;  // it asks whether a collision is real
     EXPECT_GT(heights.size(), 1000u) << strategy;
   }
-}
-
-/// Photons that find cache points start all over a lamp, as the others do.
-TEST(PhotonTracing, PhotonsThatFindCachePointsStartEverywhere) {
-  const PhotonNumbers numbers(PhotonSequence::sobol, 1, 0);
-  constexpr size_t kNumbers = 1 << 14, kParts = 16;
-  std::array<int, kParts> found{};
-  for (uint64_t i = 0; i < kNumbers; ++i) {
-    if (!finds_cache_points(i)) continue;
-    PhotonNumbers::Lead lead;
-    Rng rng = numbers.of(i, lead);
-    ++found[static_cast<size_t>(draw_emission_point(rng).numbers.place.x * kParts)];
-  }
-  for (const int count : found) EXPECT_NEAR(count, kNumbers / kParts / 4, 16);  // of 256: random ones are off by 14
 }
 
 }  // namespace

@@ -122,8 +122,6 @@ TEST(FinalGather, RaysBeyondTheNearestPhotonsEndInTheMap) {
 TEST(FinalGather, ByPhotonsAndIrradianceComputedBeforehandIsTheSameOnAnyNumberOfThreads) {
   const Scene scene = hollow_cube();
   RenderSettings settings = gathering(0.1f);
-  settings.photons_emitted = 10'000;  // few, so that they leave gaps
-  settings.photon_sequence = PhotonSequence::random;
   settings.gather_by = GatherBy::photons;
   settings.end_irradiance = EndIrradiance::precomputed;
   settings.samples_per_pixel = 16;

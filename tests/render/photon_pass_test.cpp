@@ -246,6 +246,28 @@ TEST(PhotonPass, BeamsHaveLessNoiseThanPhotonsInThinFog) {
   EXPECT_GT(photons, 100.0 * beams);
 }
 
+/// Where photons must be independent of each other, or are guided, the sequence makes no difference; elsewhere it does.
+TEST(PhotonPass, PhotonsAreRandomWhereTheyMustBeIndependent) {
+  const Medium fog = make_medium(nullptr, Rgb(0.05f), 0.9f);
+  const Scene scene = lamp_and_floor(&fog, Rgb(0.5f));
+  const auto differs = [&](auto change) {
+    RenderSettings settings = settings_of(1000, 0.5f);
+    change(settings);
+    const Pass even = render_photon_pass(scene, settings, 0, kNeverStopped);
+    settings.photon_sequence = PhotonSequence::random;
+    return even.image.pixels != render_photon_pass(scene, settings, 0, kNeverStopped).image.pixels;
+  };
+  EXPECT_TRUE(differs([](RenderSettings&) {}));
+  EXPECT_FALSE(differs([](RenderSettings& s) { s.volume.mode = GatherMode::nearest; }));
+  EXPECT_FALSE(differs([](RenderSettings& s) { s.surface.mode = GatherMode::nearest; }));
+  EXPECT_FALSE(differs([](RenderSettings& s) { s.caustics.mode = GatherMode::nearest; }));
+  EXPECT_FALSE(differs([](RenderSettings& s) { s.guide.importons = 100; }));
+  EXPECT_FALSE(differs([](RenderSettings& s) {
+    s.surface_indirect = IndirectLight::final_gather;
+    s.end_irradiance = EndIrradiance::precomputed;
+  }));
+}
+
 /// What a pass finds of many flights has less noise where these are spread evenly. The variances are those of 144
 /// pixels by 12 passes each.
 TEST(PhotonPass, PointsOfASequenceHaveLessNoiseThanRandomNumbers) {

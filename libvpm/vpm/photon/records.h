@@ -77,10 +77,9 @@ class CollisionRecorder : public PhotonRecorder {
   bool fills_;  // up to the floor, along flights
 };
 
-/// If irradiance is cached, one in four photons finds the cache points [Christensen1999]. Multiples of the golden ratio
-/// tell which: the last digits of a number tell where a photon starts (PhotonSequence), and no part of a lamp is
-/// theirs.
-inline bool finds_cache_points(uint64_t number) { return (number * 0x9e3779b97f4a7c15ull) >> 62 == 3; }
+/// If irradiance is cached, one in kCachePointStep photons finds the cache points [Christensen1999].
+inline constexpr uint64_t kCachePointStep = 4;
+inline bool finds_cache_points(uint64_t number) { return number % kCachePointStep == kCachePointStep - 1; }
 
 /// What a recorder of photons on surfaces is for. Photons of the surface map count as stored, those of other maps do
 /// not. If irradiance is cached, the surface map leaves out the photons that find the cache points.
@@ -118,7 +117,7 @@ struct CachePoint {
   PackedDirection shading_normal;  // for shading
 };
 
-/// Records the points on Lambertian surfaces that one in four photons meets.
+/// Records the points on Lambertian surfaces that one in kCachePointStep photons meets.
 class CachePointRecorder : public PhotonRecorder {
  public:
   explicit CachePointRecorder(const Scene& scene) : scene_(scene) {}

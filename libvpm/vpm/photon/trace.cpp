@@ -285,8 +285,7 @@ Part empty_part(const Recorders& recorders) {
 
 Ledger trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,
                      const Recorders& recorders, Progress& progress) {
-  const PhotonNumbers numbers(settings.guide ? PhotonSequence::random : settings.sequence, settings.seed,
-                              settings.pass);
+  const PhotonNumbers numbers(settings.sequence, settings.seed, settings.pass);
   Joined joined{recorders};
   Tally traced(recorders.size());
   std::vector<Part> parts;

@@ -21,7 +21,7 @@ struct TraceSettings {
   uint64_t emitted = 0;      // photons to emit at the most; 0: no limit, `stored` decides
   uint64_t stored = 0;       // stop once a recorder has that many (PhotonRecorder::stored()); 0: no limit
   int max_events = 100'000;  // of one photon
-  PhotonSequence sequence = PhotonSequence::random;  // of the numbers that photons which no guide emits start with
+  PhotonSequence sequence = PhotonSequence::random;  // of the numbers that photons start with
   const PhotonGuide* guide = nullptr;                // where photons are emitted and scattered; null: as power is
   bool split = false;                                // with a guide: by importance also on their way
   const std::atomic<bool>* stop = nullptr;           // once true, tracing ends soon, and its photons must not be used

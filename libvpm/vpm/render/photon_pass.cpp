@@ -12,12 +12,13 @@ namespace vpm {
 namespace {
 
 /// Points of a sequence keep away from each other. Estimates that take photons for independent of each other would be
-/// biased: density by how far the nearest ones are, and irradiance at places that photons found.
+/// biased: density by how far the nearest ones are, and irradiance at places that photons found. What a guide makes of
+/// the points is not even any more.
 PhotonSequence sequence_of(const RenderSettings& settings) {
-  const bool independent =
-      settings.volume.mode == GatherMode::nearest || settings.surface.mode == GatherMode::nearest ||
-      settings.caustics.mode == GatherMode::nearest || settings.end_irradiance == EndIrradiance::precomputed;
-  return independent ? PhotonSequence::random : settings.photon_sequence;
+  const bool random = settings.guide.importons > 0 || settings.volume.mode == GatherMode::nearest ||
+                      settings.surface.mode == GatherMode::nearest || settings.caustics.mode == GatherMode::nearest ||
+                      settings.end_irradiance == EndIrradiance::precomputed;
+  return random ? PhotonSequence::random : settings.photon_sequence;
 }
 
 TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run) {

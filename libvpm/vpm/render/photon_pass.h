@@ -14,7 +14,9 @@ struct PassRun {
   PassProgress progress = {};
 };
 
-/// Traces the photons of the pass into the recorders of the estimators, if these have any.
+/// Traces the photons of the pass into the recorders of the estimators, if these have any. They start with random
+/// numbers, whatever RenderSettings::photon_sequence says, where a guide emits them, where the nearest are gathered,
+/// and where they find places for irradiance.
 void trace_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                 RenderStatistics& statistics);
 /// Does the same, and then builds the estimators.

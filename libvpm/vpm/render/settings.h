@@ -71,7 +71,7 @@ struct RenderSettings {
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
   uint64_t photons_stored =
       0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
-  PhotonSequence photon_sequence = PhotonSequence::sobol;  // of photons that importance does not guide
+  PhotonSequence photon_sequence = PhotonSequence::sobol;  // where nothing asks for random ones, see trace_pass()
   uint32_t photons_in_cube = 0;  // > 0: the most photons that travel into one octant of directions, in a cube
                                  // whose edges are half a radius long, see control_density()
   uint64_t flights = 0;          // > 0: the most photon beams of a pass, see thin()

@@ -5,8 +5,9 @@
 namespace vpm {
 namespace {
 
-/// Stands for an infinite length, m, so that a rate of zero times it is zero.
-constexpr double kEndless = 1e30;
+/// Stands for an infinite length, m, or density integral, so that a rate of zero times it is zero. It is far above what
+/// densities and lengths that are floats can reach, and products with coefficients that are floats remain finite.
+constexpr double kEndless = 1e200;
 
 }  // namespace
 
