@@ -58,6 +58,13 @@ TEST(ScrambledSobol, HoldsOnePointInEachOrthant) {
   for (const int count : found) ASSERT_EQ(count, 1);
 }
 
+/// Two scramblings differ by more than a shift: what lies between two points is not the same.
+TEST(ScrambledSobol, MixesDigits) {
+  const ScrambledSobol one = scrambling(1), two = scrambling(2);
+  for (size_t d = 0; d < ScrambledSobol::kDimensions; ++d)
+    EXPECT_NE(one[12'345][d] ^ one[0][d], two[12'345][d] ^ two[0][d]) << d;
+}
+
 /// One point of many scramblings is uniform in each coordinate and each pair: 136 means of 4096 products each, none
 /// farther off than 5 standard errors (once in 13,000 seeds).
 TEST(ScrambledSobol, IsUniformInEachPointByItself) {
