@@ -146,5 +146,26 @@ TEST(PhotonBeams, AreAttenuatedByTheDensityOnTheirWay) {
     }
 }
 
+/// Beside those along the ray: a long beam's density integral, and the density at the photon.
+TEST(PhotonBeams, LookUpsOfDensityAreCounted) {
+  const PhotonBeam beam = slanted(0.6f);
+  Crossed crossed(
+      make_medium(make_grid(centred_frame(16, 0.25), [](int x, int, int) { return 2.0 + 0.01 * x; }), Rgb(0.7f)));
+  const auto lookups = [&](VolumeForm form, bool long_beams) {
+    crossed.form = form;
+    crossed.long_beams = long_beams;
+    crossed.counters = {};
+    crossed.light_of({beam});
+    return crossed.counters.walk.lookups;
+  };
+  const uint64_t along_ray = lookups(VolumeForm::density_at_query, false);
+  const uint64_t along_beam =
+      density_integral(crossed.scene.media[0], {beam.origin, beam.direction}, {0.0f, 0.5f}).lookups;
+  ASSERT_GT(along_beam, 1u);
+  EXPECT_EQ(lookups(VolumeForm::density_at_query, true), along_ray + along_beam);
+  EXPECT_EQ(lookups(VolumeForm::density_at_photon, false), along_ray + 1);
+  EXPECT_EQ(lookups(VolumeForm::density_at_photon, true), along_ray + along_beam + 1);
+}
+
 }  // namespace
 }  // namespace vpm

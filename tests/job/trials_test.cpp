@@ -136,6 +136,20 @@ TEST(Automatic, IntegratorsThatTheSettingsRefuseAreNotTried) {
   EXPECT_NE(choice.reason.find("not combined: "), std::string::npos) << choice.reason;
 }
 
+TEST(Automatic, FlightsThatAreAskedForAreGathered) {
+  for (const GatherMode mode : {GatherMode::photon_beams, GatherMode::photon_planes, GatherMode::beams_points}) {
+    RenderSettings settings;
+    settings.volume.mode = mode;
+    if (mode == GatherMode::photon_planes) settings.planes = 50;
+    settings.photons_emitted = 500;
+    const std::vector<Choice> choices = choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, settings);
+    EXPECT_EQ(settings.integrator, Integrator::photon);
+    EXPECT_EQ(settings.volume.mode, mode);
+    const std::string why = "not combined, path: 'gather' of [volume] is \"" + word_of(mode) + "\"";
+    EXPECT_NE(choices.at(0).reason.find(why), std::string::npos) << choices.at(0).reason;
+  }
+}
+
 /// What is chosen for volume.gather, with its reason, and a radius for it; photons are given.
 Choice chosen_gather(const Scene& scene, RenderSettings settings) {
   settings.photons_emitted = 20'000;

@@ -167,11 +167,15 @@ TEST_F(VpmCompare, RefusesBeforeItRenders) {
   write("fog.toml", kBallOfFog);
   const std::string head = "title = \"t\"\nbudgets = [1]\n[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";
   write("unknown.toml", head + "[product]\nvolume.radios = [1, 2]\n");
-  vpm_refuses({"compare", "unknown.toml", "-o", "out"}, {"scene 'fog'", "--set volume.radios=1", "unknown key"});
+  vpm_refuses({"compare", "unknown.toml", "-o", "out"},
+              {"unknown.toml:6:", "method '1' on scene 'fog'", "--set volume.radios=1", "unknown key"});
+  write("methods.toml", head + "[[methods]]\nname = \"a\"\n[[methods]]\nname = \"b\"\nset.volume.beams = \"long\"\n");
+  vpm_refuses({"compare", "methods.toml", "-o", "out"}, {"methods.toml:8:1: method 'b' on scene 'fog': "});
   write("sizes.toml", head + "[product]\nfilm.width = [6, 7]\n");
-  vpm_refuses({"compare", "sizes.toml", "-o", "out"}, {"6 x 4", "7 x 4"});
+  vpm_refuses({"compare", "sizes.toml", "-o", "out"}, {"sizes.toml:3:1: ", "6 x 4", "7 x 4"});
   write("exact.toml", head + "reference = \"exact\"\n[product]\nrender.seed = [1, 2]\n");
-  vpm_refuses({"compare", "exact.toml", "-o", "out"}, {"scene 'fog'", "no exact picture", "its light is no"});
+  vpm_refuses({"compare", "exact.toml", "-o", "out"},
+              {"exact.toml:3:1: ", "scene 'fog'", "no exact picture", "its light is no"});
   vpm_refuses({"compare", "none.toml", "-o", "out"}, {"none.toml"});
 }
 

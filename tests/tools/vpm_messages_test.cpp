@@ -124,8 +124,9 @@ TEST_F(VpmWarnings, PhotonsThatNoGatherFindsAreToldOf) {
     expect_words(warnings({"volume.radius=1e-9", "volume.gather=" + std::string(gather)}),
                  {"photons in media: a larger volume.radius ("});
   expect_words(warnings({"volume.radius=1e-9", "volume.form=density-at-photon"}), {"no gather found any of the "});
-  expect_words(warnings({"volume.radius=1e-9", "volume.gather=beams-points"}),
-               {"photon beams: a larger volume.radius ("});
+  for (const char* gather : {"beams-points", "photon-beams"})
+    expect_words(warnings({"volume.radius=1e-9", "volume.gather=" + std::string(gather)}),
+                 {"photon beams: a larger volume.radius ("});
   const std::string surfaces = warnings({"surface.radius=1e-9"});
   expect_words(surfaces, {"photons on surfaces: a larger surface.radius ("});
   EXPECT_EQ(surfaces.find("in media"), std::string::npos) << surfaces;
@@ -135,6 +136,12 @@ TEST_F(VpmWarnings, PlanesAloneHaveInfiniteVariance) {
   const std::string planes = "volume.gather=photon-planes", word = "infinite variance";
   expect_words(warnings({planes, "volume.planes=alone"}), {word});
   EXPECT_EQ(warnings({planes}).find(word), std::string::npos);
+}
+
+TEST_F(VpmWarnings, CombinedTechniquesHaveNoUseForAGather) {
+  const std::string combined = "render.integrator=combined", word = "is of no use where techniques are combined";
+  expect_words(warnings({combined, "volume.gather=photon-beams", "volume.beams=long"}), {word});
+  EXPECT_EQ(warnings({combined}).find(word), std::string::npos);
 }
 
 TEST_F(VpmWarnings, EmptyMapsAreToldOfWhereThePictureIsMadeOfThem) {

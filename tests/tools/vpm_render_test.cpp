@@ -104,20 +104,21 @@ TEST_F(VpmRender, TheReportNamesEveryLightAndItsPower) {
   EXPECT_NEAR(all[0]["share"].get<double>(), 10.0 / total, 1e-6);
 }
 
-TEST_F(VpmRender, TheReportDividesTheMapsByAllPhotonsInThem) {
+TEST_F(VpmRender, TheReportDividesTheMapsByAllRecordsInThem) {
   write("glass.toml", std::string(kScene) +
                           "[[shapes]]\ntype = 'sphere'\ncenter = [0.5, 1.25, 0.5]\nradius = 0.2\n"
                           "material = { type = 'dielectric', ior = 1.5 }\n");
   vpm_succeeds({"render", "glass.toml", "-o", "a.exr", "--set", "surface.indirect=final-gather", "--set",
-                "surface.gather_by=photons", "--set", "surface.irradiance=precomputed"});
+                "surface.gather_by=photons", "--set", "surface.irradiance=precomputed", "--set",
+                "volume.gather=photon-planes"});
   const Json photons = report("a.json")["photons"], memory = report("a.json")["memory"];
   double of_a_pass = 0.0;
-  for (const char* map :
-       {"stored_volume", "stored_surface", "stored_caustic", "stored_to_guide_gathering", "irradiance_points"}) {
+  for (const char* map : {"stored_volume", "stored_surface", "stored_caustic", "stored_to_guide_gathering",
+                          "irradiance_points", "stored_beams", "stored_planes"}) {
     EXPECT_GT(photons[map], 0) << map;
     of_a_pass += photons[map].get<double>() / 2.0;
   }
-  EXPECT_NEAR(memory["per_stored_photon_of_mean_pass"].get<double>() * of_a_pass,
+  EXPECT_NEAR(memory["per_stored_record_of_mean_pass"].get<double>() * of_a_pass,
               memory["largest_photon_maps"].get<double>(), 1.0);
 }
 

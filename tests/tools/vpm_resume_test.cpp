@@ -55,6 +55,19 @@ TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
   }
 }
 
+// `timeout` signals the process, and then its group.
+TEST_F(VpmRender, SignalsInQuickSuccessionAreOne) {
+  Process process(command({"render", "scene.toml", "-o", "a.exr", "--time", "50", "--progress", "always"}),
+                  {60.0, 0, folder_.string()});
+  EXPECT_TRUE(process.wait_for_error_output(" left"));
+  process.signal(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const ProcessResult result = interrupt(process, SIGINT, " left");
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_NE(result.err.find("interrupted after "), std::string::npos) << result.err;
+  EXPECT_GE(report("a.json")["passes"], 1);
+}
+
 TEST_F(VpmRender, UnderNohupTheEndOfTheTerminalIsNoInterruption) {
   Process process(
       {"/bin/sh", "-c",

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <ctime>
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -18,18 +20,35 @@ namespace {
 namespace fs = std::filesystem;
 
 std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int64_t> stop_requested_at{0};  // s
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
+
+/// Of a clock that does not go back, s; in signal handlers, too.
+int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec;
+}
+
+/// Those who signal a process and then its group, as `timeout` and some batch systems do, want no more than those who
+/// signal once: what comes within two seconds of the first signal is taken for the same.
+void request_stop(int number) {
+  constexpr int64_t kSameRequest = 2;  // s
+  if (!stop_requested.exchange(true)) {
+    stop_requested_at = now();
+  } else if (now() - stop_requested_at >= kSameRequest) {
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+  }
+}
 
 }  // namespace
 
 const std::atomic<bool>& stop_on_signals() {
-  const auto request = [](int number) {
-    stop_requested = true;
-    std::signal(number, SIG_DFL);
-  };
-  std::signal(SIGINT, request);
-  std::signal(SIGTERM, request);
-  if (std::signal(SIGHUP, request) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // by nohup: the terminal's end is no end
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  if (std::signal(SIGHUP, request_stop) == SIG_IGN)
+    std::signal(SIGHUP, SIG_IGN);  // by nohup: the terminal's end is no end
   return stop_requested;
 }
 

@@ -13,8 +13,8 @@ namespace vpm::tools {
 
 inline constexpr int kInterrupted = 130;  // as shells report a process ended by SIGINT
 
-/// From now on a first SIGINT, SIGTERM or SIGHUP sets what is returned, so that what is finished can be written; a
-/// second one kills.
+/// From now on a first SIGINT, SIGTERM or SIGHUP sets what is returned, so that what is finished can be written; one
+/// that comes a few seconds later kills.
 const std::atomic<bool>& stop_on_signals();
 
 /// An image, and the files that are written next to it.

@@ -1,5 +1,6 @@
 // The sections about how to render: [camera] and [film], and those of the settings, which their declarations read.
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "vpm/input/sections.h"
@@ -74,6 +75,17 @@ bool another_serves(const Setting& setting, const RenderSettings& s) {
   return !setting.needed(s) && find_setting(setting.key, s);
 }
 
+/// Refuses what is for one gather in media alone, where the gather is to be chosen.
+void refuse_beside_chosen_gather(const TableReader& table, const std::string& key, const AutomaticSettings& automatic) {
+  constexpr std::array kOfOneGather{"photons.flights", "photons.planes", "volume.count", "volume.beams",
+                                    "volume.planes"};
+  if (!automatic.has("volume.gather") || std::find(kOfOneGather.begin(), kOfOneGather.end(), key) == kOfOneGather.end())
+    return;
+  const std::string name = key.substr(key.find('.') + 1);
+  table.fail(name, "what is gathered in media is to be chosen: 'gather' of [volume] is \"auto\"",
+             "leave out '" + name + "', or write the gather that it is for");
+}
+
 void read_setting(TableReader& table, const Setting& setting, RenderSettings& s, AutomaticSettings& automatic) {
   if (!table.has(setting.name())) {
     if (setting.decided_by.value) setting.member.set(s, setting.decided_by.value(s));
@@ -83,7 +95,10 @@ void read_setting(TableReader& table, const Setting& setting, RenderSettings& s,
   if (setting.section() == "combined" && automatic.has("render.integrator"))
     table.fail(setting.name(), "whether techniques are combined is to be chosen: 'integrator' of [render] is \"auto\"",
                "leave out [combined], or write integrator = \"combined\" in [render]");
-  if (!setting.needed(s)) table.fail(setting.name(), setting.need.wrong(s), std::string(setting.need.right));
+  if (!setting.needed(s)) {
+    refuse_beside_chosen_gather(table, setting.key, automatic);
+    table.fail(setting.name(), setting.need.wrong(s), std::string(setting.need.right));
+  }
   refuse_in_place_of(table, setting);
   if (const std::optional<SettingValue> value = read_value(table, setting))
     setting.member.set(s, *value);
@@ -101,11 +116,24 @@ std::optional<TableReader>& section_of(const Setting& setting, TableReader& root
   return found->second;
 }
 
+/// "there is 'radius' in [volume], [surface]; " of a setting of other sections.
+std::string elsewhere(const std::string& key) {
+  std::string sections;
+  for (const Setting& setting : all_settings()) {
+    const std::string title = "[" + setting.section() + "]";
+    if (setting.name() == key && sections.find(title) == std::string::npos)
+      sections += (sections.empty() ? "" : ", ") + title;
+  }
+  return sections.empty() ? "" : "there is '" + key + "' in " + sections + "; ";
+}
+
 /// Tells the place of the key, or of the one that is given in its place.
-[[noreturn]] void fail_with(const SettingError& error, const TableReader& root, Sections& sections) {
+[[noreturn]] void fail_with(const SettingError& error, const TableReader& root, Sections& sections,
+                            const AutomaticSettings& automatic) {
   const size_t dot = error.key().find('.');
   std::optional<TableReader>& section = sections[error.key().substr(0, dot)];
   if (!section) root.fail_here(error.key() + ": " + error.wrong(), error.right());
+  refuse_beside_chosen_gather(*section, error.key(), automatic);
   std::string name = error.key().substr(dot + 1);
   for (const Setting& setting : all_settings())
     for (const std::string_view key : setting.stands_for)
@@ -143,11 +171,11 @@ RenderSettings read_settings(TableReader& root, const SceneFacts& facts, Automat
     if (std::optional<TableReader>& table = section_of(setting, root, sections))
       read_setting(*table, setting, s, automatic);
   for (const auto& [name, table] : sections)
-    if (table) table->finish();
+    if (table) table->finish(elsewhere);
   try {
     validate(s, facts);
   } catch (const SettingError& error) {
-    fail_with(error, root, sections);
+    fail_with(error, root, sections, automatic);
   }
   return s;
 }

@@ -1,6 +1,8 @@
 // Error messages with the offending line and a caret, and guesses at what was meant.
 #include "vpm/input/source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -48,12 +50,16 @@ std::string indent_to(const std::string& line, uint32_t column) {
 
 }  // namespace
 
+std::string text_of(const Place& place) {
+  const Source& source = *place.source;
+  return source.lines.empty() ? source.name : fmt::format("{}:{}:{}", source.name, place.line, place.column);
+}
+
 void fail_at(const Place& place, const std::string& wrong, const std::string& right) {
   const Source& source = *place.source;
-  std::string message = source.name + ": " + wrong;
+  std::string message = text_of(place) + ": " + wrong;
   if (!source.lines.empty()) {
     const std::string line_number = std::to_string(place.line);
-    message = source.name + ":" + line_number + ":" + std::to_string(place.column) + ": " + wrong;
     std::string line = place.line <= source.lines.size() ? source.lines[place.line - 1] : "";
     const auto is_control = [](unsigned char c) { return (c < 0x20u && c != '\t') || c == 0x7fu; };
     std::replace_if(line.begin(), line.end(), is_control, '?');  // of files that are no text

@@ -21,6 +21,9 @@ struct Place {
   uint32_t column = 1;
 };
 
+/// "file:line:column", or the name of an option.
+std::string text_of(const Place& place);
+
 /// Throws InputError: "file:line:column: <wrong>", the offending line with a caret under the column, then `right`: what
 /// would be right. For an option: "--set key.path=value: <wrong>" and `right`.
 [[noreturn]] void fail_at(const Place& place, const std::string& wrong, const std::string& right = "");

@@ -90,8 +90,11 @@ uint64_t TableReader::integer(const std::string& key, uint64_t lo, uint64_t hi, 
   const Node& node = require(key);
   const std::string allowed = "from " + std::to_string(lo) + " to " + std::to_string(hi);
   const auto* value = std::get_if<int64_t>(&node.value);
-  if (!value)
-    fail_at(node.place, quoted(key, title_) + " must be an integer, not " + kind_of(node), "it must be " + allowed);
+  if (!value) {
+    const auto* text = std::get_if<std::string>(&node.value);  // that of an option may be an integer, but too large
+    fail_at(node.place, quoted(key, title_) + " must be an integer, not " + (text ? "'" + *text + "'" : kind_of(node)),
+            "it must be " + allowed);
+  }
   if (*value < 0 || static_cast<uint64_t>(*value) < lo || static_cast<uint64_t>(*value) > hi)
     fail_at(node.place, quoted(key, title_) + " must be " + allowed + ", not " + std::to_string(*value));
   return static_cast<uint64_t>(*value);
@@ -206,13 +209,14 @@ std::vector<TableReader> TableReader::tables(const std::string& key, const std::
   return all;
 }
 
-void TableReader::finish() const {
+void TableReader::finish(const std::function<std::string(const std::string&)>& hint) const {
   for (const Entry& entry : *node_->table())
-    if (std::find(known_.begin(), known_.end(), entry.key) == known_.end()) refuse_unknown(entry);
+    if (std::find(known_.begin(), known_.end(), entry.key) == known_.end())
+      refuse_unknown(entry, hint ? hint(entry.key) : "");
 }
 
-void TableReader::refuse_unknown(const Entry& entry) const {
-  fail_at(entry.place, "unknown key '" + entry.key + "' in " + title_, suggest(entry.key, known_, "known keys"));
+void TableReader::refuse_unknown(const Entry& entry, const std::string& hint) const {
+  fail_at(entry.place, "unknown key '" + entry.key + "' in " + title_, hint + suggest(entry.key, known_, "known keys"));
 }
 
 void TableReader::refuse_word(const std::string& key, const Node& node, const std::vector<std::string>& words) const {

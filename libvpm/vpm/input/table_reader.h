@@ -1,6 +1,7 @@
 // Reading one table of a scene file: typed values with ranges, and no key that nobody asked for.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,8 +60,8 @@ class TableReader {
   /// The elements of an array of tables, titled "<title> 'name'" or "<title> number i".
   std::vector<TableReader> tables(const std::string& key, const std::string& title);
 
-  /// Refuses the first key that nobody asked for.
-  void finish() const;
+  /// Refuses the first key that nobody asked for; what `hint` has to say of it comes before the keys that there are.
+  void finish(const std::function<std::string(const std::string& key)>& hint = {}) const;
 
   /// Throws an error at the value of `key`, or at the table where the key is missing.
   [[noreturn]] void fail(const std::string& key, const std::string& wrong, const std::string& right = "") const;
@@ -73,7 +74,7 @@ class TableReader {
   const Place& place_of(const std::string& key) const;
 
  private:
-  [[noreturn]] void refuse_unknown(const Entry& entry) const;
+  [[noreturn]] void refuse_unknown(const Entry& entry, const std::string& hint = "") const;
   /// Says what words there are in place of another, or of no word.
   [[noreturn]] void refuse_word(const std::string& key, const Node& node, const std::vector<std::string>& words) const;
 

@@ -106,7 +106,13 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
   const ChosenCount chosen =
       (crosses_flights(settings) ? choose_count_of_flights : choose_count_of_points)(kPassesShare * seconds, cost_of);
   settings.photons_emitted = chosen.count;
-  return {"photons.emitted", fmt::format("{}", chosen.count), chosen.reason};
+  std::string reason = chosen.reason;
+  if (settings.volume.mode == GatherMode::photon_planes && settings.integrator == Integrator::photon)
+    reason += fmt::format(
+        "; with {} planes ('planes' of [photons]), each of which costs a shadow ray where it is "
+        "crossed",
+        settings.planes);
+  return {"photons.emitted", fmt::format("{}", chosen.count), reason};
 }
 
 }  // namespace

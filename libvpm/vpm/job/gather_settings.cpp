@@ -70,7 +70,7 @@ Setting declare_beam_count() {
 constexpr const char* kBorders =
     "against dark rims at the borders of media: `\"ends\"` lets photons past the ends of a stretch of the eye's ray "
     "make up for those missing before them; `\"corrected\"` corrects ball by ball, and lets no light through thin "
-    "walls, see below";
+    "walls, but is the same as `\"ends\"` for gathers along rays and of flights, see below";
 constexpr const char* kEdges =
     "`\"corrected\"`: no dark rims at the edges of surfaces, and no light through thin walls, see below; for the "
     "caustic map, too";

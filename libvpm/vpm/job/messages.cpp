@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "vpm/job/declare.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -34,9 +35,8 @@ void warn_of_unfound_photons(const RenderStatistics& s, std::vector<std::string>
           "no gather found any of the {} {}: a larger {}.radius ({:.2g} m in the last pass) or more photons may help",
           stored, what, section, radius));
   };
-  const bool photons = s.volume_photons > 0;
-  warn(photons ? s.volume_photons : s.beams, s.eye.volume_queries, s.eye.used_in_media,
-       photons ? "photons in media" : "photon beams", s.last_volume_radius, "volume");
+  warn(s.beams > 0 ? s.beams : s.volume_photons, s.eye.volume_queries, s.eye.used_in_media,
+       s.beams > 0 ? "photon beams" : "photons in media", s.last_volume_radius, "volume");
   warn(s.surface_photons, s.eye.surface_queries, s.eye.gather.used - s.eye.used_in_media, "photons on surfaces",
        s.last_surface_radius, "surface");
 }
@@ -54,6 +54,11 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
     if (shown.media && settings.plane_use == PlaneUse::alone)
       warnings.emplace_back("photon planes alone have infinite variance: the error may be larger than is stated");
   }
+  if (settings.integrator == Integrator::combined && shown.media && settings.volume.gathers_flights())
+    warnings.push_back(
+        fmt::format("'gather' of [volume], \"{}\", is of no use where techniques are combined, nor are 'beams' and "
+                    "'flights': 'techniques' of [combined] say what is gathered",
+                    word_of(settings.volume.mode)));
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");

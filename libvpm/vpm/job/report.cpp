@@ -73,10 +73,12 @@ Json settings(const RenderSettings& s) {
   return all;
 }
 
-/// All records that maps hold.
 uint64_t stored_photons(const RenderStatistics& s) {
   return s.volume_photons + s.surface_photons + s.caustic_photons + s.guiding_photons + s.irradiance_points;
 }
+
+/// All that maps hold.
+uint64_t stored_records(const RenderStatistics& s) { return stored_photons(s) + s.beams + s.planes; }
 
 /// How fast photons are.
 Json rates(const RenderStatistics& s) {
@@ -150,7 +152,7 @@ Json memory(const Scene& scene, const RenderResult& result) {
   for (const auto& texture : scene.textures) textures += texture ? texture->memory_bytes() : 0;
   size_t lights = 0;
   for (const Light& light : scene.lights) lights += light_memory_bytes(light);
-  const double stored = static_cast<double>(stored_photons(s)) / static_cast<double>(std::max<int64_t>(1, s.passes));
+  const double stored = static_cast<double>(stored_records(s)) / static_cast<double>(std::max<int64_t>(1, s.passes));
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return {{"unit", "bytes"},
@@ -159,7 +161,7 @@ Json memory(const Scene& scene, const RenderResult& result) {
           {"textures", textures},
           {"lights", lights},
           {"radii_of_pixels", result.discs.size() * sizeof(PixelDisc)},
-          {"per_stored_photon_of_mean_pass", stored > 0.0 ? static_cast<double>(s.photon_map_bytes) / stored : 0.0},
+          {"per_stored_record_of_mean_pass", stored > 0.0 ? static_cast<double>(s.photon_map_bytes) / stored : 0.0},
           {"peak_of_process", static_cast<uint64_t>(usage.ru_maxrss) * 1024}};
 }
 

@@ -64,7 +64,9 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
           line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                photons ? "photons go where power does" : "nothing stores photons"),
           line(media && settings.volume.mode != GatherMode::beams_points, "volume photon map",
-               settings.volume.along_rays() ? ", gathered from along rays" : "",
+               beams                          ? ", gathered beside rays that flights run along"
+               : settings.volume.along_rays() ? ", gathered all along rays"
+                                              : "",
                media ? "flights are gathered, not collisions" : no_medium),
           line(media && beams, "photon beams",
                std::string(settings.volume.along_rays() ? "" : ", around points of rays") +

@@ -82,11 +82,17 @@ std::vector<Trial> trials_of_techniques(const Scene& scene, const AutomaticSetti
   return {without({Technique::short_beams, Technique::light_tracing}), without({Technique::short_beams}), all};
 }
 
+/// Is the integrator to be chosen, where a gather is given that photon maps alone have?
+bool asks_for_photon_maps(const AutomaticSettings& automatic, const RenderSettings& settings) {
+  return automatic.has(kIntegratorKey) && settings.volume.gathers_flights();
+}
+
 /// One trial of each way, allowed or not.
 std::vector<Trial> all_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   std::vector<Trial> trials;
   for (const Integrator integrator : kIntegratorsToTry) {
     if (!automatic.has(kIntegratorKey) && integrator != settings.integrator) continue;
+    if (asks_for_photon_maps(automatic, settings) && integrator != Integrator::photon) continue;
     Trial trial{settings, word_of(integrator)};
     trial.settings.integrator = integrator;
     std::vector<Trial> more = integrator == Integrator::photon     ? trials_of_maps(scene, automatic, trial)
@@ -104,6 +110,9 @@ struct OpenTrials {
 };
 OpenTrials open_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   OpenTrials open;
+  if (asks_for_photon_maps(automatic, settings))
+    open.refused = fmt::format("; not {}, {}: 'gather' of [volume] is \"{}\"", word_of(Integrator::combined),
+                               word_of(Integrator::path), word_of(settings.volume.mode));
   std::string last;  // of several ways of the same integrator, which have the same fault
   for (Trial& trial : all_trials(scene, automatic, settings)) {
     try {

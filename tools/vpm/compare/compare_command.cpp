@@ -63,8 +63,8 @@ void check_choices(const Entrant& entrant, CostUnit unit, const std::string& who
                     who, unit_name(unit), fmt::join(entrant.loaded.automatic.keys, ", ")));
 }
 
-/// `who` it is for, as messages name it.
-std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::string& who,
+/// `who` it is for, and its place in the experiment's file, as messages name it.
+std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::string& who, const std::string& place,
                                       const std::vector<std::string>& settings, const std::string& purpose) {
   try {
     auto entrant = std::make_unique<Entrant>(Entrant{load_scene(scene.file, joined(scene.settings, settings)), ""});
@@ -72,7 +72,7 @@ std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::str
                                     settings_text(entrant->loaded), purpose);
     return entrant;
   } catch (const InputError& error) {
-    throw InputError(fmt::format("scene '{}', {}: {}", scene.name, who, error.what()));
+    throw InputError(fmt::format("{}: {} on scene '{}': {}", place, who, scene.name, error.what()));
   }
 }
 
@@ -88,17 +88,18 @@ uint64_t reference_seed(const ComparisonPlan& plan) { return plan.seed + (uint64
 
 void check_size(const Image& reference, const Camera& camera, const ComparedScene& scene) {
   if (reference.width == camera.width && reference.height == camera.height) return;
-  throw InputError(fmt::format("scene '{}': its reference has {} x {} pixels, but a method renders {} x {}", scene.name,
-                               reference.width, reference.height, camera.width, camera.height));
+  throw InputError(fmt::format("{}: the reference of scene '{}' has {} x {} pixels, but a method renders {} x {}",
+                               scene.place, scene.name, reference.width, reference.height, camera.width,
+                               camera.height));
 }
 
 Reference exact_reference(const ComparedScene& scene) {
-  const std::unique_ptr<Entrant> entrant = make_entrant(scene, "exact picture", {}, "");
+  const std::unique_ptr<Entrant> entrant = make_entrant(scene, "exact picture", scene.place, {}, "");
   try {
     const Image picture = exact_picture(entrant->loaded.scene);
     return {picture, Image(picture.width, picture.height)};
   } catch (const InputError& error) {
-    throw InputError(fmt::format("scene '{}': {}", scene.name, error.what()));
+    throw InputError(fmt::format("{}: scene '{}': {}", scene.place, scene.name, error.what()));
   }
 }
 
@@ -110,15 +111,15 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
     contest.compared = &scene;
     for (const Method& method : plan.methods) {
       const std::string who = fmt::format("method '{}'", method.name);
-      contest.methods.push_back(make_entrant(scene, who, method.settings, run_purpose(plan)));
-      check_choices(*contest.methods.back(), plan.unit, who);
+      contest.methods.push_back(make_entrant(scene, who, method.place, method.settings, run_purpose(plan)));
+      check_choices(*contest.methods.back(), plan.unit, method.place + ": " + who);
     }
     if (scene.source == ReferenceSource::exact) {
       contest.reference = exact_reference(scene);
     } else if (scene.source == ReferenceSource::rendered) {
       const std::string seed = fmt::format("render.seed={}", reference_seed(plan));
       contest.reference_entrant =
-          make_entrant(scene, "reference", joined(plan.reference_settings, {seed}),
+          make_entrant(scene, "reference", scene.place, joined(plan.reference_settings, {seed}),
                        fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
       refuse_automatic(contest.reference_entrant->loaded, "the reference of vpm compare");
       const Camera& camera = contest.reference_entrant->loaded.scene.camera;

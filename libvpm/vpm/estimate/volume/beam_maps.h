@@ -20,16 +20,17 @@ struct PhotonBeamSettings {
 };
 
 /// What is left of the power of a photon at the distance `s` (m) on its flight, given that it has come so far: 1 in a
-/// grey medium; otherwise the weights of the mixture of channels. The ray begins where the flight does.
-Rgb weight_along(const Medium& medium, const Ray& flight, const Rgb& power, float s);
+/// grey medium; otherwise the weights of the mixture of channels. The ray begins where the flight does. Look-ups of
+/// density are counted.
+Rgb weight_along(const Medium& medium, const Ray& flight, const Rgb& power, float s, WalkCounters& counters);
 
 /// Multiplies `passed` by what beams have left of their powers at these places, which are counted from `origin`, and,
 /// for the density at the photon, by the density there. A beam ends where its photon collides: the photon has come as
 /// far as to a place on the beam with the probability of the transmittance to it, so that this needs no further factor
 /// in a grey medium, whatever its density. In a chromatic one the weights of the mixture of channels are left. Long
-/// beams go on beyond the collision, and have the transmittance as a factor.
+/// beams go on beyond the collision, and have the transmittance as a factor. Look-ups of density are counted.
 void multiply_by_left(const Medium& medium, const PhotonBeamSettings& settings, const Vec3& origin,
-                      const BeamPlaces& found, Passed& passed);
+                      const BeamPlaces& found, Passed& passed, WalkCounters& counters);
 
 /// The scattering coefficient, 1/m, that sums over beams are times: the densities that it goes by are in what passes to
 /// the eye, relative to the largest (at the query), or in what is left of the beams' powers (at the photon).

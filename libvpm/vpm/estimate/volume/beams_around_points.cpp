@@ -107,7 +107,7 @@ KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const Sight& sight, Eye
         along[i] = distances.of(place);
       }
       sight.pass({along, found.size}, passed);
-      multiply_by_left(medium, beams_.settings(), point, found, passed);
+      multiply_by_left(medium, beams_.settings(), point, found, passed, work.counters.walk);
       light += sum_beams(found, passed, share, phase, towards_eye, profile, inverse);
     };
     count(counters.visited, map.beams.visit_near(point, visit));

@@ -181,14 +181,15 @@ LaneTotals PhotonBeams::sum_in_lanes(const Medium& medium, const Map& map, const
 
 /// Beams beyond the region have no share. Returns how many have one.
 size_t PhotonBeams::pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map,
-                               const PassToEye& pass, const BeamCrossings& found, Passed& passed, float* share) const {
+                               const PassToEye& pass, const BeamCrossings& found, Passed& passed, float* share,
+                               WalkCounters& counters) const {
   const PlaneDistances distances = region.distances();
   float along[BeamCrossings::kMost], sigma_t[BeamCrossings::kMost];
   for (size_t i = 0; i < found.size; ++i) along[i] = distances.of({found.x[i], found.y[i], found.z[i]});
   pass({along, found.size}, passed, sigma_t);
   for (size_t i = 0; i < found.size; ++i) share[i] = map.balance.of_beams_over_sine(found.sine[i], sigma_t[i]);
   if (!map.begins.empty()) share_with_planes(segment.ray.direction, map, found, share);
-  multiply_by_left(*segment.medium(), beams_.settings(), segment.ray.origin, found, passed);
+  multiply_by_left(*segment.medium(), beams_.settings(), segment.ray.origin, found, passed, counters);
   if (region.within().hold_all(found.x, found.y, found.z, found.size)) return found.size;
   size_t within = 0;
   for (size_t i = 0; i < found.size; ++i) {
@@ -225,7 +226,7 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
     const auto visit = [&](const BeamCrossings& found) {
       Passed passed;
       float share[BeamCrossings::kMost];  // over the sine
-      counters.used += pass_beams(segment, region, map, pass, found, passed, share);
+      counters.used += pass_beams(segment, region, map, pass, found, passed, share, work.counters.walk);
       sum_of_beams += sum_beams(found, passed, share, phase, towards_eye, profile, inverse);
     };
     count(counters.visited, map.beams.visit_crossings(segment.ray, near, visit));

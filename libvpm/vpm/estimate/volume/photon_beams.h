@@ -47,7 +47,7 @@ class PhotonBeams final : public VolumeEstimator {
                         EyeWork& work) const;
   /// What passes to the eye, times what is left of beams' powers where they cross; and the beams' shares over sines.
   size_t pass_beams(const EyeSegment& segment, const SegmentRegion& region, const Map& map, const PassToEye& pass,
-                    const BeamCrossings& found, Passed& passed, float* share) const;
+                    const BeamCrossings& found, Passed& passed, float* share, WalkCounters& counters) const;
   void beams_along_bundle(const Vec3& apex, SegmentBundle bundle, const Map& map) const;
   LaneTotals sum_in_lanes(const Medium& medium, const Map& map, const PhotonBeamMap::Selection& near,
                           const GatherLanes& lanes, GatherCounters& counters) const;

@@ -86,6 +86,7 @@ Rgb PhotonPlanes::arriving(const PlaneCrossing& crossing, const EyeSegment& segm
   const Ray flight{plane.origin, plane.direction};
   const Vec3 collision = flight.at(crossing.along_flight);
   const float density = around.density(collision);
+  count(work.counters.walk.lookups);
   if (!(density > 0.0f)) return Rgb(0.0f);
   count(work.counters.shadow_rays);
   const ShadowRays rays{scene_, *transmittance_, work.rng, work.counters.walk};
@@ -97,7 +98,8 @@ Rgb PhotonPlanes::arriving(const PlaneCrossing& crossing, const EyeSegment& segm
     const float sigma_s = mean_channel(around.sigma_s) * density;
     share = beams_.balance(segment.number).of_planes_over_determinant(sine, sigma_s, crossing.determinant);
   }
-  const Rgb collided = plane.power * around.sigma_s * weight_along(around, flight, plane.power, crossing.along_flight);
+  const Rgb collided = plane.power * around.sigma_s *
+                       weight_along(around, flight, plane.power, crossing.along_flight, work.counters.walk);
   return collided * passed * (density * share);
 }
 

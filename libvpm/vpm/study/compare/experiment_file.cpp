@@ -75,6 +75,7 @@ std::vector<ComparedScene> read_scenes(TableReader& root) {
     scene.file = table.path("file");
     read_source(table, scene);
     scene.settings = read_settings(table, "set");
+    scene.place = text_of(table.place());
     table.finish();
     scenes.push_back(std::move(scene));
   }
@@ -91,8 +92,8 @@ std::string short_text(const Node& node) {
 /// Every combination of the values that [product] lists, the last key's changing fastest.
 std::vector<Method> read_product(TableReader& root) {
   constexpr size_t kMostMethods = 1000;  // products grow soon beyond all memory
-  std::vector<Method> methods{Method{}};
   const std::vector<Setting> settings = settings_in(root, "product");
+  std::vector<Method> methods{{.name = "", .settings = {}, .place = text_of(root.place_of("product"))}};
   for (const Setting& setting : settings) {
     const Node::Array* values = setting.value->array();
     if (!values || values->empty())
@@ -118,7 +119,7 @@ std::vector<Method> read_methods(TableReader& root) {
   const std::vector<std::string> common = read_settings(root, "set");
   std::vector<Method> methods = read_product(root);
   for (TableReader& table : root.tables("methods", "[[methods]]")) {
-    methods.push_back({table.string("name"), read_settings(table, "set")});
+    methods.push_back({table.string("name"), read_settings(table, "set"), text_of(table.place())});
     table.finish();
   }
   if (methods.size() < 2)

@@ -22,6 +22,7 @@ enum class CostUnit {
 struct Method {
   std::string name;
   std::vector<std::string> settings;  // key.path=value
+  std::string place;                  // in the experiment's file, for messages
 };
 
 /// What a scene's pictures are compared with.
@@ -33,6 +34,7 @@ struct ComparedScene {
   std::vector<std::string> settings;  // key.path=value, of all methods and the reference
   ReferenceSource source = ReferenceSource::rendered;
   std::string reference;  // the file
+  std::string place;      // in the experiment's file, for messages
 };
 
 struct ComparisonPlan {
