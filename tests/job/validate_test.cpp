@@ -73,6 +73,7 @@ const Contradiction kContradictions[] = {
     {"volume.density_floor", [](S& s) { s.density_floor = 0.2f, s.distance.strategy = "local-extinction"; }},
     {"caustics.count", [](S& s) { s.caustics.count = 20; }},
     {"volume.direct_samples", [](S& s) { s.direct_samples = 3; }},
+    {"surface.direct_samples", [](S& s) { s.surface_direct_samples = 3, s.surface_direct = DirectLight::photons; }},
     {"surface.direct", [](S& s) { s.surface_direct = DirectLight::equiangular; }},
     {"surface.gather", [](S& s) { s.surface.mode = GatherMode::beam; }},
     {"surface.gather_rays", [](S& s) { s.gather_rays = 64; }},

@@ -281,5 +281,36 @@ TEST(PhotonPass, PointsOfASequenceHaveLessNoiseThanRandomNumbers) {
   EXPECT_GT(noise_of(scene, settings), 1.5 * even);
 }
 
+/// Rays to even places on lamps and skies: the same light, and less noise than as many rays to random places.
+TEST(PhotonPass, ShadowRaysToEvenPlacesHaveLessNoise) {
+  Scene scene = lamp_and_floor(nullptr);
+  scene.camera.filter.radius = 0.01f;  // what lies within a pixel does not vary
+  RenderSettings settings = settings_of(1, 0.1f);
+  const Moments one = pass_means(scene, settings, 400);
+  settings.surface_direct_samples = 8;
+  const Moments eight = pass_means(scene, settings, 400);
+  expect_same_means({one}, {eight}, 1e-6, "even places");
+  EXPECT_GT(one.variance(), 3.0 * 8.0 * eight.variance());
+}
+
+/// Of every kind of light, also where their number is no power of two.
+TEST(PhotonPass, SeveralShadowRaysBringTheSameLight) {
+  Scene scene = lamp_and_floor(nullptr);
+  scene.lights.push_back(SphereLight{Vec3(0.5f, 0.8f, 0.2f), 0.1f, Rgb(5.0f)});
+  scene.lights.push_back(DiscLight{Vec3(-0.5f, 1.0f, 0.0f), Vec3(0.0f, -1.0f, 0.0f), 0.3f, Rgb(2.0f)});
+  scene.lights.push_back(PointLight{Vec3(0.0f, 0.7f, 0.5f), Rgb(0.3f)});
+  scene.lights.push_back(ConstantEnvironment{Rgb(0.5f)});
+  finish(scene);
+  RenderSettings settings = settings_of(1, 0.1f);
+  const auto shadow_rays = [&] {
+    return render_photon_pass(scene, settings, 0, kNeverStopped).statistics.eye.shadow_rays;
+  };
+  const uint64_t rays = shadow_rays();  // one to each of five lights
+  const Moments one = pass_means(scene, settings, 300);
+  settings.surface_direct_samples = 5;
+  expect_same_means({one}, {pass_means(scene, settings, 300)}, 1e-6, "five rays");
+  EXPECT_EQ(shadow_rays() * 5, rays * (4 * 5 + 1));
+}
+
 }  // namespace
 }  // namespace vpm

@@ -176,6 +176,15 @@ std::vector<Setting> declare_surface_light() {
        .member = at<&S::surface_direct>(),
        .domain = words_of<DirectLight>(2),
        .meaning = "light that has not scattered yet: from `\"photons\"`, or by `\"shadow-rays\"`"},
+      {.key = "surface.direct_samples",
+       .member = at<&S::surface_direct_samples>(),
+       .domain = Integers{1, kMostRays},
+       .meaning = "how many shadow rays to each lamp or sky, to places that lie evenly on it; needs "
+                  "`\"shadow-rays\"`",
+       .need = {
+           [](const S& s) { return s.surface_direct == DirectLight::shadow_rays; },
+           [](const S&) { return std::string("no rays are sent to lights: 'direct' of [surface] is \"photons\""); },
+           "make 'direct' \"shadow-rays\", or leave out 'direct_samples'"}},
       {.key = "surface.indirect",
        .member = at<&S::surface_indirect>(),
        .domain = words_of<IndirectLight>(),

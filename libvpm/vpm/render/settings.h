@@ -99,6 +99,7 @@ struct RenderSettings {
   PlaneUse plane_use = PlaneUse::combined;
   int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
   DirectLight surface_direct = DirectLight::shadow_rays;
+  int surface_direct_samples = 1;  // of these, for each light that has an area or a solid angle, >= 1
   IndirectLight surface_indirect = IndirectLight::photons;
   int gather_rays = 8;  // of final gathering, at each point of a surface that the eye sees, >= 1
   GatherBy gather_by = GatherBy::material;

@@ -1,4 +1,4 @@
-// Direct light on surfaces: a shadow ray to every light.
+// Direct light on surfaces: shadow rays to every light.
 #pragma once
 
 #include <memory>
@@ -10,17 +10,22 @@ namespace vpm {
 
 class SurfaceShadowRays {
  public:
-  SurfaceShadowRays(const Scene& scene, std::shared_ptr<const TransmittanceEstimator> transmittance)
-      : scene_(scene), transmittance_(std::move(transmittance)) {}
+  /// Sends `samples` rays to each light that has an area or a solid angle, to places that lie evenly on it; one to
+  /// others.
+  SurfaceShadowRays(const Scene& scene, std::shared_ptr<const TransmittanceEstimator> transmittance, int samples)
+      : scene_(scene), transmittance_(std::move(transmittance)), samples_(samples) {}
 
   /// What the surface sends on of the light that comes straight from lights, W/(m^2 sr).
   Rgb sent(const SurfaceView& view, EyeWork& work) const;
 
  private:
   Rgb sent(const SurfaceView& view, const Receiver& side, EyeWork& work) const;
+  /// Of one light, by one ray.
+  Rgb sent_of(int light, const SurfaceView& view, const Receiver& side, EyeWork& work) const;
 
   const Scene& scene_;
   std::shared_ptr<const TransmittanceEstimator> transmittance_;
+  int samples_;
 };
 
 }  // namespace vpm
