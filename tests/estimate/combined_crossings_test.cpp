@@ -39,13 +39,13 @@ LightSubPaths one_light_path(const Scene& scene, const TechniqueCounts& counts) 
   turn.leg = leg_to(start, kTurn, transmittance(medium, density_integral(medium, ray, {0.0f, 0.3f}).value));
   turn.sums = arrive(counts, start, turn.leg, turn.junction, kTurn);
   const double phase = phase_density(medium, kFirst, kSecond);
-  const FlightStart from_turn{depart(counts, turn, {kSecond, phase, phase}, SubPath::light, false), Rgb(1.0f)};
+  const Departure from_turn = depart(counts, turn, {kSecond, phase, phase}, SubPath::light, false);
   LightSubPaths paths(1);
   paths.planes.push_back({kStart, 0.4f, kFirst, kSecond, kPhoton, 0});
   paths.plane_starts.push_back({start, Rgb(1.0f)});
   for (LightFlights* flights : {&paths.short_beams, &paths.long_beams}) {
     flights->beams[0].push_back({kTurn, 0.8f, kSecond, kPhoton * medium.albedo(), {}, 0.0f});
-    flights->starts[0].push_back(from_turn);
+    flights->flights[0].push_back(flight_terms(counts, from_turn, Rgb(1.0f), kTurn));
   }
   paths.ledger.emitted_count = 1;
   return paths;

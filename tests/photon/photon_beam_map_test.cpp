@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
@@ -146,15 +147,37 @@ TEST(ThinFlights, KeepsSumsInTheMean) {
       by_medium[b < 300 ? 0 : 1].push_back({Vec3(0.0f), 1.0f + b, Vec3(1, 0, 0), Rgb(1)});
     Rng rng(3, rng_stream(RngUse::test, 12), i);
     thin(by_medium, kMost, rng);
-    ASSERT_EQ(by_medium[0].size() + by_medium[1].size(), size_t{kMost});
+    int stretches = 0;
     for (const std::vector<PhotonBeam>& beams : by_medium)
       for (const PhotonBeam& beam : beams) {
-        ASSERT_FLOAT_EQ(beam.power.g, 1000.0f / kMost);
-        ++kept[static_cast<size_t>(beam.length - 1.0f)];
+        const auto times = static_cast<int>(std::lround(beam.power.g * kMost / 1000.0f));
+        ASSERT_FLOAT_EQ(beam.power.g, static_cast<float>(times) * 1000.0f / kMost);
+        kept[static_cast<size_t>(beam.length - 1.0f)] += times;
+        stretches += times;
       }
+    ASSERT_EQ(stretches, kMost);
   }
   const double expected = 1.0 * kDraws * kMost / kBeams;  // 148, binomial: six standard deviations are one in 1e6 runs
   for (const int count : kept) EXPECT_NEAR(count, expected, 6.0 * std::sqrt(expected));
+}
+
+// Which are kept in one stretch does not tell which are in the next: at equal distances all would be of the same half
+// of a list whose records are by turns from one half of a lamp and the other.
+TEST(ThinFlights, KeepsAsManyOfEitherHalf) {
+  constexpr int kBeams = 4096, kMost = 1024, kDraws = 400;
+  Moments odd;
+  for (uint64_t i = 0; i < kDraws; ++i) {
+    std::vector<std::vector<PhotonBeam>> by_medium(1);
+    for (int b = 0; b < kBeams; ++b) by_medium[0].push_back({Vec3(0.0f), 1.0f + (b & 1), Vec3(1, 0, 0), Rgb(1)});
+    Rng rng(4, rng_stream(RngUse::test, 12), i);
+    thin(by_medium, kMost, rng);
+    double of_odd = 0.0;
+    for (const PhotonBeam& beam : by_medium[0]) of_odd += beam.length > 1.5f ? beam.power.g : 0.0;
+    odd.add(of_odd / kBeams);
+  }
+  expect_mean(odd, 0.5, kFalseAlarms);
+  EXPECT_LT(odd.variance(),
+            2.0 * 0.25 / kMost);  // that of so many coins is 0.25 / kMost; at equal distances it is 0.25
 }
 
 TEST(ThinFlights, KeepsAllWhereTheyAreFew) {

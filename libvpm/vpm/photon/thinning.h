@@ -8,24 +8,28 @@
 
 namespace vpm {
 
-/// Keeps no more than `most` records, those of all media together; 0: all. They are evenly spaced in the list of all,
-/// from a random place on, and take the power of those between them: sums over records stay what they are in the mean.
-/// Returns the share that is kept.
+/// Keeps no more than `most` records, those of all media together; 0: all. Of each of as many equal stretches of the
+/// list of all one is drawn, and takes the power of the stretch: sums over records stay what they are in the mean. At
+/// equal distances they would all be of one part of a lamp, where points of low discrepancy tell the places on it in
+/// turn. Returns the share that is kept.
 template <class Record>
 float thin(std::vector<std::vector<Record>>& by_medium, uint64_t most, Rng& rng) {
   uint64_t all = 0;
   for (const std::vector<Record>& records : by_medium) all += records.size();
   if (most == 0 || all <= most) return 1.0f;
   const double step = static_cast<double>(all) / static_cast<double>(most);
-  double next = step * rng.uniform_double();
-  uint64_t number = 0;
+  double begun = 0.0;  // stretches
+  const auto draw = [&] { return static_cast<uint64_t>(step * (begun++ + rng.uniform_double())); };
+  uint64_t next = draw(), number = 0;
   for (std::vector<Record>& records : by_medium) {
     size_t kept = 0;
     for (const Record& record : records) {
-      if (number++ != static_cast<uint64_t>(next)) continue;
+      float stretches = 0.0f;  // that have drawn this one: two may share it
+      for (; number == next; next = draw()) ++stretches;
+      ++number;
+      if (stretches == 0.0f) continue;
       records[kept] = record;
-      records[kept++].power *= static_cast<float>(step);
-      next += step;
+      records[kept++].power *= stretches * static_cast<float>(step);
     }
     records.resize(kept);
   }

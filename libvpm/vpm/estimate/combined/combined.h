@@ -27,10 +27,10 @@ struct SurfacePhoton {
   BehindMerge behind;
 };
 
-/// The beams of a medium, with how the flights began, in the order of the map.
+/// The beams of a medium, with their flights, in the order of the map.
 struct LightBeams {
   PhotonBeamMap map;
-  std::vector<FlightStart> starts;
+  std::vector<FlightTerms> flights;
 };
 
 /// The light sub-paths of one pass, sorted for eye sub-paths.

@@ -89,8 +89,6 @@ class EyeSubPath {
   void merge_points_2d(const Along& along, const Interval& interval);
   /// Short or long ones.
   void merge_beams(Technique technique, const Along& along, const Interval& interval);
-  void merge_beam(Technique technique, const FlightStart& start, const Along& along, const BeamCrossings& found,
-                  size_t i, const KernelPair<float>& kernel);
   void merge_planes(const Along& along, const Interval& interval);
   void merge_plane(const Along& along, const PlaneCrossing& crossing);
   /// The collision on a plane's flight that the crossing tells, and the power that it scatters, W/m; none where there

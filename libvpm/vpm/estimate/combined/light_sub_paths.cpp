@@ -85,7 +85,7 @@ class LightSubPath {
     const auto& [origin, direction] = track.ray;
     if (c_.counts.short_beams > 0.0) {
       out_.short_beams.beams[track.medium].push_back({origin, track.length, direction, track.throughput});
-      out_.short_beams.starts[track.medium].push_back({from_, before});
+      out_.short_beams.flights[track.medium].push_back(flight_terms(c_.counts, from_, before, origin));
     }
     if (c_.counts.plane_share == 0.0 || rng_.uniform_double() >= c_.counts.plane_share) return;
     const Vec3 scattered = phase_sample(medium.phase, direction, rng_.uniform2());
@@ -107,7 +107,7 @@ class LightSubPath {
       if (around.scatters() && stretch.length > 0.0f) {
         LightFlights& kept = path.out_.long_beams;
         kept.beams[medium].push_back({ray.origin, stretch.length, ray.direction, path.state_.throughput * passed});
-        kept.starts[medium].push_back({path.from_, passed});
+        kept.flights[medium].push_back(flight_terms(path.c_.counts, path.from_, passed, ray.origin));
       }
       const DensityIntegral integral = density_integral(around, ray, {0.0f, stretch.length});
       count(path.out_.ledger.walk.lookups, integral.lookups);
@@ -205,7 +205,7 @@ class LightSubPath {
 void LightFlights::join(LightFlights& part) {
   for (size_t m = 0; m < beams.size(); ++m) {
     join_lists(beams[m], part.beams[m]);
-    join_lists(starts[m], part.starts[m]);
+    join_lists(flights[m], part.flights[m]);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "vpm/estimate/combined/flight_terms.h"
 #include "vpm/estimate/combined/medium_photon.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
@@ -19,7 +20,7 @@ struct LightVertex {
   Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
 };
 
-/// How a flight began of which a part, through one medium, is kept.
+/// How a flight began of which a part, through one medium, is kept as a plane.
 struct FlightStart {
   Departure from;
   Rgb before{1.0f};  // the transmittance of the flight up to the part
@@ -28,9 +29,9 @@ struct FlightStart {
 /// Parts of flights, by medium.
 struct LightFlights {
   std::vector<std::vector<PhotonBeam>> beams;
-  std::vector<std::vector<FlightStart>> starts;
+  std::vector<std::vector<FlightTerms>> flights;
 
-  explicit LightFlights(size_t media) : beams(media), starts(media) {}
+  explicit LightFlights(size_t media) : beams(media), flights(media) {}
   void join(LightFlights& part);
 };
 

@@ -23,7 +23,7 @@ VertexMap<RecordLeaf<SurfacePhoton>> sort_surfaces(const std::vector<LightVertex
 std::vector<LightBeams> sorted_beams(LightFlights& flights, float radius, float scale) {
   std::vector<LightBeams> beams;
   for (size_t m = 0; m < flights.beams.size(); ++m) {
-    beams.push_back({PhotonBeamMap(flights.beams[m], radius, scale), std::move(flights.starts[m])});
+    beams.push_back({PhotonBeamMap(flights.beams[m], radius, scale), std::move(flights.flights[m])});
     flights.beams[m] = {};
   }
   return beams;
@@ -61,7 +61,7 @@ size_t SortedLight::memory_bytes() const {
   for (const VertexMap<MediumPhotonLeaf>& map : in_media_) bytes += map.memory_bytes();
   for (const auto* beams : {&short_beams_, &long_beams_})
     for (const LightBeams& of_medium : *beams)
-      bytes += of_medium.map.memory_bytes() + of_medium.starts.capacity() * sizeof(FlightStart);
+      bytes += of_medium.map.memory_bytes() + of_medium.flights.capacity() * sizeof(FlightTerms);
   return bytes;
 }
 

@@ -9,6 +9,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/combined/shares_along_ray.h"
+#include "vpm/estimate/combined/shares_of_beams.h"
 #include "vpm/scene/camera.h"
 #include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/lights.h"
@@ -243,10 +244,6 @@ double term_of(const MergeTerms& terms, Found::By by) {
       return terms.surface;
     case Found::By::points_3d:
       return terms.points_3d;
-    case Found::By::short_beams:
-      return terms.short_beams;
-    case Found::By::long_beams:
-      return terms.long_beams;
     default:
       return terms.planes;
   }
@@ -271,6 +268,31 @@ double share_along_ray(const WholePath& path, const TechniqueCounts& counts, con
                                               : share(SharesAlongRay<false>(counts, eye, mean));
 }
 
+/// As beams that rays from the camera cross have it.
+double share_across_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced,
+                        const Found& found) {
+  const size_t i = found.at;
+  const Junction& at = path.junctions[i];
+  const Rgb &flown = path.transmittances[i - 1], &seen = path.transmittances[i];
+  const FlightTerms flight = flight_terms(counts, traced.light_leaves[i - 1], Rgb(1.0f), path.points[i - 1]);
+  const auto distance = static_cast<float>(path.leg(i - 1).distance);
+  const float adjacent = adjacent_at(flight, path.points[i], path.direction(i - 1), distance);
+  CrossedBeams crossed{};
+  crossed.sine[0] = glm::length(glm::cross(path.direction(i - 1), path.direction(i)));
+  crossed.determinant[0] = std::abs(glm::dot(flight.turn, path.direction(i)));
+  crossed.passed[0] = mean_channel(flown);
+  crossed.colliding[0] = mean_channel(at.sigma_t * flown);
+  crossed.seen[0] = mean_channel(at.sigma_t * seen);
+  crossed.kept[0] = static_cast<float>(at.kept);
+  crossed.back[0] = sum_channels(flight.back * flown) * static_cast<float>(density_on(path, i, true));
+  crossed.adjacent[0] = adjacent * (flight.parallel ? 1.0f : distance * distance);
+  crossed.distance[0] = static_cast<float>(path.leg(i).distance);
+  const Technique technique = found.by == Found::By::short_beams ? Technique::short_beams : Technique::long_beams;
+  const Departure& eye = traced.eye_leaves[i + 1];
+  return double{counts.heuristic == Heuristic::power ? SharesOfBeams<true>(counts, eye, technique).of(crossed)[0]
+                                                     : SharesOfBeams<false>(counts, eye, technique).of(crossed)[0]};
+}
+
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
   using By = Found::By;
   const size_t i = found.at, k = path.last();
@@ -287,6 +309,7 @@ double share_of(const WholePath& path, const TechniqueCounts& counts, const SubP
     return found.by == By::run_into ? shares.run_into : shares.connected;
   }
   if (found.by == By::points_2d) return share_along_ray(path, counts, traced, i);
+  if (found.by == By::short_beams || found.by == By::long_beams) return share_across_ray(path, counts, traced, found);
   const Junction& at = path.junctions[i];
   const SubPathSums& light = traced.light[i].sums;
   const OverColliding from_light = over_colliding(at.sigma_t, path.leg(i - 1));

@@ -1,0 +1,48 @@
+// The terms of a flight, from the sums that its sub-path would carry a metre on.
+#include "vpm/estimate/combined/flight_terms.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vpm {
+namespace {
+
+/// Beside so much no share is left, to the last digit.
+float finite(double x) { return static_cast<float>(std::min(x, 1e30)); }
+
+}  // namespace
+
+double unit_of_beams(const TechniqueCounts& counts) {
+  return counts.short_beams > 0.0 ? counts.short_beams : counts.long_beams;
+}
+
+FlightTerms flight_terms(const TechniqueCounts& counts, const Departure& from, const Rgb& before, const Vec3& origin) {
+  const Leg a_metre{Rgb(1.0f), 1.0};
+  const Junction there{Junction::Kind::medium, Vec3(0.0f), Rgb(1.0f)};
+  const SubPathSums sums = arrive(counts, from, a_metre, there, from.point + from.direction);
+  const double unit = 1.0 / (from.forward * unit_of_beams(counts));
+  FlightTerms terms;
+  terms.before = before;
+  terms.offset = glm::distance(from.point, origin);
+  terms.parallel = from.parallel;
+  terms.turn = Vec3(sums.turn);
+  if (const double back = arrival(from.from, from.direction, a_metre); back > 0.0) {
+    const double behind = sums.further / counts.weigh(back);
+    const double weighed = counts.heuristic == Heuristic::power ? std::sqrt(behind) : behind;
+    const bool collided = from.from.kind == Junction::Kind::medium;
+    terms.back = (collided ? from.from.sigma_t : Rgb(static_cast<float>(back))) * (finite(weighed * unit) / 3.0f);
+  }
+  const bool round = from.light && std::holds_alternative<SphereLight>(*from.light);
+  if (round) terms.round = from.light;
+  terms.adjacent = finite((round ? 1.0 / from.place : sums.adjacent) * unit);
+  return terms;
+}
+
+float adjacent_at(const FlightTerms& terms, const Vec3& place, const Vec3& travel, float distance) {
+  if (!terms.round) return terms.adjacent;
+  const Vec3 centre = std::get<SphereLight>(*terms.round).centre;
+  const Vec3 normal = glm::normalize(place - distance * travel - centre);
+  return finite(terms.adjacent * sampled_density(*terms.round, place, {-travel, distance, normal}));
+}
+
+}  // namespace vpm

@@ -1,0 +1,63 @@
+// The shares of beams that one ray from the camera crosses, or that many do.
+#pragma once
+
+#include <cassert>
+
+#include "vpm/base/floats.h"
+#include "vpm/estimate/combined/flight_terms.h"
+
+namespace vpm {
+
+/// Crossings of rays and beams, a lane for each.
+struct CrossedBeams {
+  Floats sine;         // of the angle between them
+  Floats determinant;  // Angles::determinant, m
+  Floats passed;       // the transmittance from the flight's last vertex, a mean over channels
+  Floats colliding;    // likewise of extinction there times that transmittance, 1/m
+  Floats seen;         // of extinction there times the transmittance to the eye, 1/m
+  Floats kept;         // Junction::kept
+  Floats back;         // FlightTerms::back times the transmittance, summed over channels, and the phase function, 1/sr
+  Floats adjacent;     // FlightTerms::adjacent times the squared distance from the last vertex
+  Floats distance;     // to the eye's departure, m
+};
+
+/// The share of short or of long beams in what they bring to a ray that comes straight from the camera, or over mirrors
+/// and glass alone. It is what merges_in_medium() has over all_at_merge(), where all terms are times the densities of
+/// coming to the crossing from either side, over those of the flight's and the ray's directions. `kSquares` says
+/// whether the heuristic weighs by squares.
+template <bool kSquares>
+class SharesOfBeams {
+ public:
+  SharesOfBeams(const TechniqueCounts& counts, const Departure& eye, Technique technique)
+      : short_(over_unit(counts, counts.short_beams)),
+        long_(over_unit(counts, counts.long_beams)),
+        planes_(over_unit(counts, counts.planes)),
+        points_2d_(over_unit(counts, counts.points_2d)),
+        in_balls_(over_unit(counts, counts.merges_points_3d(true) ? counts.points_3d : 0.0)),
+        adjacent_(over_unit(counts, eye.adjacent > 0.0 ? eye.adjacent / eye.forward : 0.0)),
+        is_long_(technique == Technique::long_beams) {
+    assert(eye.behind == 0.0);  // nothing but the camera can be connected to, and not over mirrors or glass
+  }
+
+  Floats of(const CrossedBeams& at) const {
+    const Floats short_beams = weigh(short_ * at.sine * at.passed), long_beams = weigh(long_ * at.sine);
+    Floats all = short_beams + long_beams + weigh(planes_ * at.determinant);
+    all += weigh(points_2d_ * at.kept * at.colliding);
+    all += weigh(in_balls_ * at.kept * at.colliding * at.seen);
+    all += weigh(at.adjacent * at.seen) + weigh(at.back * at.seen);
+    all += weigh(adjacent_ * at.distance * at.distance * at.colliding);
+    return all > 0.0f ? (is_long_ ? long_beams : short_beams) / all : Floats{};
+  }
+
+ private:
+  static float over_unit(const TechniqueCounts& counts, double x) {
+    return static_cast<float>(std::min(x / unit_of_beams(counts), 1e30));
+  }
+  static Floats weigh(const Floats& x) { return kSquares ? x * x : x; }
+
+  float short_, long_, planes_, points_2d_, in_balls_;
+  float adjacent_;  // Departure::adjacent over Departure::forward
+  bool is_long_;
+};
+
+}  // namespace vpm
