@@ -21,6 +21,11 @@ inline Floats all_lanes(float value) { return Floats{} + value; }
 inline Floats min(const Floats& a, const Floats& b) { return a < b ? a : b; }
 inline Floats max(const Floats& a, const Floats& b) { return a > b ? a : b; }
 
+/// Numbers for each colour channel.
+using FloatsRgb = std::array<Floats, 3>;
+inline FloatsRgb all_lanes(const Rgb& rgb) { return {all_lanes(rgb.r), all_lanes(rgb.g), all_lanes(rgb.b)}; }
+inline Floats mean_channel(const FloatsRgb& rgb) { return (rgb[0] + rgb[1] + rgb[2]) * (1.0f / 3.0f); }
+
 /// Is the mask set in any lane?
 inline bool any(const LaneMask& mask) {
 #if defined(__AVX512F__)
@@ -42,6 +47,8 @@ inline Floats sqrt(const Floats& x) {
   return std::bit_cast<Floats>(values);
 #endif
 }
+
+inline Floats abs(const Floats& x) { return max(x, Floats{} - x); }
 
 /// Places or directions.
 struct Floats3 {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "vpm/base/rng.h"
+#include "vpm/estimate/combined/ray_segment.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/estimate/volume/march.h"
@@ -20,9 +21,10 @@ struct EyeScratch {
   DensityIntegralsAlong integrals;           // of the last segment that asked for them
   const EyeSegment* integrals_of = nullptr;  // that segment
   Marcher marcher;
-  Neighbours neighbours;           // of the last gather by count
-  std::vector<Track> tracks;       // of the last flight
-  PhotonBeamMap::Selection beams;  // near the last bundle of rays
+  Neighbours neighbours;             // of the last gather by count
+  std::vector<Track> tracks;         // of the last flight
+  PhotonBeamMap::Selection beams;    // near the last bundle of rays
+  std::vector<RaySegment> segments;  // of the last rays that were followed together
 };
 
 struct EyeWork {

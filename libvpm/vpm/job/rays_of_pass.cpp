@@ -34,7 +34,7 @@ RaysOfPass rays_of_photon_pass(const Scene& scene, const RenderSettings& setting
 
 RaysOfPass rays_of_combined_pass(const Scene& scene, const RenderSettings& settings, int pass) {
   const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, kNeverStopped);
-  RaysOfPass rays{ray_by_ray([ready](const Ray& ray, EyeWork& work) { return ready->radiance(ray, work); }),
+  RaysOfPass rays{[ready](std::span<EyeRay> of) { ready->radiance(of); },
                   Image(scene.camera.width, scene.camera.height), ready->statistics()};
   ready->add_light_tracing(rays.light_tracing);
   return rays;

@@ -51,4 +51,9 @@ float spread_of(std::span<const Vec3> directions) {
   return seen.least_ahead < kLeast ? kInfinity : glm::distance(seen.lo, seen.hi);
 }
 
+bool is_narrow(std::span<const Vec3> directions, const Interval& reach, float free_path, float width) {
+  const float middle = std::min(0.5f * (reach.t0 + reach.t1), reach.t0 + free_path);
+  return middle * spread_of(directions) <= width;
+}
+
 }  // namespace vpm

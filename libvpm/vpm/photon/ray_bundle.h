@@ -29,4 +29,8 @@ class RayBundle {
 /// How wide rays of these directions (unit) are apart at the distance 1; infinite where they are no bundle.
 float spread_of(std::span<const Vec3> directions);
 
+/// Are such rays no farther apart than `width`, m, half way between the ends of what they reach, or where light has
+/// come a free path, m? Then most of what one of them finds is found by the others, too.
+bool is_narrow(std::span<const Vec3> directions, const Interval& reach, float free_path, float width);
+
 }  // namespace vpm

@@ -135,10 +135,12 @@ LightSubPaths CombinedPass::trace(const LightTracing& tracing, const std::atomic
   return all;
 }
 
-KernelEstimate CombinedPass::radiance(const Ray& ray, EyeWork& work, TechniqueParts* parts) const {
-  const CombinedContext context{
-      scene_, *strategy_, *transmittance_, counts_, kernels_, *light_, static_cast<double>(paths_), max_events_};
-  return combined_radiance(context, ray, work, parts);
+KernelEstimate CombinedPass::radiance(const Ray& ray, EyeWork& work) const {
+  return combined_radiance(context(), ray, work);
+}
+
+void CombinedPass::radiance(std::span<EyeRay> rays, TechniqueParts* parts) const {
+  combined_radiance(context(), rays, parts);
 }
 
 void CombinedPass::add_light_tracing(Image& image) const {
@@ -172,14 +174,15 @@ Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, in
   const CombinedPass ready(scene, settings, pass, stop);
   std::optional<TechniqueLayers> layers;
   if (settings.combined.layers) layers.emplace(scene.camera.width, scene.camera.height);
-  const auto radiance = [&](const Ray& ray, EyeWork& work) {
-    TechniqueParts parts;
-    const KernelEstimate estimate = ready.radiance(ray, work, layers ? &parts : nullptr);
-    if (layers && is_finite(estimate.value) && is_finite(estimate.correction))
-      layers->add(work.pixel, parts, settings.samples_per_pixel);
-    return estimate;
+  const auto radiance = [&](std::span<EyeRay> rays) {
+    if (!layers) return ready.radiance(rays);
+    std::array<TechniqueParts, kEyeRays> parts{};
+    ready.radiance(rays, parts.data());
+    for (size_t i = 0; i < rays.size(); ++i)
+      if (is_finite(rays[i].radiance.value) && is_finite(rays[i].radiance.correction))
+        layers->add(rays[i].work.pixel, parts[i], settings.samples_per_pixel);
   };
-  Pass result = render_image(scene, settings, pass, ray_by_ray(radiance), stop, progress);
+  Pass result = render_image(scene, settings, pass, radiance, stop, progress);
   ready.add_light_tracing(result.image);
   if (layers) {
     ready.add_light_tracing(*layers);

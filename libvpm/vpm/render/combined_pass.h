@@ -19,8 +19,9 @@ class CombinedPass {
   /// Once `stop` is set it returns as soon as it can, and must not be used.
   CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop);
 
-  /// combined_radiance() along a ray of the camera.
-  KernelEstimate radiance(const Ray& ray, EyeWork& work, TechniqueParts* parts = nullptr) const;
+  /// combined_radiance() along a ray of the camera, or along several.
+  KernelEstimate radiance(const Ray& ray, EyeWork& work) const;
+  void radiance(std::span<EyeRay> rays, TechniqueParts* parts = nullptr) const;
   /// Adds the share of light tracing to a picture of the others.
   void add_light_tracing(Image& image) const;
   /// What light tracing finds is added to the layers of the other techniques, where these are kept.
@@ -30,6 +31,10 @@ class CombinedPass {
  private:
   /// The vertices and flights, and what light tracing finds.
   LightSubPaths trace(const LightTracing& tracing, const std::atomic<bool>& stop);
+
+  CombinedContext context() const {
+    return {scene_, *strategy_, *transmittance_, counts_, kernels_, *light_, static_cast<double>(paths_), max_events_};
+  }
 
   const Scene& scene_;
   uint64_t paths_;

@@ -1,15 +1,18 @@
 // The walk of a sub-path from the eye.
 #include "vpm/estimate/combined/eye_sub_path.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "vpm/base/count.h"
+#include "vpm/estimate/combined/beam_merges.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
 
-EyeSubPath::EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts)
-    : c_(context), work_(work), parts_(parts) {
+EyeSubPath::EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
+                       std::vector<RaySegment>* waiting, size_t number)
+    : c_(context), work_(work), parts_(parts), waiting_segments_(waiting), number_(number) {
   at_.state = {ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)};
   at_.from = depart_from_camera(context.counts, ray, density_of(ray));
 }
@@ -54,8 +57,7 @@ bool EyeSubPath::Along::pass(const Stretch& stretch) {
   if (around.scatters() && path.at_.asks > 0.0f) {
     through_scattering = true;
     path.merge_points_2d(*this, interval);
-    path.merge_beams(Technique::short_beams, *this, interval);
-    path.merge_beams(Technique::long_beams, *this, interval);
+    path.merge_beams(*this, interval);
     path.merge_planes(*this, interval);
   }
   passed *= transmittance(around, integrals.integral());
@@ -211,9 +213,62 @@ void EyeSubPath::add_merged(Technique technique, const Rgb& found, const KernelP
   count(work_.counters.gather.used);
 }
 
+void EyeSubPath::merge_beams(const Along& along, const Interval& interval) {
+  const Departure& from = at_.from;
+  assert(from.behind == 0.0);  // nothing but the camera can be connected to, and not over mirrors or glass
+  const RaySegment segment{along.ray,
+                           interval,
+                           along.medium,
+                           along.passed,
+                           glm::distance(from.point, along.ray.origin),
+                           from.adjacent > 0.0 ? from.adjacent / from.forward : 0.0,
+                           asked(),
+                           number_};
+  if (waiting_segments_ && from.camera && c_.scene.media[along.medium].homogeneous())
+    return waiting_segments_->push_back(segment);
+  for (const Technique technique : kBeamTechniques) {
+    const Merged merged = vpm::merge_beams(c_, technique, segment, work_);
+    radiance_ += merged.light;
+    if (parts_) parts_->add_both(technique, merged.light.value, merged.unweighted);
+  }
+}
+
+namespace {
+
+/// Merges beams along segments that are in one medium.
+void merge_together(const CombinedContext& context, std::span<const RaySegment> segments, std::span<EyeRay> rays,
+                    TechniqueParts* parts) {
+  for (const Technique technique : kBeamTechniques) {
+    std::array<Merged, kEyeRays> merged{};
+    merge_beams(context, technique, rays.front().ray.origin, segments, rays.front().work, merged);
+    for (size_t i = 0; i < segments.size(); ++i) {
+      const size_t number = segments[i].number;
+      rays[number].radiance += merged[i].light;
+      if (parts) parts[number].add_both(technique, merged[i].light.value, merged[i].unweighted);
+    }
+  }
+}
+
+}  // namespace
+
 KernelEstimate combined_radiance(const CombinedContext& context, const Ray& camera_ray, EyeWork& work,
                                  TechniqueParts* parts) {
   return EyeSubPath(context, camera_ray, work, parts).follow();
+}
+
+void combined_radiance(const CombinedContext& context, std::span<EyeRay> rays, TechniqueParts* parts) {
+  std::vector<RaySegment>& waiting = rays.front().work.scratch.segments;
+  waiting.clear();
+  for (size_t i = 0; i < rays.size(); ++i)
+    rays[i].radiance =
+        EyeSubPath(context, rays[i].ray, rays[i].work, parts ? &parts[i] : nullptr, &waiting, i).follow();
+  std::stable_sort(waiting.begin(), waiting.end(),
+                   [](const RaySegment& a, const RaySegment& b) { return a.medium < b.medium; });
+  const std::span<const RaySegment> all(waiting);
+  for (size_t first = 0, next = 0; first < all.size(); first = next) {
+    while (next < all.size() && next - first < kEyeRays && all[next].medium == all[first].medium) ++next;
+    merge_together(context, all.subspan(first, next - first), rays, parts);
+  }
 }
 
 }  // namespace vpm

@@ -14,8 +14,10 @@ namespace vpm {
 
 class EyeSubPath {
  public:
-  /// `parts` may be null.
-  EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts);
+  /// `parts` may be null. What beams bring to the camera's ray in homogeneous media before anything turns it is left
+  /// out: its segments are added to `waiting`, with `number`; unless that is null.
+  EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
+             std::vector<RaySegment>* waiting = nullptr, size_t number = 0);
 
   KernelEstimate follow();
 
@@ -87,8 +89,7 @@ class EyeSubPath {
   void merge_surface(const Arrival& at);
   void merge_points_3d(const Arrival& at);
   void merge_points_2d(const Along& along, const Interval& interval);
-  /// Short or long ones.
-  void merge_beams(Technique technique, const Along& along, const Interval& interval);
+  void merge_beams(const Along& along, const Interval& interval);
   void merge_planes(const Along& along, const Interval& interval);
   void merge_plane(const Along& along, const PlaneCrossing& crossing);
   /// The collision on a plane's flight that the crossing tells, and the power that it scatters, W/m; none where there
@@ -105,9 +106,11 @@ class EyeSubPath {
   const CombinedContext& c_;
   EyeWork& work_;
   TechniqueParts* parts_;
+  std::vector<RaySegment>* waiting_segments_;
+  size_t number_;
   Branch at_;
   std::array<Branch, kMostWaiting> branches_;  // the first `waiting_`
-  size_t waiting_ = 0;
+  size_t waiting_ = 0;                         // of branches
   KernelEstimate radiance_;
 };
 

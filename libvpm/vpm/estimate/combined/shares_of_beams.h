@@ -1,7 +1,7 @@
 // The shares of beams that one ray from the camera crosses, or that many do.
 #pragma once
 
-#include <cassert>
+#include <algorithm>
 
 #include "vpm/base/floats.h"
 #include "vpm/estimate/combined/flight_terms.h"
@@ -18,7 +18,8 @@ struct CrossedBeams {
   Floats kept;         // Junction::kept
   Floats back;         // FlightTerms::back times the transmittance, summed over channels, and the phase function, 1/sr
   Floats adjacent;     // FlightTerms::adjacent times the squared distance from the last vertex
-  Floats distance;     // to the eye's departure, m
+  Floats splats;       // of the ray's start, RaySegment::adjacent, times the squared distance from there, over
+                       // unit_of_beams()
 };
 
 /// The share of short or of long beams in what they bring to a ray that comes straight from the camera, or over mirrors
@@ -28,16 +29,13 @@ struct CrossedBeams {
 template <bool kSquares>
 class SharesOfBeams {
  public:
-  SharesOfBeams(const TechniqueCounts& counts, const Departure& eye, Technique technique)
+  SharesOfBeams(const TechniqueCounts& counts, Technique technique)
       : short_(over_unit(counts, counts.short_beams)),
         long_(over_unit(counts, counts.long_beams)),
         planes_(over_unit(counts, counts.planes)),
         points_2d_(over_unit(counts, counts.points_2d)),
         in_balls_(over_unit(counts, counts.merges_points_3d(true) ? counts.points_3d : 0.0)),
-        adjacent_(over_unit(counts, eye.adjacent > 0.0 ? eye.adjacent / eye.forward : 0.0)),
-        is_long_(technique == Technique::long_beams) {
-    assert(eye.behind == 0.0);  // nothing but the camera can be connected to, and not over mirrors or glass
-  }
+        is_long_(technique == Technique::long_beams) {}
 
   Floats of(const CrossedBeams& at) const {
     const Floats short_beams = weigh(short_ * at.sine * at.passed), long_beams = weigh(long_ * at.sine);
@@ -45,18 +43,17 @@ class SharesOfBeams {
     all += weigh(points_2d_ * at.kept * at.colliding);
     all += weigh(in_balls_ * at.kept * at.colliding * at.seen);
     all += weigh(at.adjacent * at.seen) + weigh(at.back * at.seen);
-    all += weigh(adjacent_ * at.distance * at.distance * at.colliding);
+    all += weigh(at.splats * at.colliding);
     return all > 0.0f ? (is_long_ ? long_beams : short_beams) / all : Floats{};
   }
 
  private:
   static float over_unit(const TechniqueCounts& counts, double x) {
-    return static_cast<float>(std::min(x / unit_of_beams(counts), 1e30));
+    return static_cast<float>(std::min(x / unit_of_beams(counts), 1e30));  // beside so much no share is left
   }
   static Floats weigh(const Floats& x) { return kSquares ? x * x : x; }
 
   float short_, long_, planes_, points_2d_, in_balls_;
-  float adjacent_;  // Departure::adjacent over Departure::forward
   bool is_long_;
 };
 

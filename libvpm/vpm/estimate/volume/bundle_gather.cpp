@@ -30,10 +30,9 @@ Interval reach_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, flo
 
 bool is_narrow(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius, float most_radii) {
   Directions directions;
-  const float spread = spread_of(directions_of(bundle, directions));
   const float free_path = 1.0f / mean_channel(bundle.front().segment->medium()->sigma_t);
-  const auto [nearest, farthest] = reach_of(apex, bundle, bounds, radius);
-  return std::min(0.5f * (nearest + farthest), nearest + free_path) * spread <= most_radii * radius;
+  return is_narrow(directions_of(bundle, directions), reach_of(apex, bundle, bounds, radius), free_path,
+                   most_radii * radius);
 }
 
 RayBundle rays_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius) {

@@ -286,11 +286,12 @@ double share_across_ray(const WholePath& path, const TechniqueCounts& counts, co
   crossed.kept[0] = static_cast<float>(at.kept);
   crossed.back[0] = sum_channels(flight.back * flown) * static_cast<float>(density_on(path, i, true));
   crossed.adjacent[0] = adjacent * (flight.parallel ? 1.0f : distance * distance);
-  crossed.distance[0] = static_cast<float>(path.leg(i).distance);
-  const Technique technique = found.by == Found::By::short_beams ? Technique::short_beams : Technique::long_beams;
   const Departure& eye = traced.eye_leaves[i + 1];
-  return double{counts.heuristic == Heuristic::power ? SharesOfBeams<true>(counts, eye, technique).of(crossed)[0]
-                                                     : SharesOfBeams<false>(counts, eye, technique).of(crossed)[0]};
+  const double to_eye = path.leg(i).distance;
+  crossed.splats[0] = static_cast<float>(eye.adjacent / eye.forward * to_eye * to_eye / unit_of_beams(counts));
+  const Technique technique = found.by == Found::By::short_beams ? Technique::short_beams : Technique::long_beams;
+  return double{counts.heuristic == Heuristic::power ? SharesOfBeams<true>(counts, technique).of(crossed)[0]
+                                                     : SharesOfBeams<false>(counts, technique).of(crossed)[0]};
 }
 
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
