@@ -73,7 +73,8 @@ std::unique_ptr<SurfaceEstimator> surface_estimator(const Scene& scene, const Re
   const SurfaceMapSettings map{settings.surface, pass_of_maps(settings, pass)};
   std::optional<SurfaceShadowRays> direct;
   assert(settings.surface_direct != DirectLight::equiangular);
-  if (settings.surface_direct == DirectLight::shadow_rays) direct.emplace(scene, transmittance, settings.surface_direct_samples);
+  if (settings.surface_direct == DirectLight::shadow_rays)
+    direct.emplace(scene, transmittance, settings.surface_direct_samples);
   if (settings.surface_indirect == IndirectLight::final_gather) {
     const FinalGatherSettings gather{map,
                                      {settings.caustics, map.pass},

@@ -1,0 +1,172 @@
+// What beams bring to rays that cross them, kBlock crossings at a time, in lanes: of many beams with one ray, or of one
+// beam with many rays.
+#pragma once
+
+#include <algorithm>
+
+#include "vpm/base/exp_negative.h"
+#include "vpm/estimate/combined/beam_merges.h"
+#include "vpm/estimate/combined/shares_of_beams.h"
+#include "vpm/estimate/eye_segment.h"
+#include "vpm/estimate/kernel_sum.h"
+#include "vpm/photon/stored_power.h"
+
+namespace vpm {
+
+/// Rays in lanes, as far as merges need them.
+struct LitRays {
+  FloatsRgb passed{};  // RaySegment's
+  Floats before{};
+  Floats splats{};  // RaySegment::adjacent over unit_of_beams()
+  Floats3 along;    // directions, unit
+
+  void set(const TechniqueCounts& counts, size_t lane, const RaySegment& segment) {
+    for (int c = 0; c < 3; ++c) passed[c][lane] = segment.passed[c];
+    before[lane] = segment.before;
+    splats[lane] = static_cast<float>(std::min(segment.adjacent / unit_of_beams(counts), 1e30));
+    along.set(lane, segment.ray.direction);
+  }
+};
+
+/// Crossings of rays and beams, a lane for each. Lanes without one have no power.
+struct Crossings {
+  FloatsRgb power{}, before{}, back{};  // of the beam, and FlightTerms'
+  Floats3 turn;
+  Floats adjacent{};                         // FlightTerms::adjacent times the squared distance from the last vertex
+  Floats scattered{};                        // the phase function towards the eye, 1/sr
+  Floats sine = all_lanes(1.0f);             // of the angle between the two
+  Floats q{};                                // their squared distance over that of the radius
+  Floats along_ray{};                        // m from the ray's origin
+  Floats seen_integral{}, flown_integral{};  // of density up to the crossing, along the ray and along the beam, m
+  Floats density = all_lanes(1.0f);          // of the medium, > 0
+};
+
+/// What crossings add up to, without the kernel's norm: with shares, and without.
+struct CrossingSums {
+  FloatsRgb value{}, correction{}, unweighted{};
+};
+
+/// exp(-sigma_t integral), channel by channel, times `before`.
+inline FloatsRgb attenuated(const FloatsRgb& before, const Rgb& sigma_t, const Floats& integral) {
+  FloatsRgb passed;
+  Floats left{};
+  for (int c = 0; c < 3; ++c) {
+    if (c == 0 || sigma_t[c] != sigma_t[c - 1]) left = exp_negative(-sigma_t[c] * integral);  // most media are grey
+    passed[c] = before[c] * left;
+  }
+  return passed;
+}
+
+/// What is left of short beams' powers, as analog_weight() has it.
+inline FloatsRgb left_of_short(const FloatsRgb& power, const Rgb& sigma_t, const Floats& integral) {
+  const float least = std::min(sigma_t.r, std::min(sigma_t.g, sigma_t.b));
+  FloatsRgb left;
+  Floats sum{}, weighted{};
+  for (int c = 0; c < 3; ++c) {
+    left[c] = exp_negative((least - sigma_t[c]) * integral);
+    sum += abs(power[c]);
+    weighted += abs(power[c]) * left[c];
+  }
+  const Floats factor = weighted > 0.0f ? sum / weighted : Floats{};
+  for (Floats& channel : left) channel *= factor;
+  return left;
+}
+
+/// What beams of one kind bring to rays in one medium.
+template <bool kSquares, class PhaseFunction, class Profile>
+class CrossingLight {
+ public:
+  CrossingLight(const CombinedContext& context, Technique technique, const Medium& medium, const PhaseFunction& phase,
+                Profile profile)
+      : shares_(context.counts, technique),
+        phase_(phase),
+        profile_(profile),
+        sigma_t_(medium.sigma_t),
+        floor_(medium.grid ? floor_in(medium, context.counts.density_floor) : 0.0f),
+        per_largest_(relative_density(medium, 1.0f)),
+        is_long_(technique == Technique::long_beams),
+        grey_(is_grey(medium.sigma_t)) {}
+
+  const PhaseFunction& phase() const { return phase_; }
+
+  void add(const LitRays& rays, const Crossings& at, CrossingSums& sums) const {
+    const FloatsRgb whole = all_lanes(Rgb(1.0f));
+    const FloatsRgb on_beam = attenuated(whole, sigma_t_, at.flown_integral);
+    const FloatsRgb on_ray = attenuated(rays.passed, sigma_t_, at.seen_integral);
+    const Floats share = shares_.of(crossed(rays, at, on_beam, on_ray));
+    const FloatsRgb left = is_long_ ? on_beam : grey_ ? whole : left_of_short(at.power, sigma_t_, at.flown_integral);
+    const Floats found = at.density * at.scattered / at.sine;
+    Floats value, correction;
+    for (size_t i = 0; i < kBlock; ++i) {
+      const KernelPair<float> spread = profile_(at.q[i]);
+      value[i] = spread.value;
+      correction[i] = spread.correction;
+    }
+    for (int c = 0; c < 3; ++c) {
+      const Floats light = at.power[c] * left[c] * on_ray[c] * found;
+      sums.unweighted[c] += light * value;
+      sums.value[c] += light * value * share;
+      sums.correction[c] += light * correction * share;
+    }
+  }
+
+ private:
+  CrossedBeams crossed(const LitRays& rays, const Crossings& at, const FloatsRgb& on_beam,
+                       const FloatsRgb& on_ray) const {
+    FloatsRgb flown, back, colliding, seen;
+    for (int c = 0; c < 3; ++c) {
+      flown[c] = at.before[c] * on_beam[c];
+      back[c] = 3.0f * at.back[c] * flown[c] * at.scattered;
+      colliding[c] = sigma_t_[c] * at.density * flown[c];
+      seen[c] = sigma_t_[c] * at.density * on_ray[c];
+    }
+    const Floats to_eye = rays.before + at.along_ray;
+    return {.sine = at.sine,
+            .determinant = abs(dot(at.turn, rays.along)),
+            .passed = mean_channel(flown),
+            .colliding = mean_channel(colliding),
+            .seen = mean_channel(seen),
+            .kept = max(all_lanes(1.0f), floor_ / (at.density * per_largest_)),
+            .back = mean_channel(back),
+            .adjacent = at.adjacent,
+            .splats = rays.splats * to_eye * to_eye};
+  }
+
+  SharesOfBeams<kSquares> shares_;
+  const PhaseFunction& phase_;
+  Profile profile_;
+  Rgb sigma_t_;        // of the medium at density 1, 1/m
+  float floor_;        // of relative densities, below which photons are kept along flights
+  float per_largest_;  // 1 over the largest density
+  bool is_long_, grey_;
+};
+
+/// Calls use(CrossingLight) for the medium's phase function, and the kernel and heuristic of the pass.
+template <class Use>
+auto with_crossing_light(const CombinedContext& context, Technique technique, const Medium& medium, Use&& use) {
+  const auto with = [&](const auto& phase, auto profile) {
+    using P = std::decay_t<decltype(phase)>;
+    using K = decltype(profile);
+    if (context.counts.heuristic == Heuristic::power)
+      return use(CrossingLight<true, P, K>(context, technique, medium, phase, profile));
+    return use(CrossingLight<false, P, K>(context, technique, medium, phase, profile));
+  };
+  return std::visit(
+      [&](const auto& phase) {
+        return with_kernel<1>(context.kernels.volume_kernel, [&](auto profile) { return with(phase, profile); });
+      },
+      medium.phase);
+}
+
+/// What all sums along a segment are times.
+inline Rgb factor_of(const CombinedContext& context, const RaySegment& segment) {
+  return segment.throughput * context.scene.media[segment.medium].sigma_s *
+         kernel_norm<1>(context.kernels.volume_kernel, context.kernels.beams);
+}
+
+/// The part of a segment that beams may cross, m from its ray's origin.
+inline Interval near_beams(const LightBeams& beams, const RaySegment& segment, float radius) {
+  return clip(segment.ray, segment.interval, beams.map.bounds(), radius);
+}
+
+}  // namespace vpm
