@@ -148,7 +148,7 @@ TEST(SceneFile, RefusesBadOptions) {
       {"=3", "--set =3: the path '' has an empty key"},
       {"render.pases=3", "--set render.pases=3: unknown key 'pases' in [render]\ndid you mean 'passes'?"},
       {"rendr.passes=3", "--set rendr.passes=3: unknown key 'rendr' in the scene file\ndid you mean 'render'?"},
-      {"render.passes=many", "--set render.passes=many: 'passes' of [render] must be an integer, not a string"},
+      {"render.passes=many", "--set render.passes=many: 'passes' of [render] must be an integer, not 'many'"},
       {"render.passes=0", "--set render.passes=0: 'passes' of [render] must be from 1"},
       {"shapes.2.radius=3",
        "--set shapes.2.radius=3: 'shapes' has no element '2'\nits elements are 0 to 0, 'new' would be a new one; "
@@ -164,7 +164,7 @@ TEST(SceneFile, RefusesBadOptions) {
       {"shapes.0.radius.x=3", "'shapes.0.radius' is an integer and has no 'x'"},
       {"media.fog.measured=skin1", "[media.fog] gives its coefficients in two ways"},
       {"shapes.0.material=gray", "--set shapes.0.material=gray: there is no material 'gray'\ndid you mean 'grey'?"},
-      {"render.passes=\xc3\xa4", "'passes' of [render] must be an integer, not a string"},
+      {"render.passes=\xc3\xa4", "'passes' of [render] must be an integer, not 'many'"},
       {"camera={}", "--set camera={}: [camera] lacks the key 'position'"},
   };
   for (const auto& [option, expected] : cases) {

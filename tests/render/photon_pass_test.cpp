@@ -293,23 +293,25 @@ TEST(PhotonPass, ShadowRaysToEvenPlacesHaveLessNoise) {
   EXPECT_GT(one.variance(), 3.0 * 8.0 * eight.variance());
 }
 
-/// Of every kind of light, also where their number is no power of two.
+/// Of lamps of every shape and of a sky, also where their number is no power of two.
 TEST(PhotonPass, SeveralShadowRaysBringTheSameLight) {
   Scene scene = lamp_and_floor(nullptr);
   scene.lights.push_back(SphereLight{Vec3(0.5f, 0.8f, 0.2f), 0.1f, Rgb(5.0f)});
   scene.lights.push_back(DiscLight{Vec3(-0.5f, 1.0f, 0.0f), Vec3(0.0f, -1.0f, 0.0f), 0.3f, Rgb(2.0f)});
   scene.lights.push_back(PointLight{Vec3(0.0f, 0.7f, 0.5f), Rgb(0.3f)});
+  scene.lights.push_back(
+      MeshLight{std::make_shared<const EmittingMesh>(box_mesh(Vec3d(-0.9, 0.4, 0), Vec3d(-0.7, 0.6, 0.2))), Rgb(4.0f)});
   scene.lights.push_back(ConstantEnvironment{Rgb(0.5f)});
   finish(scene);
   RenderSettings settings = settings_of(1, 0.1f);
   const auto shadow_rays = [&] {
     return render_photon_pass(scene, settings, 0, kNeverStopped).statistics.eye.shadow_rays;
   };
-  const uint64_t rays = shadow_rays();  // one to each of five lights
+  const uint64_t rays = shadow_rays();  // one to each of six lights
   const Moments one = pass_means(scene, settings, 300);
   settings.surface_direct_samples = 5;
   expect_same_means({one}, {pass_means(scene, settings, 300)}, 1e-6, "five rays");
-  EXPECT_EQ(shadow_rays() * 5, rays * (4 * 5 + 1));
+  EXPECT_EQ(shadow_rays() * 6, rays * (5 * 5 + 1));
 }
 
 }  // namespace

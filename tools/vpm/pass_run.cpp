@@ -20,23 +20,25 @@ namespace {
 namespace fs = std::filesystem;
 
 std::atomic<bool> stop_requested{false};
-std::atomic<int64_t> stop_requested_at{0};  // s
+std::atomic<int64_t> stop_requested_at{0};  // ms; 0: not yet
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
 
-/// Of a clock that does not go back, s; in signal handlers, too.
+/// Of a clock that does not go back, ms, > 0; in signal handlers, too.
 int64_t now() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
-  return time.tv_sec;
+  return int64_t{time.tv_sec} * 1000 + time.tv_nsec / 1'000'000 + 1;
 }
 
 /// Those who signal a process and then its group, as `timeout` and some batch systems do, want no more than those who
 /// signal once: what comes within two seconds of the first signal is taken for the same.
 void request_stop(int number) {
-  constexpr int64_t kSameRequest = 2;  // s
-  if (!stop_requested.exchange(true)) {
-    stop_requested_at = now();
-  } else if (now() - stop_requested_at >= kSameRequest) {
+  constexpr int64_t kSameRequest = 2'000;  // ms
+  const int64_t at = now();
+  int64_t first = 0;
+  if (stop_requested_at.compare_exchange_strong(first, at)) {
+    stop_requested = true;
+  } else if (at - first >= kSameRequest) {
     std::signal(number, SIG_DFL);
     std::raise(number);
   }

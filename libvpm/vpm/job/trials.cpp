@@ -240,10 +240,12 @@ std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings
   auto [trials, refused] = open_trials(scene, automatic, settings);
   if (trials.empty()) throw InputError(fmt::format("nothing can be chosen{}", refused));
   std::string reason;
-  if (trials.size() == 1 && refused.empty())
+  if (trials.size() == 1) {
     trials.front().choices = choose_records(scene, automatic, limit_of_timing(settings), trials.front().settings);
-  else
+    if (!refused.empty()) reason = "no other way is open" + refused;
+  } else {
     reason = put_best_first(scene, automatic, trials) + refused;
+  }
   settings = trials.front().settings;
   return choices_of(scene, automatic, trials.front(), reason);
 }

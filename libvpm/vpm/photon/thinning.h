@@ -1,6 +1,7 @@
 // Keeping some of many records, so that they stand for all.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -18,8 +19,12 @@ float thin(std::vector<std::vector<Record>>& by_medium, uint64_t most, Rng& rng)
   for (const std::vector<Record>& records : by_medium) all += records.size();
   if (most == 0 || all <= most) return 1.0f;
   const double step = static_cast<double>(all) / static_cast<double>(most);
-  double begun = 0.0;  // stretches
-  const auto draw = [&] { return static_cast<uint64_t>(step * (begun++ + rng.uniform_double())); };
+  double begun = 0.0;      // stretches
+  const auto draw = [&] {  // rounding may take a draw beyond the last record
+    return begun < static_cast<double>(most)
+               ? std::min(all - 1, static_cast<uint64_t>(step * (begun++ + rng.uniform_double())))
+               : all;
+  };
   uint64_t next = draw(), number = 0;
   for (std::vector<Record>& records : by_medium) {
     size_t kept = 0;

@@ -68,12 +68,19 @@ uint32_t set_crossings(const CrossedRay& crossed, const PhaseFunction& phase, co
   return number;
 }
 
-Rgb sum_of_lanes(const FloatsRgb& lanes) {
-  Rgbd sum(0.0);
-  for (int c = 0; c < 3; ++c)
-    for (size_t i = 0; i < kBlock; ++i) sum[c] += lanes[c][i];
-  return Rgb(sum);
-}
+/// The sums of a ray, in doubles.
+struct RayTotal {
+  Rgbd value{0.0}, correction{0.0}, unweighted{0.0};
+
+  void add(const CrossingSums& sums) {
+    for (int c = 0; c < 3; ++c)
+      for (size_t lane = 0; lane < kBlock; ++lane) {
+        value[c] += sums.value[c][lane];
+        correction[c] += sums.correction[c][lane];
+        unweighted[c] += sums.unweighted[c][lane];
+      }
+  }
+};
 
 }  // namespace
 
@@ -87,22 +94,23 @@ Merged merge_beams(const CombinedContext& context, Technique technique, const Ra
   if (near.empty()) return {};
   const Medium& medium = context.scene.media[segment.medium];
   const CrossedRay crossed{medium, beams, work.scratch.integrals, segment.ray, radius, work.counters.walk};
-  LitRays lit;
-  for (size_t lane = 0; lane < kBlock; ++lane) lit.set(context.counts, lane, segment);
-  CrossingSums sums;
+  MergingRays merging;
+  for (size_t lane = 0; lane < kBlock; ++lane) merging.set(context.counts, lane, segment);
+  RayTotal total;
   const auto merge = [&](const auto& light) {
     return beams.map.visit_crossings(segment.ray, near, [&](const BeamCrossings& found) {
+      CrossingSums sums;
       for (size_t first = 0; first < found.size; first += kBlock) {
         Crossings at;
         count(work.counters.gather.used, set_crossings(crossed, light.phase(), found, first, at));
-        light.add(lit, at, sums);
+        light.add(merging, at, sums);
       }
+      total.add(sums);
     });
   };
   count(work.counters.gather.visited, with_crossing_light(context, technique, medium, merge));
   const Rgb factor = factor_of(context, segment);
-  return {{sum_of_lanes(sums.value) * factor, sum_of_lanes(sums.correction) * factor},
-          sum_of_lanes(sums.unweighted) * factor};
+  return {{Rgb(total.value) * factor, Rgb(total.correction) * factor}, Rgb(total.unweighted) * factor};
 }
 
 }  // namespace vpm

@@ -43,7 +43,7 @@ struct RayTotals {
 struct RaysAcrossBeams {
   const LightBeams& beams;
   RayLanes lanes;
-  LitRays lit;
+  MergingRays merging;
   Vec3 apex;
   float radius;  // m
 };
@@ -72,10 +72,10 @@ uint32_t set_crossings(const RaysAcrossBeams& rays, const PhaseFunction& phase, 
         at.adjacent[lane] =
             adjacent_at(flight, rays.apex + rays.lanes.from[lane] + crossing.places[lane], travel, flown[lane]);
   if (!flight.parallel) at.adjacent *= flown * flown;
-  for (size_t lane = 0; lane < kBlock; ++lane) at.scattered[lane] = phase.value(travel, -rays.lit.along[lane]);
+  for (size_t lane = 0; lane < kBlock; ++lane) at.scattered[lane] = phase.value(travel, -rays.merging.along[lane]);
   at.sine = where_met(sqrt(crossing.sine2), 1.0f);
   at.q = where_met(min(crossing.distance2 * (1.0f / (rays.radius * rays.radius)), all_lanes(1.0f)), 1.0f);
-  at.along_ray = at.seen_integral = where_met(dot(crossing.places, rays.lit.along), 0.0f);
+  at.along_ray = at.seen_integral = where_met(dot(crossing.places, rays.merging.along), 0.0f);
   at.flown_integral = s;
   return number;
 }
@@ -90,7 +90,7 @@ void merge_block(const CombinedContext& context, Technique technique, const Vec3
   RaysAcrossBeams rays{beams, {}, {}, apex, radius};
   for (size_t i = 0; i < block.size(); ++i) {
     rays.lanes.set(i, block[i].ray, near_beams(beams, block[i], radius), apex);
-    rays.lit.set(context.counts, i, block[i]);
+    rays.merging.set(context.counts, i, block[i]);
   }
   GatherCounters& counters = work.counters.gather;
   RayTotals totals;
@@ -102,7 +102,7 @@ void merge_block(const CombinedContext& context, Technique technique, const Vec3
         const uint32_t number = set_crossings(rays, light.phase(), found, p, at);
         if (number == 0) continue;
         count(counters.used, number);
-        light.add(rays.lit, at, sums);
+        light.add(rays.merging, at, sums);
       }
       totals.add(sums);
       count(counters.visited, found.size * block.size());

@@ -14,7 +14,7 @@
 namespace vpm {
 
 /// Rays in lanes, as far as merges need them.
-struct LitRays {
+struct MergingRays {
   FloatsRgb passed{};  // RaySegment's
   Floats before{};
   Floats splats{};  // RaySegment::adjacent over unit_of_beams()
@@ -89,7 +89,7 @@ class CrossingLight {
 
   const PhaseFunction& phase() const { return phase_; }
 
-  void add(const LitRays& rays, const Crossings& at, CrossingSums& sums) const {
+  void add(const MergingRays& rays, const Crossings& at, CrossingSums& sums) const {
     const FloatsRgb whole = all_lanes(Rgb(1.0f));
     const FloatsRgb on_beam = attenuated(whole, sigma_t_, at.flown_integral);
     const FloatsRgb on_ray = attenuated(rays.passed, sigma_t_, at.seen_integral);
@@ -111,7 +111,7 @@ class CrossingLight {
   }
 
  private:
-  CrossedBeams crossed(const LitRays& rays, const Crossings& at, const FloatsRgb& on_beam,
+  CrossedBeams crossed(const MergingRays& rays, const Crossings& at, const FloatsRgb& on_beam,
                        const FloatsRgb& on_ray) const {
     FloatsRgb flown, back, colliding, seen;
     for (int c = 0; c < 3; ++c) {

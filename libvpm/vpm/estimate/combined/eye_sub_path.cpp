@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <tuple>
 
 #include "vpm/base/count.h"
 #include "vpm/estimate/combined/beam_merges.h"
@@ -11,8 +12,8 @@
 namespace vpm {
 
 EyeSubPath::EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
-                       std::vector<RaySegment>* waiting, size_t number)
-    : c_(context), work_(work), parts_(parts), waiting_segments_(waiting), number_(number) {
+                       std::vector<RaySegment>* left_out, size_t number)
+    : c_(context), work_(work), parts_(parts), left_out_(left_out), number_(number) {
   at_.state = {ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)};
   at_.from = depart_from_camera(context.counts, ray, density_of(ray));
 }
@@ -224,8 +225,7 @@ void EyeSubPath::merge_beams(const Along& along, const Interval& interval) {
                            from.adjacent > 0.0 ? from.adjacent / from.forward : 0.0,
                            asked(),
                            number_};
-  if (waiting_segments_ && from.camera && c_.scene.media[along.medium].homogeneous())
-    return waiting_segments_->push_back(segment);
+  if (left_out_ && from.camera && c_.scene.media[along.medium].homogeneous()) return left_out_->push_back(segment);
   for (const Technique technique : kBeamTechniques) {
     const Merged merged = vpm::merge_beams(c_, technique, segment, work_);
     radiance_ += merged.light;
@@ -257,14 +257,15 @@ KernelEstimate combined_radiance(const CombinedContext& context, const Ray& came
 }
 
 void combined_radiance(const CombinedContext& context, std::span<EyeRay> rays, TechniqueParts* parts) {
-  std::vector<RaySegment>& waiting = rays.front().work.scratch.segments;
-  waiting.clear();
+  std::vector<RaySegment>& left_out = rays.front().work.scratch.segments;
+  left_out.clear();
   for (size_t i = 0; i < rays.size(); ++i)
     rays[i].radiance =
-        EyeSubPath(context, rays[i].ray, rays[i].work, parts ? &parts[i] : nullptr, &waiting, i).follow();
-  std::stable_sort(waiting.begin(), waiting.end(),
-                   [](const RaySegment& a, const RaySegment& b) { return a.medium < b.medium; });
-  const std::span<const RaySegment> all(waiting);
+        EyeSubPath(context, rays[i].ray, rays[i].work, parts ? &parts[i] : nullptr, &left_out, i).follow();
+  std::sort(left_out.begin(), left_out.end(), [](const RaySegment& a, const RaySegment& b) {
+    return std::tie(a.medium, a.number, a.before) < std::tie(b.medium, b.number, b.before);
+  });
+  const std::span<const RaySegment> all(left_out);
   for (size_t first = 0, next = 0; first < all.size(); first = next) {
     while (next < all.size() && next - first < kEyeRays && all[next].medium == all[first].medium) ++next;
     merge_together(context, all.subspan(first, next - first), rays, parts);

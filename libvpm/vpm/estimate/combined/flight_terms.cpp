@@ -33,16 +33,17 @@ FlightTerms flight_terms(const TechniqueCounts& counts, const Departure& from, c
     terms.back = (collided ? from.from.sigma_t : Rgb(static_cast<float>(back))) * (finite(weighed * unit) / 3.0f);
   }
   const bool round = from.light && std::holds_alternative<SphereLight>(*from.light);
-  if (round) terms.round = from.light;
+  if (round) {
+    terms.round = from.light;
+    terms.normal = from.from.normal;
+  }
   terms.adjacent = finite((round ? 1.0 / from.place : sums.adjacent) * unit);
   return terms;
 }
 
 float adjacent_at(const FlightTerms& terms, const Vec3& place, const Vec3& travel, float distance) {
   if (!terms.round) return terms.adjacent;
-  const Vec3 centre = std::get<SphereLight>(*terms.round).centre;
-  const Vec3 normal = glm::normalize(place - distance * travel - centre);
-  return finite(terms.adjacent * sampled_density(*terms.round, place, {-travel, distance, normal}));
+  return finite(terms.adjacent * sampled_density(*terms.round, place, {-travel, distance, terms.normal}));
 }
 
 }  // namespace vpm

@@ -12,12 +12,13 @@ struct FlightTerms {
   Rgb back{0.0f};         // its product with the transmittance back to the last vertex, summed over channels, and
                           // the density of the direction back: the sum over all techniques behind that vertex; a
                           // root where the heuristic squares
-  float adjacent = 0.0f;  // how many connections there are over the flight, over the squared distance, m^2
+  float adjacent = 0.0f;  // times the squared distance, m^2: how many connections there are over the flight
   float offset = 0.0f;    // from the last vertex to the part, m
   bool parallel = false;  // does light not spread? Then the distance counts as 1
   Vec3 turn{0.0f};        // SubPathSums::turn, m
   const Light* round = nullptr;  // a light on a sphere that the flight began on: how densely that is sampled depends on
                                  // the place, and `adjacent` is to be multiplied by that
+  Vec3 normal{0.0f};             // there, unit
 };
 
 /// The number of short beams, or of long ones where there are no short ones, times their width: TechniqueCounts', m.
