@@ -120,6 +120,33 @@ TEST(PhotonPlanes, LeaveTheRestToBeams) {
               1e-4f * all);
 }
 
+// In a grid whose density rises evenly the integral along a line is its length times the density at its middle.
+TEST(PhotonPlanes, GoByTheDensitiesOfAGrid) {
+  const auto density = [](const Vec3& p) { return 0.5f + 0.1f * p.x - 0.05f * p.y + 0.08f * p.z; };
+  for (const Rgb& sigma_t : {Rgb(0.7f), Rgb(0.2f, 1.0f, 3.0f)}) {
+    Medium medium = make_medium(
+        make_grid(centred_frame(16, 0.25), [&](int x, int y, int z) { return density(0.25f * Vec3(x, y, z)); }),
+        sigma_t, 0.8f);
+    medium.phase = HenyeyGreenstein{0.4f};
+    const Scene scene = world_of(medium, Between::nothing);
+    const PhotonPlane plane = one_plane(medium, 0.51f);
+    const Vec3 turn = plane.origin + 0.5f * plane.direction;
+    const auto between = [&](const Vec3& a, const Vec3& b) { return glm::distance(a, b) * density(0.5f * (a + b)); };
+    const Rgb come = glm::exp(-sigma_t * between(plane.origin, turn));
+    const Rgb weight = come / glm::dot(plane.power / sum_channels(plane.power), come);
+    const Rgb passed = glm::exp(-sigma_t * (between(turn, kCrossing) + between(Vec3(0.0f), kCrossing)));
+    const float phase = phase_value(medium.phase, plane.scattered, -kEye);
+    const Rgb light = plane.power * weight * medium.sigma_s * medium.sigma_s * density(turn) * density(kCrossing) *
+                      passed * phase / determinant_of(plane);
+    const Rgb found = light_of(scene, &plane, true), shared = light_of(scene, &plane, false);
+    const float share = share_of_planes(plane, mean_channel(medium.sigma_s) * density(turn));
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(found[c], light[c], 2e-4f * light[c]);
+      EXPECT_NEAR(shared[c], light[c] * share, 3e-4f * light[c]);
+    }
+  }
+}
+
 TEST(PhotonPlanes, DoNotPassWalls) {
   const Medium medium = make_medium(nullptr, Rgb(0.7f));
   const PhotonPlane plane = one_plane(medium, 0.51f);
