@@ -164,7 +164,7 @@ TEST(SceneFile, RefusesBadOptions) {
       {"shapes.0.radius.x=3", "'shapes.0.radius' is an integer and has no 'x'"},
       {"media.fog.measured=skin1", "[media.fog] gives its coefficients in two ways"},
       {"shapes.0.material=gray", "--set shapes.0.material=gray: there is no material 'gray'\ndid you mean 'grey'?"},
-      {"render.passes=\xc3\xa4", "'passes' of [render] must be an integer, not 'many'"},
+      {"render.passes=\xc3\xa4", "'passes' of [render] must be an integer, not '\xc3\xa4'"},
       {"camera={}", "--set camera={}: [camera] lacks the key 'position'"},
   };
   for (const auto& [option, expected] : cases) {
