@@ -1,6 +1,7 @@
 // The combined estimator: its maps, and that its pictures depend on no threads.
 #include "vpm/estimate/combined/combined.h"
-#include "vpm/estimate/combined/shares_along_ray.h"
+#include "vpm/estimate/combined/merging_rays.h"
+#include "vpm/estimate/combined/shares_of_points.h"
 
 #include <gtest/gtest.h>
 
@@ -168,14 +169,19 @@ TEST(Combined, LightTracingFillsPixelsAsTheirFiltersSay) {
 
 /// At the rim of a pixel's filter the density of rays is 0: light tracing then has the whole of the light, if it is
 /// used at all.
-TEST(SharesAlongRay, AreNumbersWhereAPixelDrawsNoRay) {
+TEST(SharesOfPoints, AreNumbersWhereAPixelDrawsNoRay) {
   TechniqueCounts counts;
   counts.points_2d = 0.5;
-  Departure eye = depart_from_camera(counts, {Vec3(0.0f), Vec3(0, 0, 1)}, 0.0);
-  const SharesAlongRay<false>::Place place{2.0f, 1.0f, 1.0f, 0.5f};
-  EXPECT_EQ(SharesAlongRay<false>(counts, eye, 1.0f).of(1.0f, 0.0f, 0.0f, 0.1f, place), 1.0f / 1.5f);
-  eye.adjacent = 3.0;
-  const float beside_light_tracing = SharesAlongRay<false>(counts, eye, 1.0f).of(1.0f, 0.0f, 0.0f, 0.1f, place);
+  const Floats one = all_lanes(1.0f);
+  PhotonsBesideRays beside{};
+  beside.adjacent = beside.density = beside.kept = one;
+  beside.colliding = 0.5f * one;
+  const SharesOfPoints<false> shares(counts, 1.0f);
+  EXPECT_EQ(shares.of(beside)[0], 1.0f / 1.5f);
+  RaySegment segment;
+  segment.adjacent = std::numeric_limits<double>::infinity();
+  beside.splats = 4.0f * rays_of(segment, counts.points_2d).splats;
+  const float beside_light_tracing = shares.of(beside)[0];
   EXPECT_GE(beside_light_tracing, 0.0f);
   EXPECT_LT(beside_light_tracing, 1e-29f);
 }

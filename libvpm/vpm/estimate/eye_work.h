@@ -24,6 +24,7 @@ struct EyeScratch {
   Neighbours neighbours;             // of the last gather by count
   std::vector<Track> tracks;         // of the last flight
   PhotonBeamMap::Selection beams;    // near the last bundle of rays
+  std::vector<uint32_t> leaves;      // of a map of photons, likewise
   std::vector<RaySegment> segments;  // of the last rays that were followed together
 };
 

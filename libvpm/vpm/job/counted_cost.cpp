@@ -12,7 +12,7 @@ struct EyeCosts {
 };
 constexpr EyeCosts kPaths{400.0, 220.0, 30.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 constexpr EyeCosts kCombinedWithBeams{0.0, 380.0, 33.0, 0.0, 0.0, 5.0, 2.0, 17.0};
-constexpr EyeCosts kCombinedPoints{0.0, 0.0, 72.0, 1960.0, 250.0, 480.0, 1.9, 6.5};
+constexpr EyeCosts kCombinedPoints{0.0, 0.0, 72.0, 1960.0, 250.0, 480.0, 1.0, 6.5};
 constexpr EyeCosts kMapsAlongRays{0.0, 300.0, 31.0, 180.0, 3700.0, 130.0, 2.2, 2.6};
 constexpr EyeCosts kMapsAtPoints{280.0, 320.0, 44.0, 0.0, 360.0, 0.0, 0.0, 16.0};
 

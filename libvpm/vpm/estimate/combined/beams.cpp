@@ -68,20 +68,6 @@ uint32_t set_crossings(const CrossedRay& crossed, const PhaseFunction& phase, co
   return number;
 }
 
-/// The sums of a ray, in doubles.
-struct RayTotal {
-  Rgbd value{0.0}, correction{0.0}, unweighted{0.0};
-
-  void add(const CrossingSums& sums) {
-    for (int c = 0; c < 3; ++c)
-      for (size_t lane = 0; lane < kBlock; ++lane) {
-        value[c] += sums.value[c][lane];
-        correction[c] += sums.correction[c][lane];
-        unweighted[c] += sums.unweighted[c][lane];
-      }
-  }
-};
-
 }  // namespace
 
 Merged merge_beams(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work) {
@@ -90,27 +76,25 @@ Merged merge_beams(const CombinedContext& context, Technique technique, const Ra
   const float radius = context.kernels.beams;
   count(work.counters.volume_queries);
   count(work.counters.gather.searches);
-  const Interval near = near_beams(beams, segment, radius);
+  const Interval near = clip(segment.ray, segment.interval, beams.map.bounds(), radius);
   if (near.empty()) return {};
   const Medium& medium = context.scene.media[segment.medium];
   const CrossedRay crossed{medium, beams, work.scratch.integrals, segment.ray, radius, work.counters.walk};
-  MergingRays merging;
-  for (size_t lane = 0; lane < kBlock; ++lane) merging.set(context.counts, lane, segment);
-  RayTotal total;
+  const MergingRays rays = rays_of(segment, unit_of_beams(context.counts));
+  MergedSum total;
   const auto merge = [&](const auto& light) {
     return beams.map.visit_crossings(segment.ray, near, [&](const BeamCrossings& found) {
-      CrossingSums sums;
+      LaneMerges sums;
       for (size_t first = 0; first < found.size; first += kBlock) {
         Crossings at;
         count(work.counters.gather.used, set_crossings(crossed, light.phase(), found, first, at));
-        light.add(merging, at, sums);
+        light.add(rays, at, sums);
       }
-      total.add(sums);
+      total.add_all(sums);
     });
   };
   count(work.counters.gather.visited, with_crossing_light(context, technique, medium, merge));
-  const Rgb factor = factor_of(context, segment);
-  return {{Rgb(total.value) * factor, Rgb(total.correction) * factor}, Rgb(total.unweighted) * factor};
+  return total.times(factor_of(context, segment));
 }
 
 }  // namespace vpm

@@ -97,7 +97,7 @@ struct TechniqueParts {
 KernelEstimate combined_radiance(const CombinedContext& context, const Ray& camera_ray, EyeWork& work,
                                  TechniqueParts* parts = nullptr);
 /// The same for up to kEyeRays rays from the camera that lie side by side, with parts for each where that is not null.
-/// Beams are taken to all of them together, in homogeneous media.
+/// Photons and beams are taken to all of them together, in homogeneous media.
 void combined_radiance(const CombinedContext& context, std::span<EyeRay> rays, TechniqueParts* parts);
 
 }  // namespace vpm

@@ -4,29 +4,12 @@
 
 #include <algorithm>
 
-#include "vpm/base/exp_negative.h"
-#include "vpm/estimate/combined/beam_merges.h"
+#include "vpm/estimate/combined/merging_rays.h"
 #include "vpm/estimate/combined/shares_of_beams.h"
-#include "vpm/estimate/eye_segment.h"
 #include "vpm/estimate/kernel_sum.h"
 #include "vpm/photon/stored_power.h"
 
 namespace vpm {
-
-/// Rays in lanes, as far as merges need them.
-struct MergingRays {
-  FloatsRgb passed{};  // RaySegment's
-  Floats before{};
-  Floats splats{};  // RaySegment::adjacent over unit_of_beams()
-  Floats3 along;    // directions, unit
-
-  void set(const TechniqueCounts& counts, size_t lane, const RaySegment& segment) {
-    for (int c = 0; c < 3; ++c) passed[c][lane] = segment.passed[c];
-    before[lane] = segment.before;
-    splats[lane] = static_cast<float>(std::min(segment.adjacent / unit_of_beams(counts), 1e30));
-    along.set(lane, segment.ray.direction);
-  }
-};
 
 /// Crossings of rays and beams, a lane for each. Lanes without one have no power.
 struct Crossings {
@@ -40,22 +23,6 @@ struct Crossings {
   Floats seen_integral{}, flown_integral{};  // of density up to the crossing, along the ray and along the beam, m
   Floats density = all_lanes(1.0f);          // of the medium, > 0
 };
-
-/// What crossings add up to, without the kernel's norm: with shares, and without.
-struct CrossingSums {
-  FloatsRgb value{}, correction{}, unweighted{};
-};
-
-/// exp(-sigma_t integral), channel by channel, times `before`.
-inline FloatsRgb attenuated(const FloatsRgb& before, const Rgb& sigma_t, const Floats& integral) {
-  FloatsRgb passed;
-  Floats left{};
-  for (int c = 0; c < 3; ++c) {
-    if (c == 0 || sigma_t[c] != sigma_t[c - 1]) left = exp_negative(-sigma_t[c] * integral);  // most media are grey
-    passed[c] = before[c] * left;
-  }
-  return passed;
-}
 
 /// What is left of short beams' powers, as analog_weight() has it.
 inline FloatsRgb left_of_short(const FloatsRgb& power, const Rgb& sigma_t, const Floats& integral) {
@@ -89,25 +56,16 @@ class CrossingLight {
 
   const PhaseFunction& phase() const { return phase_; }
 
-  void add(const MergingRays& rays, const Crossings& at, CrossingSums& sums) const {
+  void add(const MergingRays& rays, const Crossings& at, LaneMerges& sums) const {
     const FloatsRgb whole = all_lanes(Rgb(1.0f));
     const FloatsRgb on_beam = attenuated(whole, sigma_t_, at.flown_integral);
     const FloatsRgb on_ray = attenuated(rays.passed, sigma_t_, at.seen_integral);
     const Floats share = shares_.of(crossed(rays, at, on_beam, on_ray));
     const FloatsRgb left = is_long_ ? on_beam : grey_ ? whole : left_of_short(at.power, sigma_t_, at.flown_integral);
     const Floats found = at.density * at.scattered / at.sine;
-    Floats value, correction;
-    for (size_t i = 0; i < kBlock; ++i) {
-      const KernelPair<float> spread = profile_(at.q[i]);
-      value[i] = spread.value;
-      correction[i] = spread.correction;
-    }
-    for (int c = 0; c < 3; ++c) {
-      const Floats light = at.power[c] * left[c] * on_ray[c] * found;
-      sums.unweighted[c] += light * value;
-      sums.value[c] += light * value * share;
-      sums.correction[c] += light * correction * share;
-    }
+    FloatsRgb light;
+    for (int c = 0; c < 3; ++c) light[c] = at.power[c] * left[c] * on_ray[c] * found;
+    sums.add(light, share, at.q, profile_);
   }
 
  private:
@@ -162,11 +120,6 @@ auto with_crossing_light(const CombinedContext& context, Technique technique, co
 inline Rgb factor_of(const CombinedContext& context, const RaySegment& segment) {
   return segment.throughput * context.scene.media[segment.medium].sigma_s *
          kernel_norm<1>(context.kernels.volume_kernel, context.kernels.beams);
-}
-
-/// The part of a segment that beams may cross, m from its ray's origin.
-inline Interval near_beams(const LightBeams& beams, const RaySegment& segment, float radius) {
-  return clip(segment.ray, segment.interval, beams.map.bounds(), radius);
 }
 
 }  // namespace vpm

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "vpm/base/count.h"
-#include "vpm/estimate/combined/beam_merges.h"
+#include "vpm/estimate/combined/ray_merges.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
@@ -57,8 +57,7 @@ bool EyeSubPath::Along::pass(const Stretch& stretch) {
   count(path.work_.counters.walk.lookups, integrals.walk(&around, ray, interval));
   if (around.scatters() && path.at_.asks > 0.0f) {
     through_scattering = true;
-    path.merge_points_2d(*this, interval);
-    path.merge_beams(*this, interval);
+    path.merge_along_ray(*this, interval);
     path.merge_planes(*this, interval);
   }
   passed *= transmittance(around, integrals.integral());
@@ -214,7 +213,7 @@ void EyeSubPath::add_merged(Technique technique, const Rgb& found, const KernelP
   count(work_.counters.gather.used);
 }
 
-void EyeSubPath::merge_beams(const Along& along, const Interval& interval) {
+void EyeSubPath::merge_along_ray(const Along& along, const Interval& interval) {
   const Departure& from = at_.from;
   assert(from.behind == 0.0);  // nothing but the camera can be connected to, and not over mirrors or glass
   const RaySegment segment{along.ray,
@@ -226,21 +225,34 @@ void EyeSubPath::merge_beams(const Along& along, const Interval& interval) {
                            asked(),
                            number_};
   if (left_out_ && from.camera && c_.scene.media[along.medium].homogeneous()) return left_out_->push_back(segment);
-  for (const Technique technique : kBeamTechniques) {
-    const Merged merged = vpm::merge_beams(c_, technique, segment, work_);
+  for (const Technique technique : kRayTechniques) {
+    const Merged merged = merge_along(c_, technique, segment, work_);
     radiance_ += merged.light;
     if (parts_) parts_->add_both(technique, merged.light.value, merged.unweighted);
   }
 }
 
+Merged merge_along(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work) {
+  return technique == Technique::points_2d ? merge_points(context, segment, work)
+                                           : merge_beams(context, technique, segment, work);
+}
+
+void merge_along(const CombinedContext& context, Technique technique, const Vec3& apex,
+                 std::span<const RaySegment> bundle, EyeWork& work, std::span<Merged> merged) {
+  if (technique == Technique::points_2d)
+    merge_points(context, apex, bundle, work, merged);
+  else
+    merge_beams(context, technique, apex, bundle, work, merged);
+}
+
 namespace {
 
-/// Merges beams along segments that are in one medium.
-void merge_together(const CombinedContext& context, std::span<const RaySegment> segments, std::span<EyeRay> rays,
+/// Merges along segments that are in one medium.
+void merge_segments(const CombinedContext& context, std::span<const RaySegment> segments, std::span<EyeRay> rays,
                     TechniqueParts* parts) {
-  for (const Technique technique : kBeamTechniques) {
+  for (const Technique technique : kRayTechniques) {
     std::array<Merged, kEyeRays> merged{};
-    merge_beams(context, technique, rays.front().ray.origin, segments, rays.front().work, merged);
+    merge_along(context, technique, rays.front().ray.origin, segments, rays.front().work, merged);
     for (size_t i = 0; i < segments.size(); ++i) {
       const size_t number = segments[i].number;
       rays[number].radiance += merged[i].light;
@@ -268,7 +280,7 @@ void combined_radiance(const CombinedContext& context, std::span<EyeRay> rays, T
   const std::span<const RaySegment> all(left_out);
   for (size_t first = 0, next = 0; first < all.size(); first = next) {
     while (next < all.size() && next - first < kEyeRays && all[next].medium == all[first].medium) ++next;
-    merge_together(context, all.subspan(first, next - first), rays, parts);
+    merge_segments(context, all.subspan(first, next - first), rays, parts);
   }
 }
 

@@ -14,8 +14,8 @@ namespace vpm {
 
 class EyeSubPath {
  public:
-  /// `parts` may be null. What beams bring to the camera's ray in homogeneous media before anything turns it is left
-  /// out: its segments are added to `left_out`, with `number`; unless that is null.
+  /// `parts` may be null. What photons and beams bring to the camera's ray in homogeneous media before anything turns
+  /// it is left out: its segments are added to `left_out`, with `number`; unless that is null.
   EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
              std::vector<RaySegment>* left_out = nullptr, size_t number = 0);
 
@@ -88,8 +88,7 @@ class EyeSubPath {
   // A file for each
   void merge_surface(const Arrival& at);
   void merge_points_3d(const Arrival& at);
-  void merge_points_2d(const Along& along, const Interval& interval);
-  void merge_beams(const Along& along, const Interval& interval);
+  void merge_along_ray(const Along& along, const Interval& interval);
   void merge_planes(const Along& along, const Interval& interval);
   void merge_plane(const Along& along, const PlaneCrossing& crossing);
   /// The collision on a plane's flight that the crossing tells, and the power that it scatters, W/m; none where there

@@ -1,147 +1,157 @@
-// Photons in media around whole rays from the camera: leaf by leaf, in vector loops.
-#include <array>
-#include <numeric>
+// Photons in media around whole rays from the camera: leaf by leaf around one ray, or photon by photon around many.
+#include <cstring>
 
 #include "vpm/base/count.h"
-#include "vpm/base/exp_negative.h"
-#include "vpm/estimate/combined/eye_sub_path.h"
-#include "vpm/estimate/combined/shares_along_ray.h"
-#include "vpm/photon/stored_power.h"
+#include "vpm/estimate/combined/photon_light.h"
 
 namespace vpm {
 namespace {
 
-// Sums have a number for each place in leaves: a vector loop has no order of its own to add in.
-double sum_of(const Lanes& lanes) { return std::accumulate(lanes.begin(), lanes.end(), 0.0); }
-using LanesRgb = std::array<Lanes, 3>;
-Rgb sum_of(const LanesRgb& lanes) { return Rgb(Rgbd(sum_of(lanes[0]), sum_of(lanes[1]), sum_of(lanes[2]))); }
+using PhotonsInMedium = VertexMap<MediumPhotonLeaf>;
 
-/// What photons add up to: of the kernel and of its correction, with shares, and of the kernel without them.
-struct MergedAlong {
-  LanesRgb value{}, correction{}, unweighted{};
-  Lanes number{};
-};
-
-/// The medium at the places of a leaf's photons. Those that are not near have density 0.
-struct Places {
-  Lanes distance;  // from the start of the ray, m
-  Lanes integral;  // of density up to there, m
-  Lanes density;
-};
-Places places_beside(const Medium& medium, const DensityIntegralsAlong& integrals,
-                     const VertexMap<MediumPhotonLeaf>::BesideRay& beside, float radius2) {
-  Places places;
-  for (size_t i = 0; i < kBlock; ++i) {
-    const bool near = beside.distances2[i] < radius2;
-    places.density[i] = near ? 1.0f : 0.0f;
-    places.integral[i] = places.distance[i] = near ? beside.places[i] : 0.0f;
-  }
-  if (medium.homogeneous()) return places;
-  for (size_t i = 0; i < kBlock; ++i) {
-    if (places.density[i] == 0.0f) continue;
-    const DensityIntegralsAlong::Place at = integrals.at(beside.places[i]);
-    places.density[i] = static_cast<float>(at.density);
-    places.integral[i] = static_cast<float>(at.integral);
-  }
-  return places;
+Floats row(const float (&values)[kBlock]) {
+  Floats lanes;
+  std::memcpy(&lanes, values, sizeof lanes);
+  return lanes;
 }
 
-/// What does not change along a ray.
-template <class Shares>
-struct RayMerges {
-  const Medium& medium;
-  Shares shares;
-  Vec3 travel;        // of the ray, unit
-  Rgb passed;         // up to its start
-  float before;       // from the departure to there, m
-  float radius;       // m
-  float floor;        // of relative densities, below which photons are kept along flights
-  float per_sigma_t;  // 1 over the sum over channels of extinction at density 1, m
-  float per_largest;  // 1 over the largest density
-};
+// --- Many photons and one ray
 
-void add_products(const Lanes& a, const Lanes& b, Lanes& sum) {
-  for (size_t i = 0; i < kBlock; ++i) sum[i] += a[i] * b[i];
+/// The medium at the places of a leaf's photons on the ray. Those that are not near have density 0. Returns how many
+/// are.
+uint32_t set_medium_beside(const Medium& medium, const DensityIntegralsAlong& integrals,
+                           const PhotonsInMedium::BesideRay& beside, float radius, PhotonsBeside& at) {
+  uint32_t number = 0;
+  for (size_t i = 0; i < kBlock; ++i) {
+    if (!(beside.distances2[i] < radius * radius)) continue;
+    at.q[i] = beside.distances2[i] / (radius * radius);
+    at.along_ray[i] = at.seen_integral[i] = beside.places[i];
+    at.density[i] = 1.0f;
+    if (!medium.homogeneous()) {
+      const DensityIntegralsAlong::Place place = integrals.at(beside.places[i]);
+      at.density[i] = static_cast<float>(place.density);
+      at.seen_integral[i] = static_cast<float>(place.integral);
+    }
+    number += at.density[i] > 0.0f ? 1 : 0;
+  }
+  return number;
 }
 
-template <class Shares, class PhaseFunction, class Profile>
-void merge_leaf(const RayMerges<Shares>& ray, const PhaseFunction& phase, Profile profile, const MediumPhotonLeaf& leaf,
-                const VertexMap<MediumPhotonLeaf>::BesideRay& beside, const Places& places, MergedAlong& merged) {
-  const float inverse2 = 1.0f / (ray.radius * ray.radius);
-  const Rgb sigma_t = ray.medium.sigma_t;
-  const Shares shares = ray.shares;
-  const Lanes flights = shares.of_flights(leaf);
-  LanesRgb light;
-  Lanes kernel, shared, corrected, number;  // rows that nothing else may lie over: vector loops ask for that
-  for (size_t i = 0; i < kBlock; ++i) {
-    const float relative = places.density[i] * ray.per_largest;
-    const Rgb passed(ray.passed.r * exp_negative(-sigma_t.r * places.integral[i]),
-                     ray.passed.g * exp_negative(-sigma_t.g * places.integral[i]),
-                     ray.passed.b * exp_negative(-sigma_t.b * places.integral[i]));
-    const float colliding = (sigma_t.r * passed.r + sigma_t.g * passed.g + sigma_t.b * passed.b) * ray.per_sigma_t;
-    const bool counts = (relative > 0.0f) & (colliding > 0.0f);
-    const float scattered = phase.value(leaf.travel(i), -ray.travel);
-    const typename Shares::Place at{ray.before + places.distance[i], counts ? places.density[i] : 1.0f,
-                                    std::max(1.0f, ray.floor / (counts ? relative : 1.0f)), colliding};
-    const float share = !counts ? 0.0f : shares.of(leaf.adjacent[i], leaf.further[i], flights[i], scattered, at);
-    const KernelPair<float> spread = profile(counts ? beside.distances2[i] * inverse2 : 1.0f);
-    const float found = counts ? relative * scattered : 0.0f;
-    light[0][i] = passed.r * leaf.power_r[i] * found;
-    light[1][i] = passed.g * leaf.power_g[i] * found;
-    light[2][i] = passed.b * leaf.power_b[i] * found;
-    kernel[i] = spread.value;
-    shared[i] = spread.value * share;
-    corrected[i] = spread.correction * share;
-    number[i] = counts ? 1.0f : 0.0f;
-  }
-  for (size_t c = 0; c < 3; ++c) {
-    add_products(light[c], kernel, merged.unweighted[c]);
-    add_products(light[c], shared, merged.value[c]);
-    add_products(light[c], corrected, merged.correction[c]);
-  }
-  for (size_t i = 0; i < kBlock; ++i) merged.number[i] += number[i];
+template <class PhaseFunction>
+void set_photons(const MediumPhotonLeaf& leaf, const PhaseFunction& phase, const Vec3& along, PhotonsBeside& at) {
+  at.power = {row(leaf.power_r), row(leaf.power_g), row(leaf.power_b)};
+  at.passing = row(leaf.passing);
+  at.sent = row(leaf.sent);
+  at.adjacent = row(leaf.adjacent);
+  at.further = row(leaf.further);
+  const Floats3 travel{row(leaf.travel_x), row(leaf.travel_y), row(leaf.travel_z)};
+  const Floats3 across = cross(along, travel);
+  at.sine = sqrt(dot(across, across));
+  at.determinant = abs(dot(along, Floats3{row(leaf.turn_x), row(leaf.turn_y), row(leaf.turn_z)}));
+  for (size_t i = 0; i < kBlock; ++i) at.scattered[i] = phase.value(leaf.travel(i), -along);
+}
+
+// --- One photon and many rays
+
+/// Photon number `p` of a leaf beside the rays of a block. Returns beside how many of them it lies.
+template <class PhaseFunction>
+uint32_t set_photon(const MediumPhotonLeaf& leaf, size_t p, const RayBlock& block, const PhaseFunction& phase,
+                    PhotonsBeside& at) {
+  const RayLanes& rays = block.lanes;
+  const Floats3 place = Vec3(leaf.x[p], leaf.y[p], leaf.z[p]) - block.apex - rays.from;
+  const Floats t = dot(place, rays.along), a = dot(place, rays.right), b = dot(place, rays.up);
+  const Floats distance2 = a * a + b * b;
+  const LaneMask near = (distance2 < block.radius * block.radius) & (t >= rays.t0) & (t < rays.t1);
+  if (!any(near)) return 0;
+  uint32_t number = 0;
+  for (size_t lane = 0; lane < kBlock; ++lane) number += near[lane] ? 1 : 0;
+  at.power = all_lanes(leaf.power(p));
+  at.passing = all_lanes(leaf.passing[p]);
+  at.sent = all_lanes(leaf.sent[p]);
+  at.adjacent = all_lanes(leaf.adjacent[p]);
+  at.further = all_lanes(leaf.further[p]);
+  const Floats3 across = cross(leaf.travel(p), rays.along);
+  at.sine = sqrt(dot(across, across));
+  at.determinant = abs(dot(leaf.turn(p), rays.along));
+  for (size_t lane = 0; lane < kBlock; ++lane) at.scattered[lane] = phase.value(leaf.travel(p), -rays.along[lane]);
+  at.q = near ? distance2 * (1.0f / (block.radius * block.radius)) : all_lanes(1.0f);
+  at.along_ray = at.seen_integral = near ? t : Floats{};
+  at.density = near ? all_lanes(1.0f) : Floats{};
+  return number;
+}
+
+/// Of one block, among leaves near all of the bundle.
+void merge_block_of_points(const CombinedContext& context, const RayBlock& block, EyeWork& work,
+                           std::span<Merged> merged) {
+  const MediumId medium = block.segments.front().medium;
+  const PhotonsInMedium& map = context.light.in_medium(medium);
+  GatherCounters& counters = work.counters.gather;
+  std::array<MergedSum, kBlock> totals;
+  const auto merge = [&](const auto& light) {
+    for (const uint32_t leaf : work.scratch.leaves) {
+      LaneMerges sums;
+      for (size_t p = 0; p < kBlock; ++p) {
+        PhotonsBeside at;
+        const uint32_t number = set_photon(map.leaf(leaf), p, block, light.phase(), at);
+        if (number == 0) continue;
+        count(counters.used, number);
+        light.add(block.rays, at, sums);
+      }
+      for (size_t i = 0; i < merged.size(); ++i) totals[i].add(sums, i);
+      count(counters.visited, kBlock * merged.size());
+    }
+  };
+  with_photon_light(context, context.scene.media[medium], merge);
+  for (size_t i = 0; i < merged.size(); ++i) merged[i] = totals[i].times(factor_of_photons(context, block.segments[i]));
 }
 
 }  // namespace
 
-void EyeSubPath::merge_points_2d(const Along& along, const Interval& interval) {
-  const VertexMap<MediumPhotonLeaf>& map = c_.light.in_medium(along.medium);
-  if (c_.counts.points_2d == 0.0 || map.size() == 0) return;
-  const Medium& medium = c_.scene.media[along.medium];
-  const KernelKind kernel = c_.kernels.volume_kernel;
-  const float radius = c_.kernels.points_2d, sigma_t = mean_channel(medium.sigma_t);
-  MergedAlong merged;
-  const auto merge_all = [&](auto shares, const auto& phase, auto profile) {
-    const RayMerges<decltype(shares)> ray{medium,
-                                          shares,
-                                          along.ray.direction,
-                                          along.passed,
-                                          glm::distance(at_.from.point, along.ray.origin),
-                                          radius,
-                                          medium.grid ? floor_in(medium, c_.counts.density_floor) : 0.0f,
-                                          1.0f / (3.0f * sigma_t),
-                                          relative_density(medium, 1.0f)};
-    return map.visit_leaves_near_ray(along.ray, interval, radius, [&](const auto& leaf, const auto& beside) {
-      const Places places = places_beside(medium, work_.scratch.integrals, beside, radius * radius);
-      merge_leaf(ray, phase, profile, leaf, beside, places, merged);
-    });
+Merged merge_points(const CombinedContext& context, const RaySegment& segment, EyeWork& work) {
+  const PhotonsInMedium& map = context.light.in_medium(segment.medium);
+  if (context.counts.points_2d == 0.0 || map.size() == 0) return {};
+  const Medium& medium = context.scene.media[segment.medium];
+  const float radius = context.kernels.points_2d;
+  const MergingRays rays = rays_of(segment, context.counts.points_2d);
+  GatherCounters& counters = work.counters.gather;
+  MergedSum total;
+  const auto merge = [&](const auto& light) {
+    const auto visit = [&](const MediumPhotonLeaf& leaf, const PhotonsInMedium::BesideRay& beside) {
+      PhotonsBeside at;
+      count(counters.used, set_medium_beside(medium, work.scratch.integrals, beside, radius, at));
+      set_photons(leaf, light.phase(), segment.ray.direction, at);
+      LaneMerges sums;
+      light.add(rays, at, sums);
+      total.add_all(sums);
+    };
+    return map.visit_leaves_near_ray(segment.ray, segment.interval, radius, visit);
   };
-  const auto merge = [&](const auto& phase, auto profile) {
-    return c_.counts.heuristic == Heuristic::power
-               ? merge_all(SharesAlongRay<true>(c_.counts, at_.from, sigma_t), phase, profile)
-               : merge_all(SharesAlongRay<false>(c_.counts, at_.from, sigma_t), phase, profile);
+  count(work.counters.volume_queries);
+  count(counters.searches);
+  count(counters.visited, with_photon_light(context, medium, merge));
+  return total.times(factor_of_photons(context, segment));
+}
+
+void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
+                  std::span<Merged> merged) {
+  constexpr float kMostRadii = 8.0f;  // of bundles: wide ones look at photons that few of their rays pass closely
+  const PhotonsInMedium& map = context.light.in_medium(bundle.front().medium);
+  if (context.counts.points_2d == 0.0 || map.size() == 0) return;
+  const float free_path = 1.0f / mean_channel(context.scene.media[bundle.front().medium].sigma_t);
+  std::vector<uint32_t>& leaves = work.scratch.leaves;
+  const auto select = [&](const RayBundle& rays) {
+    count(work.counters.volume_queries, bundle.size());
+    count(work.counters.gather.searches, bundle.size());
+    leaves.clear();
+    map.visit_leaves(rays, [&](uint32_t leaf) { leaves.push_back(leaf); });
   };
-  count(work_.counters.volume_queries);
-  count(work_.counters.gather.searches);
-  const uint32_t visited = std::visit(
-      [&](const auto& phase) { return with_kernel<2>(kernel, [&](auto profile) { return merge(phase, profile); }); },
-      medium.phase);
-  count(work_.counters.gather.visited, visited);
-  count(work_.counters.gather.used, sum_of(merged.number));
-  const Rgb each = asked() * medium.albedo() * (kernel_norm<2>(kernel, radius) / static_cast<float>(c_.light_paths));
-  const KernelEstimate all{sum_of(merged.value) * each, sum_of(merged.correction) * each};
-  radiance_ += all;
-  if (parts_) parts_->add_both(Technique::points_2d, all.value, sum_of(merged.unweighted) * each);
+  const auto merge = [&](const RayBlock& block, std::span<Merged> of) {
+    merge_block_of_points(context, block, work, of);
+  };
+  if (merge_together(bundle, apex, map.bounds(), context.kernels.points_2d, kMostRadii, free_path,
+                     context.counts.points_2d, merged, select, merge))
+    return;
+  for (size_t i = 0; i < bundle.size(); ++i) merged[i] = merge_points(context, bundle[i], work);
 }
 
 }  // namespace vpm

@@ -8,6 +8,7 @@
 #include "vpm/base/count.h"
 #include "vpm/photon/box_tree.h"
 #include "vpm/photon/leaf_order.h"
+#include "vpm/photon/ray_bundle.h"
 
 namespace vpm {
 
@@ -58,13 +59,22 @@ class VertexMap {
   template <class Visit>
   uint32_t visit_leaves_near_ray(const Ray& ray, const Interval& interval, float radius, Visit&& visit) const;
 
+  /// Calls visit(number of a leaf) for each leaf of which some vertex may be within reach of rays of the bundle.
+  template <class Visit>
+  void visit_leaves(const RayBundle& bundle, Visit&& visit) const {
+    if (size_ > 0) boxes_.visit_leaves(bundle, visit);
+  }
+  const Leaf& leaf(uint32_t number) const { return leaves_[number]; }
+
   size_t size() const { return size_; }
+  const Box& bounds() const { return bounds_; }  // of all vertices
   size_t memory_bytes() const { return leaves_.capacity() * sizeof(Leaf) + boxes_.memory_bytes(); }
 
  private:
   size_t size_ = 0;
   std::vector<Leaf> leaves_;
   BoxTree boxes_;
+  Box bounds_;
 };
 
 template <class Leaf>
@@ -76,6 +86,7 @@ VertexMap<Leaf>::VertexMap(const std::vector<PlacedRecord<typename Leaf::Record>
   for (const auto& vertex : vertices) positions.push_back(vertex.point);
   const LeafOrder tree = sort_into_leaves(positions, kBlock);
   leaves_.resize(tree.leaves);
+  for (const Vec3& position : positions) bounds_.add(position);
   boxes_ = BoxTree(tree.leaves, [&](size_t number) {
     const size_t begin = leaf_begin(size_, tree.leaves, number), end = leaf_begin(size_, tree.leaves, number + 1);
     Leaf& leaf = leaves_[number];

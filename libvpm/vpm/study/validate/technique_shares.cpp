@@ -8,8 +8,8 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/warp.h"
-#include "vpm/estimate/combined/shares_along_ray.h"
 #include "vpm/estimate/combined/shares_of_beams.h"
+#include "vpm/estimate/combined/shares_of_points.h"
 #include "vpm/scene/camera.h"
 #include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/lights.h"
@@ -256,16 +256,24 @@ double share_along_ray(const WholePath& path, const TechniqueCounts& counts, con
   MediumPhotonLeaf leaf;
   leaf.set(0, {path.direction(i - 1), Rgb(1.0f), traced.light[i].sums.turn, over_colliding(at.sigma_t, path.leg(i - 1)),
                behind_merge(counts, traced.light[i].sums).over(1.0 / behind_scale(counts, sigma_t))});
-  const auto share = [&](const auto& shares) {
-    const auto phase = static_cast<float>(density_on(path, i, true));
-    return double{shares.of(leaf.adjacent[0], leaf.further[0], shares.of_flights(leaf)[0], phase,
-                            {static_cast<float>(path.leg(i).distance), 1.0f, static_cast<float>(at.kept),
-                             static_cast<float>(mean_channel(at.sigma_t * path.transmittances[i]) / sigma_t)})};
-  };
   const Departure& eye = traced.eye_leaves[i + 1];
+  const double to_eye = path.leg(i).distance;
+  PhotonsBesideRays beside{};
+  beside.density[0] = 1.0f;
+  beside.sine[0] = glm::length(glm::cross(leaf.travel(0), path.direction(i)));
+  beside.determinant[0] = std::abs(glm::dot(leaf.turn(0), path.direction(i)));
+  beside.passing[0] = leaf.passing[0];
+  beside.sent[0] = leaf.sent[0];
+  beside.adjacent[0] = leaf.adjacent[0];
+  beside.further[0] = leaf.further[0];
+  beside.phase[0] = static_cast<float>(density_on(path, i, true));
+  beside.kept[0] = static_cast<float>(at.kept);
+  beside.colliding[0] = static_cast<float>(mean_channel(at.sigma_t * path.transmittances[i]) / sigma_t);
+  beside.splats[0] =
+      static_cast<float>(std::min(eye.adjacent / eye.forward * to_eye * to_eye / counts.points_2d, 1e30));
   const auto mean = static_cast<float>(sigma_t);
-  return counts.heuristic == Heuristic::power ? share(SharesAlongRay<true>(counts, eye, mean))
-                                              : share(SharesAlongRay<false>(counts, eye, mean));
+  return double{counts.heuristic == Heuristic::power ? SharesOfPoints<true>(counts, mean).of(beside)[0]
+                                                     : SharesOfPoints<false>(counts, mean).of(beside)[0]};
 }
 
 /// As beams that rays from the camera cross have it.

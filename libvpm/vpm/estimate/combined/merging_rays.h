@@ -1,0 +1,147 @@
+// Rays in lanes along which light sub-paths are merged, and what merges add up to.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "vpm/base/exp_negative.h"
+#include "vpm/estimate/combined/ray_merges.h"
+#include "vpm/estimate/eye_segment.h"
+#include "vpm/photon/ray_bundle.h"
+#include "vpm/photon/ray_lanes.h"
+
+namespace vpm {
+
+/// Rays in lanes, as far as merges need them.
+struct MergingRays {
+  FloatsRgb passed{};  // RaySegment's
+  Floats before{};
+  Floats splats{};  // RaySegment::adjacent over `unit`, the density that a technique's shares are relative to
+  Floats3 along;    // directions, unit
+
+  void set(size_t lane, const RaySegment& segment, double unit) {
+    for (int c = 0; c < 3; ++c) passed[c][lane] = segment.passed[c];
+    before[lane] = segment.before;
+    splats[lane] = static_cast<float>(std::min(segment.adjacent / unit, 1e30));
+    along.set(lane, segment.ray.direction);
+  }
+};
+/// The same ray in all lanes.
+inline MergingRays rays_of(const RaySegment& segment, double unit) {
+  MergingRays rays;
+  for (size_t lane = 0; lane < kBlock; ++lane) rays.set(lane, segment, unit);
+  return rays;
+}
+
+/// exp(-sigma_t integral), channel by channel, times `before`.
+inline FloatsRgb attenuated(const FloatsRgb& before, const Rgb& sigma_t, const Floats& integral) {
+  FloatsRgb passed;
+  Floats left{};
+  for (int c = 0; c < 3; ++c) {
+    if (c == 0 || sigma_t[c] != sigma_t[c - 1]) left = exp_negative(-sigma_t[c] * integral);  // most media are grey
+    passed[c] = before[c] * left;
+  }
+  return passed;
+}
+
+/// What merges add up to, without the kernel's norm: with shares, and without.
+struct LaneMerges {
+  FloatsRgb value{}, correction{}, unweighted{};
+
+  template <class Profile>
+  void add(const FloatsRgb& light, const Floats& share, const Floats& q, const Profile& profile) {
+    Floats kernel, corrected;
+    for (size_t i = 0; i < kBlock; ++i) {
+      const KernelPair<float> spread = profile(q[i]);
+      kernel[i] = spread.value;
+      corrected[i] = spread.correction;
+    }
+    for (int c = 0; c < 3; ++c) {
+      unweighted[c] += light[c] * kernel;
+      value[c] += light[c] * kernel * share;
+      correction[c] += light[c] * corrected * share;
+    }
+  }
+};
+
+/// The sums of many LaneMerges, in doubles.
+struct MergedSum {
+  Rgbd value{0.0}, correction{0.0}, unweighted{0.0};
+
+  void add(const LaneMerges& sums, size_t lane) {
+    for (int c = 0; c < 3; ++c) {
+      value[c] += sums.value[c][lane];
+      correction[c] += sums.correction[c][lane];
+      unweighted[c] += sums.unweighted[c][lane];
+    }
+  }
+  void add_all(const LaneMerges& sums) {
+    for (size_t lane = 0; lane < kBlock; ++lane) add(sums, lane);
+  }
+  Merged times(const Rgb& factor) const {
+    return {{Rgb(value) * factor, Rgb(correction) * factor}, Rgb(unweighted) * factor};
+  }
+};
+
+// --- Many rays
+
+using Directions = std::array<Vec3, kEyeRays>;
+inline std::span<const Vec3> directions_of(std::span<const RaySegment> bundle, Directions& directions) {
+  for (size_t i = 0; i < bundle.size(); ++i) directions[i] = bundle[i].ray.direction;
+  return {directions.data(), bundle.size()};
+}
+
+/// The part of the segments that lies within the radius of the bounds, m from the apex; empty where there is none.
+inline Interval reach_of(std::span<const RaySegment> bundle, const Vec3& apex, const Box& bounds, float radius) {
+  Interval reach{kInfinity, 0.0f};
+  for (const RaySegment& segment : bundle) {
+    const Interval near = clip(segment.ray, segment.interval, bounds, radius);
+    if (near.empty()) continue;
+    const float before = glm::distance(apex, segment.ray.origin);
+    reach = {std::min(reach.t0, before + near.t0), std::max(reach.t1, before + near.t1)};
+  }
+  return reach;
+}
+
+/// Up to kBlock rays of a bundle, as far as they lie within the radius of the bounds.
+struct RayBlock {
+  std::span<const RaySegment> segments;
+  RayLanes lanes;
+  MergingRays rays;
+  Vec3 apex{0.0f};
+  float radius = 0.0f;  // m
+  Interval reach;       // m from the apex
+
+  RayBlock(std::span<const RaySegment> block, const Vec3& from, const Box& bounds, float within, double unit)
+      : segments(block), apex(from), radius(within), reach(reach_of(block, from, bounds, within)) {
+    for (size_t i = 0; i < block.size(); ++i) {
+      lanes.set(i, block[i].ray, clip(block[i].ray, block[i].interval, bounds, within), from);
+      rays.set(i, block[i], unit);
+    }
+  }
+  RayBundle bundle() const {
+    Directions directions;
+    return {apex, directions_of(segments, directions), reach.t1 + radius};
+  }
+};
+
+/// Calls use(RayBundle) and then each(RayBlock, what its segments find) for up to kBlock segments at a time, where the
+/// segments lie so narrowly that this pays; false where they do not.
+template <class Use, class Each>
+bool merge_together(std::span<const RaySegment> bundle, const Vec3& apex, const Box& bounds, float radius,
+                    float most_radii, float free_path, double unit, std::span<Merged> merged, Use&& use, Each&& each) {
+  const Interval reach = reach_of(bundle, apex, bounds, radius);
+  if (reach.empty()) return true;
+  Directions directions;
+  const std::span<const Vec3> all = directions_of(bundle, directions);
+  if (!is_narrow(all, reach, free_path, most_radii * radius)) return false;
+  use(RayBundle(apex, all, reach.t1 + radius));
+  for (size_t first = 0; first < bundle.size(); first += kBlock) {
+    const size_t size = std::min<size_t>(kBlock, bundle.size() - first);
+    const RayBlock block(bundle.subspan(first, size), apex, bounds, radius, unit);
+    if (!block.reach.empty()) each(block, merged.subspan(first, size));
+  }
+  return true;
+}
+
+}  // namespace vpm

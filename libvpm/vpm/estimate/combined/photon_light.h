@@ -1,0 +1,96 @@
+// What photons in media bring to rays that they lie beside, kBlock at a time, in lanes: of many photons beside one ray,
+// or of one photon beside many rays.
+#pragma once
+
+#include "vpm/estimate/combined/merging_rays.h"
+#include "vpm/estimate/combined/shares_of_points.h"
+#include "vpm/estimate/kernel_sum.h"
+#include "vpm/photon/stored_power.h"
+
+namespace vpm {
+
+/// Photons and rays, a lane for each pair. Lanes of density 0 add nothing.
+struct PhotonsBeside {
+  FloatsRgb power{};         // MediumPhoton's
+  Floats passing{}, sent{};  // likewise, and the next two
+  Floats adjacent{}, further{};
+  Floats sine{}, determinant{};         // PhotonsBesideRays
+  Floats scattered{};                   // the phase function towards the eye, 1/sr
+  Floats q{};                           // the squared distance from the ray over that of the radius
+  Floats along_ray{}, seen_integral{};  // up to the photon: m from the ray's origin, and of density, m
+  Floats density{};                     // of the medium there
+};
+
+/// What photons bring to rays in one medium.
+template <bool kSquares, class PhaseFunction, class Profile>
+class PhotonLight {
+ public:
+  PhotonLight(const CombinedContext& context, const Medium& medium, const PhaseFunction& phase, Profile profile)
+      : shares_(context.counts, mean_channel(medium.sigma_t)),
+        phase_(phase),
+        profile_(profile),
+        sigma_t_(medium.sigma_t),
+        floor_(medium.grid ? floor_in(medium, context.counts.density_floor) : 0.0f),
+        per_largest_(relative_density(medium, 1.0f)) {}
+
+  const PhaseFunction& phase() const { return phase_; }
+
+  void add(const MergingRays& rays, const PhotonsBeside& at, LaneMerges& sums) const {
+    const FloatsRgb on_ray = attenuated(rays.passed, sigma_t_, at.seen_integral);
+    FloatsRgb attenuation;
+    for (int c = 0; c < 3; ++c) attenuation[c] = sigma_t_[c] * on_ray[c];
+    const Floats colliding = mean_channel(attenuation) * (1.0f / mean_channel(sigma_t_));
+    const LaneMask counts = (at.density > 0.0f) & (colliding > 0.0f);
+    const Floats density = counts ? at.density : all_lanes(1.0f), relative = density * per_largest_;
+    const Floats to_eye = rays.before + at.along_ray;
+    const Floats share = shares_.of({.sine = at.sine,
+                                     .determinant = at.determinant,
+                                     .passing = at.passing,
+                                     .sent = at.sent,
+                                     .adjacent = at.adjacent,
+                                     .further = at.further,
+                                     .phase = at.scattered,
+                                     .density = density,
+                                     .kept = max(all_lanes(1.0f), floor_ / relative),
+                                     .colliding = counts ? colliding : all_lanes(1.0f),
+                                     .splats = rays.splats * to_eye * to_eye});
+    const Floats found = counts ? relative * at.scattered : Floats{};
+    FloatsRgb light;
+    for (int c = 0; c < 3; ++c) light[c] = at.power[c] * on_ray[c] * found;
+    sums.add(light, share, at.q, profile_);
+  }
+
+ private:
+  SharesOfPoints<kSquares> shares_;
+  const PhaseFunction& phase_;
+  Profile profile_;
+  Rgb sigma_t_;        // of the medium at density 1, 1/m
+  float floor_;        // of relative densities, below which photons are kept along flights
+  float per_largest_;  // 1 over the largest density
+};
+
+/// Calls use(PhotonLight) for the medium's phase function, and the kernel and heuristic of the pass.
+template <class Use>
+auto with_photon_light(const CombinedContext& context, const Medium& medium, Use&& use) {
+  const auto with = [&](const auto& phase, auto profile) {
+    using P = std::decay_t<decltype(phase)>;
+    using K = decltype(profile);
+    if (context.counts.heuristic == Heuristic::power)
+      return use(PhotonLight<true, P, K>(context, medium, phase, profile));
+    return use(PhotonLight<false, P, K>(context, medium, phase, profile));
+  };
+  return std::visit(
+      [&](const auto& phase) {
+        return with_kernel<2>(context.kernels.volume_kernel, [&](auto profile) { return with(phase, profile); });
+      },
+      medium.phase);
+}
+
+/// What all sums along a segment are times.
+inline Rgb factor_of_photons(const CombinedContext& context, const RaySegment& segment) {
+  return segment.throughput * context.scene.media[segment.medium].albedo() *
+         (kernel_norm<2>(context.kernels.volume_kernel, context.kernels.points_2d) /
+          static_cast<float>(context.light_paths));
+}
+
+}  // namespace vpm
