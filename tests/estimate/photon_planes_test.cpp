@@ -122,7 +122,7 @@ TEST(PhotonPlanes, LeaveTheRestToBeams) {
 
 // In a grid whose density rises evenly the integral along a line is its length times the density at its middle.
 TEST(PhotonPlanes, GoByTheDensitiesOfAGrid) {
-  const auto density = [](const Vec3& p) { return 0.5f + 0.1f * p.x - 0.05f * p.y + 0.08f * p.z; };
+  const auto density = [](const Vec3& p) { return 1.0f + 0.1f * p.x - 0.05f * p.y + 0.08f * p.z; };
   for (const Rgb& sigma_t : {Rgb(0.7f), Rgb(0.2f, 1.0f, 3.0f)}) {
     Medium medium = make_medium(
         make_grid(centred_frame(16, 0.25), [&](int x, int y, int z) { return density(0.25f * Vec3(x, y, z)); }),

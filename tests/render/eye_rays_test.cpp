@@ -206,7 +206,7 @@ TEST(EyeRays, TechniquesCombinedFindTogetherWhatTheyFindAlone) {
       Scene scene = room(fog(sigma_t, HenyeyGreenstein{0.6f}));
       scene.lights.push_back(SphereLight{Vec3(-1.0f, -1.0f, -1.0f), 0.2f, Rgb(30.0f)});
       scene.lights.push_back(BeamLight{Vec3(1.5f, 1.0f, -1.0f), Vec3(-1.0f, 0.0f, 0.0f), 0.3f, Rgb(20.0f)});
-      finish(scene);
+      finish_again(scene);
       RenderSettings settings = settings_of(GatherMode::radius, KernelKind::epanechnikov, BoundaryRule::none);
       settings.integrator = Integrator::combined;
       settings.volume.radius = 0.3f;

@@ -302,7 +302,7 @@ TEST(PhotonPass, SeveralShadowRaysBringTheSameLight) {
   scene.lights.push_back(
       MeshLight{std::make_shared<const EmittingMesh>(box_mesh(Vec3d(-0.9, 0.4, 0), Vec3d(-0.7, 0.6, 0.2))), Rgb(4.0f)});
   scene.lights.push_back(ConstantEnvironment{Rgb(0.5f)});
-  finish(scene);
+  finish_again(scene);
   RenderSettings settings = settings_of(1, 0.1f);
   const auto shadow_rays = [&] {
     return render_photon_pass(scene, settings, 0, kNeverStopped).statistics.eye.shadow_rays;

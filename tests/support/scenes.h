@@ -21,4 +21,11 @@ inline Scene boxed_medium(const Medium& medium, const Light& light) {
   return boxed_medium(medium, std::vector<Light>{light});
 }
 
+/// Makes lights that were added to a finished scene known to it.
+inline void finish_again(Scene& scene) {
+  scene.light_probability.clear();
+  scene.light_medium.clear();
+  finish(scene);
+}
+
 }  // namespace vpm
