@@ -67,7 +67,7 @@ void merge_block(const CombinedContext& context, Technique technique, const RayB
 
 void merge_beams(const CombinedContext& context, Technique technique, const Vec3& apex,
                  std::span<const RaySegment> bundle, EyeWork& work, std::span<Merged> merged) {
-  constexpr float kMostRadii = 32.0f;  // of bundles: wide ones look at beams that few of their rays cross
+  constexpr float kMostRadii = 32.0f;
   const LightBeams& beams = context.light.beams(technique, bundle.front().medium);
   if (beams.map.size() == 0) return;
   const float free_path = 1.0f / mean_channel(context.scene.media[bundle.front().medium].sigma_t);
@@ -80,9 +80,8 @@ void merge_beams(const CombinedContext& context, Technique technique, const Vec3
   const auto merge = [&](const RayBlock& block, std::span<Merged> of) {
     merge_block(context, technique, block, work, of);
   };
-  if (merge_together(bundle, apex, beams.map.bounds(), context.kernels.beams, kMostRadii, free_path,
-                     unit_of_beams(context.counts), merged, select, merge))
-    return;
+  const SearchedMap map{beams.map.bounds(), context.kernels.beams, kMostRadii, unit_of_beams(context.counts)};
+  if (merge_together(map, free_path, apex, bundle, merged, select, merge)) return;
   for (size_t i = 0; i < bundle.size(); ++i) merged[i] = merge_beams(context, technique, bundle[i], work);
 }
 

@@ -6,8 +6,6 @@
 
 #include "vpm/estimate/combined/merging_rays.h"
 #include "vpm/estimate/combined/shares_of_beams.h"
-#include "vpm/estimate/kernel_sum.h"
-#include "vpm/photon/stored_power.h"
 
 namespace vpm {
 
@@ -48,20 +46,19 @@ class CrossingLight {
       : shares_(context.counts, technique),
         phase_(phase),
         profile_(profile),
-        sigma_t_(medium.sigma_t),
-        floor_(medium.grid ? floor_in(medium, context.counts.density_floor) : 0.0f),
-        per_largest_(relative_density(medium, 1.0f)),
+        medium_(context, medium),
         is_long_(technique == Technique::long_beams),
         grey_(is_grey(medium.sigma_t)) {}
 
   const PhaseFunction& phase() const { return phase_; }
 
   void add(const MergingRays& rays, const Crossings& at, LaneMerges& sums) const {
+    const Rgb& sigma_t = medium_.sigma_t();
     const FloatsRgb whole = all_lanes(Rgb(1.0f));
-    const FloatsRgb on_beam = attenuated(whole, sigma_t_, at.flown_integral);
-    const FloatsRgb on_ray = attenuated(rays.passed, sigma_t_, at.seen_integral);
+    const FloatsRgb on_beam = attenuated(whole, sigma_t, at.flown_integral);
+    const FloatsRgb on_ray = attenuated(rays.passed, sigma_t, at.seen_integral);
     const Floats share = shares_.of(crossed(rays, at, on_beam, on_ray));
-    const FloatsRgb left = is_long_ ? on_beam : grey_ ? whole : left_of_short(at.power, sigma_t_, at.flown_integral);
+    const FloatsRgb left = is_long_ ? on_beam : grey_ ? whole : left_of_short(at.power, sigma_t, at.flown_integral);
     const Floats found = at.density * at.scattered / at.sine;
     FloatsRgb light;
     for (int c = 0; c < 3; ++c) light[c] = at.power[c] * left[c] * on_ray[c] * found;
@@ -71,12 +68,13 @@ class CrossingLight {
  private:
   CrossedBeams crossed(const MergingRays& rays, const Crossings& at, const FloatsRgb& on_beam,
                        const FloatsRgb& on_ray) const {
+    const Rgb& sigma_t = medium_.sigma_t();
     FloatsRgb flown, back, colliding, seen;
     for (int c = 0; c < 3; ++c) {
       flown[c] = at.before[c] * on_beam[c];
-      back[c] = 3.0f * at.back[c] * flown[c] * at.scattered;
-      colliding[c] = sigma_t_[c] * at.density * flown[c];
-      seen[c] = sigma_t_[c] * at.density * on_ray[c];
+      back[c] = at.back[c] * flown[c] * at.scattered;
+      colliding[c] = sigma_t[c] * at.density * flown[c];
+      seen[c] = sigma_t[c] * at.density * on_ray[c];
     }
     const Floats to_eye = rays.before + at.along_ray;
     return {.sine = at.sine,
@@ -84,8 +82,8 @@ class CrossingLight {
             .passed = mean_channel(flown),
             .colliding = mean_channel(colliding),
             .seen = mean_channel(seen),
-            .kept = max(all_lanes(1.0f), floor_ / (at.density * per_largest_)),
-            .back = mean_channel(back),
+            .kept = medium_.kept(medium_.relative(at.density)),
+            .back = back[0] + back[1] + back[2],
             .adjacent = at.adjacent,
             .splats = rays.splats * to_eye * to_eye};
   }
@@ -93,27 +91,17 @@ class CrossingLight {
   SharesOfBeams<kSquares> shares_;
   const PhaseFunction& phase_;
   Profile profile_;
-  Rgb sigma_t_;        // of the medium at density 1, 1/m
-  float floor_;        // of relative densities, below which photons are kept along flights
-  float per_largest_;  // 1 over the largest density
+  MergingMedium medium_;
   bool is_long_, grey_;
 };
 
 /// Calls use(CrossingLight) for the medium's phase function, and the kernel and heuristic of the pass.
 template <class Use>
 auto with_crossing_light(const CombinedContext& context, Technique technique, const Medium& medium, Use&& use) {
-  const auto with = [&](const auto& phase, auto profile) {
-    using P = std::decay_t<decltype(phase)>;
-    using K = decltype(profile);
-    if (context.counts.heuristic == Heuristic::power)
-      return use(CrossingLight<true, P, K>(context, technique, medium, phase, profile));
-    return use(CrossingLight<false, P, K>(context, technique, medium, phase, profile));
-  };
-  return std::visit(
-      [&](const auto& phase) {
-        return with_kernel<1>(context.kernels.volume_kernel, [&](auto profile) { return with(phase, profile); });
-      },
-      medium.phase);
+  return with_types_of_merge<1>(context, medium, [&](const auto& phase, auto profile, auto squares) {
+    return use(CrossingLight<squares(), std::decay_t<decltype(phase)>, decltype(profile)>(context, technique, medium,
+                                                                                          phase, profile));
+  });
 }
 
 /// What all sums along a segment are times.

@@ -9,9 +9,9 @@ namespace vpm {
 /// and over unit_of_beams(), so that floats hold them, however large a scene is.
 struct FlightTerms {
   Rgb before{1.0f};       // the transmittance of the flight up to the part
-  Rgb back{0.0f};         // its product with the transmittance back to the last vertex, summed over channels, and
-                          // the density of the direction back: the sum over all techniques behind that vertex; a
-                          // root where the heuristic squares
+  Rgb back{0.0f};         // times the transmittance back to the last vertex, summed over channels, and times the
+                          // density of the direction back: all techniques behind that vertex; where the heuristic
+                          // squares, the root of their sum
   float adjacent = 0.0f;  // times the squared distance, m^2: how many connections there are over the flight
   float offset = 0.0f;    // from the last vertex to the part, m
   bool parallel = false;  // does light not spread? Then the distance counts as 1

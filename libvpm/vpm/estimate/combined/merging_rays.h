@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <span>
+#include <type_traits>
 
 #include "vpm/base/exp_negative.h"
 #include "vpm/estimate/combined/ray_merges.h"
 #include "vpm/estimate/eye_segment.h"
+#include "vpm/estimate/kernel_sum.h"
 #include "vpm/photon/ray_bundle.h"
 #include "vpm/photon/ray_lanes.h"
+#include "vpm/photon/stored_power.h"
 
 namespace vpm {
 
@@ -42,6 +45,42 @@ inline FloatsRgb attenuated(const FloatsRgb& before, const Rgb& sigma_t, const F
     passed[c] = before[c] * left;
   }
   return passed;
+}
+
+/// The medium along rays, as far as merges need it.
+class MergingMedium {
+ public:
+  MergingMedium(const CombinedContext& context, const Medium& medium)
+      : sigma_t_(medium.sigma_t),
+        floor_(medium.grid ? floor_in(medium, context.counts.density_floor) : 0.0f),
+        per_largest_(relative_density(medium, 1.0f)) {}
+
+  const Rgb& sigma_t() const { return sigma_t_; }  // at density 1, 1/m
+  /// Densities over the largest one.
+  Floats relative(const Floats& density) const { return density * per_largest_; }
+  /// Junction::kept.
+  Floats kept(const Floats& relative_density) const { return max(all_lanes(1.0f), floor_ / relative_density); }
+
+ private:
+  Rgb sigma_t_;
+  float floor_;  // of relative densities, below which photons are kept along flights
+  float per_largest_;
+};
+
+/// Calls use(phase function of the medium, profile of the kernel, whether the heuristic weighs by squares), each of a
+/// type that loops can inline.
+template <int Dimension, class Use>
+auto with_types_of_merge(const CombinedContext& context, const Medium& medium, Use&& use) {
+  const auto with = [&](const auto& phase, auto profile) {
+    if (context.counts.heuristic == Heuristic::power) return use(phase, profile, std::true_type());
+    return use(phase, profile, std::false_type());
+  };
+  return std::visit(
+      [&](const auto& phase) {
+        return with_kernel<Dimension>(context.kernels.volume_kernel,
+                                      [&](auto profile) { return with(phase, profile); });
+      },
+      medium.phase);
 }
 
 /// What merges add up to, without the kernel's norm: with shares, and without.
@@ -125,17 +164,26 @@ struct RayBlock {
   }
 };
 
-/// Calls use(RayBundle) and then each(RayBlock, what its segments find) for up to kBlock segments at a time, where the
-/// segments lie so narrowly that this pays; false where they do not.
-template <class Use, class Each>
-bool merge_together(std::span<const RaySegment> bundle, const Vec3& apex, const Box& bounds, float radius,
-                    float most_radii, float free_path, double unit, std::span<Merged> merged, Use&& use, Each&& each) {
+/// What light sub-paths are merged by that lie in these bounds.
+struct SearchedMap {
+  Box bounds;
+  float radius;      // of the kernel, m
+  float most_radii;  // wider bundles look at much that few of their rays come near
+  double unit;       // see MergingRays
+};
+
+/// Searches a map for a whole bundle, select(RayBundle), and merges block by block what was found, each(RayBlock, what
+/// its segments find). Returns false, and does nothing, where the bundle is too wide for that.
+template <class Select, class Each>
+bool merge_together(const SearchedMap& map, float free_path, const Vec3& apex, std::span<const RaySegment> bundle,
+                    std::span<Merged> merged, Select&& select, Each&& each) {
+  const auto& [bounds, radius, most_radii, unit] = map;
   const Interval reach = reach_of(bundle, apex, bounds, radius);
   if (reach.empty()) return true;
   Directions directions;
   const std::span<const Vec3> all = directions_of(bundle, directions);
   if (!is_narrow(all, reach, free_path, most_radii * radius)) return false;
-  use(RayBundle(apex, all, reach.t1 + radius));
+  select(RayBundle(apex, all, reach.t1 + radius));
   for (size_t first = 0; first < bundle.size(); first += kBlock) {
     const size_t size = std::min<size_t>(kBlock, bundle.size() - first);
     const RayBlock block(bundle.subspan(first, size), apex, bounds, radius, unit);

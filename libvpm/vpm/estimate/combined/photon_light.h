@@ -4,8 +4,6 @@
 
 #include "vpm/estimate/combined/merging_rays.h"
 #include "vpm/estimate/combined/shares_of_points.h"
-#include "vpm/estimate/kernel_sum.h"
-#include "vpm/photon/stored_power.h"
 
 namespace vpm {
 
@@ -29,19 +27,18 @@ class PhotonLight {
       : shares_(context.counts, mean_channel(medium.sigma_t)),
         phase_(phase),
         profile_(profile),
-        sigma_t_(medium.sigma_t),
-        floor_(medium.grid ? floor_in(medium, context.counts.density_floor) : 0.0f),
-        per_largest_(relative_density(medium, 1.0f)) {}
+        medium_(context, medium) {}
 
   const PhaseFunction& phase() const { return phase_; }
 
   void add(const MergingRays& rays, const PhotonsBeside& at, LaneMerges& sums) const {
-    const FloatsRgb on_ray = attenuated(rays.passed, sigma_t_, at.seen_integral);
+    const Rgb& sigma_t = medium_.sigma_t();
+    const FloatsRgb on_ray = attenuated(rays.passed, sigma_t, at.seen_integral);
     FloatsRgb attenuation;
-    for (int c = 0; c < 3; ++c) attenuation[c] = sigma_t_[c] * on_ray[c];
-    const Floats colliding = mean_channel(attenuation) * (1.0f / mean_channel(sigma_t_));
+    for (int c = 0; c < 3; ++c) attenuation[c] = sigma_t[c] * on_ray[c];
+    const Floats colliding = mean_channel(attenuation) * (1.0f / mean_channel(sigma_t));
     const LaneMask counts = (at.density > 0.0f) & (colliding > 0.0f);
-    const Floats density = counts ? at.density : all_lanes(1.0f), relative = density * per_largest_;
+    const Floats density = counts ? at.density : all_lanes(1.0f), relative = medium_.relative(density);
     const Floats to_eye = rays.before + at.along_ray;
     const Floats share = shares_.of({.sine = at.sine,
                                      .determinant = at.determinant,
@@ -51,7 +48,7 @@ class PhotonLight {
                                      .further = at.further,
                                      .phase = at.scattered,
                                      .density = density,
-                                     .kept = max(all_lanes(1.0f), floor_ / relative),
+                                     .kept = medium_.kept(relative),
                                      .colliding = counts ? colliding : all_lanes(1.0f),
                                      .splats = rays.splats * to_eye * to_eye});
     const Floats found = counts ? relative * at.scattered : Floats{};
@@ -64,26 +61,16 @@ class PhotonLight {
   SharesOfPoints<kSquares> shares_;
   const PhaseFunction& phase_;
   Profile profile_;
-  Rgb sigma_t_;        // of the medium at density 1, 1/m
-  float floor_;        // of relative densities, below which photons are kept along flights
-  float per_largest_;  // 1 over the largest density
+  MergingMedium medium_;
 };
 
 /// Calls use(PhotonLight) for the medium's phase function, and the kernel and heuristic of the pass.
 template <class Use>
 auto with_photon_light(const CombinedContext& context, const Medium& medium, Use&& use) {
-  const auto with = [&](const auto& phase, auto profile) {
-    using P = std::decay_t<decltype(phase)>;
-    using K = decltype(profile);
-    if (context.counts.heuristic == Heuristic::power)
-      return use(PhotonLight<true, P, K>(context, medium, phase, profile));
-    return use(PhotonLight<false, P, K>(context, medium, phase, profile));
-  };
-  return std::visit(
-      [&](const auto& phase) {
-        return with_kernel<2>(context.kernels.volume_kernel, [&](auto profile) { return with(phase, profile); });
-      },
-      medium.phase);
+  return with_types_of_merge<2>(context, medium, [&](const auto& phase, auto profile, auto squares) {
+    return use(
+        PhotonLight<squares(), std::decay_t<decltype(phase)>, decltype(profile)>(context, medium, phase, profile));
+  });
 }
 
 /// What all sums along a segment are times.

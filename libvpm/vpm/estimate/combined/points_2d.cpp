@@ -134,7 +134,7 @@ Merged merge_points(const CombinedContext& context, const RaySegment& segment, E
 
 void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
                   std::span<Merged> merged) {
-  constexpr float kMostRadii = 8.0f;  // of bundles: wide ones look at photons that few of their rays pass closely
+  constexpr float kMostRadii = 8.0f;
   const PhotonsInMedium& map = context.light.in_medium(bundle.front().medium);
   if (context.counts.points_2d == 0.0 || map.size() == 0) return;
   const float free_path = 1.0f / mean_channel(context.scene.media[bundle.front().medium].sigma_t);
@@ -148,9 +148,8 @@ void merge_points(const CombinedContext& context, const Vec3& apex, std::span<co
   const auto merge = [&](const RayBlock& block, std::span<Merged> of) {
     merge_block_of_points(context, block, work, of);
   };
-  if (merge_together(bundle, apex, map.bounds(), context.kernels.points_2d, kMostRadii, free_path,
-                     context.counts.points_2d, merged, select, merge))
-    return;
+  const SearchedMap searched{map.bounds(), context.kernels.points_2d, kMostRadii, context.counts.points_2d};
+  if (merge_together(searched, free_path, apex, bundle, merged, select, merge)) return;
   for (size_t i = 0; i < bundle.size(); ++i) merged[i] = merge_points(context, bundle[i], work);
 }
 
