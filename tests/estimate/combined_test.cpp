@@ -20,13 +20,23 @@ const std::atomic<bool> kGoOn{false};
 
 Vec3 random_place(Rng& rng) { return 2.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()); }
 
+/// kBlock numbers.
+struct NumberLeaf : LeafPlaces {
+  using Record = uint32_t;
+
+  void set(size_t i, uint32_t number) { numbers[i] = number; }
+  uint32_t operator[](size_t i) const { return numbers[i]; }
+
+  uint32_t numbers[kBlock];
+};
+
 TEST(VertexMap, FindsWhatASearchThroughAllFinds) {
   constexpr float kRadius = 0.15f;
   for (const int count : {0, 1, 17, 3000}) {
     Rng rng(1, rng_stream(RngUse::test, 1), static_cast<uint64_t>(count));
     std::vector<PlacedRecord<uint32_t>> vertices;
     for (int i = 0; i < count; ++i) vertices.push_back({random_place(rng), static_cast<uint32_t>(i)});
-    const VertexMap<RecordLeaf<uint32_t>> map(vertices, 1.5f * kRadius);
+    const VertexMap<NumberLeaf> map(vertices, 1.5f * kRadius);
     for (int query = 0; query < 50; ++query) {
       const Vec3 point = random_place(rng);
       const Ray ray{point, uniform_sphere(rng.uniform2())};
@@ -52,13 +62,56 @@ TEST(VertexMap, FindsWhatASearchThroughAllFinds) {
   }
 }
 
+TEST(VertexMap, OfALeafLeavesOutNothingNearABundle) {
+  constexpr float kRadius = 0.05f, kFarthest = 2.0f;
+  Rng rng(1, rng_stream(RngUse::test, 2), 0);
+  const Vec3 apex(0.1f, -0.2f, 0.3f);
+  uint32_t near_rays = 0, found_all = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 middle = uniform_sphere(rng.uniform2());
+    std::array<Vec3, 4> directions;
+    for (Vec3& direction : directions) direction = glm::normalize(middle + 0.1f * (random_place(rng) - 1.0f));
+    const RayBundle bundle(apex, directions, kFarthest + kRadius);
+    NumberLeaf leaf;
+    std::fill_n(leaf.x, 3 * kBlock, kInfinity);
+    for (size_t i = 0; i + 1 < kBlock; ++i) {
+      const Vec3 place = apex + kFarthest * rng.uniform() * (middle + 0.3f * (random_place(rng) - 1.0f));
+      leaf.x[i] = place.x;
+      leaf.y[i] = place.y;
+      leaf.z[i] = place.z;
+    }
+    uint32_t numbers[kBlock];
+    const uint32_t count = find_near(leaf, bundle, kRadius, numbers);
+    const std::set<uint32_t> found(numbers, numbers + count);
+    EXPECT_FALSE(found.contains(kBlock - 1)) << "a place that is missing";
+    found_all += count;
+    for (uint32_t i = 0; i + 1 < kBlock; ++i)
+      for (const Vec3& direction : directions) {
+        const Vec3 from = Vec3(leaf.x[i], leaf.y[i], leaf.z[i]) - apex;
+        const float t = glm::dot(from, direction);
+        if (t < 0.0f || t > kFarthest || glm::length(from - t * direction) >= kRadius) continue;
+        ++near_rays;
+        EXPECT_TRUE(found.contains(i));
+      }
+  }
+  EXPECT_GT(near_rays, 1000u);
+  EXPECT_LT(found_all, 2000u * kBlock / 2) << "most are left out";
+}
+
+float largest_difference(const Image& a, const Image& b) {
+  float largest = 0.0f;
+  for (size_t i = 0; i < a.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a.pixels[i][c] - b.pixels[i][c]));
+  return largest;
+}
+
 /// A box of fog over a floor, which the camera sees from outside.
-Scene foggy_box() {
+Scene foggy_box(const Material& floor = Lambertian{Rgb(0.6f)}) {
   Scene scene;
   scene.media.push_back(make_medium(nullptr, Rgb(0.8f, 1.0f, 1.3f), 0.7f));
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
-  add_shape(scene, quad_mesh(Vec3d(-3, -1.1, 3), Vec3d(6, 0, 0), Vec3d(0, 0, -6)), Lambertian{Rgb(0.6f)});
+  add_shape(scene, quad_mesh(Vec3d(-3, -1.1, 3), Vec3d(6, 0, 0), Vec3d(0, 0, -6)), floor);
   scene.lights.push_back(PointLight{Vec3(0.3f, 2.0f, 0.4f), Rgb(5.0f)});
   scene.camera = make_camera(Vec3(0.5f, 1.0f, 4.0f), Vec3(0.0f), Vec3(0, 1, 0), 40.0f, {24, 20});
   scene.geometry.commit();
@@ -84,6 +137,21 @@ TEST(Combined, IsTheSameBitForBitOnAnyNumberOfThreads) {
   const Image three = render_combined_pass(scene, settings, 3, kGoOn).image;
   set_threads(0);
   EXPECT_EQ(one.pixels, three.pixels);
+}
+
+/// Photons on a diffuse floor are merged in lanes, those on a glossy one by one: without its gloss it is diffuse.
+TEST(Combined, PhotonsOnDiffuseSurfacesAreMergedAsOnOthers) {
+  for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power, Heuristic::correlation_aware}) {
+    RenderSettings settings = combined_settings_of(20'000);
+    settings.combined.heuristic = heuristic;
+    const auto floor_of = [&](const Material& material) {
+      return render_combined_pass(foggy_box(material), settings, 2, kGoOn).image;
+    };
+    const Image diffuse = floor_of(Lambertian{Rgb(0.6f, 0.3f, 0.1f)});
+    const Image others = floor_of(Phong{Rgb(0.6f, 0.3f, 0.1f), Rgb(0.0f), 5.0f});
+    EXPECT_GT(channel_means(diffuse).r, 1e-3);
+    EXPECT_LT(largest_difference(diffuse, others), 1e-5 * channel_means(diffuse).r);
+  }
 }
 
 /// The report tells the largest radius of merges in media, and photons below the floor.

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "vpm/base/below.h"
 #include "vpm/base/vec.h"
@@ -18,6 +19,12 @@ using Floats = float __attribute__((vector_size(kBlock * sizeof(float))));
 using LaneMask = int32_t __attribute__((vector_size(kBlock * sizeof(int32_t))));  // also of comparisons: 0 or -1
 
 inline Floats all_lanes(float value) { return Floats{} + value; }
+/// A row of numbers.
+inline Floats lanes_of(const float (&values)[kBlock]) {
+  Floats lanes;
+  std::memcpy(&lanes, values, sizeof lanes);
+  return lanes;
+}
 inline Floats min(const Floats& a, const Floats& b) { return a < b ? a : b; }
 inline Floats max(const Floats& a, const Floats& b) { return a > b ? a : b; }
 
@@ -35,6 +42,18 @@ inline bool any(const LaneMask& mask) {
   int32_t all = 0;
   for (const int32_t lane : std::bit_cast<std::array<int32_t, kBlock> >(mask)) all |= lane;
   return all != 0;
+#endif
+}
+
+/// In how many lanes the mask is set.
+inline uint32_t lanes_in(const LaneMask& mask) {
+#if defined(__AVX512F__)
+  const auto lanes = std::bit_cast<__m512i>(mask);
+  return static_cast<uint32_t>(std::popcount(static_cast<uint16_t>(_mm512_test_epi32_mask(lanes, lanes))));
+#else
+  uint32_t number = 0;
+  for (const int32_t lane : std::bit_cast<std::array<int32_t, kBlock> >(mask)) number += lane != 0 ? 1 : 0;
+  return number;
 #endif
 }
 
@@ -61,6 +80,7 @@ struct Floats3 {
   }
   Vec3 operator[](size_t lane) const { return {x[lane], y[lane], z[lane]}; }
   friend Floats3 operator-(const Vec3& a, const Floats3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Floats3 operator-(const Floats3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Floats3 operator-(const Floats3& a, const Floats3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Floats3 operator+(const Floats3& a, const Floats3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Floats3 operator*(const Floats& a, const Floats3& b) { return {a * b.x, a * b.y, a * b.z}; }

@@ -83,15 +83,21 @@ ScenePlan read_plan(TableReader& root, RenderJob& job) {
 
 /// The options that make kAuto of what may be and is left out, and is not decided by what is given.
 std::vector<std::string> left_to_choose(const Document& document) {
-  const auto has = [&](const std::string& key) {
+  const auto find = [&](const std::string& key) -> const Entry* {
     const size_t dot = key.find('.');
     const Entry* entry = find_entry(*document.root.table(), key.substr(0, dot));
     const Node::Table* table = entry ? entry->node.table() : nullptr;
-    return table && dot != std::string::npos && find_entry(*table, key.substr(dot + 1));
+    return table && dot != std::string::npos ? find_entry(*table, key.substr(dot + 1)) : nullptr;
+  };
+  const auto stays = [&](const LeftOutStays& rule) {
+    const Entry* const other = find(std::string(rule.unless_key));
+    const std::string* const word = other ? std::get_if<std::string>(&other->node.value) : nullptr;
+    return rule.stays && !(word && *word == rule.unless_word);
   };
   std::vector<std::string> options;
   for (const Setting& setting : all_settings())
-    if (setting.automatic && !setting.left_out_stays && !has(setting.key) && !has(std::string(setting.decided_by.key)))
+    if (setting.automatic && !stays(setting.left_out) && !find(setting.key) &&
+        !find(std::string(setting.decided_by.key)))
       options.push_back(fmt::format("{}={}", setting.key, kAuto));
   return options;
 }

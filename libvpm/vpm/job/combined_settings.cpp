@@ -36,7 +36,7 @@ std::vector<Setting> combined_settings() {
        .meaning = "which techniques find light; what none of them can find is missing",
        .default_text = "all but `\"long-beams\"` and `\"planes\"`",
        .automatic = true,
-       .left_out_stays = true,
+       .left_out = {true, "render.integrator", "combined"},
        .need = {combines, combines_nothing, kCombine}},
       {.key = "combined.heuristic",
        .member = at<&S::combined, &C::heuristic>(),

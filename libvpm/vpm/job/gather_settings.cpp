@@ -33,7 +33,7 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
                  "turn; `\"beams-points\"`: flights within the radius of points of a march"
                : "photons within a `\"radius\"`, or the `\"nearest\"` few",
        .automatic = in_media,
-       .left_out_stays = true},
+       .left_out = {true}},
       {.key = section + ".radius",
        .member = at<Gather, &G::radius>(),
        // Kernels, 1 over its cube, must be floats; and coordinates are at most 1e9 m.

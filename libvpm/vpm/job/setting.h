@@ -66,6 +66,12 @@ struct DecidedBy {
   SettingValue (*value)(const RenderSettings&) = nullptr;  // of this setting then
 };
 
+/// Does a setting keep its default where kAuto is made of what a file leaves out?
+struct LeftOutStays {
+  bool stays = false;
+  std::string_view unless_key = "", unless_word = "";  // it does not where the file says this of another setting
+};
+
 struct Setting {
   std::string key;                             // of scene files: "volume.radius"
   Member member;                               // its default is that of RenderSettings
@@ -74,7 +80,7 @@ struct Setting {
   std::string_view unit = "";                  // "": none
   std::string_view default_text = "";          // for people, where the default's value says little
   bool automatic = false;                      // may it be kAuto?
-  bool left_out_stays = false;                 // keeps its default where kAuto is made of what is left out
+  LeftOutStays left_out = {};                  // of those that may be kAuto
   bool of_passes = false;                      // does it say which passes are rendered, not what each estimates?
   Need need = {};                              // by default none
   DecidedBy decided_by = {};                   // by default nothing but itself

@@ -17,6 +17,9 @@ constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are t
 constexpr size_t kFewLights = 4;      // that are all sampled where an eye sub-path has one vertex for it
 constexpr float kBeamRadius = 0.25f;  // of that of points: wider beams cost as much time as they save in noise
 constexpr double kConnections = 1.0;  // of each vertex of an eye sub-path, to vertices of light sub-paths
+// Light sub-paths that may be connected to, of all that a pass has. Which of them a vertex of an eye sub-path meets is
+// left to chance either way, so that the noise of a pixel is that of all; memory is not.
+constexpr uint64_t kConnectable = 8192;
 
 /// The radii of the pass. Those of media are the least that any of them has by default.
 MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings, int pass) {
@@ -65,6 +68,7 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
 LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& numbers, uint64_t first, uint64_t number) {
   TechniqueCounts counts;
   counts.plane_share = 1.0;
+  counts.connections = 1.0;  // so that vertices are kept
   LightSubPaths few(tracing.scene.media.size());
   trace_light_sub_paths({tracing.scene, tracing.strategy, tracing.transmittance, counts, numbers, tracing.max_events},
                         first, first + number, few);
@@ -101,7 +105,8 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
       kernels_(kernels_of_pass(scene, settings, pass)),
       counts_(counts_of_pass(scene, settings, kernels_)) {
   const PhotonNumbers numbers(settings.photon_sequence, settings.seed, static_cast<uint64_t>(pass));
-  const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_};
+  const uint64_t stride = std::max<uint64_t>(1, paths_ / kConnectable);
+  const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, stride};
   const Stopwatch clock;
   count_by_few(tracing, settings, pass, counts_);
   LightSubPaths light = trace(tracing, stop);
@@ -110,11 +115,8 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   splats_ = std::exchange(light.splats, {});
   light_.emplace(scene, counts_, kernels_, std::move(light));
   statistics_.build_seconds = clock.seconds() - statistics_.trace_seconds;
-  const std::vector<LightVertex>& vertices = light_->vertices();
-  const auto on_surfaces = std::count_if(vertices.begin(), vertices.end(),
-                                         [](const LightVertex& vertex) { return vertex.at.vertex.on_surface; });
-  statistics_.surface_photons = static_cast<uint64_t>(on_surfaces);
-  statistics_.volume_photons = vertices.size() - statistics_.surface_photons;
+  statistics_.surface_photons = light_->on_surfaces().size();
+  statistics_.volume_photons = light_->photons_in_media();
   statistics_.beams = statistics_.flights = light_->beam_count();
   statistics_.planes = light_->planes().size();
   statistics_.photon_map_bytes = light_->memory_bytes() + splats_.capacity() * sizeof(Splat);
@@ -128,10 +130,7 @@ LightSubPaths CombinedPass::trace(const LightTracing& tracing, const std::atomic
     if (!stop) trace_light_sub_paths(tracing, begin, end, parts[chunk]);
   });
   LightSubPaths all(scene_.media.size());
-  for (LightSubPaths& part : parts) {
-    all.join(part);
-    part = LightSubPaths();
-  }
+  all.take_over(parts);
   return all;
 }
 

@@ -14,8 +14,6 @@ uint32_t set_crossings(const LightBeams& beams, const RayBlock& block, const Pha
   if (!any(crossing.met)) return 0;
   const FlightTerms& flight = beams.flights[found.beam[p]];
   const Vec3 travel(found.dx[p], found.dy[p], found.dz[p]);
-  uint32_t number = 0;
-  for (size_t lane = 0; lane < kBlock; ++lane) number += crossing.met[lane] ? 1 : 0;
   const auto where_met = [&](const Floats& x, float otherwise) { return crossing.met ? x : all_lanes(otherwise); };
   const Floats s = where_met(max(crossing.s, Floats{}), 0.0f), flown = flight.offset + s;
   const Rgb power(found.r[p], found.g[p], found.b[p]);
@@ -35,7 +33,7 @@ uint32_t set_crossings(const LightBeams& beams, const RayBlock& block, const Pha
   at.q = where_met(min(crossing.distance2 * (1.0f / (block.radius * block.radius)), all_lanes(1.0f)), 1.0f);
   at.along_ray = at.seen_integral = where_met(dot(crossing.places, block.rays.along), 0.0f);
   at.flown_integral = s;
-  return number;
+  return lanes_in(crossing.met);
 }
 
 /// Of one block, among pieces near all of the bundle.
@@ -44,23 +42,21 @@ void merge_block(const CombinedContext& context, Technique technique, const RayB
   const MediumId medium = block.segments.front().medium;
   const LightBeams& beams = context.light.beams(technique, medium);
   GatherCounters& counters = work.counters.gather;
-  std::array<MergedSum, kBlock> totals;
+  MergedTotals totals;
   const auto merge = [&](const auto& light) {
     return work.scratch.beams.visit_near_bundle(block.bundle(), [&](const BundledBeams& found) {
-      LaneMerges sums;
       for (size_t p = 0; p < found.size; ++p) {
         Crossings at;
         const uint32_t number = set_crossings(beams, block, light.phase(), found, p, at);
         if (number == 0) continue;
         count(counters.used, number);
-        light.add(block.rays, at, sums);
+        light.add(block.rays, at, totals.next());
       }
-      for (size_t i = 0; i < merged.size(); ++i) totals[i].add(sums, i);
       count(counters.visited, found.size * merged.size());
     });
   };
   count(counters.visited, with_crossing_light(context, technique, context.scene.media[medium], merge));
-  for (size_t i = 0; i < merged.size(); ++i) merged[i] = totals[i].times(factor_of(context, block.segments[i]));
+  for (size_t i = 0; i < merged.size(); ++i) merged[i] = totals.of_lane(i).times(factor_of(context, block.segments[i]));
 }
 
 }  // namespace

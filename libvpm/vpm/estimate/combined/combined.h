@@ -20,14 +20,6 @@ struct MergeKernels {
   float beams = 0.0f, points_2d = 0.0f, points_3d = 0.0f;
 };
 
-/// A photon on a surface, for merges.
-struct SurfacePhoton {
-  Vec3 point{0.0f};   // m
-  Vec3 travel{0.0f};  // unit
-  Rgb power{0.0f};    // W
-  BehindMerge behind;
-};
-
 /// The beams of a medium, with their flights, in the order of the map.
 struct LightBeams {
   PhotonBeamMap map;
@@ -39,7 +31,9 @@ class SortedLight {
  public:
   SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels, LightSubPaths paths);
 
+  /// Those that may be connected to, and of how many sub-paths they are.
   const std::vector<LightVertex>& vertices() const { return paths_.vertices; }
+  uint64_t connectable_paths() const { return paths_.connectable; }
   /// Short or long ones.
   const LightBeams& beams(Technique technique, MediumId medium) const {
     return (technique == Technique::long_beams ? long_beams_ : short_beams_)[medium];
@@ -49,16 +43,17 @@ class SortedLight {
   /// By PlaneCrossing::number.
   const FlightStart& plane_start(size_t number) const { return paths_.plane_starts[number]; }
   /// Photons on surfaces, but those straight from lights that are sampled, and in a medium.
-  const VertexMap<RecordLeaf<SurfacePhoton>>& on_surfaces() const { return on_surfaces_; }
+  const VertexMap<SurfacePhotonLeaf>& on_surfaces() const { return on_surfaces_; }
   const VertexMap<MediumPhotonLeaf>& in_medium(MediumId medium) const { return in_media_[medium]; }
   /// behind_scale() in a medium.
   double scale_in(MediumId medium) const { return scales_[medium]; }
   size_t beam_count() const;
+  size_t photons_in_media() const;
   size_t memory_bytes() const;
 
  private:
   LightSubPaths paths_;
-  VertexMap<RecordLeaf<SurfacePhoton>> on_surfaces_;
+  VertexMap<SurfacePhotonLeaf> on_surfaces_;
   std::vector<VertexMap<MediumPhotonLeaf>> in_media_;  // by medium
   std::vector<double> scales_;                         // likewise
   std::vector<LightBeams> short_beams_, long_beams_;   // by medium

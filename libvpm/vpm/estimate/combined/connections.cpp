@@ -77,7 +77,8 @@ void EyeSubPath::sample_light(const Arrival& at, const Receiver& side, int numbe
 void EyeSubPath::connect(const Arrival& at) {
   const std::vector<LightVertex>& all = c_.light.vertices();
   if (c_.counts.connections == 0.0 || all.empty()) return;
-  const double number = c_.counts.connections * static_cast<double>(all.size()) / c_.light_paths;
+  const double of_path = static_cast<double>(all.size()) / static_cast<double>(c_.light.connectable_paths());
+  const double number = c_.counts.connections * of_path;
   const auto whole = static_cast<size_t>(number + work_.rng.uniform_double());
   for (size_t i = 0; i < whole; ++i) {
     const auto pick = static_cast<size_t>(work_.rng.uniform_double() * static_cast<double>(all.size()));

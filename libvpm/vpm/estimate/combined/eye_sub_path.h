@@ -87,6 +87,8 @@ class EyeSubPath {
 
   // A file for each
   void merge_surface(const Arrival& at);
+  /// On a surface that reflects diffusely, seen from that side of it.
+  void merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& reflectance);
   void merge_points_3d(const Arrival& at);
   void merge_along_ray(const Along& along, const Interval& interval);
   void merge_planes(const Along& along, const Interval& interval);

@@ -1,17 +1,9 @@
 // The terms of a flight, from the sums that its sub-path would carry a metre on.
 #include "vpm/estimate/combined/flight_terms.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace vpm {
-namespace {
-
-/// Beside so much no share is left, to the last digit.
-float finite(double x) { return static_cast<float>(std::min(x, 1e30)); }
-
-}  // namespace
-
 double unit_of_beams(const TechniqueCounts& counts) {
   return counts.short_beams > 0.0 ? counts.short_beams : counts.long_beams;
 }
@@ -30,20 +22,21 @@ FlightTerms flight_terms(const TechniqueCounts& counts, const Departure& from, c
     const double behind = sums.further / counts.weigh(back);
     const double weighed = counts.heuristic == Heuristic::power ? std::sqrt(behind) : behind;
     const bool collided = from.from.kind == Junction::Kind::medium;
-    terms.back = (collided ? from.from.sigma_t : Rgb(static_cast<float>(back))) * (finite(weighed * unit) / 3.0f);
+    terms.back =
+        (collided ? from.from.sigma_t : Rgb(static_cast<float>(back))) * (finite_density(weighed * unit) / 3.0f);
   }
   const bool round = from.light && std::holds_alternative<SphereLight>(*from.light);
   if (round) {
     terms.round = from.light;
     terms.normal = from.from.normal;
   }
-  terms.adjacent = finite((round ? 1.0 / from.place : sums.adjacent) * unit);
+  terms.adjacent = finite_density((round ? 1.0 / from.place : sums.adjacent) * unit);
   return terms;
 }
 
 float adjacent_at(const FlightTerms& terms, const Vec3& place, const Vec3& travel, float distance) {
   if (!terms.round) return terms.adjacent;
-  return finite(terms.adjacent * sampled_density(*terms.round, place, {-travel, distance, terms.normal}));
+  return finite_density(terms.adjacent * sampled_density(*terms.round, place, {-travel, distance, terms.normal}));
 }
 
 }  // namespace vpm

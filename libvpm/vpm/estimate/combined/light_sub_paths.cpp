@@ -15,10 +15,15 @@ namespace {
 
 class LightSubPath {
  public:
-  LightSubPath(const LightTracing& tracing, LightSubPaths& paths, std::vector<Track>& tracks, Rng& rng)
-      : c_(tracing), out_(paths), tracks_(tracks), rng_(rng) {}
+  LightSubPath(const LightTracing& tracing, uint64_t number, LightSubPaths& paths, std::vector<Track>& tracks, Rng& rng)
+      : c_(tracing),
+        connectable_(tracing.counts.connections > 0.0 && number % tracing.stride == 0),
+        out_(paths),
+        tracks_(tracks),
+        rng_(rng) {}
 
   void trace() {
+    if (connectable_) ++out_.connectable;
     emit();
     follow();
     out_.ledger.imbalance.add(balance_);
@@ -133,6 +138,13 @@ class LightSubPath {
     });
   }
 
+  void keep_on_surface(const Arrival& at) {
+    if (c_.counts.surfaces == 0.0 || at.sums.straight) return;
+    const Vec3& point = at.vertex.point;
+    const BehindMerge behind = behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, true).surface);
+    out_.on_surfaces.push_back({point, {point, at.vertex.travel, state_.throughput, behind}});
+  }
+
   void keep_collided(const Arrival& at) {
     if (!merges_points()) return;
     const Medium& medium = c_.scene.media[at.vertex.medium];
@@ -157,8 +169,8 @@ class LightSubPath {
   bool go_on(const Arrival& at) {
     const PathVertex& vertex = at.vertex;
     if (!vertex.specular && (vertex.on_surface || c_.scene.media[vertex.medium].scatters())) {
-      out_.vertices.push_back({at, state_.throughput});
-      if (!vertex.on_surface) keep_collided(at);
+      if (connectable_) out_.vertices.push_back({at, state_.throughput});
+      vertex.on_surface ? keep_on_surface(at) : keep_collided(at);
       if (c_.counts.splats > 0.0) splat(c_, at, state_.throughput, rng_, out_);
     }
     const Rgb before = state_.throughput;
@@ -192,6 +204,7 @@ class LightSubPath {
   }
 
   const LightTracing& c_;
+  bool connectable_;
   LightSubPaths& out_;
   std::vector<Track>& tracks_;
   Rng& rng_;
@@ -202,22 +215,29 @@ class LightSubPath {
 
 }  // namespace
 
-void LightFlights::join(LightFlights& part) {
-  for (size_t m = 0; m < beams.size(); ++m) {
-    join_lists(beams[m], part.beams[m]);
-    join_lists(flights[m], part.flights[m]);
+void LightSubPaths::take_over(std::span<LightSubPaths> parts) {
+  const auto join = [&](auto&& list) {
+    size_t size = 0;
+    for (LightSubPaths& part : parts) size += list(part).size();
+    list(*this).reserve(size);
+    for (LightSubPaths& part : parts) join_lists(list(*this), list(part));
+  };
+  join([](LightSubPaths & of) -> auto& { return of.vertices; });
+  join([](LightSubPaths & of) -> auto& { return of.on_surfaces; });
+  join([](LightSubPaths & of) -> auto& { return of.planes; });
+  join([](LightSubPaths & of) -> auto& { return of.plane_starts; });
+  join([](LightSubPaths & of) -> auto& { return of.splats; });
+  for (size_t m = 0; m < photons.size(); ++m) {
+    join([m](LightSubPaths & of) -> auto& { return of.photons[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.short_beams.beams[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.short_beams.flights[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.long_beams.beams[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.long_beams.flights[m]; });
   }
-}
-
-void LightSubPaths::join(LightSubPaths& part) {
-  join_lists(vertices, part.vertices);
-  for (size_t m = 0; m < photons.size(); ++m) join_lists(photons[m], part.photons[m]);
-  short_beams.join(part.short_beams);
-  long_beams.join(part.long_beams);
-  join_lists(planes, part.planes);
-  join_lists(plane_starts, part.plane_starts);
-  join_lists(splats, part.splats);
-  ledger.merge(part.ledger);
+  for (const LightSubPaths& part : parts) {
+    connectable += part.connectable;
+    ledger.merge(part.ledger);
+  }
 }
 
 void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths) {
@@ -225,7 +245,7 @@ void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t
   PhotonNumbers::Lead lead;
   for (uint64_t i = begin; i < end; ++i) {
     Rng rng = tracing.numbers.of(i, lead);
-    LightSubPath(tracing, paths, tracks, rng).trace();
+    LightSubPath(tracing, i, paths, tracks, rng).trace();
   }
 }
 

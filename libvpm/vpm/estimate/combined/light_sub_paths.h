@@ -1,10 +1,12 @@
 // The sub-paths from the lights of one pass: their vertices and flights, with the sums that weigh techniques.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "vpm/estimate/combined/flight_terms.h"
 #include "vpm/estimate/combined/medium_photon.h"
+#include "vpm/estimate/combined/surface_photon.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/ledger.h"
@@ -14,7 +16,7 @@
 
 namespace vpm {
 
-/// A vertex of a light sub-path that is not specular.
+/// A vertex of a light sub-path that is not specular, to be connected to.
 struct LightVertex {
   Arrival at;
   Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
@@ -32,7 +34,6 @@ struct LightFlights {
   std::vector<std::vector<FlightTerms>> flights;
 
   explicit LightFlights(size_t media) : beams(media), flights(media) {}
-  void join(LightFlights& part);
 };
 
 /// What a light sub-path brings to a pixel by light tracing.
@@ -43,7 +44,9 @@ struct Splat {
 };
 
 struct LightSubPaths {
-  std::vector<LightVertex> vertices;
+  std::vector<LightVertex> vertices;                             // of the sub-paths that may be connected to
+  uint64_t connectable = 0;                                      // how many these are
+  std::vector<PlacedRecord<SurfacePhoton>> on_surfaces;          // but those straight from lights that are sampled
   std::vector<std::vector<PlacedRecord<MediumPhoton>>> photons;  // by medium
   LightFlights short_beams, long_beams;
   std::vector<PhotonPlane> planes;
@@ -52,8 +55,8 @@ struct LightSubPaths {
   Ledger ledger;  // emitted, counts of events, look-ups
 
   explicit LightSubPaths(size_t media = 0) : photons(media), short_beams(media), long_beams(media) {}
-  /// Takes over what a part has, which comes next.
-  void join(LightSubPaths& part);
+  /// Takes over what parts have, one after another.
+  void take_over(std::span<LightSubPaths> parts);
 };
 
 /// What tracing needs.
@@ -64,6 +67,7 @@ struct LightTracing {
   const TechniqueCounts& counts;
   const PhotonNumbers& numbers;
   int max_events = 100'000;  // of one sub-path
+  uint64_t stride = 1;       // one of so many sub-paths may be connected to
 };
 
 /// Light tracing: connects a vertex, with the power that arrives there, W, to the camera.

@@ -42,10 +42,10 @@ struct alignas(64) MediumPhotonLeaf : LeafPlaces {
     turn_x[i] = static_cast<float>(photon.turn.x);
     turn_y[i] = static_cast<float>(photon.turn.y);
     turn_z[i] = static_cast<float>(photon.turn.z);
-    passing[i] = finite(photon.arrived.passing);
-    sent[i] = finite(photon.arrived.sent);
-    adjacent[i] = finite(photon.behind.adjacent);
-    further[i] = finite(photon.behind.further);
+    passing[i] = finite_density(photon.arrived.passing);
+    sent[i] = finite_density(photon.arrived.sent);
+    adjacent[i] = finite_density(photon.behind.adjacent);
+    further[i] = finite_density(photon.behind.further);
   }
   MediumPhoton operator[](size_t i) const {
     return {travel(i), power(i), Vec3d(turn(i)), {passing[i], sent[i]}, {adjacent[i], further[i]}};
@@ -58,10 +58,6 @@ struct alignas(64) MediumPhotonLeaf : LeafPlaces {
   float power_r[kBlock], power_g[kBlock], power_b[kBlock];
   float turn_x[kBlock], turn_y[kBlock], turn_z[kBlock];
   float passing[kBlock], sent[kBlock], adjacent[kBlock], further[kBlock];
-
- private:
-  /// Beside so much the share of a merge is 0, to the last digit.
-  static float finite(double density) { return static_cast<float>(std::min(density, 1e30)); }
 };
 
 }  // namespace vpm

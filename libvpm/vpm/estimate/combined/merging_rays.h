@@ -114,12 +114,53 @@ struct MergedSum {
       unweighted[c] += sums.unweighted[c][lane];
     }
   }
+  MergedSum& operator+=(const MergedSum& other) {
+    value += other.value;
+    correction += other.correction;
+    unweighted += other.unweighted;
+    return *this;
+  }
   void add_all(const LaneMerges& sums) {
     for (size_t lane = 0; lane < kBlock; ++lane) add(sums, lane);
   }
   Merged times(const Rgb& factor) const {
     return {{Rgb(value) * factor, Rgb(correction) * factor}, Rgb(unweighted) * factor};
   }
+};
+
+/// The sums of what many photons or beams bring to rays in lanes: in floats as long as these are few.
+class MergedTotals {
+ public:
+  /// Where the next one is to be added.
+  LaneMerges& next() {
+    if (++in_floats_ > kMostInFloats) flush();
+    return floats_;
+  }
+  /// All that has been added to a lane.
+  const MergedSum& of_lane(size_t lane) {
+    flush();
+    return sums_[lane];
+  }
+  /// All that has been added.
+  MergedSum of_all() {
+    flush();
+    MergedSum all;
+    for (const MergedSum& sum : sums_) all += sum;
+    return all;
+  }
+
+ private:
+  static constexpr uint32_t kMostInFloats = 128;
+
+  void flush() {
+    for (size_t lane = 0; lane < kBlock; ++lane) sums_[lane].add(floats_, lane);
+    floats_ = {};
+    in_floats_ = 0;
+  }
+
+  LaneMerges floats_;
+  uint32_t in_floats_ = 0;
+  std::array<MergedSum, kBlock> sums_;
 };
 
 // --- Many rays

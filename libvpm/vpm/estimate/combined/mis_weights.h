@@ -24,6 +24,8 @@
 // of each leg is known exactly.
 #pragma once
 
+#include <algorithm>
+
 #include "vpm/estimate/combined/path_vertex.h"
 #include "vpm/estimate/combined/technique.h"
 #include "vpm/light/emission_density.h"
@@ -199,6 +201,9 @@ struct BehindMerge {
   double sum(double back) const { return adjacent + back * further; }
 };
 BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums);
+/// A density over another one, as a float has room for it: beside so much no share is left, to the last digit.
+inline float finite_density(double density) { return static_cast<float>(std::min(density, 1e30)); }
+
 /// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
 /// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the
 /// other one. The eye's sums are those with_turn(), where they differ.

@@ -1,6 +1,4 @@
 // Photons in media around whole rays from the camera: leaf by leaf around one ray, or photon by photon around many.
-#include <cstring>
-
 #include "vpm/base/count.h"
 #include "vpm/estimate/combined/photon_light.h"
 
@@ -8,12 +6,6 @@ namespace vpm {
 namespace {
 
 using PhotonsInMedium = VertexMap<MediumPhotonLeaf>;
-
-Floats row(const float (&values)[kBlock]) {
-  Floats lanes;
-  std::memcpy(&lanes, values, sizeof lanes);
-  return lanes;
-}
 
 // --- Many photons and one ray
 
@@ -39,45 +31,55 @@ uint32_t set_medium_beside(const Medium& medium, const DensityIntegralsAlong& in
 
 template <class PhaseFunction>
 void set_photons(const MediumPhotonLeaf& leaf, const PhaseFunction& phase, const Vec3& along, PhotonsBeside& at) {
-  at.power = {row(leaf.power_r), row(leaf.power_g), row(leaf.power_b)};
-  at.passing = row(leaf.passing);
-  at.sent = row(leaf.sent);
-  at.adjacent = row(leaf.adjacent);
-  at.further = row(leaf.further);
-  const Floats3 travel{row(leaf.travel_x), row(leaf.travel_y), row(leaf.travel_z)};
+  at.power = {lanes_of(leaf.power_r), lanes_of(leaf.power_g), lanes_of(leaf.power_b)};
+  at.passing = lanes_of(leaf.passing);
+  at.sent = lanes_of(leaf.sent);
+  at.adjacent = lanes_of(leaf.adjacent);
+  at.further = lanes_of(leaf.further);
+  const Floats3 travel{lanes_of(leaf.travel_x), lanes_of(leaf.travel_y), lanes_of(leaf.travel_z)};
   const Floats3 across = cross(along, travel);
   at.sine = sqrt(dot(across, across));
-  at.determinant = abs(dot(along, Floats3{row(leaf.turn_x), row(leaf.turn_y), row(leaf.turn_z)}));
+  at.determinant = abs(dot(along, Floats3{lanes_of(leaf.turn_x), lanes_of(leaf.turn_y), lanes_of(leaf.turn_z)}));
   for (size_t i = 0; i < kBlock; ++i) at.scattered[i] = phase.value(leaf.travel(i), -along);
 }
 
 // --- One photon and many rays
 
-/// Photon number `p` of a leaf beside the rays of a block. Returns beside how many of them it lies.
-template <class PhaseFunction>
-uint32_t set_photon(const MediumPhotonLeaf& leaf, size_t p, const RayBlock& block, const PhaseFunction& phase,
-                    PhotonsBeside& at) {
+/// How a photon lies to the rays of a block.
+struct BesideRays {
+  LaneMask near;
+  Floats distance2, places;  // as PhotonsInMedium::BesideRay has them
+};
+BesideRays beside(const RayBlock& block, const Vec3& photon) {
   const RayLanes& rays = block.lanes;
-  const Floats3 place = Vec3(leaf.x[p], leaf.y[p], leaf.z[p]) - block.apex - rays.from;
+  const Floats3 place = photon - block.apex - rays.from;
   const Floats t = dot(place, rays.along), a = dot(place, rays.right), b = dot(place, rays.up);
   const Floats distance2 = a * a + b * b;
-  const LaneMask near = (distance2 < block.radius * block.radius) & (t >= rays.t0) & (t < rays.t1);
-  if (!any(near)) return 0;
-  uint32_t number = 0;
-  for (size_t lane = 0; lane < kBlock; ++lane) number += near[lane] ? 1 : 0;
-  at.power = all_lanes(leaf.power(p));
-  at.passing = all_lanes(leaf.passing[p]);
-  at.sent = all_lanes(leaf.sent[p]);
-  at.adjacent = all_lanes(leaf.adjacent[p]);
-  at.further = all_lanes(leaf.further[p]);
-  const Floats3 across = cross(leaf.travel(p), rays.along);
-  at.sine = sqrt(dot(across, across));
-  at.determinant = abs(dot(leaf.turn(p), rays.along));
-  for (size_t lane = 0; lane < kBlock; ++lane) at.scattered[lane] = phase.value(leaf.travel(p), -rays.along[lane]);
-  at.q = near ? distance2 * (1.0f / (block.radius * block.radius)) : all_lanes(1.0f);
-  at.along_ray = at.seen_integral = near ? t : Floats{};
-  at.density = near ? all_lanes(1.0f) : Floats{};
-  return number;
+  return {(distance2 < block.radius * block.radius) & (t >= rays.t0) & (t < rays.t1), distance2, t};
+}
+
+/// Photon number `p` of a leaf, and the rays of a block that it is near.
+template <class PhaseFunction>
+PhotonsBeside photon_beside(const MediumPhotonLeaf& leaf, size_t p, const RayBlock& block, const BesideRays& beside,
+                            const PhaseFunction& phase) {
+  const Floats3& along = block.lanes.along;
+  const Vec3 travel = leaf.travel(p);
+  const Floats3 across = cross(travel, along);
+  Floats scattered;
+  for (size_t lane = 0; lane < kBlock; ++lane) scattered[lane] = phase.value(travel, -along[lane]);
+  const Floats place = beside.near ? beside.places : Floats{};
+  return {.power = all_lanes(leaf.power(p)),
+          .passing = all_lanes(leaf.passing[p]),
+          .sent = all_lanes(leaf.sent[p]),
+          .adjacent = all_lanes(leaf.adjacent[p]),
+          .further = all_lanes(leaf.further[p]),
+          .sine = sqrt(dot(across, across)),
+          .determinant = abs(dot(leaf.turn(p), along)),
+          .scattered = scattered,
+          .q = beside.near ? beside.distance2 * (1.0f / (block.radius * block.radius)) : all_lanes(1.0f),
+          .along_ray = place,
+          .seen_integral = place,
+          .density = beside.near ? all_lanes(1.0f) : Floats{}};
 }
 
 /// Of one block, among leaves near all of the bundle.
@@ -86,23 +88,27 @@ void merge_block_of_points(const CombinedContext& context, const RayBlock& block
   const MediumId medium = block.segments.front().medium;
   const PhotonsInMedium& map = context.light.in_medium(medium);
   GatherCounters& counters = work.counters.gather;
-  std::array<MergedSum, kBlock> totals;
+  const RayBundle bundle = block.bundle();
+  MergedTotals totals;
   const auto merge = [&](const auto& light) {
-    for (const uint32_t leaf : work.scratch.leaves) {
-      LaneMerges sums;
-      for (size_t p = 0; p < kBlock; ++p) {
-        PhotonsBeside at;
-        const uint32_t number = set_photon(map.leaf(leaf), p, block, light.phase(), at);
-        if (number == 0) continue;
-        count(counters.used, number);
-        light.add(block.rays, at, sums);
+    for (const uint32_t number : work.scratch.leaves) {
+      const MediumPhotonLeaf& leaf = map.leaf(number);
+      uint32_t near[kBlock];
+      const uint32_t found = find_near(leaf, bundle, block.radius, near);
+      count(counters.visited, kBlock + found * merged.size());
+      for (uint32_t i = 0; i < found; ++i) {
+        const size_t p = near[i];
+        const BesideRays lies = beside(block, {leaf.x[p], leaf.y[p], leaf.z[p]});
+        const uint32_t used = lanes_in(lies.near);
+        if (used == 0) continue;
+        count(counters.used, used);
+        light.add(block.rays, photon_beside(leaf, p, block, lies, light.phase()), totals.next());
       }
-      for (size_t i = 0; i < merged.size(); ++i) totals[i].add(sums, i);
-      count(counters.visited, kBlock * merged.size());
     }
   };
   with_photon_light(context, context.scene.media[medium], merge);
-  for (size_t i = 0; i < merged.size(); ++i) merged[i] = totals[i].times(factor_of_photons(context, block.segments[i]));
+  for (size_t i = 0; i < merged.size(); ++i)
+    merged[i] = totals.of_lane(i).times(factor_of_photons(context, block.segments[i]));
 }
 
 }  // namespace

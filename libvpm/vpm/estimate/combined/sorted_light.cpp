@@ -7,19 +7,6 @@
 namespace vpm {
 namespace {
 
-VertexMap<RecordLeaf<SurfacePhoton>> sort_surfaces(const std::vector<LightVertex>& vertices,
-                                                   const TechniqueCounts& counts, float radius) {
-  if (counts.surfaces == 0.0) return {};
-  std::vector<PlacedRecord<SurfacePhoton>> photons;
-  for (const LightVertex& light : vertices) {
-    const PathVertex& vertex = light.at.vertex;
-    if (vertex.on_surface && !light.at.sums.straight)
-      photons.push_back(
-          {vertex.point, {vertex.point, vertex.travel, light.power, behind_merge(counts, light.at.sums)}});
-  }
-  return {photons, radius};
-}
-
 std::vector<LightBeams> sorted_beams(LightFlights& flights, float radius, float scale) {
   std::vector<LightBeams> beams;
   for (size_t m = 0; m < flights.beams.size(); ++m) {
@@ -33,7 +20,7 @@ std::vector<LightBeams> sorted_beams(LightFlights& flights, float radius, float 
 
 SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels,
                          LightSubPaths paths)
-    : paths_(std::move(paths)), on_surfaces_(sort_surfaces(paths_.vertices, counts, kernels.surface)) {
+    : paths_(std::move(paths)), on_surfaces_(std::exchange(paths_.on_surfaces, {}), kernels.surface) {
   const float reach = std::max(kernels.points_2d, kernels.points_3d);
   const float scale = 1.0f / static_cast<float>(paths_.ledger.emitted_count);
   for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m) {
@@ -52,6 +39,12 @@ size_t SortedLight::beam_count() const {
   size_t sum = 0;
   for (const auto* beams : {&short_beams_, &long_beams_})
     for (const LightBeams& of_medium : *beams) sum += of_medium.map.size();
+  return sum;
+}
+
+size_t SortedLight::photons_in_media() const {
+  size_t sum = 0;
+  for (const VertexMap<MediumPhotonLeaf>& map : in_media_) sum += map.size();
   return sum;
 }
 

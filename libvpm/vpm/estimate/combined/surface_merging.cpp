@@ -3,34 +3,90 @@
 
 #include "vpm/base/count.h"
 #include "vpm/estimate/combined/eye_sub_path.h"
+#include "vpm/estimate/combined/merging_rays.h"
 #include "vpm/estimate/surface_estimate.h"
 
 namespace vpm {
 
 void EyeSubPath::merge_surface(const Arrival& at) {
-  const VertexMap<RecordLeaf<SurfacePhoton>>& map = c_.light.on_surfaces();
+  const VertexMap<SurfacePhotonLeaf>& map = c_.light.on_surfaces();
   if (!c_.counts.merges_surfaces(at_.only_specular) || map.size() == 0) return;
-  const float radius = c_.kernels.surface;
-  const auto kernel = kernel_of<2>(c_.kernels.surface_kernel, radius);
-  const PathVertex& vertex = at.vertex;
-  const Vec3 side = glm::dot(vertex.hit.normal, vertex.travel) < 0.0f ? vertex.hit.normal : -vertex.hit.normal;
-  const Arrives arrives{side, kFlatness * radius, scatters_through(vertex.material)};
-  const MergeTerms merges = merges_on_surface(c_.counts, at_.only_specular);
-  const BehindMerge eye = behind_merge(c_.counts, at.sums);
-  const Rgb each = at_.state.throughput / static_cast<float>(c_.light_paths);
   count(work_.counters.surface_queries);
   count(work_.counters.gather.searches);
+  const PathVertex& vertex = at.vertex;
+  const Vec3 side = glm::dot(vertex.hit.normal, vertex.travel) < 0.0f ? vertex.hit.normal : -vertex.hit.normal;
+  if (const Rgb* diffuse = diffuse_reflectance(vertex.material); diffuse && single_normal(vertex.hit))
+    return merge_diffuse(at, side, *diffuse);
+  const float radius = c_.kernels.surface;
+  const auto kernel = kernel_of<2>(c_.kernels.surface_kernel, radius);
+  const Arrives arrives{side, kFlatness * radius, scatters_through(vertex.material)};
+  const BehindMerge eye =
+      behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, at_.only_specular).surface);
+  const Rgb each = at_.state.throughput / static_cast<float>(c_.light_paths);
   const auto merge = [&](const SurfacePhoton& photon, float distance2) {
     const bool faces = arrives.from_both_sides || glm::dot(photon.travel, side) < 0.0f;
     if (!faces || !arrives.near_plane(photon.point - vertex.point)) return;
     const Scattered scattered = scattered_into(c_.scene, vertex, -photon.travel, SubPath::eye);
     const float cosine = std::abs(glm::dot(vertex.hit.normal, photon.travel));
     if (is_black(scattered.value) || cosine == 0.0f) return;
-    const double all = all_at_merge(c_.counts, merges, photon.behind, scattered.forward, eye, scattered.reverse);
-    const Rgb found = each * scattered.value * photon.power / cosine;
-    add_merged(Technique::surface_merging, found, kernel(distance2), merges.surface / all);
+    const double all =
+        1.0 + photon.behind.sum(c_.counts.weigh(scattered.forward)) + eye.sum(c_.counts.weigh(scattered.reverse));
+    add_merged(Technique::surface_merging, each * scattered.value * photon.power / cosine, kernel(distance2),
+               1.0 / all);
   };
   count(work_.counters.gather.visited, map.visit_near(vertex.point, radius, merge));
+}
+
+namespace {
+
+/// The photons of a leaf around a place on a surface.
+struct AroundPlace {
+  LaneMask counts;  // do they arrive within the radius, on that side of the surface?
+  Floats q;         // their squared distance over that of the radius
+  Floats cosine;    // of their directions to the normal
+};
+AroundPlace around(const SurfacePhotonLeaf& leaf, const Vec3& place, const Arrives& arrives, float radius) {
+  const Floats3 offset = Floats3{lanes_of(leaf.x), lanes_of(leaf.y), lanes_of(leaf.z)} - place;
+  const Floats distance2 = dot(offset, offset), height = abs(dot(arrives.normal, offset));
+  const Floats3 travel{lanes_of(leaf.travel_x), lanes_of(leaf.travel_y), lanes_of(leaf.travel_z)};
+  const Floats cosine = Floats{} - dot(arrives.normal, travel);
+  const LaneMask near = distance2 < radius * radius;
+  const Floats reached = near ? distance2 : Floats{};
+  return {near & (cosine > 0.0f) & (height <= arrives.thickness + kSlope * sqrt(reached)),
+          reached * (1.0f / (radius * radius)), cosine};
+}
+
+}  // namespace
+
+void EyeSubPath::merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& reflectance) {
+  constexpr float kPerPi = 1.0f / kPi;
+  const PathVertex& vertex = at.vertex;
+  const float radius = c_.kernels.surface, to_eye = -glm::dot(side, vertex.travel) * kPerPi;
+  const Arrives arrives{side, kFlatness * radius};
+  const BehindMerge behind =
+      behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, at_.only_specular).surface);
+  const float others = finite_density(1.0 + behind.sum(c_.counts.weigh(to_eye)));
+  const bool squares = c_.counts.heuristic == Heuristic::power;
+  MergedTotals totals;
+  const auto merge = [&](auto profile) {
+    return c_.light.on_surfaces().visit_leaves_near(vertex.point, [&](const SurfacePhotonLeaf& leaf) {
+      const AroundPlace near = around(leaf, vertex.point, arrives, radius);
+      if (!any(near.counts)) return;
+      count(work_.counters.gather.used, lanes_in(near.counts));
+      const Floats to_light = near.cosine * kPerPi;
+      const Floats back = squares ? to_light * to_light : to_light;
+      const Floats share = 1.0f / (others + lanes_of(leaf.adjacent) + back * lanes_of(leaf.further));
+      FloatsRgb power{lanes_of(leaf.power_r), lanes_of(leaf.power_g), lanes_of(leaf.power_b)};
+      for (Floats& channel : power) channel = near.counts ? channel : Floats{};
+      totals.next().add(power, share, near.q, profile);
+    });
+  };
+  count(work_.counters.gather.visited, with_kernel<2>(c_.kernels.surface_kernel, merge));
+  const Rgb each = at_.state.throughput * reflectance *
+                   (kPerPi * kernel_norm<2>(c_.kernels.surface_kernel, radius) / static_cast<float>(c_.light_paths));
+  const Merged merged = totals.of_all().times(each);
+  radiance_ += merged.light;
+  if (parts_) parts_->add_both(Technique::surface_merging, merged.light.value, merged.unweighted);
 }
 
 }  // namespace vpm

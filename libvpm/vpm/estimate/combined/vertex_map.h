@@ -24,16 +24,23 @@ struct LeafPlaces {
   float x[kBlock], y[kBlock], z[kBlock];
 };
 
-/// kBlock vertices with their records as they are.
-template <class T>
-struct alignas(64) RecordLeaf : LeafPlaces {
-  using Record = T;
-
-  void set(size_t i, const T& record) { records[i] = record; }
-  const T& operator[](size_t i) const { return records[i]; }
-
-  T records[kBlock];
-};
+/// Finds the vertices of a leaf that may be nearer to rays of the bundle than the radius, m: their numbers. Returns how
+/// many there are.
+inline uint32_t find_near(const LeafPlaces& leaf, const RayBundle& bundle, float radius, uint32_t* numbers) {
+  const HalfSpaces& region = bundle.region();
+  const Vec3 apex = bundle.apex();
+  const float reach = 1.0001f * radius;  // for rounding
+  float outside[kBlock] = {}, unused[kBlock];
+  for (int k = 0; k < region.count(); ++k) {
+    const Vec3 n = region.normal(k);
+    const float least = region.offset(k) - reach;
+    for (uint32_t i = 0; i < kBlock; ++i) {
+      const float depth = n.x * (leaf.x[i] - apex.x) + n.y * (leaf.y[i] - apex.y) + n.z * (leaf.z[i] - apex.z);
+      outside[i] = depth >= least ? outside[i] : 1.0f;
+    }
+  }
+  return append_below(outside, kBlock, 0.5f, 0, unused, numbers);
+}
 
 /// Finds vertices within a radius: a hierarchy of boxes over leaves. A leaf is LeafPlaces with records of the type
 /// Leaf::Record, which set() puts in and operator[] takes out.
@@ -48,6 +55,11 @@ class VertexMap {
   /// Returns how many it computed the distance of.
   template <class Visit>
   uint32_t visit_near(const Vec3& point, float radius, Visit&& visit) const;
+
+  /// Calls visit(leaf) for each leaf of which some vertex may be within reach of the point, in a fixed order. Returns
+  /// how many vertices these have room for.
+  template <class Visit>
+  uint32_t visit_leaves_near(const Vec3& point, Visit&& visit) const;
 
   /// How the kBlock vertices of a leaf lie to a ray.
   struct BesideRay {
@@ -107,11 +119,20 @@ VertexMap<Leaf>::VertexMap(const std::vector<PlacedRecord<typename Leaf::Record>
 
 template <class Leaf>
 template <class Visit>
-uint32_t VertexMap<Leaf>::visit_near(const Vec3& point, float radius, Visit&& visit) const {
+uint32_t VertexMap<Leaf>::visit_leaves_near(const Vec3& point, Visit&& visit) const {
   if (size_ == 0) return 0;
   uint32_t visited = 0;
   boxes_.visit_leaves(point, [&](uint32_t number) {
-    const Leaf& leaf = leaves_[number];
+    visit(leaves_[number]);
+    count(visited, kBlock);
+  });
+  return visited;
+}
+
+template <class Leaf>
+template <class Visit>
+uint32_t VertexMap<Leaf>::visit_near(const Vec3& point, float radius, Visit&& visit) const {
+  return visit_leaves_near(point, [&](const Leaf& leaf) {
     float distances2[kBlock], near2[kBlock];
     uint32_t near[kBlock];
     for (uint32_t i = 0; i < kBlock; ++i) {
@@ -120,9 +141,7 @@ uint32_t VertexMap<Leaf>::visit_near(const Vec3& point, float radius, Visit&& vi
     }
     const uint32_t found = append_below(distances2, kBlock, radius * radius, 0, near2, near);
     for (uint32_t i = 0; i < found; ++i) visit(leaf[near[i]], near2[i]);
-    count(visited, kBlock);
   });
-  return visited;
 }
 
 template <class Leaf>
