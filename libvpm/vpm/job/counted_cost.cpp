@@ -11,8 +11,8 @@ struct EyeCosts {
   double camera_ray, ray, lookup, surface_query, volume_query, shadow_ray, visited, used;
 };
 constexpr EyeCosts kPaths{400.0, 220.0, 30.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-constexpr EyeCosts kCombinedWithBeams{0.0, 380.0, 33.0, 0.0, 0.0, 5.0, 2.0, 17.0};
-constexpr EyeCosts kCombinedPoints{0.0, 0.0, 72.0, 1960.0, 250.0, 480.0, 1.0, 6.5};
+constexpr EyeCosts kCombinedWithBeams{0.0, 530.0, 42.0, 0.0, 0.0, 0.0, 1.9, 16.0};
+constexpr EyeCosts kCombinedPoints{0.0, 570.0, 64.0, 0.0, 0.0, 0.0, 1.4, 7.8};
 constexpr EyeCosts kMapsAlongRays{0.0, 300.0, 31.0, 180.0, 3700.0, 130.0, 2.2, 2.6};
 constexpr EyeCosts kMapsAtPoints{280.0, 320.0, 44.0, 0.0, 360.0, 0.0, 0.0, 16.0};
 
@@ -33,7 +33,7 @@ struct PhotonCosts {
   double emitted, ray, collision, surface_hit, lookup, null_collision, stored_in_media, stored_on_surfaces, flight;
 };
 constexpr PhotonCosts kPhotons{0.0, 360.0, 0.0, 55.0, 86.0, 88.0, 115.0, 0.0, 310.0};
-constexpr PhotonCosts kSubPaths{116.0, 274.0, 990.0, 360.0, 23.0, 430.0, 0.0, 390.0, 1010.0};
+constexpr PhotonCosts kSubPaths{84.0, 410.0, 0.0, 450.0, 31.0, 0.0, 420.0, 13.0, 720.0};
 
 double times(double each, uint64_t number) { return each * static_cast<double>(number) * kNanosecond; }
 

@@ -31,7 +31,8 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
           .settings = settings,
           .automatic = {},
           .light_names = std::move(assembled.light_names),
-          .notes = std::move(assembled.notes)};
+          .notes = std::move(assembled.notes),
+          .kernel_light = {}};
 }
 
 void choose(RenderJob& job) {
@@ -59,6 +60,13 @@ void foresee(RenderJob& job) {
     const PassCost cost = time_pass(job.scene, job.settings, std::min(0.1 * seconds, 1.0));
     if (std::string text = too_long_text(cost, job.settings); !text.empty()) job.notes.push_back(std::move(text));
   }
+  job.pilot_seconds += looking.seconds();
+}
+
+void look_for_kernel_light(RenderJob& job) {
+  const Stopwatch looking;
+  job.kernel_light = kernel_light_of(job.scene, job.settings);
+  if (job.kernel_light) job.notes.push_back(text_of(*job.kernel_light, job.light_names));
   job.pilot_seconds += looking.seconds();
 }
 

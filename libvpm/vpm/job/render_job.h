@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "vpm/job/choice.h"
+#include "vpm/job/kernel_light.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/assemble.h"
 
@@ -34,6 +35,7 @@ struct RenderJob {
                                          // scenes made in code what their maker says
   std::vector<std::pair<std::string, std::string>> contents{};  // of the scene file, with its options: what is no
                                                                 // setting, by name; and hashes of those files
+  std::optional<KernelLight> kernel_light;                      // once it has been looked for
   double pilot_seconds = 0.0;           // wall clock, of choose() and foresee(): part of a render's time
   uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
 };
@@ -53,5 +55,8 @@ void choose_again(RenderJob& job, std::vector<Choice> choices);
 void foresee(RenderJob& job);
 /// The same of a light map's memory alone: how long its passes take is not told.
 void foresee_light_map(const RenderJob& job);
+
+/// Measures light that techniques combined find by kernels alone, if there is any, and notes it in the job.
+void look_for_kernel_light(RenderJob& job);
 
 }  // namespace vpm

@@ -112,6 +112,15 @@ Json json_of(const Estimated& estimated) {
   return {{"value", estimated.value}, {"standard_error", estimated.standard_error}};
 }
 
+/// What techniques find by kernels alone; null where nothing is, or was looked for.
+Json kernel_light(const RenderJob& job) {
+  if (!job.kernel_light) return nullptr;
+  Json found = json_of(job.kernel_light->share);
+  found["quantity"] = "share of the light of the picture";
+  found["lights"] = job.kernel_light->lights;
+  return found;
+}
+
 /// How far the image is estimated to be from the truth.
 Json errors(const RenderJob& job, const RenderResult& result) {
   const std::optional<StatedError> stated = stated_error_of(result);
@@ -202,6 +211,7 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
 std::string render_report(const RenderJob& job, const std::string& image, const RenderResult& result) {
   Json report = report_of(job, image, "radiance, W/(m^2 sr)", scattering_of(job.scene), result);
   report["error"] = errors(job, result);
+  report["light_of_kernels_alone"] = kernel_light(job);
   report["eye"] = counted(result.statistics)["eye"];
   report["radii_of_pixels"] = disc_radii(job, result.discs);
   return whole(report);

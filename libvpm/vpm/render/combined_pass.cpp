@@ -64,6 +64,20 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
   return counts;
 }
 
+/// The same where only light is sought that no technique without a kernel finds.
+TechniqueCounts counts_of_kernels(const Scene& scene, const RenderSettings& settings, const MergeKernels& kernels) {
+  const TechniqueSet& techniques = settings.combined.techniques;
+  RenderSettings merging = settings;
+  for (const Technique technique : {Technique::connections, Technique::light_tracing, Technique::planes})
+    merging.combined.techniques.set(technique, false);
+  TechniqueCounts counts = counts_of_pass(scene, merging, kernels);
+  counts.alone = {.sought = true,
+                  .connects_deep = counts_of_pass(scene, settings, kernels).deep,
+                  .traces_light = techniques.has(Technique::light_tracing)};
+  counts.deep = false;
+  return counts;
+}
+
 /// A few sub-paths that are independent of those of the pass, with all their flights as planes.
 LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& numbers, uint64_t first, uint64_t number) {
   TechniqueCounts counts;
@@ -80,7 +94,7 @@ LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& number
 /// sub-paths tell, as weights must be known while all are traced.
 void count_by_few(const LightTracing& tracing, const RenderSettings& settings, int pass, TechniqueCounts& counts) {
   const uint64_t paths = settings.photons_emitted, number = std::min(paths, kFewPaths);
-  const bool planes = settings.combined.techniques.has(Technique::planes);
+  const bool planes = settings.combined.techniques.has(Technique::planes) && !counts.alone.sought;
   if (!counts.light && !planes) return;
   // Numbers beyond those of the pass: at random, as points of one scrambling tell of each other.
   const PhotonNumbers numbers(PhotonSequence::random, settings.seed, static_cast<uint64_t>(pass));
@@ -96,14 +110,16 @@ void count_by_few(const LightTracing& tracing, const RenderSettings& settings, i
 
 }  // namespace
 
-CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop)
+CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
+                           SoughtLight sought)
     : scene_(scene),
       paths_(settings.photons_emitted),
       max_events_(settings.max_events),
       strategy_(make_distance_strategy(settings.distance, {.pass = static_cast<uint64_t>(pass)})),
       transmittance_(make_transmittance_estimator({})),
       kernels_(kernels_of_pass(scene, settings, pass)),
-      counts_(counts_of_pass(scene, settings, kernels_)) {
+      counts_(sought == SoughtLight::all ? counts_of_pass(scene, settings, kernels_)
+                                         : counts_of_kernels(scene, settings, kernels_)) {
   const PhotonNumbers numbers(settings.photon_sequence, settings.seed, static_cast<uint64_t>(pass));
   const uint64_t stride = std::max<uint64_t>(1, paths_ / kConnectable);
   const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, stride};

@@ -12,12 +12,17 @@
 
 namespace vpm {
 
+/// Which light a pass of the combined estimator looks for: all, or that which techniques find by kernels alone, where
+/// merges reach it from the first vertex of an eye sub-path that is not specular.
+enum class SoughtLight { all, by_kernels_alone };
+
 /// Pass number `pass`, from 0, with its light sub-paths traced and sorted: RenderSettings::photons_emitted of them.
 /// Immutable while rays run; the scene must live as long.
 class CombinedPass {
  public:
   /// Once `stop` is set it returns as soon as it can, and must not be used.
-  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop);
+  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
+               SoughtLight sought = SoughtLight::all);
 
   /// combined_radiance() along a ray of the camera, or along several.
   KernelEstimate radiance(const Ray& ray, EyeWork& work) const;

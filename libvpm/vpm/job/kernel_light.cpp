@@ -1,0 +1,95 @@
+// A few small passes that look for that light alone, beside one that looks for all.
+#include "vpm/job/kernel_light.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "vpm/base/parallel.h"
+#include "vpm/base/progress.h"
+#include "vpm/base/statistics.h"
+#include "vpm/job/eye_blocks.h"
+#include "vpm/job/pilot.h"
+#include "vpm/job/rays_of_pass.h"
+#include "vpm/light/emission_density.h"
+#include "vpm/render/combined_pass.h"
+
+namespace vpm {
+namespace {
+
+constexpr int kPasses = 4;
+constexpr uint64_t kLightPaths = 20'000;  // light sub-paths of a pass, at the most
+
+std::vector<size_t> unhittable_lights(const Scene& scene) {
+  std::vector<size_t> numbers;
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    if (!can_be_hit(scene.lights[i])) numbers.push_back(i);
+  return numbers;
+}
+
+/// Are there mirrors or glass?
+bool has_specular_surfaces(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+    return !is_rough(material) && !is_boundary(material) && !is_diffuse(material);
+  });
+}
+
+/// The sum over rays all over the picture of what they find, a mean over channels, W/(m^2 sr), with the light that is
+/// traced to their pixels, if any is.
+double found_by_rays(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
+                     const Image& light_tracing) {
+  std::array<double, kEyeBlocks> sums{};
+  parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
+    EyeCounters counters;
+    EyeScratch scratch;
+    RaysOfBlock rays(scene.camera, block, counters, scratch);
+    for (size_t i = 0; i < kRaysOfBlock; ++i)
+      rays.add(
+          i, Rng(settings.seed, rng_stream(RngUse::pilot, 6 + static_cast<uint64_t>(pass)), block * kRaysOfBlock + i));
+    radiance(rays.all());
+    for (const EyeRay& ray : rays.all()) {
+      Rgb found = ray.radiance.value;
+      if (!light_tracing.pixels.empty()) found += light_tracing.pixels[ray.work.pixel];
+      if (is_finite(found)) sums[block] += double{mean_channel(found)};
+    }
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+}  // namespace
+
+std::optional<KernelLight> kernel_light_of(const Scene& scene, const RenderSettings& settings) {
+  const TechniqueSet& techniques = settings.combined.techniques;
+  KernelLight found{{}, unhittable_lights(scene)};
+  if (settings.integrator != Integrator::combined || !techniques.has(Technique::connections) || !merges(techniques) ||
+      found.lights.empty() || !has_specular_surfaces(scene))
+    return std::nullopt;
+  const RenderSettings few = with_light_paths(pilot_settings(settings, settings.photons_emitted), kLightPaths);
+  Moments by_kernels, whole;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const RaysOfPass all = rays_of_pass(scene, few, pass);
+    whole.add(found_by_rays(scene, few, pass, all.radiance, all.light_tracing));
+    const CombinedPass alone(scene, few, pass, kNeverStopped, SoughtLight::by_kernels_alone);
+    by_kernels.add(found_by_rays(scene, few, pass, [&](std::span<EyeRay> rays) { alone.radiance(rays); }, {}));
+  }
+  if (by_kernels.mean() == 0.0 || whole.mean() == 0.0) return std::nullopt;
+  const double share = by_kernels.mean() / whole.mean();
+  found.share = {share, std::sqrt(by_kernels.variance_of_mean() + share * share * whole.variance_of_mean()) /
+                            whole.mean()};  // rather too large: the two have rays in common
+  return found;
+}
+
+std::string text_of(const KernelLight& found, const std::vector<std::string>& names) {
+  std::vector<std::string> lights;
+  for (const size_t i : found.lights)
+    lights.push_back(i < names.size() && !names[i].empty() ? "'" + names[i] + "'" : fmt::format("number {}", i));
+  return fmt::format(
+      "{:.2g} +- {:.1g} of the light is found by kernels alone, and has their bias with nothing to check it by: no ray "
+      "hits the light{} {}, and mirrors or glass stand wherever the rest of the path could be connected",
+      found.share.value, found.share.standard_error, lights.size() > 1 ? "s" : "", fmt::join(lights, ", "));
+}
+
+}  // namespace vpm
