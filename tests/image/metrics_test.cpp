@@ -43,6 +43,12 @@ TEST(Metrics, RelativeError) {
   EXPECT_EQ(relative_mse(reference, reference), 0.0);
 }
 
+TEST(Metrics, RelativeVariance) {
+  const Image picture = row({{1, 2, 0}, {3, 2, 10}});
+  EXPECT_DOUBLE_EQ(relative_variance(row({{1, 0, 1}, {0, 1, 0}}), picture), (1.0 / 1.04 + 1.0 / 4.04 + 4.0) / 6.0);
+  EXPECT_EQ(relative_variance(Image(2, 1), Image(2, 1)), 0.0);
+}
+
 TEST(Metrics, RelativeErrorDoesNotDependOnTheUnit) {
   const double error = relative_mse(row({{2, 2, 1}, {3, 1, 10}}), row({{1, 2, 0}, {3, 2, 10}}));
   EXPECT_DOUBLE_EQ(relative_mse(row({{8, 8, 4}, {12, 4, 40}}), row({{4, 8, 0}, {12, 8, 40}})), error);

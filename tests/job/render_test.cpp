@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "vpm/base/progress.h"
 #include "vpm/image/exr.h"
 #include "vpm/job/messages.h"
@@ -135,6 +137,14 @@ TEST(Render, KeepsLayersFromPassToPass) {
     EXPECT_TRUE(picture.planes.contains(name + ".unweighted.G"));
   }
   for (size_t i = 0; i < sum.size(); ++i) EXPECT_NEAR(sum[i], whole[i], 1e-5f * (1.0f + whole[i]));
+  const auto report = nlohmann::json::parse(render_report(job, path, result));
+  double shares = 0.0;
+  for (const auto& technique : report.at("techniques")) {
+    shares += technique.at("share_of_light").get<double>();
+    EXPECT_GE(technique.at("found_alone"), technique.at("share_of_light")) << technique.at("name");
+    EXPECT_EQ(technique.at("variance") > 0.0, technique.at("share_of_light") > 0.0) << technique.at("name");
+  }
+  EXPECT_NEAR(shares, 1.0, 1e-12);
   job.settings.combined.layers = false;
   job.settings.until = {.passes = 5};
   EXPECT_THROW(render(job.scene, job.settings, std::move(result)), InputError);
@@ -151,6 +161,7 @@ TEST(RenderJob, OfCodeBecomesPictureReportAndMessages) {
   EXPECT_TRUE(picture.planes.contains("bias.G"));
   EXPECT_EQ(picture.metadata.at("vpm.passes"), std::to_string(kLeastPasses));
   EXPECT_NE(render_report(job, path, result).find("\"lamp\""), std::string::npos);
+  EXPECT_TRUE(nlohmann::json::parse(render_report(job, path, result)).at("techniques").is_null());
   EXPECT_NE(error_text(job, result).find("relative MSE "), std::string::npos);
   EXPECT_TRUE(warnings_of(job, result).empty());
 }

@@ -158,6 +158,40 @@ function checkErrors(comparer, scene) {
   });
 }
 
+/** What a method's techniques find are pictures in a group of its own, which sum to its first run. */
+function checkParts({root, pictures}, method, m) {
+  const title = `What each technique of ${method.name} finds`, begins = text => text.startsWith(title);
+  const group = pictures.groups.find(group => begins(group.title)), keeps = method.techniques.length > 0;
+  const heading = [...root.querySelectorAll('.thumbnails h4')].find(head => begins(head.textContent));
+  expect(
+      (group !== undefined) === keeps && (heading !== undefined) === keeps, `${title}: ${keeps ? 'missing' : 'shown'}`);
+  if (!group) return;
+  const names = group.members.map(i => pictures.names[i]);
+  expect(names.join() === method.techniques.map(({name}) => `${method.name}, ${name}`).join(), `${title}: ${names}`);
+  expect(heading.nextElementSibling.children.length === names.length, `${title}: not ${names.length} thumbnails`);
+  const sums = pictures.of(1 + m).map((_, at) => group.members.reduce((sum, i) => sum + pictures.of(i)[at], 0));
+  expect(sums.every((sum, at) => near(sum, pictures.of(1 + m)[at], 3e-3)), `${title}: pictures that sum to another`);
+}
+
+/** The table has the numbers of each technique, whose shares sum to 1. */
+function checkTechniques(root, scene, comparer) {
+  const rows = [...root.querySelectorAll('.techniques tbody tr')];
+  scene.methods.forEach((method, m) => {
+    checkParts(comparer, method, m);
+    const own = rows.filter(({cells}) => cells[0].textContent === method.name);
+    expect(own.length === method.techniques.length, `${own.length} techniques of ${method.name}`);
+    for (const {name, share_of_light, found_alone, variance} of method.techniques) {
+      const numbers = own.filter(({cells}) => cells[1].textContent === name)
+                          .flatMap(({cells}) => [2, 3, 4].map(i => readNumber(cells[i].textContent)));
+      const expected = [100 * share_of_light, 100 * found_alone, variance];
+      expect(expected.every((x, i) => near(numbers[i], x, 0.006)), `${name}: ${numbers}, not ${expected}`);
+    }
+    const shares = own.reduce((sum, {cells}) => sum + readNumber(cells[2].textContent), 0);
+    expect(own.length === 0 || near(shares, 100, 0.01), `shares of ${method.name} sum to ${shares} %`);
+  });
+  expect(rows.length > 0, 'no method has techniques: this tests nothing');
+}
+
 /** Where a pixel of the pictures is on the screen while all of them is shown. */
 function placeOf(canvas, {x, y}, width, height) {
   const box = canvas.getBoundingClientRect(), scale = Math.min(box.width / width, box.height / height);
@@ -232,6 +266,7 @@ function check() {
     checkVerdicts(root, scene);
     root.querySelectorAll('table.sortable').forEach(checkSorting);
     checkErrors(comparers[i], scene);
+    checkTechniques(root, scene, comparers[i]);
     checkPixel(comparers[i], scene);
     checkModes(comparers[i]);
   });

@@ -1,9 +1,11 @@
 // Comparisons from outside: what the folder holds, that finished runs are kept, and what a known ratio comes out as.
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "tools/ball_of_fog.h"
 #include "tools/vpm_binary.h"
+#include "vpm/image/exr.h"
 
 namespace vpm {
 namespace {
@@ -25,6 +27,26 @@ error = 1e-4
 render.integrator = "path"
 [product]
 render.samples_per_pixel = [1, 4]
+[[scenes]]
+name = "ball of fog"
+file = "fog.toml"
+)";
+
+/// One method of two keeps what its techniques find.
+constexpr const char* kWithLayers = R"(
+title = "Layers"
+unit = "passes"
+budgets = [1, 3]
+repetitions = 3
+[reference]
+error = 1
+[[methods]]
+name = "combined"
+[methods.set]
+render.integrator = "combined"
+combined.layers = true
+[[methods]]
+name = "photon maps"
 [[scenes]]
 name = "ball of fog"
 file = "fog.toml"
@@ -107,6 +129,58 @@ file = "fog.toml"
   size_t lines = 0;
   for (std::string line; std::getline(csv, line);) ++lines;
   EXPECT_EQ(lines, 1u + 2u * 2u * 3u);
+}
+
+/// Of a picture with what techniques find in it: the sum of these, in green, over the picture.
+double parts_over_whole(const ExrChannels& picture) {
+  const auto sum_of = [&](const std::string& channel) {
+    const std::vector<float>& plane = picture.planes.at(channel);
+    return std::accumulate(plane.begin(), plane.end(), 0.0);
+  };
+  double parts = 0.0;
+  for (const auto& [name, plane] : picture.planes)
+    if (name.ends_with(".weighted.G")) parts += sum_of(name);
+  return parts / sum_of("G");
+}
+
+TEST_F(VpmCompare, KeepsWhatTechniquesFind) {
+  write("fog.toml", kBallOfFog);
+  write("layers.toml", kWithLayers);
+  const auto techniques = [&](size_t method) {
+    return results("out").at("scenes").at(0).at("methods").at(method).at("techniques");
+  };
+  vpm_succeeds({"compare", "layers.toml", "-o", "out"});
+  const json found = techniques(0);
+  ASSERT_EQ(found.size(), 6u);
+  double shares = 0.0;
+  for (const json& technique : found) {
+    shares += technique.at("share_of_light").get<double>();
+    EXPECT_EQ(technique.at("variance") > 0.0, technique.at("share_of_light") > 0.0) << technique;
+  }
+  EXPECT_NEAR(shares, 1.0, 1e-12);
+  EXPECT_TRUE(techniques(1).empty());
+  // One picture of all runs and budgets has its parts with it; its run is found again with them, or made again.
+  fs::path first;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/runs"))
+    if (entry.path().extension() == ".exr" && read_exr_channels(entry.path()).planes.size() > 3) {
+      EXPECT_TRUE(first.empty());
+      first = entry.path();
+    }
+  ASSERT_TRUE(first.string().ends_with(".1.exr")) << first;
+  EXPECT_NEAR(parts_over_whole(read_exr_channels(first)), 1.0, 1e-6);
+  const fs::path run = fs::path(first).replace_extension().replace_extension(".json");
+  const auto before = runs("out");
+  for (const auto& [path, time] : before)
+    if (path != run) fs::remove(path);
+  vpm_succeeds({"compare", "layers.toml", "-o", "out"});
+  EXPECT_EQ(runs("out").at(run), before.at(run));
+  EXPECT_EQ(techniques(0), found);
+  fs::remove(run);
+  vpm_succeeds({"compare", "layers.toml", "-o", "out"});
+  EXPECT_EQ(techniques(0), found);
+  // The second repetition, which has no such pictures, becomes the first.
+  vpm_succeeds({"compare", "layers.toml", "-o", "out", "--set", "seed=2"});
+  EXPECT_EQ(techniques(0).size(), 6u);
 }
 
 TEST_F(VpmCompare, TakesExactPicturesForReferences) {

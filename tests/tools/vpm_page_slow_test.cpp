@@ -29,8 +29,8 @@ enum class Scheme { dark, light };
 const std::string kPageScene = "# </script><script>fail('a scene\\'s text is no script')</script>\n" +
                                ball_of_fog(kPageWidth, kPageHeight) + "[volume]\nboundary = \"none\"\n";
 
-/// Two scenes and two methods, one of them biased beside the other. What texts mean in HTML, and the names of places in
-/// the template, mean nothing here.
+/// Two scenes and three methods, some of them biased beside another; one keeps what its techniques find. What texts
+/// mean in HTML, and the names of places in the template, mean nothing here.
 constexpr const char* kExperiment = R"(
 title = "Kernels </script><script>fail('a title is no script')</script> &amp; @about@ \"é\""
 unit = "passes"
@@ -39,6 +39,12 @@ repetitions = 10
 baseline = "0.2"
 [product]
 volume.radius = [0.2, 0.4]
+[[methods]]
+name = "all"
+[methods.set]
+render.integrator = "combined"
+combined.layers = true
+volume.radius = 0.6
 [[scenes]]
 name = "known"
 file = "fog.toml"
@@ -152,11 +158,18 @@ class VpmPage : public VpmBinary {
   }
 };
 
+/// What a page has in the place of that name.
+json data_of(const std::string& page, const std::string& place) {
+  const std::string begin = "<script type=\"application/json\" id=\"" + place + "\">";
+  const size_t from = page.find(begin) + begin.size();
+  return json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
 TEST_F(VpmPage, HoldsTheResultsAndFetchesNothing) {
   const std::string page = read("out/report.html");
-  const std::string begin = "<script type=\"application/json\" id=\"results\">";
-  const size_t from = page.find(begin) + begin.size();
-  EXPECT_EQ(json::parse(page.substr(from, page.find("</script>", from) - from)), report("out/results.json"));
+  EXPECT_EQ(data_of(page, "results"), report("out/results.json"));
+  for (const json& scene : data_of(page, "pictures"))
+    EXPECT_EQ(scene.at("pictures").size(), 1u + 3u + 3u + 6u) << "reference, methods, their means, techniques";
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
   for (const char* word : {" src=", "<link", "@import", "url("}) EXPECT_EQ(page.find(word), std::string::npos) << word;
   EXPECT_NE(page.find("Released under the MIT License"), std::string::npos);

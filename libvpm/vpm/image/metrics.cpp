@@ -62,6 +62,13 @@ double relative_mse(const Image& image, const Image& reference) {
                     [&](int c, double value, double truth) { return relative_square(value, truth, means[c]); });
 }
 
+double relative_variance(const Image& variance, const Image& mean) {
+  const Rgbd means = channel_means(mean);
+  return mean_error(variance, mean, [&](int c, double square, double value) {
+    return square == 0.0 ? 0.0 : square / relative_scale(value, means[c]);
+  });
+}
+
 double relative_mse_of_pbrt(const Image& image, const Image& reference) {
   return mean_error(image, reference, [](int, double value, double truth) {
     const double difference = value - truth;

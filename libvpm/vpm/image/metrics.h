@@ -24,6 +24,10 @@ inline double relative_scale(double truth, double mean) { return truth * truth +
 /// the mean squared, keeps dark pixels from deciding. 0 where I = R, also in a channel that is all black.
 double relative_mse(const Image& image, const Image& reference);
 
+/// The relative MSE that these variances of a picture's values make: their mean over the same scale, by the picture's
+/// own values. 0 where they are.
+double relative_variance(const Image& variance, const Image& mean);
+
 /// The same of pbrt's.
 inline double scale_of_pbrt(double truth) { return (truth + 0.01) * (truth + 0.01); }
 

@@ -9,6 +9,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
 #include "vpm/estimate/pass_map.h"
+#include "vpm/job/found_by_techniques.h"
 #include "vpm/job/setting.h"
 #include "vpm/job/stage_lines.h"
 #include "vpm/render/plan.h"
@@ -138,6 +139,17 @@ Json errors(const RenderJob& job, const RenderResult& result) {
   return all;
 }
 
+/// What each technique finds; null where layers are not kept. What is no number is null, too.
+Json techniques(const RenderJob& job, const RenderResult& result) {
+  Json all;
+  for (const FoundByTechnique& found : found_by_techniques(job.settings, result)) {
+    Json technique{{"name", found.name}};
+    for_each_counter(found, [&](const std::string& key, double number) { technique[key] = number; });
+    all.push_back(std::move(technique));
+  }
+  return all;
+}
+
 /// Of the discs of pixels, for the next pass; null where pixels have none.
 Json disc_radii(const RenderJob& job, const PixelDiscs& discs) {
   if (discs.empty()) return nullptr;
@@ -211,7 +223,11 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
 std::string render_report(const RenderJob& job, const std::string& image, const RenderResult& result) {
   Json report = report_of(job, image, "radiance, W/(m^2 sr)", scattering_of(job.scene), result);
   report["error"] = errors(job, result);
+<<<<<<< HEAD
   report["light_of_kernels_alone"] = kernel_light(job);
+=======
+  report["techniques"] = techniques(job, result);
+>>>>>>> ec8af4c363712a2403f3aa845a3b57e84842724b
   report["eye"] = counted(result.statistics)["eye"];
   report["radii_of_pixels"] = disc_radii(job, result.discs);
   return whole(report);

@@ -14,6 +14,10 @@ namespace vpm {
 /// is the picture, and "combined.NAME.unweighted", for each technique. None where they are not asked for.
 std::vector<std::string> layer_names(const RenderSettings& settings);
 
+/// Where a technique's layers stand among them.
+constexpr size_t weighted_layer(Technique technique) { return 2 * static_cast<size_t>(technique); }
+constexpr size_t unweighted_layer(Technique technique) { return weighted_layer(technique) + 1; }
+
 /// The sums of TechniqueParts of one pass, pixel by pixel. Different pixels may be added to at the same time.
 class TechniqueLayers {
  public:

@@ -11,6 +11,7 @@
 #include "compare/results.h"
 #include "compare/run.h"
 #include "compare/store.h"
+#include "compare/techniques.h"
 #include "pass_run.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -150,8 +151,12 @@ bool make_reference(Contest& contest, const ComparisonPlan& plan, const Store& s
   return true;
 }
 
+/// The first repetition alone keeps what techniques find as pictures, so it is another run than one of its seed that
+/// was not the first.
 std::string run_identity(const Entrant& entrant, const ComparisonPlan& plan, int repetition) {
-  return fmt::format("{}; seed {}", entrant.identity, plan.seed + static_cast<uint64_t>(repetition));
+  const bool keeps_parts = repetition == 0 && entrant.loaded.settings.combined.layers;
+  return fmt::format("{}; seed {}{}", entrant.identity, plan.seed + static_cast<uint64_t>(repetition),
+                     keeps_parts ? "; with layers" : "");
 }
 
 /// Makes the runs that are missing. Repetitions are interleaved, and each begins with another method, so that what
@@ -231,6 +236,13 @@ std::string choices_text(const Entrant& entrant, const ComparisonPlan& plan, con
   return text;
 }
 
+std::vector<FoundByTechnique> techniques_of_method(const Entrant& entrant, const ComparisonPlan& plan,
+                                                   const Store& store) {
+  std::vector<std::vector<FoundByTechnique>> repetitions;
+  for (int r = 0; r < plan.repetitions; ++r) repetitions.push_back(store.techniques(run_identity(entrant, plan, r)));
+  return mean_of_techniques(repetitions);
+}
+
 SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {
   SceneResults results;
   results.scene_text = read_whole_file(contest.compared->file);
@@ -245,6 +257,7 @@ SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, cons
     for (size_t b = 0; b < plan.budgets.size(); ++b)
       budgets.push_back(summarise(*entrant, contest.reference, plan, store, b));
     results.budgets.push_back(std::move(budgets));
+    results.techniques.push_back(techniques_of_method(*entrant, plan, store));
   }
   results.summary = summarise_scene(results.budgets, plan.unit, plan.baseline);
   results.verdicts = bias_evidence(results.budgets, results.summary, plan.baseline, contest.reference);
@@ -255,10 +268,12 @@ SceneResults results_of(const Contest& contest, const ComparisonPlan& plan, cons
 PageImages images_of(const Contest& contest, const ComparisonPlan& plan, const Store& store) {
   PageImages images{contest.reference.mean, {}};
   for (const auto& entrant : contest.methods) {
+    const size_t at_last = plan.budgets.size() - 1;
     std::vector<Image> repetitions;
     for (int r = 0; r < plan.repetitions; ++r)
-      repetitions.push_back(store.picture(run_identity(*entrant, plan, r), plan.budgets.size() - 1));
+      repetitions.push_back(store.picture(run_identity(*entrant, plan, r), at_last));
     images.methods.push_back(method_images(repetitions));
+    images.methods.back().techniques = store.parts(run_identity(*entrant, plan, 0), at_last);
   }
   return images;
 }

@@ -41,13 +41,16 @@ Json picture_json(const Image& image) {
   return {{"exponent", pixels.exponent}, {"halves", base64(bytes)}};
 }
 
-/// By scene: the reference, the first repetition of each method, the mean of each method.
+/// By scene: the reference, the first repetition of each method, the mean of each method, what each technique of each
+/// method finds.
 std::string pictures_json(const std::vector<PageImages>& scenes) {
   Json all = Json::array();
   for (const PageImages& scene : scenes) {
     Json pictures = Json::array({picture_json(scene.reference)});
     for (const MethodImages& method : scene.methods) pictures.push_back(picture_json(method.first));
     for (const MethodImages& method : scene.methods) pictures.push_back(picture_json(method.mean));
+    for (const MethodImages& method : scene.methods)
+      for (const Image& part : method.techniques) pictures.push_back(picture_json(part));
     all.push_back(
         {{"width", scene.reference.width}, {"height", scene.reference.height}, {"pictures", std::move(pictures)}});
   }

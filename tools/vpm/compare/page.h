@@ -10,8 +10,9 @@ namespace vpm::tools {
 
 /// What a method's repetitions made of a scene.
 struct MethodImages {
-  Image first;  // one of them
-  Image mean;   // of all
+  Image first;                         // one of them
+  Image mean;                          // of all
+  std::vector<Image> techniques = {};  // what each finds of `first`, where layers are kept
 };
 /// `repetitions` are of one size; there is at least one.
 MethodImages method_images(const std::vector<Image>& repetitions);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "compare/store.h"
+#include "compare/techniques.h"
 #include "json.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
@@ -91,6 +92,7 @@ Json method_json(const ComparisonPlan& plan, const SceneResults& scene, size_t m
           {"slope", interval_json(summary.slope)},
           {"equal_error", std::move(equal_error)},
           {"verdict", verdict_json(scene.verdicts[m])},
+          {"techniques", techniques_json(scene.techniques[m])},
           {"budgets", std::move(budgets)}};
 }
 
@@ -244,6 +246,16 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
          "between two repetitions, over the scale of relative_mse"},
         {"squared_bias", "relative MSE of the mean of repetitions, less its variance"},
         {"efficiency", "1 / (relative MSE x cost), over that of the best method; whether two differ, pairs tell"},
+        {"share_of_light",
+         "of a technique, where a method has combined.layers: the sum over pixels and channels of what it finds, times "
+         "its shares, over that of all techniques; mean over repetitions, as all of techniques"},
+        {"found_alone",
+         "the sum of what the technique finds without its shares, over the same: 1 where it alone finds all light, "
+         "more where it finds paths in several ways"},
+        {"variance_of_technique",
+         "mean of V / (R^2 + 0.01 mean(R)^2), R the run's own picture, V the variance of the mean of what the "
+         "technique "
+         "finds, times its shares, estimated from passes"},
         {"intervals",
          "95 %: Student's t over repetitions; ratios: jackknife of their logarithm over pairs of repetitions"},
         {"p", "Student's t of the jackknife over pairs of repetitions; p_holm: corrected for all pairs of a scene"}}},

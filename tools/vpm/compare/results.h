@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vpm/input/scene_file.h"
+#include "vpm/job/found_by_techniques.h"
 #include "vpm/study/compare/summary.h"
 #include "vpm/study/compare/verdict.h"
 
@@ -19,7 +20,8 @@ struct SceneResults {
   int width = 0, height = 0;                        // pixels
   std::vector<std::vector<BudgetSummary>> budgets;  // by method, then budget
   SceneSummary summary;
-  std::vector<BiasEvidence> verdicts;  // by method, at the last budget
+  std::vector<BiasEvidence> verdicts;                     // by method, at the last budget
+  std::vector<std::vector<FoundByTechnique>> techniques;  // by method, at the last budget, where it keeps layers
 };
 
 /// Everything as JSON text: provenance, formulas, runs, summaries. The format is described in

@@ -65,7 +65,10 @@ MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repet
     cpu_begin = cpu_seconds();
     rendering = {};
   };
-  render(job.scene, settings, nothing_rendered(job.scene.camera), {done, ProgressMode::never, look});
+  const RenderResult result =
+      render(job.scene, settings, nothing_rendered(job.scene.camera), {done, ProgressMode::never, look});
+  run.techniques = found_by_techniques(settings, result);
+  if (repetition == 0) run.parts = parts_of_techniques(settings, result);
   return run;
 }
 

@@ -8,6 +8,7 @@
 #include "vpm/image/image.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/job/choice.h"
+#include "vpm/job/found_by_techniques.h"
 #include "vpm/job/render.h"
 #include "vpm/study/compare/plan.h"
 
@@ -23,6 +24,9 @@ struct Snapshot {
 struct MethodRun {
   std::vector<Choice> choices;
   std::vector<Snapshot> snapshots;
+  // At the last budget, where its settings keep layers.
+  std::vector<FoundByTechnique> techniques;
+  std::vector<Image> parts;  // parts_of_techniques(), of the first repetition alone
 };
 
 /// Chooses what the job leaves to be chosen, for the time of the last budget, and renders passes until that is passed.

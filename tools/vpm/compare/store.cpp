@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fstream>
 
+#include "compare/techniques.h"
 #include "json.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -39,6 +40,11 @@ std::optional<Image> layer(const ExrChannels& file, const std::string& prefix) {
     for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i][c] = plane->second[i];
   }
   return image;
+}
+
+/// How the layer of what a technique finds is called, as in pictures of `vpm render`.
+std::string name_of_part(const FoundByTechnique& technique) {
+  return fmt::format("combined.{}.weighted", technique.name);
 }
 
 /// What `read` makes of a run in a file; nothing where there is none of that identity.
@@ -92,6 +98,27 @@ std::string Store::chosen(const std::string& identity) const {
   return read_run(file("runs", identity, ".json"), identity, chosen).value_or("");
 }
 
+std::vector<FoundByTechnique> Store::techniques(const std::string& identity) const {
+  const auto found = [](const Json& run) { return techniques_of(run.at("techniques")); };
+  return read_run(file("runs", identity, ".json"), identity, found).value_or(std::vector<FoundByTechnique>());
+}
+
+std::vector<Image> Store::parts(const std::string& identity, size_t budget) const {
+  const std::vector<FoundByTechnique> all = techniques(identity);
+  std::vector<Image> parts;
+  if (all.empty()) return parts;
+  const fs::path path = file("runs", identity, fmt::format(".{}.exr", budget));
+  const ExrChannels channels = read_exr_channels(path);
+  for (const FoundByTechnique& technique : all) {
+    std::optional<Image> part = layer(channels, name_of_part(technique) + ".");
+    if (!part)
+      throw InputError(fmt::format("{}: the run is damaged: there is no layer {}; remove its .json, and it is repeated",
+                                   path.string(), name_of_part(technique)));
+    parts.push_back(std::move(*part));
+  }
+  return parts;
+}
+
 void Store::add_run(const std::string& identity, const MethodRun& run) const {
   const std::vector<Snapshot>& snapshots = run.snapshots;
   std::string chosen;
@@ -99,12 +126,16 @@ void Store::add_run(const std::string& identity, const MethodRun& run) const {
     chosen += fmt::format("{}{}={}", chosen.empty() ? "" : " ", choice.key, choice.value);
   Json costs = Json::array();
   for (size_t i = 0; i < snapshots.size(); ++i) {
-    write_exr(file("runs", identity, fmt::format(".{}.exr", i)), snapshots[i].mean, {}, {{"vpm.run", identity}});
+    std::vector<ExrLayer> layers;
+    if (i + 1 == snapshots.size())
+      for (size_t t = 0; t < run.parts.size(); ++t) layers.push_back({name_of_part(run.techniques[t]), &run.parts[t]});
+    write_exr(file("runs", identity, fmt::format(".{}.exr", i)), snapshots[i].mean, layers, {{"vpm.run", identity}});
     costs.push_back(Json::parse(cost_json(snapshots[i].cost)));
   }
+  const Json finished{
+      {"identity", identity}, {"chosen", chosen}, {"budgets", costs}, {"techniques", techniques_json(run.techniques)}};
   // Last: with it the run is finished.
-  write_text(file("runs", identity, ".json"),
-             Json{{"identity", identity}, {"chosen", chosen}, {"budgets", costs}}.dump(1) + "\n");
+  write_text(file("runs", identity, ".json"), finished.dump(1) + "\n");
 }
 
 std::optional<Reference> Store::find_reference(const std::string& identity) const {

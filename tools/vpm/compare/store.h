@@ -25,6 +25,11 @@ class Store {
   Image picture(const std::string& identity, size_t budget) const;
   /// What a finished run chose, as "key=value key=value"; "" where that is nothing.
   std::string chosen(const std::string& identity) const;
+  /// What techniques found in a finished run, at its last budget; nothing where it kept no layers.
+  std::vector<FoundByTechnique> techniques(const std::string& identity) const;
+  /// The pictures of these, which a finished run has that is the first of its repetitions. Throws InputError where the
+  /// file of the picture at `budget`, the last one, does not hold them.
+  std::vector<Image> parts(const std::string& identity, size_t budget) const;
   void add_run(const std::string& identity, const MethodRun& run) const;
 
   std::optional<Reference> find_reference(const std::string& identity) const;

@@ -77,11 +77,7 @@ std::vector<double> deviations_of(const std::vector<std::vector<double>>& distan
 
 }  // namespace
 
-double reference_noise(const Reference& reference) {
-  const Scales scales(reference.mean);
-  const Image& variance = reference.variance;
-  return mean_over(variance, [&](size_t i, int c) { return over(variance.pixels[i][c], scales.at(i, c)); });
-}
+double reference_noise(const Reference& reference) { return relative_variance(reference.variance, reference.mean); }
 
 PictureErrors picture_errors(const Image& image, const Reference& reference) {
   const Image& variance = reference.variance;

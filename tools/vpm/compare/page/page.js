@@ -34,21 +34,24 @@ function namedPictures(scene, encoded) {
   const budget = method => last(method.budgets), budgets = budgetText(results.budgets.length - 1);
   const names = [
     'reference', ...scene.methods.map(m => m.name),
-    ...scene.methods.map(m => `${m.name}, mean of ${results.repetitions}`)
+    ...scene.methods.map(m => `${m.name}, mean of ${results.repetitions}`),
+    ...techniquesOf(scene).map(({method, name}) => `${method}, ${name}`)
   ];
   const pictures = new Pictures(encoded, names);
   pictures.remarks = [
     scene.reference.relative_mse > 0 ? `relative MSE ${number(scene.reference.relative_mse)}` : 'taken to be exact',
     ...scene.methods.map(m => `relative MSE ${number(budget(m).runs[0].relative_mse)}`),
     ...scene.methods.map(m => `squared bias ${interval(budget(m).squared_bias)}`),
+    ...techniquesOf(scene).map(technique => `${percent(technique.share_of_light)} of the light`),
   ];
-  const numbers = names.map((_, i) => i), runs = 1 + scene.methods.length;
+  const numbers = names.map((_, i) => i), runs = 1 + scene.methods.length, means = runs + scene.methods.length;
   pictures.groups = [
     {title: `The reference, and the first run of each method at ${budgets}`, members: numbers.slice(0, runs)},
     {
       title: `Means of ${results.repetitions} repetitions: the more of these, the more of what is left is bias`,
-      members: numbers.slice(runs)
+      members: numbers.slice(runs, means)
     },
+    ...techniqueGroups(scene, means),
   ];
   return pictures;
 }
@@ -77,6 +80,8 @@ function buildScene(scene, index, encoded) {
   atBudget();
   part('.verdicts-text').textContent = verdictsText(scene);
   part('.verdicts').append(verdictsTable(scene));
+  if (techniquesOf(scene).length > 0)
+    part('.techniques').append(element('h3', {}, 'Techniques'), techniquesTable(scene));
   part('.equal-error').append(equalErrorTable(scene));
   part('.pairs-text').textContent = pairsText(scene);
   part('.pairs').append(pairsTable(scene));
