@@ -1,5 +1,6 @@
 // Settings that a render chooses: the pilot is a pure function where no time tells, and changes nothing that is given.
 #include "vpm/job/automatic.h"
+#include "vpm/job/choose_records.h"
 
 #include <gtest/gtest.h>
 
@@ -101,7 +102,7 @@ TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
   RenderSettings settings;
   settings.volume_direct = DirectLight::photons;
   settings.photons_emitted = 1'000'000;
-  choose_settings(scene, {{"volume.radius"}}, settings);
+  choose_records(scene, {{"volume.radius"}}, kInfinity, settings);
   // Of a cylinder through the box, 2 m long, that a share of 1 - exp(-0.02) collides in; few do so twice.
   const double collisions = -std::expm1(-0.02) * settings.photons_emitted;
   const double share = 4.0 / 3.0 * std::pow(settings.volume.radius.metres(), 3.0) / (0.9 * 0.9 * 2.0);
@@ -114,7 +115,7 @@ TEST(Automatic, TheRadiusOfBeamsHoldsTheFlightsThatItPromises) {
   RenderSettings settings;
   settings.volume.mode = GatherMode::photon_beams;
   settings.photons_emitted = 1'000'000;
-  choose_settings(scene, {{"volume.radius"}}, settings);
+  choose_records(scene, {{"volume.radius"}}, kInfinity, settings);
   const double share = std::pow(settings.volume.radius.metres() / 0.9, 2.0);  // of the photons
   EXPECT_NEAR(share * settings.photons_emitted, kPhotonsWithin, 0.15 * kPhotonsWithin);
 }

@@ -10,7 +10,7 @@
 #include "vpm/job/choose_records.h"
 #include "vpm/job/declare.h"
 #include "vpm/job/pilot.h"
-#include "vpm/job/scale_radii.h"
+#include "vpm/job/scale_radius.h"
 #include "vpm/job/setting.h"
 #include "vpm/job/trials.h"
 
@@ -42,9 +42,9 @@ std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings&
   std::vector<Choice> more = asks_for_trials(scene, automatic, settings)
                                  ? choose_by_trials(scene, automatic, settings)
                                  : choose_records(scene, automatic, limit_of_timing(settings), settings);
-  constexpr double kPartOfTiming = 0.25;  // of the time of a timing, for each of a few that scale radii
+  constexpr double kPartOfTiming = 0.5;  // of the time of a timing, for each of a few that scale radii
   const double limit = std::min(limit_of_timing(settings), kUnlimitedTiming);
-  if (settings.integrator != Integrator::path) scale_radii(scene, kPartOfTiming * limit, settings, more);
+  if (settings.integrator != Integrator::path) scale_radius(scene, kPartOfTiming * limit, settings, more);
   for (Choice& choice : more) choices.push_back(std::move(choice));
   return choices;
 }

@@ -85,14 +85,6 @@ ChosenCount choose_count_of_points(double seconds, const std::function<PassCost(
                   [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
 }
 
-/// Do rays from the eye meet more of what a pass stores where there is more of it, whatever radii are chosen?
-bool crosses_flights(const RenderSettings& settings) {
-  const TechniqueSet& techniques = settings.combined.techniques;
-  return settings.integrator == Integrator::combined
-             ? techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams)
-             : settings.volume.gathers_flights();
-}
-
 /// Costs a pass under radii as they would be, in timings of `limit` s at the most.
 Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
                       double limit, RenderSettings& settings) {
@@ -116,6 +108,13 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
 }
 
 }  // namespace
+
+bool crosses_flights(const RenderSettings& settings) {
+  const TechniqueSet& techniques = settings.combined.techniques;
+  return settings.integrator == Integrator::combined
+             ? techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams)
+             : settings.volume.gathers_flights();
+}
 
 std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
                                    RenderSettings& settings) {

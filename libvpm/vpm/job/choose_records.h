@@ -15,4 +15,7 @@ namespace vpm {
 std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
                                    RenderSettings& settings);
 
+/// Do rays from the eye cross flights, so that they meet more where a pass stores more, whatever radii are chosen?
+bool crosses_flights(const RenderSettings& settings);
+
 }  // namespace vpm

@@ -223,11 +223,8 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
 std::string render_report(const RenderJob& job, const std::string& image, const RenderResult& result) {
   Json report = report_of(job, image, "radiance, W/(m^2 sr)", scattering_of(job.scene), result);
   report["error"] = errors(job, result);
-<<<<<<< HEAD
   report["light_of_kernels_alone"] = kernel_light(job);
-=======
   report["techniques"] = techniques(job, result);
->>>>>>> ec8af4c363712a2403f3aa845a3b57e84842724b
   report["eye"] = counted(result.statistics)["eye"];
   report["radii_of_pixels"] = disc_radii(job, result.discs);
   return whole(report);

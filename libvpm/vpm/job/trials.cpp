@@ -131,7 +131,8 @@ OpenTrials open_trials(const Scene& scene, const AutomaticSettings& automatic, c
 /// How long each timing of several trials may take, s.
 double limit_of_trial(const RenderSettings& settings, size_t trials) {
   constexpr double kUnhurried = 0.25;  // where the time is not limited
-  return settings.until.seconds > 0.0 ? limit_of_timing(settings) / static_cast<double>(trials) : kUnhurried;
+  constexpr double kPart = 0.5;        // of the time that a single way has, for all of several
+  return settings.until.seconds > 0.0 ? kPart * limit_of_timing(settings) / static_cast<double>(trials) : kUnhurried;
 }
 
 /// Chooses what else is to be chosen, and then measures what a pass costs and what error it leaves.

@@ -1,0 +1,18 @@
+// The radius in media, chosen by how many photons lie within it, made wider or narrower by what error it leaves.
+#pragma once
+
+#include <vector>
+
+#include "vpm/job/choice.h"
+#include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// Multiplies `volume.radius`, if it was chosen, by the factor with which passes in the time of the render, or as many
+/// as are asked for, are told to leave the least error: wider kernels have less noise and more bias, and take longer.
+/// The radius on surfaces stays: at edges of shadows and caustics, and in corners, a pilot sees too little of the bias.
+/// The pilot takes about three times `limit` s. Puts the radius into the settings and the choices.
+void scale_radius(const Scene& scene, double limit, RenderSettings& settings, std::vector<Choice>& choices);
+
+}  // namespace vpm

@@ -1,0 +1,74 @@
+// The radius in media that a pilot makes wider or narrower.
+#include "vpm/job/scale_radius.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "support/scenes.h"
+#include "vpm/job/choice_rules.h"
+
+namespace vpm {
+namespace {
+
+/// A box of fog with a lamp beside it, seen from outside.
+Scene fog_with_lamp() {
+  Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 0.9f), PointLight{Vec3(0.5f, 1.5f, 0.5f), Rgb(9.0f)});
+  scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {24, 24});
+  return scene;
+}
+
+RenderSettings settings_with(float radius) {
+  RenderSettings settings;
+  settings.photons_emitted = 5'000;
+  settings.volume.mode = GatherMode::beam;
+  settings.volume.radius = radius;
+  return settings;
+}
+
+std::vector<Choice> scaled(const Scene& scene, RenderSettings& settings) {
+  std::vector<Choice> choices{{"photons.emitted", "5000", "few"},
+                              {"volume.radius", fmt::format("{}", settings.volume.radius.metres()), "by photons"},
+                              {"surface.radius", "0.1", "by photons"}};
+  scale_radius(scene, 0.05, settings, choices);
+  return choices;
+}
+
+TEST(ScaleRadius, WidensWhereNoiseIsAllAndNotBeyondATwentiethOfTheScene) {
+  const Scene scene = fog_with_lamp();
+  const double largest = kLargestRadius * scene.bounds.diagonal();
+  const auto narrow = static_cast<float>(largest / 20.0);
+  RenderSettings settings = settings_with(narrow);
+  const std::vector<Choice> choices = scaled(scene, settings);
+  EXPECT_FLOAT_EQ(settings.volume.radius.metres(), rounded_radius(2.8 * narrow));
+  EXPECT_EQ(choices[1].value, fmt::format("{}", settings.volume.radius.metres()));
+  EXPECT_EQ(choices[1].reason, "by photons; 2.8 times that is told to leave less error");
+  EXPECT_EQ(choices[0].value, "5000");
+  EXPECT_EQ(choices[2].value, "0.1");
+  RenderSettings wide = settings_with(static_cast<float>(0.9 * largest));
+  scaled(scene, wide);
+  EXPECT_LE(wide.volume.radius.metres(), static_cast<float>(largest));
+}
+
+TEST(ScaleRadius, NarrowsWhereManyPassesLeaveLittleNoise) {
+  const Scene scene = fog_with_lamp();
+  const auto radius = static_cast<float>(0.5 * kLargestRadius * scene.bounds.diagonal());
+  RenderSettings few = settings_with(radius), many = settings_with(radius);
+  few.radii = many.radii = RadiusSchedule::constant;
+  few.until.passes = 1;
+  many.until.passes = 10'000;
+  scaled(scene, few);
+  scaled(scene, many);
+  EXPECT_GT(few.volume.radius.metres(), radius);
+  EXPECT_LT(many.volume.radius.metres(), radius);
+}
+
+TEST(ScaleRadius, LeavesAGivenRadius) {
+  const Scene scene = fog_with_lamp();
+  RenderSettings settings = settings_with(0.01f);
+  std::vector<Choice> choices{{"photons.emitted", "5000", "few"}};
+  scale_radius(scene, 0.05, settings, choices);
+  EXPECT_EQ(settings.volume.radius.metres(), 0.01f);
+}
+
+}  // namespace
+}  // namespace vpm
