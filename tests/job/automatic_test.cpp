@@ -183,12 +183,13 @@ TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMaps) {
   combined.integrator = Integrator::combined;
   combined.surface.mode = GatherMode::nearest;  // which merges do not go by
   const AutomaticSettings automatic{{"photons.emitted", "volume.radius", "surface.radius"}};
-  EXPECT_EQ(choose_settings(scene, automatic, combined).size(), 3u);
+  constexpr double kLimit = 0.25;  // s
+  EXPECT_EQ(choose_records(scene, automatic, kLimit, combined).size(), 3u);
   EXPECT_GE(combined.photons_emitted, kLeastCount);
   EXPECT_LE(combined.photons_emitted, 100'000u);  // of a picture of 3000 pixels
   RenderSettings maps;
   maps.photons_emitted = combined.photons_emitted;
-  choose_settings(scene, {{"volume.radius", "surface.radius"}}, maps);
+  choose_records(scene, {{"volume.radius", "surface.radius"}}, kLimit, maps);
   EXPECT_EQ(combined.volume.radius, maps.volume.radius);
   EXPECT_EQ(combined.surface.radius, maps.surface.radius);
   EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, combined), InputError);

@@ -77,8 +77,10 @@ int render_command(const RenderOptions& options) {
   const Identity identity = identity_of(job);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
   std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film);
-  if (begun.film.passes() == 0) foresee(job);
-  look_for_kernel_light(job);
+  if (begun.film.passes() == 0) {
+    foresee(job);
+    look_for_kernel_light(job);
+  }
   begun.seconds += job.pilot_seconds;
   print_notes(job);
   if (const StopRule& until = job.settings.until; until.counts_passes() && begun.film.passes() >= until.passes)

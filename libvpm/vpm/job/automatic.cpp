@@ -17,7 +17,7 @@
 namespace vpm {
 namespace {
 
-constexpr double kUnlimitedTiming = 1.0;  // s, counted, for a timing where the time of a render is not limited
+constexpr double kUnlimitedTiming = 0.5;  // s, counted, for a timing where the time of a render is not limited
 
 Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
   const bool grids = std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grid; });

@@ -116,19 +116,30 @@ bool crosses_flights(const RenderSettings& settings) {
              : settings.volume.gathers_flights();
 }
 
+std::optional<MapDensities> densities_for_records(const Scene& scene, const AutomaticSettings& automatic,
+                                                  const RenderSettings& settings) {
+  if (settings.integrator == Integrator::path) return std::nullopt;
+  const bool asked = automatic.has("photons.emitted") || automatic.has("volume.radius") ||
+                     automatic.has("surface.radius") || automatic.has("caustics.radius");
+  const RenderSettings maps = as_maps(settings);
+  if (!asked || plan_estimators(scene, maps, 0).maps().empty()) return std::nullopt;
+  return map_densities(scene, maps);
+}
+
+std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic,
+                                   const std::optional<MapDensities>& densities, double limit,
+                                   RenderSettings& settings) {
+  if (!densities) return {};
+  std::vector<Choice> choices;
+  if (automatic.has("photons.emitted"))
+    choices.push_back(choose_photons(scene, automatic, *densities, limit, settings));
+  for (Choice& choice : choose_radii(scene, automatic, *densities, settings)) choices.push_back(std::move(choice));
+  return choices;
+}
+
 std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
                                    RenderSettings& settings) {
-  if (settings.integrator == Integrator::path) return {};
-  const bool photons = automatic.has("photons.emitted");
-  const bool radii =
-      automatic.has("volume.radius") || automatic.has("surface.radius") || automatic.has("caustics.radius");
-  const RenderSettings maps = as_maps(settings);
-  if (plan_estimators(scene, maps, 0).maps().empty() || !(radii || photons)) return {};
-  std::vector<Choice> choices;
-  const MapDensities densities = map_densities(scene, maps);
-  if (photons) choices.push_back(choose_photons(scene, automatic, densities, limit, settings));
-  for (Choice& choice : choose_radii(scene, automatic, densities, settings)) choices.push_back(std::move(choice));
-  return choices;
+  return choose_records(scene, automatic, densities_for_records(scene, automatic, settings), limit, settings);
 }
 
 }  // namespace vpm

@@ -1,9 +1,11 @@
 // What a pass stores: a render chooses how much, and how far a gather reaches for it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "vpm/job/choice.h"
+#include "vpm/job/pilot.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
 
@@ -13,6 +15,15 @@ namespace vpm {
 /// them into the settings; photons, or light sub-paths, by timings of `limit` s at the most each. Where techniques are
 /// combined, radii are those that photon maps of as many photons would have.
 std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
+                                   RenderSettings& settings);
+
+/// What choose_records() goes by; nothing where it has nothing to choose. It is the same for all sets of techniques
+/// that are combined.
+std::optional<MapDensities> densities_for_records(const Scene& scene, const AutomaticSettings& automatic,
+                                                  const RenderSettings& settings);
+/// The same with densities that are known.
+std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic,
+                                   const std::optional<MapDensities>& densities, double limit,
                                    RenderSettings& settings);
 
 /// Do rays from the eye cross flights, so that they meet more where a pass stores more, whatever radii are chosen?

@@ -67,7 +67,8 @@ std::optional<KernelLight> kernel_light_of(const Scene& scene, const RenderSetti
   if (settings.integrator != Integrator::combined || !techniques.has(Technique::connections) || !merges(techniques) ||
       found.lights.empty() || !has_specular_surfaces(scene))
     return std::nullopt;
-  const RenderSettings few = with_light_paths(pilot_settings(settings, settings.photons_emitted), kLightPaths);
+  const RenderSettings few =
+      with_light_paths(pilot_settings(settings, settings.photons_emitted), in_a_hurry(kLightPaths, settings));
   Moments by_kernels, whole;
   for (int pass = 0; pass < kPasses; ++pass) {
     const RaysOfPass all = rays_of_pass(scene, few, pass);

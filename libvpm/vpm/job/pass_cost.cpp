@@ -71,7 +71,9 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
   const CountedWork counted = counted_work(settings, sum);
   const double all = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
   double taken = counted.seconds;  // of one thread
-  if (goes_by_clock(settings)) taken = !kCounts || 2 * together > kEyeBlocks ? timed : taken / thread_count();
+  const bool alone_as_quick = settings.integrator == Integrator::path;
+  if (goes_by_clock(settings))
+    taken = !kCounts || alone_as_quick || 2 * together > kEyeBlocks ? timed : taken / thread_count();
   return {taken * all / static_cast<double>(sum.rays),
           counted.seconds > 0.0 ? counted.of_photons / counted.seconds : 0.0};
 }

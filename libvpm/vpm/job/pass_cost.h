@@ -1,4 +1,5 @@
 // What a pass costs: timed where a render's time is limited, else counted, so that choices by it are the same anywhere.
+// Rays that a pass takes together are counted, too, where there is no time to time them together.
 #pragma once
 
 #include "vpm/render/settings.h"
@@ -27,9 +28,8 @@ struct PassCost {
   double stored(double photons) const { return stored_caustics + photons * stored_per_photon; }
 };
 /// Renders with the photons of a pass, of either kind a million stored ones at the most, or with as many of its light
-/// sub-paths as 200 MB hold, a sample of its rays. Takes
-/// about so many seconds at the most, of a clock or counted: then photons are fewer than the settings say, and the eye
-/// pass is told from how many it finds of these.
+/// sub-paths as 200 MB hold, a sample of its rays. Takes about so many seconds at the most, of a clock or counted: then
+/// photons are fewer than the settings say, and the eye pass is told from how many it finds of these.
 PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds = kInfinity);
 
 /// What passes show: a picture what the eye sees, a light map surfaces alone.

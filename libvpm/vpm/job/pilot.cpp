@@ -140,9 +140,6 @@ double share_of_photons(const RenderSettings& settings) {
   constexpr double kUnhurried = 20.0;  // s
   return settings.until.seconds > 0.0 ? std::clamp(settings.until.seconds / kUnhurried, 0.02, 1.0) : 1.0;
 }
-uint64_t in_a_hurry(uint64_t photons, const RenderSettings& settings) {
-  return static_cast<uint64_t>(static_cast<double>(photons) * share_of_photons(settings));
-}
 
 /// The records of all media together.
 template <class Record>
@@ -197,6 +194,10 @@ PilotPass trace(const Scene& scene, const RenderSettings& settings) {
 }
 
 }  // namespace
+
+uint64_t in_a_hurry(uint64_t photons, const RenderSettings& settings) {
+  return static_cast<uint64_t>(static_cast<double>(photons) * share_of_photons(settings));
+}
 
 RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
   settings.seed = ~settings.seed;

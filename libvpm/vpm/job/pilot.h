@@ -39,6 +39,9 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings);
 /// The photons that a pass emits: the settings', or as many as fill the maps, of which so many are stored each.
 double photons_of_pass(const RenderSettings& settings, double stored_per_photon);
 
+/// Of so many photons, those that a pilot may trace: where a render has few seconds, a pilot is to take few of them.
+uint64_t in_a_hurry(uint64_t photons, const RenderSettings& settings);
+
 /// The settings of a pilot that emits so many photons, with a seed of their own: what is chosen does not depend on the
 /// photons that the render will gather.
 RenderSettings pilot_settings(RenderSettings settings, uint64_t photons);

@@ -36,7 +36,8 @@ struct RenderJob {
   std::vector<std::pair<std::string, std::string>> contents{};  // of the scene file, with its options: what is no
                                                                 // setting, by name; and hashes of those files
   std::optional<KernelLight> kernel_light;                      // once it has been looked for
-  double pilot_seconds = 0.0;           // wall clock, of choose() and foresee(): part of a render's time
+  double pilot_seconds = 0.0;  // wall clock, of choose(), foresee() and look_for_kernel_light(): part of a render's
+                               // time
   uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
 };
 

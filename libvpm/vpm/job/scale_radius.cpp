@@ -34,27 +34,32 @@ RenderSettings with_radius(RenderSettings settings, const Choice& radius, double
 class ScaledPasses {
  public:
   ScaledPasses(const Scene& scene, double limit, const RenderSettings& settings, const Choice& radius, double wide)
-      : settings_(settings), wide_(wide) {
+      : until_(settings), wide_(wide), power_of_noise_(crosses_flights(settings) ? 1.0 : 2.0) {
     const RenderSettings widened = with_radius(settings, radius, wide);
     const PassCost narrow_cost = time_pass(scene, settings, limit), wide_cost = time_pass(scene, widened, limit);
     seconds_ = narrow_cost.seconds(photons_of_pass(settings, narrow_cost.stored_per_photon));
     more_seconds_ = std::max(0.0, wide_cost.eye - narrow_cost.eye) / (wide * wide - 1.0);
     error_ = error_of_pass(scene, widened, wide_cost, limit).pass;
+    const double narrow_noise = error_of_pass(scene, settings, narrow_cost, limit).pass.photons;
+    const double gained = 1.0 - std::pow(wide, -power_of_noise_);
+    noise_of_media_ = std::clamp((narrow_noise - error_.photons) / gained, 0.0, narrow_noise);
+    other_noise_ = narrow_noise - noise_of_media_;
   }
 
-  /// What is left after as many passes as there will be. The noise of photons goes as one over the area of discs, that
-  /// of flights, where these are crossed, as one over their width.
+  /// What is left after as many passes as there will be; infinite where none fits into the time.
   double error_left(double factor) const {
     constexpr double kMostPasses = 10'000.0, kUsual = 64.0;
     constexpr double kPassesShare = 0.75;  // of the seconds of a render, which a pilot leaves
-    const double narrower = factor / wide_;
     PassError error = error_;
-    error.photons /= crosses_flights(settings_) ? narrower : narrower * narrower;
-    error.bias2 *= kOfEdges * std::pow(narrower, kPowerOfBias);
-    double passes = settings_.until.counts_passes() ? double(settings_.until.passes) : kUsual;
-    if (const double seconds = kPassesShare * settings_.until.seconds; seconds > 0.0)
-      passes = seconds / (seconds_ + more_seconds_ * (factor * factor - 1.0));
-    return error_after(error, settings_, static_cast<int>(std::clamp(passes, 1.0, kMostPasses)));
+    error.photons = other_noise_ + noise_of_media_ * std::pow(factor, -power_of_noise_);
+    error.bias2 *= kOfEdges * std::pow(factor / wide_, kPowerOfBias);
+    double passes = until_.until.counts_passes() ? double(until_.until.passes) : kUsual;
+    if (const double seconds = until_.until.seconds; seconds > 0.0) {
+      const double each = seconds_ + more_seconds_ * (factor * factor - 1.0);
+      if (each > longest_time(seconds)) return kInfinity;
+      passes = kPassesShare * seconds / each;
+    }
+    return error_after(error, until_, static_cast<int>(std::clamp(passes, 1.0, kMostPasses)));
   }
 
  private:
@@ -62,22 +67,24 @@ class ScaledPasses {
   // is four times what corrections tell (papers/stated-error.md). Pictures have both.
   static constexpr double kPowerOfBias = 2.5, kOfEdges = 4.0;
 
-  const RenderSettings& settings_;
+  RenderSettings until_;
   double wide_;
-  double seconds_, more_seconds_;  // of a pass, and what each more of the squared factor adds
-  PassError error_;                // at the wide radius, where bias is told best from noise
+  double power_of_noise_;                // as one over the area of discs, or over the width of flights
+  double seconds_, more_seconds_;        // of a pass, and what each more of the squared factor adds
+  PassError error_;                      // at the wide radius, where bias is told best from noise
+  double noise_of_media_, other_noise_;  // of photons, at the factor 1: what the wide radius lessens, and the rest
 };
 
 }  // namespace
 
 void scale_radius(const Scene& scene, double limit, RenderSettings& settings, std::vector<Choice>& choices) {
-  constexpr std::array kFactors{0.5, 0.7, 1.4, 2.0, 2.8};
+  constexpr std::array kFactors{1.4, 2.0, 2.8};
   constexpr double kSurelyLess = 0.95;  // of an error, that another factor must leave, as pilots are noisy
   const auto radius =
       std::find_if(choices.begin(), choices.end(), [](const Choice& choice) { return choice.key == kVolumeRadius; });
   if (radius == choices.end()) return;
   const double wide = std::min(kFactors.back(), kLargestRadius * scene.bounds.diagonal() / metres_of(*radius));
-  if (wide < kFactors[2]) return;
+  if (wide < kFactors.front()) return;
   const ScaledPasses passes(scene, limit, settings, *radius, wide);
   double best = 1.0;
   for (const double factor : kFactors)

@@ -135,9 +135,29 @@ double limit_of_trial(const RenderSettings& settings, size_t trials) {
   return settings.until.seconds > 0.0 ? kPart * limit_of_timing(settings) / static_cast<double>(trials) : kUnhurried;
 }
 
+/// What trials choose their records by: measured once for all that combine techniques, as it is the same for them.
+class DensitiesOfTrials {
+ public:
+  DensitiesOfTrials(const Scene& scene, const AutomaticSettings& automatic) : scene_(scene), automatic_(automatic) {}
+
+  std::optional<MapDensities> of(const RenderSettings& settings) {
+    if (settings.integrator != Integrator::combined) return densities_for_records(scene_, automatic_, settings);
+    if (!measured_) combined_ = densities_for_records(scene_, automatic_, settings);
+    measured_ = true;
+    return combined_;
+  }
+
+ private:
+  const Scene& scene_;
+  const AutomaticSettings& automatic_;
+  std::optional<MapDensities> combined_;
+  bool measured_ = false;
+};
+
 /// Chooses what else is to be chosen, and then measures what a pass costs and what error it leaves.
-void run_trial(const Scene& scene, const AutomaticSettings& automatic, double limit, Trial& trial) {
-  trial.choices = choose_records(scene, automatic, limit, trial.settings);
+void run_trial(const Scene& scene, const AutomaticSettings& automatic, DensitiesOfTrials& densities, double limit,
+               Trial& trial) {
+  trial.choices = choose_records(scene, automatic, densities.of(trial.settings), limit, trial.settings);
   const PassCost cost = time_pass(scene, trial.settings, limit);
   trial.pass_seconds = cost.seconds(photons_of_pass(trial.settings, cost.stored_per_photon));
   trial.error = error_of_pass(scene, trial.settings, cost, limit);
@@ -193,7 +213,8 @@ std::string reason_of(double seconds, const std::vector<Trial>& trials, const st
 /// Tries all, and leaves the one with the least error first. Returns why.
 std::string put_best_first(const Scene& scene, const AutomaticSettings& automatic, std::vector<Trial>& trials) {
   const double limit = limit_of_trial(trials.front().settings, trials.size());
-  for (Trial& trial : trials) run_trial(scene, automatic, limit, trial);
+  DensitiesOfTrials densities(scene, automatic);
+  for (Trial& trial : trials) run_trial(scene, automatic, densities, limit, trial);
   const double seconds = seconds_to_compare(trials);
   const std::vector<double> errors = errors_after(seconds, trials);
   std::string reason = reason_of(seconds, trials, errors);

@@ -17,8 +17,9 @@ constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are t
 constexpr size_t kFewLights = 4;      // that are all sampled where an eye sub-path has one vertex for it
 constexpr float kBeamRadius = 0.25f;  // of that of points: wider beams cost as much time as they save in noise
 constexpr double kConnections = 1.0;  // of each vertex of an eye sub-path, to vertices of light sub-paths
-// Light sub-paths that may be connected to, of all that a pass has. Which of them a vertex of an eye sub-path meets is
-// left to chance either way, so that the noise of a pixel is that of all; memory is not.
+// The first so many light sub-paths of a pass may be connected to: points of a sequence cover lights evenly from the
+// first on. Which vertex one of an eye sub-path meets is left to chance either way, so that the noise of a pixel is
+// that of all.
 constexpr uint64_t kConnectable = 8192;
 
 /// The radii of the pass. Those of media are the least that any of them has by default.
@@ -121,8 +122,7 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
       counts_(sought == SoughtLight::all ? counts_of_pass(scene, settings, kernels_)
                                          : counts_of_kernels(scene, settings, kernels_)) {
   const PhotonNumbers numbers(settings.photon_sequence, settings.seed, static_cast<uint64_t>(pass));
-  const uint64_t stride = std::max<uint64_t>(1, paths_ / kConnectable);
-  const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, stride};
+  const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, kConnectable};
   const Stopwatch clock;
   count_by_few(tracing, settings, pass, counts_);
   LightSubPaths light = trace(tracing, stop);

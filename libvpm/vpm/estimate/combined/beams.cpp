@@ -81,20 +81,18 @@ Merged merge_beams(const CombinedContext& context, Technique technique, const Ra
   const Medium& medium = context.scene.media[segment.medium];
   const CrossedRay crossed{medium, beams, work.scratch.integrals, segment.ray, radius, work.counters.walk};
   const MergingRays rays = rays_of(segment, unit_of_beams(context.counts));
-  MergedSum total;
+  MergedTotals totals;
   const auto merge = [&](const auto& light) {
     return beams.map.visit_crossings(segment.ray, near, [&](const BeamCrossings& found) {
-      LaneMerges sums;
       for (size_t first = 0; first < found.size; first += kBlock) {
         Crossings at;
         count(work.counters.gather.used, set_crossings(crossed, light.phase(), found, first, at));
-        light.add(rays, at, sums);
+        light.add(rays, at, totals.next());
       }
-      total.add_all(sums);
     });
   };
   count(work.counters.gather.visited, with_crossing_light(context, technique, medium, merge));
-  return total.times(factor_of(context, segment));
+  return totals.of_all().times(factor_of(context, segment));
 }
 
 }  // namespace vpm

@@ -56,7 +56,8 @@ void merge_block(const CombinedContext& context, Technique technique, const RayB
     });
   };
   count(counters.visited, with_crossing_light(context, technique, context.scene.media[medium], merge));
-  for (size_t i = 0; i < merged.size(); ++i) merged[i] = totals.of_lane(i).times(factor_of(context, block.segments[i]));
+  const std::array<MergedSum, kBlock>& sums = totals.of_lanes();
+  for (size_t i = 0; i < merged.size(); ++i) merged[i] = sums[i].times(factor_of(context, block.segments[i]));
 }
 
 }  // namespace

@@ -31,8 +31,9 @@ class SortedLight {
  public:
   SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels, LightSubPaths paths);
 
-  /// Those that may be connected to, and of how many sub-paths they are.
+  /// Those that may be connected to.
   const std::vector<LightVertex>& vertices() const { return paths_.vertices; }
+  /// Of how many sub-paths these are, with sub-paths that have none.
   uint64_t connectable_paths() const { return paths_.connectable; }
   /// Short or long ones.
   const LightBeams& beams(Technique technique, MediumId medium) const {
@@ -49,6 +50,7 @@ class SortedLight {
   double scale_in(MediumId medium) const { return scales_[medium]; }
   size_t beam_count() const;
   size_t photons_in_media() const;
+  /// Of what grows with the number of light sub-paths: those that may be connected to are few.
   size_t memory_bytes() const;
 
  private:

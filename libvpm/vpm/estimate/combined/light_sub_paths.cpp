@@ -17,7 +17,7 @@ class LightSubPath {
  public:
   LightSubPath(const LightTracing& tracing, uint64_t number, LightSubPaths& paths, std::vector<Track>& tracks, Rng& rng)
       : c_(tracing),
-        connectable_(tracing.counts.connections > 0.0 && number % tracing.stride == 0),
+        connectable_(tracing.counts.connections > 0.0 && number < tracing.connectable),
         out_(paths),
         tracks_(tracks),
         rng_(rng) {}

@@ -66,8 +66,8 @@ struct LightTracing {
   const TransmittanceEstimator& transmittance;  // exact
   const TechniqueCounts& counts;
   const PhotonNumbers& numbers;
-  int max_events = 100'000;  // of one sub-path
-  uint64_t stride = 1;       // one of so many sub-paths may be connected to
+  int max_events = 100'000;             // of one sub-path
+  uint64_t connectable = ~uint64_t{0};  // the first so many sub-paths may be connected to
 };
 
 /// Light tracing: connects a vertex, with the power that arrives there, W, to the camera.

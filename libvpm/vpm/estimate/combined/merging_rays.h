@@ -120,9 +120,6 @@ struct MergedSum {
     unweighted += other.unweighted;
     return *this;
   }
-  void add_all(const LaneMerges& sums) {
-    for (size_t lane = 0; lane < kBlock; ++lane) add(sums, lane);
-  }
   Merged times(const Rgb& factor) const {
     return {{Rgb(value) * factor, Rgb(correction) * factor}, Rgb(unweighted) * factor};
   }
@@ -133,19 +130,19 @@ class MergedTotals {
  public:
   /// Where the next one is to be added.
   LaneMerges& next() {
-    if (++in_floats_ > kMostInFloats) flush();
+    if (in_floats_ == kMostInFloats) flush();
+    ++in_floats_;
     return floats_;
   }
-  /// All that has been added to a lane.
-  const MergedSum& of_lane(size_t lane) {
+  /// All that has been added, lane by lane.
+  const std::array<MergedSum, kBlock>& of_lanes() {
     flush();
-    return sums_[lane];
+    return sums_;
   }
   /// All that has been added.
   MergedSum of_all() {
-    flush();
     MergedSum all;
-    for (const MergedSum& sum : sums_) all += sum;
+    for (const MergedSum& sum : of_lanes()) all += sum;
     return all;
   }
 

@@ -35,7 +35,7 @@ namespace vpm {
 /// Of a pass that looks for the light alone which no technique without a kernel finds: that of lights which no ray
 /// hits, behind mirrors or glass from wherever a sub-path could be connected.
 struct KernelsAlone {
-  bool sought = false;
+  bool sought = false;  // where connections are used, which find all that planes could: their flights meet in a medium
   // What is done in the other passes:
   bool connects_deep = false;  // TechniqueCounts::deep
   bool traces_light = false;   // are light sub-paths connected to the camera?

@@ -107,8 +107,8 @@ void merge_block_of_points(const CombinedContext& context, const RayBlock& block
     }
   };
   with_photon_light(context, context.scene.media[medium], merge);
-  for (size_t i = 0; i < merged.size(); ++i)
-    merged[i] = totals.of_lane(i).times(factor_of_photons(context, block.segments[i]));
+  const std::array<MergedSum, kBlock>& sums = totals.of_lanes();
+  for (size_t i = 0; i < merged.size(); ++i) merged[i] = sums[i].times(factor_of_photons(context, block.segments[i]));
 }
 
 }  // namespace
@@ -120,22 +120,20 @@ Merged merge_points(const CombinedContext& context, const RaySegment& segment, E
   const float radius = context.kernels.points_2d;
   const MergingRays rays = rays_of(segment, context.counts.points_2d);
   GatherCounters& counters = work.counters.gather;
-  MergedSum total;
+  MergedTotals totals;
   const auto merge = [&](const auto& light) {
     const auto visit = [&](const MediumPhotonLeaf& leaf, const PhotonsInMedium::BesideRay& beside) {
       PhotonsBeside at;
       count(counters.used, set_medium_beside(medium, work.scratch.integrals, beside, radius, at));
       set_photons(leaf, light.phase(), segment.ray.direction, at);
-      LaneMerges sums;
-      light.add(rays, at, sums);
-      total.add_all(sums);
+      light.add(rays, at, totals.next());
     };
     return map.visit_leaves_near_ray(segment.ray, segment.interval, radius, visit);
   };
   count(work.counters.volume_queries);
   count(counters.searches);
   count(counters.visited, with_photon_light(context, medium, merge));
-  return total.times(factor_of_photons(context, segment));
+  return totals.of_all().times(factor_of_photons(context, segment));
 }
 
 void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,

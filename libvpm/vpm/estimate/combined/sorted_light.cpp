@@ -49,7 +49,7 @@ size_t SortedLight::photons_in_media() const {
 }
 
 size_t SortedLight::memory_bytes() const {
-  size_t bytes = paths_.vertices.capacity() * sizeof(LightVertex) + on_surfaces_.memory_bytes();
+  size_t bytes = on_surfaces_.memory_bytes();
   bytes += planes_.memory_bytes() + paths_.plane_starts.capacity() * sizeof(FlightStart);
   for (const VertexMap<MediumPhotonLeaf>& map : in_media_) bytes += map.memory_bytes();
   for (const auto* beams : {&short_beams_, &long_beams_})

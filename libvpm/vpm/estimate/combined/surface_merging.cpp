@@ -41,9 +41,9 @@ namespace {
 
 /// The photons of a leaf around a place on a surface.
 struct AroundPlace {
-  LaneMask counts;  // do they arrive within the radius, on that side of the surface?
-  Floats q;         // their squared distance over that of the radius
-  Floats cosine;    // of their directions to the normal
+  LaneMask arrived;  // do they arrive within the radius, on that side of the surface?
+  Floats q;          // their squared distance over that of the radius
+  Floats cosine;     // of their directions to the normal
 };
 AroundPlace around(const SurfacePhotonLeaf& leaf, const Vec3& place, const Arrives& arrives, float radius) {
   const Floats3 offset = Floats3{lanes_of(leaf.x), lanes_of(leaf.y), lanes_of(leaf.z)} - place;
@@ -71,13 +71,13 @@ void EyeSubPath::merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& r
   const auto merge = [&](auto profile) {
     return c_.light.on_surfaces().visit_leaves_near(vertex.point, [&](const SurfacePhotonLeaf& leaf) {
       const AroundPlace near = around(leaf, vertex.point, arrives, radius);
-      if (!any(near.counts)) return;
-      count(work_.counters.gather.used, lanes_in(near.counts));
-      const Floats to_light = near.cosine * kPerPi;
+      if (!any(near.arrived)) return;
+      count(work_.counters.gather.used, lanes_in(near.arrived));
+      const Floats to_light = max(near.cosine, Floats{}) * kPerPi;
       const Floats back = squares ? to_light * to_light : to_light;
       const Floats share = 1.0f / (others + lanes_of(leaf.adjacent) + back * lanes_of(leaf.further));
       FloatsRgb power{lanes_of(leaf.power_r), lanes_of(leaf.power_g), lanes_of(leaf.power_b)};
-      for (Floats& channel : power) channel = near.counts ? channel : Floats{};
+      for (Floats& channel : power) channel = near.arrived ? channel : Floats{};
       totals.next().add(power, share, near.q, profile);
     });
   };

@@ -24,8 +24,8 @@ struct LeafPlaces {
   float x[kBlock], y[kBlock], z[kBlock];
 };
 
-/// Finds the vertices of a leaf that may be nearer to rays of the bundle than the radius, m: their numbers. Returns how
-/// many there are.
+/// Finds the vertices of a leaf that may be nearer to rays of the bundle than the radius, m: their numbers, up to
+/// kBlock. Returns how many there are.
 inline uint32_t find_near(const LeafPlaces& leaf, const RayBundle& bundle, float radius, uint32_t* numbers) {
   const HalfSpaces& region = bundle.region();
   const Vec3 apex = bundle.apex();
