@@ -1,4 +1,4 @@
-// One measurement at a wide radius tells of all factors.
+// Two measurements, at the chosen radius and at a wide one, tell of all factors between.
 #include "vpm/job/scale_radius.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ RenderSettings with_radius(RenderSettings settings, const Choice& radius, double
 class ScaledPasses {
  public:
   ScaledPasses(const Scene& scene, double limit, const RenderSettings& settings, const Choice& radius, double wide)
-      : until_(settings), wide_(wide), power_of_noise_(crosses_flights(settings) ? 1.0 : 2.0) {
+      : settings_(settings), wide_(wide), power_of_noise_(crosses_flights(settings) ? 1.0 : 2.0) {
     const RenderSettings widened = with_radius(settings, radius, wide);
     const PassCost narrow_cost = time_pass(scene, settings, limit), wide_cost = time_pass(scene, widened, limit);
     seconds_ = narrow_cost.seconds(photons_of_pass(settings, narrow_cost.stored_per_photon));
@@ -53,13 +53,13 @@ class ScaledPasses {
     PassError error = error_;
     error.photons = other_noise_ + noise_of_media_ * std::pow(factor, -power_of_noise_);
     error.bias2 *= kOfEdges * std::pow(factor / wide_, kPowerOfBias);
-    double passes = until_.until.counts_passes() ? double(until_.until.passes) : kUsual;
-    if (const double seconds = until_.until.seconds; seconds > 0.0) {
+    double passes = settings_.until.counts_passes() ? double(settings_.until.passes) : kUsual;
+    if (const double seconds = settings_.until.seconds; seconds > 0.0) {
       const double each = seconds_ + more_seconds_ * (factor * factor - 1.0);
       if (each > longest_time(seconds)) return kInfinity;
       passes = kPassesShare * seconds / each;
     }
-    return error_after(error, until_, static_cast<int>(std::clamp(passes, 1.0, kMostPasses)));
+    return error_after(error, settings_, static_cast<int>(std::clamp(passes, 1.0, kMostPasses)));
   }
 
  private:
@@ -67,7 +67,7 @@ class ScaledPasses {
   // is four times what corrections tell (papers/stated-error.md). Pictures have both.
   static constexpr double kPowerOfBias = 2.5, kOfEdges = 4.0;
 
-  RenderSettings until_;
+  RenderSettings settings_;
   double wide_;
   double power_of_noise_;                // as one over the area of discs, or over the width of flights
   double seconds_, more_seconds_;        // of a pass, and what each more of the squared factor adds
