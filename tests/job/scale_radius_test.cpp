@@ -66,12 +66,10 @@ TEST(ScaleRadius, StaysWhereManyPassesLeaveLittleNoise) {
 TEST(ScaleRadius, StaysWhereTheNoiseIsThatOfSurfaces) {
   Scene scene;
   scene.media.push_back(make_medium(nullptr, Rgb(1e-4f), 0.9f));
-  scene.light_medium.push_back(0);
   const Interface inside{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Lambertian{Rgb(0.7f)}, &inside);
   scene.lights.push_back(PointLight{Vec3(0.0f, 0.9f, 0.0f), Rgb(1.0f)});
   scene.camera = make_camera(Vec3(0, 0, 0.9f), Vec3(0.0f), Vec3(0, 1, 0), 60.0f, {24, 24});
-  scene.camera_medium = 0;
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings = settings_with(static_cast<float>(kLargestRadius * scene.bounds.diagonal() / 20.0));
