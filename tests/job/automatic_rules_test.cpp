@@ -36,7 +36,8 @@ TEST(Automatic, RadiusStaysBetweenHalfAPixelAndATwentiethOfTheScene) {
 
 /// A pilot of 512 rays of each block, which all show a mean of 1 but for one block, in one channel.
 PilotError pilot(double mean_there, double standard_error, double correction = 0.0) {
-  PilotError error{.seen = std::vector<SeenInBlock>(3 * kEyeBlocks, {1.0, 0.0, 0.0}), .rays = 512.0};
+  PilotError error{.seen = std::vector<SeenMean>(3 * kEyeBlocks, {1.0, 0.0, 0.0}), .rays = 512.0};
+  error.in_all.fill({1.0, 0.0, 0.0});
   error.seen[70] = {mean_there, standard_error, correction};
   return error;
 }
@@ -50,6 +51,18 @@ TEST(Automatic, LightThatOthersShowForCertainIsNoise) {
   EXPECT_NEAR(unseen_light(pilot(0.0, 0.0), pilot(1.0, 0.0, -0.2)), 512.0 * 0.6 * 0.6 / scale / kAll, 1e-9);
   EXPECT_EQ(unseen_light(pilot(1.0, 0.0), pilot(0.0, 0.0)), 0.0);  // brighter is not blind
   EXPECT_EQ(unseen_light(pilot(0.5, 0.0), pilot(1.0, 0.2)), 0.0);  // within what is certain
+}
+
+/// A tenth is missing everywhere, which no block is sure of.
+TEST(Automatic, LightThatIsMissingInAllBlocksTogetherIsNoise) {
+  PilotError seen, missed;
+  seen.seen.assign(3 * kEyeBlocks, {1.0, 0.1, 0.0});
+  missed.seen.assign(3 * kEyeBlocks, {0.9, 0.1, 0.0});
+  seen.rays = missed.rays = 512.0;
+  seen.in_all.fill({1.0, 0.01, 0.0});
+  missed.in_all.fill({0.9, 0.01, 0.0});
+  EXPECT_NEAR(unseen_light(missed, seen), 512.0 * kEyeBlocks * 0.02 * 0.02 / 1.01, 1e-9);
+  EXPECT_EQ(unseen_light(seen, missed), 0.0);
 }
 
 TEST(Automatic, PhotonsCostWhatTheEyePassCosts) {

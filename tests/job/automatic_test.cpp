@@ -133,7 +133,7 @@ TEST(Automatic, TheRadiusHoldsThePhotonsThatItPromises) {
   RenderSettings settings;
   settings.surface_direct = DirectLight::photons;
   settings.photons_emitted = 400'000;
-  choose_settings(scene, {{"surface.radius"}}, settings);
+  choose_records(scene, {{"surface.radius"}}, kInfinity, settings);
   const double share = std::pow(settings.surface.radius.metres() / 0.9, 2.0);  // of the photons
   // The median over 512 places of densities told by 16 photons each: off by 2 % or so, and by 4 % as the median of a
   // gamma distribution is; a tenth is four standard deviations at least.

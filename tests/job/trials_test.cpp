@@ -54,7 +54,7 @@ TEST(Automatic, PilotsSeeWhatLightTracingFinds) {
     for (const TechniqueInfo& info : kTechniques)
       settings.combined.techniques.set(info.technique, info.technique == technique);
     double sum = 0.0;
-    for (const SeenInBlock& seen : error_of_pass(scene, settings, time_pass(scene, settings), kInfinity).seen)
+    for (const SeenMean& seen : error_of_pass(scene, settings, time_pass(scene, settings), kInfinity).seen)
       sum += seen.mean;
     return sum;
   };

@@ -10,14 +10,12 @@
 #include "vpm/job/choose_records.h"
 #include "vpm/job/declare.h"
 #include "vpm/job/pilot.h"
-#include "vpm/job/scale_radius.h"
+#include "vpm/job/scale_records.h"
 #include "vpm/job/setting.h"
 #include "vpm/job/trials.h"
 
 namespace vpm {
 namespace {
-
-constexpr double kUnlimitedTiming = 0.5;  // s, counted, for a timing where the time of a render is not limited
 
 Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
   const bool grids = std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grid; });
@@ -39,12 +37,13 @@ Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
   std::vector<Choice> choices;
   if (automatic.has("distance.strategy") && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
-  std::vector<Choice> more = asks_for_trials(scene, automatic, settings)
-                                 ? choose_by_trials(scene, automatic, settings)
-                                 : choose_records(scene, automatic, limit_of_timing(settings), settings);
-  constexpr double kPartOfTiming = 0.5;  // of the time of a timing, for each of a few that scale radii
-  const double limit = std::min(limit_of_timing(settings), kUnlimitedTiming);
-  if (settings.integrator != Integrator::path) scale_radius(scene, kPartOfTiming * limit, settings, more);
+  std::vector<Choice> more;
+  if (asks_for_trials(scene, automatic, settings)) {
+    more = choose_by_trials(scene, automatic, settings);
+  } else {
+    more = choose_records(scene, automatic, limit_of_timing(settings), settings);
+    scale_records(scene, limit_of_scaling(settings), settings, more);
+  }
   for (Choice& choice : more) choices.push_back(std::move(choice));
   return choices;
 }

@@ -45,7 +45,7 @@ double found_by_rays(const Scene& scene, const RenderSettings& settings, int pas
   parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
     EyeCounters counters;
     EyeScratch scratch;
-    RaysOfBlock rays(scene.camera, block, counters, scratch);
+    RaysOfBlock rays(scene.camera, block, BlockPixels::spread, counters, scratch);
     for (size_t i = 0; i < kRaysOfBlock; ++i)
       rays.add(
           i, Rng(settings.seed, rng_stream(RngUse::pilot, 6 + static_cast<uint64_t>(pass)), block * kRaysOfBlock + i));

@@ -39,7 +39,7 @@ RenderedBlock render_block(const Scene& scene, const RenderSettings& settings, c
   for (size_t i = 0; i < kRaysOfBlock && (i == 0 || taken() < seconds);) {
     rendered.together |= i == 1 && kRaysOfBlock * taken() < seconds;
     const size_t end = rendered.together ? kRaysOfBlock : i + 1;
-    RaysOfBlock rays(scene.camera, block, counters, scratch);
+    RaysOfBlock rays(scene.camera, block, BlockPixels::side_by_side, counters, scratch);
     for (; i < end; ++i) rays.add(i, Rng(settings.seed, rng_stream(RngUse::pilot, 1), block * kRaysOfBlock + i));
     radiance(rays.all());
     counters.rays += rays.all().size();

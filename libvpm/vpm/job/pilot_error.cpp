@@ -18,16 +18,17 @@
 namespace vpm {
 namespace {
 
-constexpr int kSmallPasses = 4;
+constexpr int kSmallPasses = 8;
 
-/// What two rays through the same place find in a pass.
-using Twins = std::array<KernelEstimate, 2>;
-using FoundByPass = std::vector<std::vector<Twins>>;  // block by block
+/// What three rays through a pixel find in a pass: two through one place, which is the same in all passes, and one
+/// through another such place.
+using FoundInPixel = std::array<KernelEstimate, 3>;
+using FoundByPass = std::vector<std::vector<FoundInPixel>>;  // block by block
 
 struct SmallPasses {
   RenderSettings settings;
   double share = 1.0;          // of the photons of a whole pass
-  size_t rays = kRaysOfBlock;  // of each block, and as many twins
+  size_t rays = kRaysOfBlock;  // of each block, thrice
 };
 
 /// Half of the time is for photons, half for rays.
@@ -35,7 +36,7 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   constexpr double kFewest = 1000.0;  // photons
   const double half = 0.5 * seconds / kSmallPasses, photons = photons_of_pass(settings, cost.stored_per_photon);
   const double all_rays = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
-  const double affordable = half / (cost.eye / all_rays * double{2 * kEyeBlocks});
+  const double affordable = half / (cost.eye / all_rays * double{3 * kEyeBlocks});
   SmallPasses small{settings};
   const double all_photons = cost.photon * photons + cost.caustics;  // s
   if (all_photons > 0.0) small.share = std::clamp(half / all_photons, std::min(1.0, kFewest / photons), 1.0);
@@ -60,97 +61,166 @@ KernelEstimate found_by(const EyeRay& ray, const Image& light_tracing) {
   return found;
 }
 
-std::vector<Twins> render_small(const Scene& scene, const SmallPasses& small, int pass) {
+std::vector<FoundInPixel> render_small(const Scene& scene, const SmallPasses& small, int pass) {
   const RaysOfPass ready = rays_of_pass(scene, small.settings, pass);
-  std::vector<Twins> found(kEyeBlocks * small.rays);
+  const uint64_t of_rays = rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass));
+  const uint64_t of_places = rng_stream(RngUse::pilot, 2 + kSmallPasses);
+  std::vector<FoundInPixel> found(kEyeBlocks * small.rays);
   parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
     EyeCounters counters;
     EyeScratch scratch;
-    RaysOfBlock rays(scene.camera, block, counters, scratch);
-    for (size_t i = 0; i < small.rays; ++i)
-      rays.add(
-          i * kRaysOfBlock / small.rays,
-          Rng(small.settings.seed, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), block * small.rays + i));
-    for (size_t twin = 0; twin < 2; ++twin) {
-      ready.radiance(rays.all());
-      for (size_t i = 0; i < small.rays; ++i)
-        found[block * small.rays + i][twin] = found_by(rays.all()[i], ready.light_tracing);
+    const size_t begin = block * small.rays;
+    std::array<RaysOfBlock, 2> rays{{{scene.camera, block, BlockPixels::spread, counters, scratch},
+                                     {scene.camera, block, BlockPixels::spread, counters, scratch}}};
+    for (size_t i = 0; i < small.rays; ++i) {
+      for (size_t place = 0; place < 2; ++place) {
+        const size_t ray = 2 * (begin + i) + place;
+        rays[place].add(i * kRaysOfBlock / small.rays, Rng(small.settings.seed, of_places, ray).uniform2(),
+                        Rng(small.settings.seed, of_rays, ray));
+      }
+    }
+    for (const size_t which : {0, 1, 2}) {
+      const std::span<EyeRay> all = rays[which / 2].all();
+      ready.radiance(all);
+      for (size_t i = 0; i < small.rays; ++i) found[begin + i][which] = found_by(all[i], ready.light_tracing);
     }
   });
   return found;
 }
 
-/// The mean of a channel over the places from `begin` to `end`.
+/// Both places count alike.
+double mean_of(const FoundInPixel& found, int channel) {
+  return 0.25 * (double{found[0].value[channel]} + double{found[1].value[channel]}) +
+         0.5 * double{found[2].value[channel]};
+}
+
+/// The mean of a channel over the pixels from `begin` to `end`.
 double mean_among(const FoundByPass& found, size_t begin, size_t end, int channel) {
   double sum = 0.0;
-  for (const std::vector<Twins>& pass : found)
-    for (size_t i = begin; i < end; ++i) sum += double{pass[i][0].value[channel]} + double{pass[i][1].value[channel]};
-  return sum / static_cast<double>(2 * found.size() * (end - begin));
+  for (const std::vector<FoundInPixel>& pass : found)
+    for (size_t i = begin; i < end; ++i) sum += mean_of(pass[i], channel);
+  return sum / static_cast<double>(found.size() * (end - begin));
 }
 
-/// Adds unbiased estimates of one place. Rays differ between twins, photons between passes: what twins have in common
-/// is due to photons.
-void add_place(const FoundByPass& found, size_t place, int channel, double scale, PassError& sum) {
-  const auto n = static_cast<double>(found.size());
-  double a = 0.0, b = 0.0, products = 0.0, differences2 = 0.0, corrections = 0.0, corrections2 = 0.0;
-  for (const std::vector<Twins>& pass : found) {
-    const auto& [first, second] = pass[place];
-    const double x = double{first.value[channel]}, y = double{second.value[channel]};
-    const double correction = 0.5 * (double{first.correction[channel]} + double{second.correction[channel]});
-    a += x;
-    b += y;
-    products += x * y;
-    differences2 += (x - y) * (x - y);
-    corrections += correction;
-    corrections2 += correction * correction;
+/// Sums over pixels.
+struct ErrorSums {
+  double rays = 0.0, photons = 0.0, bias2 = 0.0;
+  std::array<double, kSmallPasses> bias2_without{};  // each of the passes
+};
+
+/// Less a standard error, by the jackknife over passes: these are few, and their corrections have much noise.
+double sure_bias2(const ErrorSums& sums) {
+  constexpr double n = kSmallPasses;
+  double mean = 0.0, squares = 0.0;
+  for (const double without : sums.bias2_without) mean += without / n;
+  for (const double without : sums.bias2_without) squares += (without - mean) * (without - mean);
+  return std::max(0.0, sums.bias2 - std::sqrt(squares * (n - 1.0) / n));
+}
+
+/// Adds unbiased estimates of one pixel. Rays through one place have their photons in common, and all passes the
+/// places.
+void add_pixel(const FoundByPass& found, size_t pixel, int channel, double scale, ErrorSums& sum) {
+  constexpr double n = kSmallPasses;
+  double x = 0.0, y = 0.0, products = 0.0, along = 0.0, apart = 0.0, apart2 = 0.0, corrected = 0.0, corrected2 = 0.0;
+  std::array<double, kSmallPasses> corrections{};
+  for (size_t pass = 0; pass < kSmallPasses; ++pass) {
+    const auto& [first, second, elsewhere] = found[pass][pixel];
+    const double one = double{first.value[channel]}, again = double{second.value[channel]};
+    const double difference = 0.5 * (one + again) - double{elsewhere.value[channel]};
+    x += one;
+    y += again;
+    products += one * again;
+    along += 0.5 * (one - again) * (one - again) / n;
+    apart += difference / n;
+    apart2 += difference * difference / n;
+    corrections[pass] = 0.5 * (double{first.correction[channel]} + double{second.correction[channel]});
+    corrected += corrections[pass];
+    corrected2 += corrections[pass] * corrections[pass];
   }
-  sum.rays += 0.5 * differences2 / n / scale;
-  sum.photons += (products - a * b / n) / (n - 1.0) / scale;
-  sum.bias2 += (corrections * corrections - corrections2) / (n * (n - 1.0)) / scale;
+  const double of_places = 0.5 * (apart * apart - (apart2 - apart * apart) / (n - 1.0));
+  sum.rays += (along + of_places) / scale;
+  sum.photons += (products - x * y / n) / (n - 1.0) / scale;
+  sum.bias2 += (corrected * corrected - corrected2) / (n * (n - 1.0)) / scale;
+  for (size_t i = 0; i < kSmallPasses; ++i) {
+    const double others = corrected - corrections[i], their_squares = corrected2 - corrections[i] * corrections[i];
+    sum.bias2_without[i] += (others * others - their_squares) / ((n - 1.0) * (n - 2.0)) / scale;
+  }
 }
 
-/// What passes show in a channel of the places from `begin` to `end`. The standard error is no less than that of rays
-/// alone: a few passes are spread by chance.
-SeenInBlock seen_in_block(const FoundByPass& found, size_t begin, size_t end, int channel) {
-  const auto passes = static_cast<double>(found.size()), places = static_cast<double>(end - begin);
-  SeenInBlock seen;
-  seen.mean = mean_among(found, begin, end, channel);
-  double between = 0.0, within = 0.0;
-  for (const std::vector<Twins>& pass : found) {
+/// The variance of the mean of these pixels that is due to which pixels they are: what their means differ by. It is
+/// rather too large, as they are evenly spread.
+double variance_of_pixels(const FoundByPass& found, size_t begin, size_t end, int channel) {
+  const double mean = mean_among(found, begin, end, channel), n = static_cast<double>(end - begin);
+  double squares = 0.0;
+  for (size_t i = begin; i < end; ++i) squares += std::pow(mean_among(found, i, i + 1, channel) - mean, 2.0);
+  return n > 1.0 ? squares / (n * (n - 1.0)) : mean * mean;
+}
+
+/// What passes show in a channel of blocks of `rays` pixels, from `begin` to `end`.
+SeenMean seen_among(const FoundByPass& found, size_t begin, size_t end, size_t rays, int channel) {
+  const auto passes = static_cast<double>(found.size()), pixels = static_cast<double>(end - begin);
+  SeenMean seen{.mean = mean_among(found, begin, end, channel)};
+  double variance = 0.0;
+  for (const std::vector<FoundInPixel>& pass : found) {
     double mean = 0.0;
     for (size_t i = begin; i < end; ++i) {
-      const auto& [first, second] = pass[i];
-      const double difference = double{first.value[channel]} - double{second.value[channel]};
-      mean += 0.5 * (double{first.value[channel]} + double{second.value[channel]}) / places;
-      within += 0.25 * difference * difference;
-      seen.correction += 0.5 * (double{first.correction[channel]} + double{second.correction[channel]});
+      mean += mean_of(pass[i], channel) / pixels;
+      const auto& [first, second, elsewhere] = pass[i];
+      seen.correction +=
+          0.5 * (double{first.correction[channel]} + double{elsewhere.correction[channel]}) / (passes * pixels);
     }
-    between += (mean - seen.mean) * (mean - seen.mean);
+    variance += (mean - seen.mean) * (mean - seen.mean) / (passes * (passes - 1.0));
   }
-  seen.correction /= passes * places;
-  const double of_rays = within / (passes * passes * places * places);
-  seen.standard_error = std::sqrt(std::max(between / (passes * (passes - 1.0)), of_rays));
+  for (size_t block = begin; block < end; block += rays)
+    variance += variance_of_pixels(found, block, block + rays, channel) * std::pow(double(rays) / pixels, 2.0);
+  seen.standard_error = std::sqrt(variance);
   return seen;
 }
 
-/// Relative to the means of blocks, as single values are noisy.
+/// The relative square of the light that `other` surely shows and `own` does not; `mean` of the picture.
+double unseen_square(const SeenMean& own, const SeenMean& other, double mean) {
+  constexpr double kSure = 4.0;  // standard errors
+  const double least = other.mean - kSure * other.standard_error - 2.0 * std::abs(other.correction);
+  const double missing = std::max(0.0, least - own.mean - kSure * own.standard_error);
+  return missing * missing / relative_scale(other.mean, mean);
+}
+
+/// What squares of a pixel are divided by, as those of a film are (FilmErrors): by the pixel's own mean, but by no more
+/// than what is surely there of it or `near`, the mean of pixels near it, as a rare bright sample hides its error else.
+double scale_at(const FoundByPass& found, size_t pixel, int channel, double near, double mean) {
+  const double own = std::abs(mean_among(found, pixel, pixel + 1, channel));
+  const double n = 3.0 * static_cast<double>(found.size());
+  double squares = 0.0;
+  for (const std::vector<FoundInPixel>& pass : found)
+    for (const KernelEstimate& ray : pass[pixel]) squares += std::pow(std::abs(double{ray.value[channel]}) - own, 2.0);
+  const double surely = own - std::sqrt(squares / (n * (n - 1.0)));
+  return relative_scale(std::max(surely, std::min(own, std::abs(near))), mean);
+}
+
+/// Adds the pixels from `begin` to `end`, up to kBlock of which lie near each other.
+void add_pixels(const FoundByPass& found, size_t begin, size_t end, int channel, double mean, ErrorSums& sum) {
+  for (size_t first = begin; first < end; first += kBlock) {
+    const size_t last = std::min(end, first + kBlock);
+    const double near = mean_among(found, first, last, channel);
+    for (size_t i = first; i < last; ++i) add_pixel(found, i, channel, scale_at(found, i, channel, near, mean), sum);
+  }
+}
+
 PilotError relative_errors(const FoundByPass& found, size_t rays) {
-  PilotError error{.seen = std::vector<SeenInBlock>(3 * kEyeBlocks),
-                   .rays = static_cast<double>(2 * found.size() * rays)};
-  PassError sum;
+  PilotError error{.seen = std::vector<SeenMean>(3 * kEyeBlocks), .rays = static_cast<double>(3 * found.size() * rays)};
+  ErrorSums sum;
   for (int channel = 0; channel < 3; ++channel) {
-    const double mean = mean_among(found, 0, kEyeBlocks * rays, channel);
-    if (mean == 0.0) continue;
+    SeenMean& all = error.in_all[static_cast<size_t>(channel)];
+    all = seen_among(found, 0, kEyeBlocks * rays, rays, channel);
+    if (all.mean == 0.0) continue;
     for (size_t block = 0; block < kEyeBlocks; ++block) {
       const size_t begin = block * rays, end = begin + rays;
-      SeenInBlock& seen = error.seen[static_cast<size_t>(channel) * kEyeBlocks + block];
-      seen = seen_in_block(found, begin, end, channel);
-      const double scale = relative_scale(seen.mean, mean);
-      for (size_t i = begin; i < end; ++i) add_place(found, i, channel, scale, sum);
+      error.seen[static_cast<size_t>(channel) * kEyeBlocks + block] = seen_among(found, begin, end, rays, channel);
+      add_pixels(found, begin, end, channel, all.mean, sum);
     }
   }
   const double each = 1.0 / static_cast<double>(3 * kEyeBlocks * rays);
-  error.pass = {each * sum.rays, each * std::max(0.0, sum.photons), each * std::max(0.0, sum.bias2)};
+  error.pass = {each * std::max(0.0, sum.rays), each * std::max(0.0, sum.photons), each * sure_bias2(sum)};
   return error;
 }
 
@@ -167,21 +237,17 @@ PilotError error_of_pass(const Scene& scene, const RenderSettings& settings, con
 }
 
 double unseen_light(const PilotError& error, const PilotError& other) {
-  constexpr double kSure = 4.0;  // standard errors
   double sum = 0.0;
   for (size_t channel = 0; channel < 3; ++channel) {
-    const auto begin = other.seen.begin() + static_cast<std::ptrdiff_t>(channel * kEyeBlocks);
-    double mean = 0.0;
-    for (auto of = begin; of != begin + kEyeBlocks; ++of) mean += of->mean / double{kEyeBlocks};
+    const double mean = other.in_all[channel].mean;
     if (mean <= 0.0) continue;
-    for (size_t i = channel * kEyeBlocks; i < (channel + 1) * kEyeBlocks; ++i) {
-      const SeenInBlock &own = error.seen[i], &there = other.seen[i];
-      const double least = there.mean - kSure * there.standard_error - 2.0 * std::abs(there.correction);
-      const double missing = std::max(0.0, least - own.mean - kSure * own.standard_error);
-      sum += error.rays * missing * missing / relative_scale(there.mean, mean);
-    }
+    double in_blocks = 0.0;
+    for (size_t i = channel * kEyeBlocks; i < (channel + 1) * kEyeBlocks; ++i)
+      in_blocks += unseen_square(error.seen[i], other.seen[i], mean) / double{kEyeBlocks};
+    const double in_all = double{kEyeBlocks} * unseen_square(error.in_all[channel], other.in_all[channel], mean);
+    sum += error.rays * std::max(in_blocks, in_all);
   }
-  return sum / double{3 * kEyeBlocks};
+  return sum / 3.0;
 }
 
 double error_after(const PassError& error, const RenderSettings& settings, int passes) {

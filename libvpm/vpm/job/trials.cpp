@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "vpm/base/error.h"
 #include "vpm/job/choice_rules.h"
@@ -14,6 +15,7 @@
 #include "vpm/job/forecast.h"
 #include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
+#include "vpm/job/scale_records.h"
 #include "vpm/job/setting.h"
 #include "vpm/job/validate.h"
 #include "vpm/render/plan.h"
@@ -41,8 +43,10 @@ struct Trial {
   RenderSettings settings;
   std::string name;
   std::vector<Choice> choices{};
-  double pass_seconds = 0.0;
-  PilotError error{};
+  std::optional<ScaledPasses> passes{};
+  RecordFactors factors{};  // of what else was chosen
+
+  double pass_seconds() const { return passes->seconds_of_pass(factors); }
 };
 
 /// One trial of photon maps, or one for each gather in media that may be chosen. What is tried gathers along rays,
@@ -64,8 +68,8 @@ bool chooses_techniques(const AutomaticSettings& automatic) {
   return automatic.has(kIntegratorKey) || automatic.has(kTechniquesKey);
 }
 
-/// One trial of combined techniques, or of those that are used without asking; without beams, where there are such, as
-/// they cost most, and without light tracing, whose shadow rays may cost more than they are worth.
+/// One trial of combined techniques, or of those that are used without asking; without beams, which cost most and find
+/// nothing where there are no media, and without light tracing, whose shadow rays may cost more than they are worth.
 std::vector<Trial> trials_of_techniques(const Scene& scene, const AutomaticSettings& automatic, const Trial& all) {
   if (!chooses_techniques(automatic) || all.settings.combined.techniques != TechniqueSet()) return {all};
   const auto without = [&](std::initializer_list<Technique> left_out) {
@@ -78,7 +82,8 @@ std::vector<Trial> trials_of_techniques(const Scene& scene, const AutomaticSetti
     trial.name += fmt::format(" without {}", fmt::join(names, ", "));
     return trial;
   };
-  if (!scattering_of(scene).media) return {without({Technique::light_tracing}), all};
+  if (!scattering_of(scene).media)
+    return {without({Technique::short_beams, Technique::light_tracing}), without({Technique::short_beams})};
   return {without({Technique::short_beams, Technique::light_tracing}), without({Technique::short_beams}), all};
 }
 
@@ -131,7 +136,7 @@ OpenTrials open_trials(const Scene& scene, const AutomaticSettings& automatic, c
 /// How long each timing of several trials may take, s.
 double limit_of_trial(const RenderSettings& settings, size_t trials) {
   constexpr double kUnhurried = 0.25;  // where the time is not limited
-  constexpr double kPart = 0.5;        // of the time that a single way has, for all of several
+  constexpr double kPart = 0.75;       // of the time that a single way has, for all of several
   return settings.until.seconds > 0.0 ? kPart * limit_of_timing(settings) / static_cast<double>(trials) : kUnhurried;
 }
 
@@ -154,13 +159,12 @@ class DensitiesOfTrials {
   bool measured_ = false;
 };
 
-/// Chooses what else is to be chosen, and then measures what a pass costs and what error it leaves.
+/// Chooses what else is to be chosen, and then measures what passes cost and what error they leave.
 void run_trial(const Scene& scene, const AutomaticSettings& automatic, DensitiesOfTrials& densities, double limit,
                Trial& trial) {
   trial.choices = choose_records(scene, automatic, densities.of(trial.settings), limit, trial.settings);
-  const PassCost cost = time_pass(scene, trial.settings, limit);
-  trial.pass_seconds = cost.seconds(photons_of_pass(trial.settings, cost.stored_per_photon));
-  trial.error = error_of_pass(scene, trial.settings, cost, limit);
+  trial.passes.emplace(scene, limit, trial.settings, trial.choices);
+  trial.factors = trial.passes->best_factors();
 }
 
 /// The time after which trials are compared, s: that of the render, or else what the least number of the longest passes
@@ -168,14 +172,14 @@ void run_trial(const Scene& scene, const AutomaticSettings& automatic, Densities
 double seconds_to_compare(const std::vector<Trial>& trials) {
   double seconds = trials.front().settings.until.seconds;
   if (seconds > 0.0) return seconds;
-  for (const Trial& trial : trials) seconds = std::max(seconds, kLeastPasses * trial.pass_seconds);
+  for (const Trial& trial : trials) seconds = std::max(seconds, kLeastPasses * trial.pass_seconds());
   return seconds;
 }
 
 /// Does a pass fit into the time that is asked for, if any is?
 bool fits(const Trial& trial) {
   const double seconds = trial.settings.until.seconds;
-  return seconds == 0.0 || trial.pass_seconds <= longest_time(seconds);
+  return seconds == 0.0 || trial.pass_seconds() <= longest_time(seconds);
 }
 
 /// What each trial leaves after that time. Light that the rays of one have not met is noise of it. Nothing good is said
@@ -186,15 +190,15 @@ std::vector<double> errors_after(double seconds, const std::vector<Trial>& trial
   std::vector<double> errors;
   for (const Trial& trial : trials) {
     if (!fits(trial)) {
-      errors.push_back(any_fits ? kInfinity : trial.pass_seconds);
+      errors.push_back(any_fits ? kInfinity : trial.pass_seconds());
       continue;
     }
-    PassError error = trial.error.pass;
     double unseen = 0.0;
-    for (const Trial& other : trials) unseen = std::max(unseen, unseen_light(trial.error, other.error));
-    error.rays += unseen / trial.settings.samples_per_pixel;
-    const double passes = std::clamp(seconds / trial.pass_seconds, 1.0, kMostPasses);
-    errors.push_back(error_after(error, trial.settings, static_cast<int>(passes)));
+    for (const Trial& other : trials)
+      unseen = std::max(unseen, unseen_light(trial.passes->shown(), other.passes->shown()));
+    const double passes = std::clamp(seconds / trial.pass_seconds(), 1.0, kMostPasses);
+    errors.push_back(
+        trial.passes->error_after_passes(passes, trial.factors, unseen / trial.settings.samples_per_pixel));
   }
   return errors;
 }
@@ -204,8 +208,8 @@ std::string reason_of(double seconds, const std::vector<Trial>& trials, const st
   std::string reason = fmt::format("least error in a pilot, as relative MSE after {:.2g} s of passes:", seconds);
   for (size_t i = 0; i < trials.size(); ++i) {
     const std::string error = fits(trials[i]) ? fmt::format(" {:.2g}", errors[i]) : "";
-    reason += fmt::format("{} {}{} ({:.2g} s each{})", i > 0 ? "," : "", trials[i].name, error, trials[i].pass_seconds,
-                          error.empty() ? ", too long" : "");
+    reason += fmt::format("{} {}{} ({:.2g} s each{})", i > 0 ? "," : "", trials[i].name, error,
+                          trials[i].pass_seconds(), error.empty() ? ", too long" : "");
   }
   return reason;
 }
@@ -219,6 +223,8 @@ std::string put_best_first(const Scene& scene, const AutomaticSettings& automati
   const std::vector<double> errors = errors_after(seconds, trials);
   std::string reason = reason_of(seconds, trials, errors);
   std::swap(trials.front(), trials[least_error(errors)]);
+  Trial& best = trials.front();
+  scale(scene, best.factors, best.settings, best.choices);
   return reason;
 }
 
@@ -249,6 +255,11 @@ double limit_of_timing(const RenderSettings& settings) {
   return seconds > 0.0 ? kTimingShare * seconds : kInfinity;
 }
 
+double limit_of_scaling(const RenderSettings& settings) {
+  constexpr double kPart = 0.5, kUnlimited = 0.25;
+  return std::min(kPart * limit_of_timing(settings), kUnlimited);
+}
+
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   if (automatic.has(kIntegratorKey)) return true;
   if (settings.integrator == Integrator::combined && automatic.has(kGatherKey))
@@ -263,7 +274,9 @@ std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings
   if (trials.empty()) throw InputError(fmt::format("nothing can be chosen{}", refused));
   std::string reason;
   if (trials.size() == 1) {
-    trials.front().choices = choose_records(scene, automatic, limit_of_timing(settings), trials.front().settings);
+    Trial& only = trials.front();
+    only.choices = choose_records(scene, automatic, limit_of_timing(settings), only.settings);
+    scale_records(scene, limit_of_scaling(settings), only.settings, only.choices);
     if (!refused.empty()) reason = "no other way is open" + refused;
   } else {
     reason = put_best_first(scene, automatic, trials) + refused;

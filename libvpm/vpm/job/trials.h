@@ -12,6 +12,9 @@ namespace vpm {
 /// How long a timing of a pass may take where one way is timed alone, s.
 double limit_of_timing(const RenderSettings& settings);
 
+/// The same of each of the four that tell how to scale records.
+double limit_of_scaling(const RenderSettings& settings);
+
 /// Are the integrator, the gather in media or the combined techniques to be chosen, where there are such? Throws
 /// InputError where a gather is to be chosen beside combined techniques, which have none.
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings);

@@ -1,5 +1,5 @@
-// The radius in media that a pilot makes wider or narrower.
-#include "vpm/job/scale_radius.h"
+// Radii and numbers of photons that a pilot changes.
+#include "vpm/job/scale_records.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 namespace vpm {
 namespace {
 
-/// A box of fog with a lamp beside it, seen from outside.
+/// A box of fog with a lamp beside it, seen from outside, in pixels that are smaller than kernels.
 Scene fog_with_lamp() {
   Scene scene = boxed_medium(make_medium(nullptr, Rgb(1.0f), 0.9f), PointLight{Vec3(0.5f, 1.5f, 0.5f), Rgb(9.0f)});
-  scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {24, 24});
+  scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {160, 160});
   return scene;
 }
 
@@ -25,45 +25,51 @@ RenderSettings settings_with(float radius) {
   return settings;
 }
 
+std::vector<Choice> choices_of(const RenderSettings& settings) {
+  return {{"photons.emitted", fmt::format("{}", settings.photons_emitted), "by cost"},
+          {"volume.radius", fmt::format("{}", settings.volume.radius.metres()), "by photons"},
+          {"caustics.emitted", "7", "given"}};
+}
+
 std::vector<Choice> scaled(const Scene& scene, RenderSettings& settings) {
-  std::vector<Choice> choices{{"photons.emitted", "5000", "few"},
-                              {"volume.radius", fmt::format("{}", settings.volume.radius.metres()), "by photons"},
-                              {"surface.radius", "0.1", "by photons"}};
-  scale_radius(scene, 0.05, settings, choices);
+  std::vector<Choice> choices = choices_of(settings);
+  scale_records(scene, 0.4, settings, choices);
   return choices;
 }
 
-TEST(ScaleRadius, WidensWhereNoiseIsAllAndNotBeyondATwentiethOfTheScene) {
+TEST(ScaleRecords, WidensWhereNoiseIsAllAndNotBeyondATwentiethOfTheScene) {
   const Scene scene = fog_with_lamp();
   const double largest = kLargestRadius * scene.bounds.diagonal();
   const auto narrow = static_cast<float>(largest / 20.0);
   RenderSettings settings = settings_with(narrow);
   const std::vector<Choice> choices = scaled(scene, settings);
-  EXPECT_FLOAT_EQ(settings.volume.radius.metres(), rounded_radius(2.8 * narrow));
+  EXPECT_FLOAT_EQ(settings.volume.radius.metres(), rounded_radius(2.0 * narrow));
   EXPECT_EQ(choices[1].value, fmt::format("{}", settings.volume.radius.metres()));
-  EXPECT_EQ(choices[1].reason, "by photons; 2.8 times that is told to leave less error");
-  EXPECT_EQ(choices[0].value, "5000");
-  EXPECT_EQ(choices[2].value, "0.1");
+  EXPECT_EQ(choices[1].reason, "by photons; 2 times that is told to leave less error");
+  EXPECT_EQ(choices[0].value, "5000");  // as passes are counted
+  EXPECT_EQ(choices[2].value, "7");
   RenderSettings wide = settings_with(static_cast<float>(0.9 * largest));
   scaled(scene, wide);
   EXPECT_LE(wide.volume.radius.metres(), static_cast<float>(largest));
 }
 
-TEST(ScaleRadius, StaysWhereManyPassesLeaveLittleNoise) {
+TEST(ScaleRecords, NarrowsWhereManyPassesLeaveLittleNoise) {
   const Scene scene = fog_with_lamp();
-  const auto radius = static_cast<float>(0.35 * kLargestRadius * scene.bounds.diagonal());
+  const auto radius = static_cast<float>(kLargestRadius * scene.bounds.diagonal());
   RenderSettings few = settings_with(radius), many = settings_with(radius);
   few.radii = many.radii = RadiusSchedule::constant;
   few.until.passes = 1;
   many.until.passes = 10'000;
+  few.photons_emitted = many.photons_emitted = 100'000;
   scaled(scene, few);
   scaled(scene, many);
-  EXPECT_GT(few.volume.radius.metres(), radius);
-  EXPECT_EQ(many.volume.radius.metres(), radius);
+  EXPECT_EQ(few.volume.radius.metres(), radius);
+  EXPECT_FLOAT_EQ(many.volume.radius.metres(), rounded_radius(0.5 * radius));
 }
 
-/// A floor below, of whose light there are too few photons: their noise is none of the fog's.
-TEST(ScaleRadius, StaysWhereTheNoiseIsThatOfSurfaces) {
+/// A floor below, of whose light there are too few photons: their noise is none of the fog's, and wider radii of that
+/// lessen nothing.
+TEST(ScaleRecords, StaysWhereTheNoiseIsThatOfSurfaces) {
   Scene scene;
   scene.media.push_back(make_medium(nullptr, Rgb(1e-4f), 0.9f));
   const Interface inside{0, kVacuum};
@@ -79,8 +85,22 @@ TEST(ScaleRadius, StaysWhereTheNoiseIsThatOfSurfaces) {
   EXPECT_EQ(settings.volume.radius.metres(), before);
 }
 
+/// Nothing of a photon's noise is left to lessen where light comes straight from the lamp, so that fewer photons leave
+/// time for more rays; and where photons are all there is, a render that may last has more of them.
+TEST(ScaleRecords, PhotonsAreFewWhereTheyMakeNoNoiseAndManyWhereTheyMakeAll) {
+  const Scene scene = fog_with_lamp();
+  RenderSettings few = settings_with(0.3f), many = settings_with(0.3f);
+  few.until.error = many.until.error = 1e-9;
+  few.photons_emitted = 3'000'000;
+  many.photons_emitted = 200;
+  EXPECT_EQ(scaled(scene, few)[0].reason, "by cost; 0.5 times that is told to leave less error");
+  EXPECT_EQ(few.photons_emitted, 1'500'000u);
+  EXPECT_EQ(scaled(scene, many)[0].reason, "by cost; 2 times that is told to leave less error");
+  EXPECT_EQ(many.photons_emitted, 400u);
+}
+
 /// A wide radius that makes a pass longer than the time is none.
-TEST(ScaleRadius, StaysWhereAWiderPassWouldNotFit) {
+TEST(ScaleRecords, StaysWhereAWiderPassWouldNotFit) {
   const Scene scene = fog_with_lamp();
   RenderSettings settings = settings_with(static_cast<float>(kLargestRadius * scene.bounds.diagonal() / 20.0));
   const float before = settings.volume.radius.metres();
@@ -90,12 +110,13 @@ TEST(ScaleRadius, StaysWhereAWiderPassWouldNotFit) {
   EXPECT_EQ(settings.volume.radius.metres(), before);
 }
 
-TEST(ScaleRadius, LeavesAGivenRadius) {
+TEST(ScaleRecords, LeavesAGivenRadius) {
   const Scene scene = fog_with_lamp();
   RenderSettings settings = settings_with(0.01f);
   std::vector<Choice> choices{{"photons.emitted", "5000", "few"}};
-  scale_radius(scene, 0.05, settings, choices);
+  scale_records(scene, 0.05, settings, choices);
   EXPECT_EQ(settings.volume.radius.metres(), 0.01f);
+  EXPECT_EQ(choices[0].value, "5000");
 }
 
 }  // namespace
