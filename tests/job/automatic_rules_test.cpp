@@ -34,35 +34,57 @@ TEST(Automatic, RadiusStaysBetweenHalfAPixelAndATwentiethOfTheScene) {
   EXPECT_EQ(wide.reason.substr(0, 11), "a twentieth");
 }
 
-/// A pilot of 512 rays of each block, which all show a mean of 1 but for one block, in one channel.
-PilotError pilot(double mean_there, double standard_error, double correction = 0.0) {
-  PilotError error{.seen = std::vector<SeenMean>(3 * kEyeBlocks, {1.0, 0.0, 0.0}), .rays = 512.0};
-  error.in_all.fill({1.0, 0.0, 0.0});
-  error.seen[70] = {mean_there, standard_error, correction};
+constexpr size_t kPixels = 4;  // of each block
+constexpr double kRays = 3.0 * 2.0 * kPixels;
+
+/// Two passes, in which all pixels show a light of 1 but those of one block in one channel: these show `there` there,
+/// with that standard error.
+PilotError pilot(float there, float standard_error, float correction = 0.0f) {
+  PilotError error{.rays = kPixels, .corrections = std::vector<Rgb>(kEyeBlocks * kPixels, Rgb(0.0f))};
+  for (const float off : {standard_error, -standard_error}) {
+    error.shown.emplace_back(kEyeBlocks * kPixels, Rgb(1.0f));
+    for (size_t i = 0; i < kPixels; ++i) error.shown.back()[6 * kPixels + i].y = there + off;
+  }
+  for (size_t i = 0; i < kPixels; ++i) error.corrections[6 * kPixels + i].y = correction;
   return error;
 }
 
+/// The square of what is missing, of one ray, where others show 1 there.
+double unseen(double missing) { return kRays * missing * missing / (1.0 + 0.01) / (3.0 * kEyeBlocks); }
+
 TEST(Automatic, LightThatOthersShowForCertainIsNoise) {
-  constexpr double kAll = 3.0 * kEyeBlocks;
-  const double scale = 1.0 + 0.01;  // of relative MSE, where the block and the mean of all are 1
-  EXPECT_NEAR(unseen_light(pilot(0.0, 0.0), pilot(1.0, 0.0)), 512.0 / scale / kAll, 1e-9);
-  EXPECT_NEAR(unseen_light(pilot(0.0, 0.0), pilot(1.0, 0.1)), 512.0 * 0.6 * 0.6 / scale / kAll, 1e-9);
-  EXPECT_NEAR(unseen_light(pilot(0.2, 0.05), pilot(1.0, 0.1)), 512.0 * 0.2 * 0.2 / scale / kAll, 1e-9);
-  EXPECT_NEAR(unseen_light(pilot(0.0, 0.0), pilot(1.0, 0.0, -0.2)), 512.0 * 0.6 * 0.6 / scale / kAll, 1e-9);
-  EXPECT_EQ(unseen_light(pilot(1.0, 0.0), pilot(0.0, 0.0)), 0.0);  // brighter is not blind
-  EXPECT_EQ(unseen_light(pilot(0.5, 0.0), pilot(1.0, 0.2)), 0.0);  // within what is certain
+  EXPECT_NEAR(unseen_light(pilot(0.0f, 0.0f), pilot(1.0f, 0.0f)), unseen(1.0), 1e-6);
+  EXPECT_NEAR(unseen_light(pilot(0.0f, 0.0f), pilot(1.0f, 0.1f)), unseen(0.6), 1e-6);
+  EXPECT_NEAR(unseen_light(pilot(0.2f, 0.05f), pilot(1.0f, 0.1f)), unseen(0.2), 1e-6);
+  EXPECT_NEAR(unseen_light(pilot(0.0f, 0.0f), pilot(1.0f, 0.0f, -0.2f)), unseen(0.6), 1e-6);
+  EXPECT_EQ(unseen_light(pilot(1.0f, 0.0f), pilot(0.0f, 0.0f)), 0.0);  // brighter is not blind
+  EXPECT_EQ(unseen_light(pilot(0.5f, 0.0f), pilot(1.0f, 0.2f)), 0.0);  // within what is certain
 }
 
-/// A tenth is missing everywhere, which no block is sure of.
+/// A pilot of one pixel of each block beside one of four: the first of these is what both have.
+TEST(Automatic, LightIsMissingOnlyWherePilotsSeeTheSamePixels) {
+  PilotError few{.rays = 1, .corrections = std::vector<Rgb>(kEyeBlocks, Rgb(0.0f))};
+  few.shown.assign(2, std::vector<Rgb>(kEyeBlocks, Rgb(1.0f)));
+  PilotError many = pilot(1.0f, 0.0f);
+  for (std::vector<Rgb>& pass : many.shown) pass[3] = Rgb(100.0f);
+  EXPECT_EQ(unseen_light(few, many), 0.0);
+  for (std::vector<Rgb>& pass : many.shown) pass[0] = Rgb(100.0f);
+  EXPECT_GT(unseen_light(few, many), 0.0);
+}
+
+/// A tenth is missing everywhere, which no block is sure of: their noise is large, and all of them together have none.
 TEST(Automatic, LightThatIsMissingInAllBlocksTogetherIsNoise) {
-  PilotError seen, missed;
-  seen.seen.assign(3 * kEyeBlocks, {1.0, 0.1, 0.0});
-  missed.seen.assign(3 * kEyeBlocks, {0.9, 0.1, 0.0});
-  seen.rays = missed.rays = 512.0;
-  seen.in_all.fill({1.0, 0.01, 0.0});
-  missed.in_all.fill({0.9, 0.01, 0.0});
-  EXPECT_NEAR(unseen_light(missed, seen), 512.0 * kEyeBlocks * 0.02 * 0.02 / 1.01, 1e-9);
-  EXPECT_EQ(unseen_light(seen, missed), 0.0);
+  const auto noisy = [](float mean) {
+    PilotError error{.rays = 1, .corrections = std::vector<Rgb>(kEyeBlocks, Rgb(0.0f))};
+    for (const float sign : {1.0f, -1.0f}) {
+      error.shown.emplace_back();
+      for (size_t block = 0; block < kEyeBlocks; ++block)
+        error.shown.back().emplace_back(mean + (block % 2 == 0 ? sign : -sign) * 0.1f);
+    }
+    return error;
+  };
+  EXPECT_NEAR(unseen_light(noisy(0.9f), noisy(1.0f)), 6.0 * kEyeBlocks * 0.1 * 0.1 / 1.01, 1e-4);
+  EXPECT_EQ(unseen_light(noisy(1.0f), noisy(0.9f)), 0.0);
 }
 
 TEST(Automatic, PhotonsCostWhatTheEyePassCosts) {

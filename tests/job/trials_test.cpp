@@ -54,8 +54,8 @@ TEST(Automatic, PilotsSeeWhatLightTracingFinds) {
     for (const TechniqueInfo& info : kTechniques)
       settings.combined.techniques.set(info.technique, info.technique == technique);
     double sum = 0.0;
-    for (const SeenMean& seen : error_of_pass(scene, settings, time_pass(scene, settings), kInfinity).seen)
-      sum += seen.mean;
+    for (const std::vector<Rgb>& pass : error_of_pass(scene, settings, time_pass(scene, settings), kInfinity).shown)
+      for (const Rgb& light : pass) sum += double{mean_channel(light)};
     return sum;
   };
   EXPECT_NEAR(mean_seen_by(Technique::light_tracing) / mean_seen_by(Technique::connections), 1.0, 0.05);

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <vector>
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
+#include "vpm/base/statistics.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/image/metrics.h"
 #include "vpm/job/eye_blocks.h"
@@ -28,7 +30,7 @@ using FoundByPass = std::vector<std::vector<FoundInPixel>>;  // block by block
 struct SmallPasses {
   RenderSettings settings;
   double share = 1.0;          // of the photons of a whole pass
-  size_t rays = kRaysOfBlock;  // of each block, thrice
+  size_t rays = kRaysOfBlock;  // through each block, thrice; a power of two
 };
 
 /// Half of the time is for photons, half for rays.
@@ -40,7 +42,7 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   SmallPasses small{settings};
   const double all_photons = cost.photon * photons + cost.caustics;  // s
   if (all_photons > 0.0) small.share = std::clamp(half / all_photons, std::min(1.0, kFewest / photons), 1.0);
-  small.rays = static_cast<size_t>(std::clamp(affordable, 1.0, double{kRaysOfBlock}));
+  small.rays = std::bit_floor(static_cast<size_t>(std::clamp(affordable, 1.0, double{kRaysOfBlock})));
   small.settings.seed = ~settings.seed;
   small.settings.radii = RadiusSchedule::constant;
   const auto part = [&](double count) { return static_cast<uint64_t>(std::ceil(small.share * count)); };
@@ -73,10 +75,11 @@ std::vector<FoundInPixel> render_small(const Scene& scene, const SmallPasses& sm
     std::array<RaysOfBlock, 2> rays{{{scene.camera, block, BlockPixels::spread, counters, scratch},
                                      {scene.camera, block, BlockPixels::spread, counters, scratch}}};
     for (size_t i = 0; i < small.rays; ++i) {
-      for (size_t place = 0; place < 2; ++place) {
-        const size_t ray = 2 * (begin + i) + place;
-        rays[place].add(i * kRaysOfBlock / small.rays, Rng(small.settings.seed, of_places, ray).uniform2(),
-                        Rng(small.settings.seed, of_rays, ray));
+      const size_t pixel = i * kRaysOfBlock / small.rays;  // of the block
+      for (size_t which = 0; which < 2; ++which) {
+        const size_t number = 2 * (block * kRaysOfBlock + pixel) + which;
+        const Vec2 place = Rng(small.settings.seed, of_places, number).uniform2();
+        rays[which].add(pixel, place, Rng(small.settings.seed, of_rays, number));
       }
     }
     for (const size_t which : {0, 1, 2}) {
@@ -147,44 +150,6 @@ void add_pixel(const FoundByPass& found, size_t pixel, int channel, double scale
   }
 }
 
-/// The variance of the mean of these pixels that is due to which pixels they are: what their means differ by. It is
-/// rather too large, as they are evenly spread.
-double variance_of_pixels(const FoundByPass& found, size_t begin, size_t end, int channel) {
-  const double mean = mean_among(found, begin, end, channel), n = static_cast<double>(end - begin);
-  double squares = 0.0;
-  for (size_t i = begin; i < end; ++i) squares += std::pow(mean_among(found, i, i + 1, channel) - mean, 2.0);
-  return n > 1.0 ? squares / (n * (n - 1.0)) : mean * mean;
-}
-
-/// What passes show in a channel of blocks of `rays` pixels, from `begin` to `end`.
-SeenMean seen_among(const FoundByPass& found, size_t begin, size_t end, size_t rays, int channel) {
-  const auto passes = static_cast<double>(found.size()), pixels = static_cast<double>(end - begin);
-  SeenMean seen{.mean = mean_among(found, begin, end, channel)};
-  double variance = 0.0;
-  for (const std::vector<FoundInPixel>& pass : found) {
-    double mean = 0.0;
-    for (size_t i = begin; i < end; ++i) {
-      mean += mean_of(pass[i], channel) / pixels;
-      const auto& [first, second, elsewhere] = pass[i];
-      seen.correction +=
-          0.5 * (double{first.correction[channel]} + double{elsewhere.correction[channel]}) / (passes * pixels);
-    }
-    variance += (mean - seen.mean) * (mean - seen.mean) / (passes * (passes - 1.0));
-  }
-  for (size_t block = begin; block < end; block += rays)
-    variance += variance_of_pixels(found, block, block + rays, channel) * std::pow(double(rays) / pixels, 2.0);
-  seen.standard_error = std::sqrt(variance);
-  return seen;
-}
-
-/// The relative square of the light that `other` surely shows and `own` does not; `mean` of the picture.
-double unseen_square(const SeenMean& own, const SeenMean& other, double mean) {
-  constexpr double kSure = 4.0;  // standard errors
-  const double least = other.mean - kSure * other.standard_error - 2.0 * std::abs(other.correction);
-  const double missing = std::max(0.0, least - own.mean - kSure * own.standard_error);
-  return missing * missing / relative_scale(other.mean, mean);
-}
-
 /// What squares of a pixel are divided by, as those of a film are (FilmErrors): by the pixel's own mean, but by no more
 /// than what is surely there of it or `near`, the mean of pixels near it, as a rare bright sample hides its error else.
 double scale_at(const FoundByPass& found, size_t pixel, int channel, double near, double mean) {
@@ -206,22 +171,54 @@ void add_pixels(const FoundByPass& found, size_t begin, size_t end, int channel,
   }
 }
 
-PilotError relative_errors(const FoundByPass& found, size_t rays) {
-  PilotError error{.seen = std::vector<SeenMean>(3 * kEyeBlocks), .rays = static_cast<double>(3 * found.size() * rays)};
+PassError relative_errors(const FoundByPass& found, size_t rays) {
   ErrorSums sum;
   for (int channel = 0; channel < 3; ++channel) {
-    SeenMean& all = error.in_all[static_cast<size_t>(channel)];
-    all = seen_among(found, 0, kEyeBlocks * rays, rays, channel);
-    if (all.mean == 0.0) continue;
-    for (size_t block = 0; block < kEyeBlocks; ++block) {
-      const size_t begin = block * rays, end = begin + rays;
-      error.seen[static_cast<size_t>(channel) * kEyeBlocks + block] = seen_among(found, begin, end, rays, channel);
-      add_pixels(found, begin, end, channel, all.mean, sum);
-    }
+    const double mean = mean_among(found, 0, kEyeBlocks * rays, channel);
+    if (mean == 0.0) continue;
+    for (size_t block = 0; block < kEyeBlocks; ++block)
+      add_pixels(found, block * rays, (block + 1) * rays, channel, mean, sum);
   }
   const double each = 1.0 / static_cast<double>(3 * kEyeBlocks * rays);
-  error.pass = {each * std::max(0.0, sum.rays), each * std::max(0.0, sum.photons), each * sure_bias2(sum)};
-  return error;
+  return {each * std::max(0.0, sum.rays), each * std::max(0.0, sum.photons), each * sure_bias2(sum)};
+}
+
+/// What it is that pixels show, for unseen_light().
+void keep_what_is_shown(const FoundByPass& found, PilotError& error) {
+  error.corrections.assign(found.front().size(), Rgb(0.0f));
+  for (const std::vector<FoundInPixel>& pass : found) {
+    std::vector<Rgb>& light = error.shown.emplace_back();
+    for (size_t i = 0; i < pass.size(); ++i) {
+      const auto& [first, second, elsewhere] = pass[i];
+      light.push_back(0.25f * (first.value + second.value) + 0.5f * elsewhere.value);
+      error.corrections[i] += 0.5f / float(kSmallPasses) * (first.correction + elsewhere.correction);
+    }
+  }
+}
+
+/// What a channel shows in blocks, each of the same pixels.
+struct SeenMean {
+  double mean = 0.0, standard_error = 0.0, correction = 0.0;
+};
+SeenMean seen_in(const PilotError& error, size_t first_block, size_t last_block, size_t pixels, int channel) {
+  const size_t step = error.rays / pixels;
+  const double each = 1.0 / static_cast<double>((last_block - first_block) * pixels);
+  const auto mean_of_light = [&](const std::vector<Rgb>& light) {
+    double sum = 0.0;
+    for (size_t i = first_block * error.rays; i < last_block * error.rays; i += step) sum += double{light[i][channel]};
+    return each * sum;
+  };
+  Moments moments;
+  for (const std::vector<Rgb>& pass : error.shown) moments.add(mean_of_light(pass));
+  return {moments.mean(), std::sqrt(moments.variance_of_mean()), mean_of_light(error.corrections)};
+}
+
+/// The relative square of the light that `other` surely shows and `own` does not; `mean` of the picture.
+double unseen_square(const SeenMean& own, const SeenMean& other, double mean) {
+  constexpr double kSure = 4.0;  // standard errors
+  const double least = other.mean - kSure * other.standard_error - 2.0 * std::abs(other.correction);
+  const double missing = std::max(0.0, least - own.mean - kSure * own.standard_error);
+  return missing * missing / relative_scale(other.mean, mean);
 }
 
 }  // namespace
@@ -230,22 +227,26 @@ PilotError error_of_pass(const Scene& scene, const RenderSettings& settings, con
   const SmallPasses small = plan_small(scene, settings, cost, seconds);
   FoundByPass found;
   for (int pass = 0; pass < kSmallPasses; ++pass) found.push_back(render_small(scene, small, pass));
-  PilotError error = relative_errors(found, small.rays);
+  PilotError error{.pass = relative_errors(found, small.rays), .rays = small.rays};
   error.pass.rays /= settings.samples_per_pixel;
   error.pass.photons *= small.share;
+  keep_what_is_shown(found, error);
   return error;
 }
 
 double unseen_light(const PilotError& error, const PilotError& other) {
+  const size_t pixels = std::min(error.rays, other.rays);  // of a block, that both have
+  const auto rays = static_cast<double>(3 * error.shown.size() * error.rays);
   double sum = 0.0;
-  for (size_t channel = 0; channel < 3; ++channel) {
-    const double mean = other.in_all[channel].mean;
-    if (mean <= 0.0) continue;
+  for (int channel = 0; channel < 3; ++channel) {
+    const SeenMean all = seen_in(other, 0, kEyeBlocks, pixels, channel);
+    if (all.mean <= 0.0) continue;
     double in_blocks = 0.0;
-    for (size_t i = channel * kEyeBlocks; i < (channel + 1) * kEyeBlocks; ++i)
-      in_blocks += unseen_square(error.seen[i], other.seen[i], mean) / double{kEyeBlocks};
-    const double in_all = double{kEyeBlocks} * unseen_square(error.in_all[channel], other.in_all[channel], mean);
-    sum += error.rays * std::max(in_blocks, in_all);
+    for (size_t block = 0; block < kEyeBlocks; ++block)
+      in_blocks += unseen_square(seen_in(error, block, block + 1, pixels, channel),
+                                 seen_in(other, block, block + 1, pixels, channel), all.mean);
+    const double in_all = unseen_square(seen_in(error, 0, kEyeBlocks, pixels, channel), all, all.mean);
+    sum += rays * std::max(in_blocks / double{kEyeBlocks}, in_all * double{kEyeBlocks});
   }
   return sum / 3.0;
 }
