@@ -1,4 +1,4 @@
-// Two measurements, at the chosen radii and at wide ones, tell of all factors.
+// Two measurements, at the chosen radii and at others, tell of all factors.
 #include "vpm/job/scale_records.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,8 @@
 namespace vpm {
 namespace {
 
-constexpr double kWide = 2.0;  // a factor of radii: bias is told best from noise where it is large
+constexpr double kWider = 2.0,
+                 kNarrower = 0.5;  // the other radii that are measured; narrower ones where some are widest
 // A picture's squared bias goes as the fourth power of the radius where light is smooth, and as the first or second at
 // edges, where it is four times what corrections tell: stated errors take a middle, too (papers/stated-error.md).
 constexpr double kPowerOfBias = 2.5, kOfOrders = 2.5;
@@ -46,19 +47,25 @@ ScaledPasses::ScaledPasses(const Scene& scene, double limit, const RenderSetting
   stored_ = photons * cost.stored_per_photon;
   shown_ = error_of_pass(scene, settings, cost, limit);
   other_noise_ = shown_.pass.photons;
-  wide_bias2_ = shown_.pass.bias2 * std::pow(kWide, kPowerOfBias);
+  bias2_ = shown_.pass.bias2;
   if (!scales_radii_) return;
-  RenderSettings widened = settings;
-  std::vector<Choice> wide_choices = choices;
-  scale(scene, {.radius = kWide}, widened, wide_choices);
-  const PassCost wide_cost = time_pass(scene, widened, limit);
-  gather_seconds_ = std::clamp((wide_cost.eye - cost.eye) / (kWide * kWide - 1.0), 0.0, cost.eye);
+  const double diagonal = scene.bounds.diagonal();
+  const bool widest = std::any_of(choices.begin(), choices.end(), [&](const Choice& choice) {
+    return is_radius(choice) && scaled(choice, {.radius = kWider}, diagonal) == choice.value;
+  });
+  const double factor = widest ? kNarrower : kWider;
+  RenderSettings others = settings;
+  std::vector<Choice> other_choices = choices;
+  scale(scene, {.radius = factor}, others, other_choices);
+  const PassCost other_cost = time_pass(scene, others, limit);
+  gather_seconds_ = std::clamp((other_cost.eye - cost.eye) / (factor * factor - 1.0), 0.0, cost.eye);
   other_seconds_ -= gather_seconds_;
-  const PassError wide = error_of_pass(scene, widened, wide_cost, limit).pass;
-  const double lessened = (other_noise_ - wide.photons) / (1.0 - std::pow(kWide, -power_of_noise_));
+  const PassError other = error_of_pass(scene, others, other_cost, limit).pass;
+  const double lessened = (other_noise_ - other.photons) / (1.0 - std::pow(factor, -power_of_noise_));
   kernel_noise_ = std::clamp(lessened, 0.0, other_noise_);
   other_noise_ -= kernel_noise_;
-  wide_bias2_ = wide.bias2;
+  // Bias is told best from noise where it is large.
+  if (factor > 1.0) bias2_ = other.bias2 * std::pow(factor, -kPowerOfBias);
 }
 
 double ScaledPasses::seconds_of_pass(const RecordFactors& factors) const {
@@ -69,7 +76,7 @@ double ScaledPasses::error_after_passes(double passes, const RecordFactors& fact
   PassError error = shown_.pass;
   error.rays += unseen;
   error.photons = (other_noise_ + kernel_noise_ * std::pow(factors.radius, -power_of_noise_)) / factors.photons;
-  error.bias2 = kOfOrders * wide_bias2_ * std::pow(factors.radius / kWide, kPowerOfBias);
+  error.bias2 = kOfOrders * bias2_ * std::pow(factors.radius, kPowerOfBias);
   return error_after(error, settings_, static_cast<int>(passes));
 }
 

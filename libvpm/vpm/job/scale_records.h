@@ -45,7 +45,7 @@ class ScaledPasses {
   double stored_;                                                 // photons, of a pass
   PilotError shown_;
   double kernel_noise_ = 0.0, other_noise_;  // of photons: what wider radii lessen, and the rest
-  double wide_bias2_;                        // at radii of kWide times those chosen
+  double bias2_;                             // at the factor 1
 };
 
 /// Puts scaled radii and numbers into the settings and the choices. No radius becomes wider than those that are chosen.
