@@ -100,6 +100,8 @@ TEST(KernelLight, IsToldWithTheNamesOfLights) {
   const std::string text = text_of({{0.1234, 0.0021}, {0, 2}}, {"sun", "", ""});
   EXPECT_TRUE(text.starts_with("0.12 +- 0.002 of the light is found by kernels alone")) << text;
   EXPECT_NE(text.find("no ray hits the lights 'sun', number 2"), std::string::npos) << text;
+  EXPECT_EQ(text.find("light-tracing"), std::string::npos) << text;
+  EXPECT_NE(text_of({{0.1, 0.01}, {0}, false}, {""}).find("\"light-tracing\" among them"), std::string::npos);
 }
 
 }  // namespace

@@ -76,5 +76,27 @@ TEST(SlowDirectLight, ThePathTracerKeepsNegativeSamples) {
   EXPECT_LT(std::abs(march.first.mean() - exact.first.mean()), normal_quantile(1e-6) * error);  // false alarms: 1e-6
 }
 
+/// A floor at y = 0 and a wall at z = 0, whose coordinates have no rounding to stay clear of: rays that go as far as a
+/// place on one of them may meet it just before.
+TEST(DirectLight, PlacesOnSurfacesAreSeen) {
+  const Stub estimator(Rgb(1.0f));
+  WalkCounters counters;
+  Scene scene;
+  const int floor = static_cast<int>(
+      add_shape(scene, quad_mesh(Vec3d(0.0), Vec3d(0.0, 0.0, 3.0), Vec3d(3.0, 0.0, 0.0)), Lambertian{Rgb(0.5f)}));
+  add_shape(scene, quad_mesh(Vec3d(0.0), Vec3d(3.0, 0.0, 0.0), Vec3d(0.0, 3.0, 0.0)), Lambertian{Rgb(0.5f)});
+  scene.geometry.commit();
+  Rng rng(1, 0, 0);
+  const ShadowRays rays{scene, estimator, rng, counters};
+  for (int i = 0; i < 10'000; ++i) {
+    const Vec2 from = 0.01f + 2.9f * rng.uniform2(), to = 0.01f + 2.9f * rng.uniform2();
+    const Vec3 way = Vec3(to.x, 0.0f, to.y) - Vec3(from.x, from.y, 0.0f);
+    const float length = glm::length(way);
+    const Ray ray{Vec3(from.x, from.y, 0.0f), way / length};
+    EXPECT_EQ(visibility_of_place(rays, ray, length, kVacuum, floor), Rgb(1.0f));
+    EXPECT_EQ(visibility_of_place(rays, ray, 1.01f * length, kVacuum, floor), Rgb(0.0f)) << "behind the floor";
+  }
+}
+
 }  // namespace
 }  // namespace vpm

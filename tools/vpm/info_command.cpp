@@ -10,6 +10,7 @@
 #include "vpm/input/scene_file.h"
 #include "vpm/job/render.h"
 #include "vpm/job/stage_lines.h"
+#include "vpm/render/combined_pass.h"
 #include "vpm/render/plan.h"
 
 namespace vpm::tools {
@@ -80,8 +81,12 @@ std::string photons_text(const RenderSettings& settings) {
 /// "0.018 m in smoke, 0.05 m on surfaces": of what scatters.
 std::string radii_text(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> radii;
+  const bool combined = settings.integrator == Integrator::combined;
+  if (combined && scattering_of(scene).media)
+    radii.push_back(fmt::format("{:.6g} m in media", first_radius_of_merges(settings.volume, scene)));
   for (const Medium& m : scene.media)
-    if (m.scatters()) radii.push_back(fmt::format("{:.6g} m in {}", first_radius(settings.volume, scene, m), m.name));
+    if (m.scatters() && !combined)
+      radii.push_back(fmt::format("{:.6g} m in {}", first_radius(settings.volume, scene, m), m.name));
   if (scattering_of(scene).surfaces)
     radii.push_back(fmt::format("{:.6g} m on surfaces", first_radius(settings.surface, scene)));
   return radii.empty() ? "none: nothing stores photons" : fmt::format("{}", fmt::join(radii, ", "));

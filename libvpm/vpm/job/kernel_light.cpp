@@ -63,7 +63,7 @@ double found_by_rays(const Scene& scene, const RenderSettings& settings, int pas
 
 std::optional<KernelLight> kernel_light_of(const Scene& scene, const RenderSettings& settings) {
   const TechniqueSet& techniques = settings.combined.techniques;
-  KernelLight found{{}, unhittable_lights(scene)};
+  KernelLight found{{}, unhittable_lights(scene), techniques.has(Technique::light_tracing)};
   if (settings.integrator != Integrator::combined || !techniques.has(Technique::connections) || !merges(techniques) ||
       found.lights.empty() || !has_specular_surfaces(scene))
     return std::nullopt;
@@ -89,8 +89,12 @@ std::string text_of(const KernelLight& found, const std::vector<std::string>& na
     lights.push_back(i < names.size() && !names[i].empty() ? "'" + names[i] + "'" : fmt::format("number {}", i));
   return fmt::format(
       "{:.2g} +- {:.1g} of the light is found by kernels alone, and has their bias with nothing to check it by: no ray "
-      "hits the light{} {}, and mirrors or glass stand wherever the rest of the path could be connected",
-      found.share.value, found.share.standard_error, lights.size() > 1 ? "s" : "", fmt::join(lights, ", "));
+      "hits the light{} {}, and mirrors or glass stand wherever {}",
+      found.share.value, found.share.standard_error, lights.size() > 1 ? "s" : "", fmt::join(lights, ", "),
+      found.traced
+          ? "the rest of the path could be connected"
+          : "the techniques in use could connect the rest of the path: \"light-tracing\" among them would also "
+            "connect what the eye sees straight to the camera");
 }
 
 }  // namespace vpm

@@ -14,6 +14,7 @@ namespace vpm {
 struct KernelLight {
   Estimated share;             // of all light that the picture shows, a mean over channels
   std::vector<size_t> lights;  // that may send it, as no ray hits them: of Scene::lights
+  bool traced = true;          // is light tracing among the techniques?
 };
 
 /// Measures that light by a few light sub-paths and rays through 64 blocks of pixels; the standard error is that of the

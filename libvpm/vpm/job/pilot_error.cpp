@@ -29,8 +29,9 @@ using FoundByPass = std::vector<std::vector<FoundInPixel>>;  // block by block
 
 struct SmallPasses {
   RenderSettings settings;
-  double share = 1.0;          // of the photons of a whole pass
-  size_t rays = kRaysOfBlock;  // through each block, thrice; a power of two
+  double share = 1.0;            // of the photons of a whole pass
+  uint64_t paths_of_shares = 0;  // as many as the whole pass has: else rays would find more, and photons less
+  size_t rays = kRaysOfBlock;    // through each block, thrice; a power of two
 };
 
 /// Half of the time is for photons, half for rays.
@@ -47,6 +48,7 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   small.settings.radii = RadiusSchedule::constant;
   const auto part = [&](double count) { return static_cast<uint64_t>(std::ceil(small.share * count)); };
   small.settings.photons_emitted = part(photons);
+  small.paths_of_shares = settings.photons_emitted;
   small.settings.photons_stored = 0;
   small.settings.caustics_emitted = part(static_cast<double>(settings.caustics_emitted));
   small.settings.guide.importons = part(static_cast<double>(settings.guide.importons));
@@ -64,7 +66,7 @@ KernelEstimate found_by(const EyeRay& ray, const Image& light_tracing) {
 }
 
 std::vector<FoundInPixel> render_small(const Scene& scene, const SmallPasses& small, int pass) {
-  const RaysOfPass ready = rays_of_pass(scene, small.settings, pass);
+  const RaysOfPass ready = rays_of_pass(scene, small.settings, pass, small.paths_of_shares);
   const uint64_t of_rays = rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass));
   const uint64_t of_places = rng_stream(RngUse::pilot, 2 + kSmallPasses);
   std::vector<FoundInPixel> found(kEyeBlocks * small.rays);

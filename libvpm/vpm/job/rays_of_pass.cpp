@@ -32,8 +32,10 @@ RaysOfPass rays_of_photon_pass(const Scene& scene, const RenderSettings& setting
   return rays;
 }
 
-RaysOfPass rays_of_combined_pass(const Scene& scene, const RenderSettings& settings, int pass) {
-  const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, kNeverStopped);
+RaysOfPass rays_of_combined_pass(const Scene& scene, const RenderSettings& settings, int pass,
+                                 uint64_t paths_of_shares) {
+  const auto ready =
+      std::make_shared<const CombinedPass>(scene, settings, pass, kNeverStopped, SoughtLight::all, paths_of_shares);
   RaysOfPass rays{[ready](std::span<EyeRay> of) { ready->radiance(of); },
                   Image(scene.camera.width, scene.camera.height), ready->statistics()};
   ready->add_light_tracing(rays.light_tracing);
@@ -42,12 +44,12 @@ RaysOfPass rays_of_combined_pass(const Scene& scene, const RenderSettings& setti
 
 }  // namespace
 
-RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass) {
+RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares) {
   switch (settings.integrator) {
     case Integrator::path:
       return rays_of_path_pass(scene, settings, pass);
     case Integrator::combined:
-      return rays_of_combined_pass(scene, settings, pass);
+      return rays_of_combined_pass(scene, settings, pass, paths_of_shares);
     case Integrator::photon:
       return rays_of_photon_pass(scene, settings, pass);
   }

@@ -14,7 +14,8 @@ struct RaysOfPass {
   Image light_tracing;      // what light sub-paths add to each pixel; empty where the integrator has none
   RenderStatistics statistics{};
 };
-/// Makes pass number `pass` ready, which the scene must outlive.
-RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass);
+/// Makes pass number `pass` ready, which the scene must outlive; of combined techniques with the shares of so many
+/// light sub-paths, see CombinedPass.
+RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares = 0);
 
 }  // namespace vpm

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "vpm/job/automatic.h"
 #include "vpm/job/choice_rules.h"
@@ -121,8 +122,10 @@ void scale(const Scene& scene, const RecordFactors& factors, RenderSettings& set
   for (Choice& choice : choices) {
     const double factor = is_radius(choice) ? factors.radius : is_number(choice) ? factors.photons : 1.0;
     if (factor == 1.0) continue;
-    choice.value = scaled(choice, factors, scene.bounds.diagonal());
-    choice.reason += fmt::format("; {:g} times that is told to leave less error", factor);
+    const std::string before = std::exchange(choice.value, scaled(choice, factors, scene.bounds.diagonal()));
+    if (choice.value == before) continue;
+    choice.reason =
+        fmt::format("{}: {}; then times {:g}, which is told to leave less error", before, choice.reason, factor);
     set_chosen(settings, choice.key, choice.value);
   }
 }

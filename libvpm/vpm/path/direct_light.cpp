@@ -15,8 +15,9 @@ struct ShadowRay {
   Ray ray;
   MediumId medium;
   int light;       // that it is sent to; -1: to a place
-  float distance;  // of the light from the ray's origin, m
-  Vec3 target;     // on the light, m
+  int shape;       // that this place is on; -1: on none
+  float distance;  // of the target from the ray's origin, m
+  Vec3 target;     // m
   Rgb transmittance{1.0f};
 
   bool pass(const Stretch& stretch) {
@@ -27,10 +28,12 @@ struct ShadowRay {
       count(rays.counters.bricks, t.bricks);
       transmittance *= t.value;
     }
-    return stretch.met && !is_black(transmittance) && !is_light(stretch.met.hits[0]);
+    return stretch.met && !is_black(transmittance) && !is_target(stretch.met.hits[0]);
   }
-  bool is_light(const Hit& hit) const {
-    return light >= 0 && rays.scene.shapes[hit.shape].light == light && stands_at(hit, ray, distance);
+  bool is_target(const Hit& hit) const {
+    const bool looked_for =
+        light >= 0 ? rays.scene.shapes[hit.shape].light == light : static_cast<int>(hit.shape) == shape;
+    return looked_for && stands_at(hit, ray, distance);
   }
 
   /// Not > 0 where a light stands just behind a boundary: they were passed together.
@@ -39,6 +42,13 @@ struct ShadowRay {
     return distance;
   }
 };
+
+Rgb transmittance_to_target(ShadowRay shadow) {
+  const bool blocked =
+      each_stretch(shadow.rays.scene, shadow.ray, shadow.medium, shadow.distance, shadow.rays.counters, shadow)
+          .has_value();
+  return blocked ? Rgb(0.0f) : shadow.transmittance;
+}
 
 }  // namespace
 
@@ -67,13 +77,10 @@ Receiver far_side(const Scene& scene, const Hit& hit, const Vec3& travel, Medium
 }
 
 Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, MediumId medium) {
-  ShadowRay shadow{rays, ray, medium, light, distance, ray.at(distance)};
-  const bool blocked = each_stretch(rays.scene, shadow.ray, shadow.medium, distance, rays.counters, shadow).has_value();
-  return blocked ? Rgb(0.0f) : shadow.transmittance;
+  return transmittance_to_target({rays, ray, medium, light, -1, distance, ray.at(distance)});
 }
-
-Rgb visibility(const ShadowRays& rays, Ray ray, float distance, MediumId medium) {
-  return visibility(rays, ray, distance, -1, medium);
+Rgb visibility_of_place(const ShadowRays& rays, Ray ray, float distance, MediumId medium, int shape) {
+  return transmittance_to_target({rays, ray, medium, -1, shape, distance, ray.at(distance)});
 }
 
 DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver,

@@ -43,9 +43,9 @@ Receiver far_side(const Scene& scene, const Hit& hit, const Vec3& travel, Medium
 /// surface stands between, even if that surface is another part of the same light. Boundaries do not block.
 Rgb visibility(const ShadowRays& rays, Ray ray, float distance, int light, MediumId medium);
 
-/// The transmittance from the ray's origin, in `medium`, to a place at `distance` (m, finite). It is black where
-/// anything but boundaries stands between.
-Rgb visibility(const ShadowRays& rays, Ray ray, float distance, MediumId medium);
+/// The transmittance from the ray's origin, in `medium`, to a place at `distance` (m, finite), which is on shape number
+/// `shape`, or on none (-1). It is black where anything but boundaries stands between.
+Rgb visibility_of_place(const ShadowRays& rays, Ray ray, float distance, MediumId medium, int shape = -1);
 
 /// The light that the uniform number `u` picks, with probability Scene::light_probability. The scene must have a light.
 struct PickedLight {

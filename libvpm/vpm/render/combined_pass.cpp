@@ -22,14 +22,12 @@ constexpr double kConnections = 1.0;  // of each vertex of an eye sub-path, to v
 // that of all.
 constexpr uint64_t kConnectable = 8192;
 
-/// The radii of the pass. Those of media are the least that any of them has by default.
+/// The radii of the pass.
 MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings, int pass) {
   const PassOfMaps of{pass, settings.radii != RadiusSchedule::constant, 0};
   AskedGather volume = settings.volume, surface = settings.surface;
   volume.mode = surface.mode = GatherMode::radius;
-  float first = first_radius(volume, scene);
-  for (const Medium& medium : scene.media)
-    if (medium.scatters()) first = std::min(first, first_radius(volume, scene, medium));
+  const float first = first_radius_of_merges(volume, scene);
   const auto radius = [&](int dimension) { return gather_in_pass(volume, first, dimension, of).radius; };
   return {surface.kernel,          volume.kernel, gather_in_pass(surface, first_radius(surface, scene), 2, of).radius,
           kBeamRadius * radius(1), radius(2),     radius(3)};
@@ -79,6 +77,11 @@ TechniqueCounts counts_of_kernels(const Scene& scene, const RenderSettings& sett
   return counts;
 }
 
+RenderSettings with_shares_of(RenderSettings settings, uint64_t light_paths) {
+  if (light_paths > 0) settings.photons_emitted = light_paths;
+  return settings;
+}
+
 /// A few sub-paths that are independent of those of the pass, with all their flights as planes.
 LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& numbers, uint64_t first, uint64_t number) {
   TechniqueCounts counts;
@@ -112,15 +115,15 @@ void count_by_few(const LightTracing& tracing, const RenderSettings& settings, i
 }  // namespace
 
 CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-                           SoughtLight sought)
+                           SoughtLight sought, uint64_t paths_of_shares)
     : scene_(scene),
       paths_(settings.photons_emitted),
       max_events_(settings.max_events),
       strategy_(make_distance_strategy(settings.distance, {.pass = static_cast<uint64_t>(pass)})),
       transmittance_(make_transmittance_estimator({})),
       kernels_(kernels_of_pass(scene, settings, pass)),
-      counts_(sought == SoughtLight::all ? counts_of_pass(scene, settings, kernels_)
-                                         : counts_of_kernels(scene, settings, kernels_)) {
+      counts_((sought == SoughtLight::all ? counts_of_pass : counts_of_kernels)(
+          scene, with_shares_of(settings, paths_of_shares), kernels_)) {
   const PhotonNumbers numbers(settings.photon_sequence, settings.seed, static_cast<uint64_t>(pass));
   const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, kConnectable};
   const Stopwatch clock;
@@ -170,6 +173,13 @@ void CombinedPass::add_light_tracing(TechniqueLayers& layers) const {
     parts.add(Technique::light_tracing, splat.radiance, splat.share);
     layers.add(splat.pixel, parts, static_cast<double>(paths_));
   }
+}
+
+float first_radius_of_merges(const AskedGather& volume, const Scene& scene) {
+  float first = first_radius(volume, scene);
+  for (const Medium& medium : scene.media)
+    if (medium.scatters()) first = std::min(first, first_radius(volume, scene, medium));
+  return first;
 }
 
 RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most) {

@@ -20,9 +20,11 @@ enum class SoughtLight { all, by_kernels_alone };
 /// Immutable while rays run; the scene must live as long.
 class CombinedPass {
  public:
-  /// Once `stop` is set it returns as soon as it can, and must not be used.
+  /// Once `stop` is set it returns as soon as it can, and must not be used. Shares are those of a pass with
+  /// `paths_of_shares` light sub-paths, if that is not 0: a part of a pass then finds what the whole does, with more
+  /// noise.
   CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-               SoughtLight sought = SoughtLight::all);
+               SoughtLight sought = SoughtLight::all, uint64_t paths_of_shares = 0);
 
   /// combined_radiance() along a ray of the camera, or along several.
   KernelEstimate radiance(const Ray& ray, EyeWork& work) const;
@@ -52,6 +54,9 @@ class CombinedPass {
   std::vector<Splat> splats_;
   std::optional<SortedLight> light_;
 };
+
+/// m, of the first pass: one for merges in all media, the least that any of them has by default.
+float first_radius_of_merges(const AskedGather& volume, const Scene& scene);
 
 /// The settings of a pass with no more than so many light sub-paths, and with planes in proportion.
 RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most);

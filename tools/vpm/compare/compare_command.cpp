@@ -214,8 +214,18 @@ BudgetSummary summarise(const Entrant& entrant, const Reference& reference, cons
 std::string reference_text(const Contest& contest, double error) {
   if (contest.compared->source == ReferenceSource::exact) return "the exact solution";
   if (contest.compared->source == ReferenceSource::file) return contest.compared->reference;
-  const bool paths = contest.reference_entrant->loaded.settings.integrator == Integrator::path;
-  return fmt::format("{}, relative MSE {:.2g}", paths ? "the path tracer" : "photon mapping", error);
+  const auto by = [&] {
+    switch (contest.reference_entrant->loaded.settings.integrator) {
+      case Integrator::path:
+        return "the path tracer";
+      case Integrator::combined:
+        return "techniques combined";
+      case Integrator::photon:
+        return "photon mapping";
+    }
+    __builtin_unreachable();
+  };
+  return fmt::format("{}, relative MSE {:.2g}", by(), error);
 }
 
 /// Of all scenes together.

@@ -101,7 +101,8 @@ void EyeSubPath::connect_to(const Arrival& at, const LightVertex& light) {
   const Vec3 way = to.origin - from.origin;
   const float length = glm::length(way);
   const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
-  const Rgb passed = visibility(rays, {from.origin, way / length}, length, from.medium);
+  const int shape = light.at.vertex.on_surface ? static_cast<int>(light.at.vertex.hit.shape) : -1;
+  const Rgb passed = visibility_of_place(rays, {from.origin, way / length}, length, from.medium, shape);
   if (is_black(passed)) return;
   const Leg leg{passed, distance};
   const Departure eye = depart_into(at, {direction, here.forward, here.reverse});

@@ -45,7 +45,7 @@ void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng
   const Leaving leaving = leave(scene, at.vertex, direction);
   const ShadowRays rays{scene, tracing.transmittance, rng, paths.ledger.walk};
   const float length = glm::distance(camera.position, leaving.origin);
-  const Rgb passed = visibility(rays, {leaving.origin, direction}, length, leaving.medium);
+  const Rgb passed = visibility_of_place(rays, {leaving.origin, direction}, length, leaving.medium);
   if (is_black(passed)) return;
   const Leg leg{passed, distance};
   const Departure departure =

@@ -26,7 +26,7 @@ void EyeSubPath::merge_plane(const Along& along, const PlaneCrossing& crossing) 
   const PhotonPlane& plane = crossing.plane;
   count(work_.counters.shadow_rays);
   const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
-  const Leg from_turn{visibility(rays, {turn->vertex.point, plane.scattered}, crossing.beyond, plane.medium),
+  const Leg from_turn{visibility_of_place(rays, {turn->vertex.point, plane.scattered}, crossing.beyond, plane.medium),
                       crossing.beyond};
   if (is_black(from_turn.transmittance)) return;
   const double onward = phase_density(c_.scene.media[plane.medium], plane.direction, plane.scattered);

@@ -90,7 +90,7 @@ Rgb PhotonPlanes::arriving(const PlaneCrossing& crossing, const EyeSegment& segm
   if (!(density > 0.0f)) return Rgb(0.0f);
   count(work.counters.shadow_rays);
   const ShadowRays rays{scene_, *transmittance_, work.rng, work.counters.walk};
-  const Rgb passed = visibility(rays, {collision, plane.scattered}, crossing.beyond, plane.medium);
+  const Rgb passed = visibility_of_place(rays, {collision, plane.scattered}, crossing.beyond, plane.medium);
   if (is_black(passed)) return Rgb(0.0f);
   float share = 1.0f / crossing.determinant;
   if (!settings_.alone) {
