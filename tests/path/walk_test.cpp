@@ -26,6 +26,35 @@ double optical_thickness(const Scene& scene, const Ray& ray, float distance, Med
   return -std::log(visibility({scene, *regular, rng, counters}, ray, distance, -2, start).r);
 }
 
+/// A room full of one medium, with a box of another on its floor: rays come down to the floor from within the box, and
+/// go on in it. What is in neither comes to the floor by mistake, and is told.
+TEST(Walk, ABoxOnTheFloorOfARoomIsLeftNowhere) {
+  constexpr MediumId kFog = 0, kSmoke = 1, kOther = 2;
+  Scene scene;
+  for (int i = 0; i < 3; ++i) scene.media.push_back(make_medium(nullptr, Rgb(1.0f)));
+  const Interface room{kFog, kVacuum}, box{kSmoke, kFog};
+  add_shape(scene, box_mesh(Vec3d(-2.0, 0.0, -2.0), Vec3d(2.0, 3.0, 2.0)), Lambertian{Rgb(0.5f)}, &room);
+  add_shape(scene, box_mesh(Vec3d(-1.0, 0.0, -1.0), Vec3d(1.0, 1.0, 1.0)), Boundary{}, &box);
+  scene.geometry.commit();
+  const auto medium_at_floor = [&](const Vec3& from, const Vec3& to, MediumId medium, WalkCounters& counters) {
+    const Encounter met = meet(scene, {from, glm::normalize(to - from)}, kInfinity, medium, counters);
+    EXPECT_TRUE(met.surface);
+    return medium;
+  };
+  Rng rng(1, 0, 0);
+  WalkCounters right, wrong;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 u = rng.uniform2(), v = rng.uniform2();
+    const Vec3 within(1.8f * u.x - 0.9f, 0.9f, 1.8f * u.y - 0.9f), beside(1.9f, 2.0f * u.x + 0.1f, u.y);
+    const Vec3 under(1.8f * v.x - 0.9f, 0.0f, 1.8f * v.y - 0.9f), beyond(1.1f + 0.8f * v.x, 0.0f, v.y);
+    EXPECT_EQ(medium_at_floor(within, under, kSmoke, right), kSmoke);
+    EXPECT_EQ(medium_at_floor(beside, beyond, kFog, right), kFog);
+    EXPECT_EQ(medium_at_floor(beside, beyond, kOther, wrong), kFog);
+  }
+  EXPECT_EQ(right.medium_mismatches, 0u);
+  EXPECT_EQ(wrong.medium_mismatches, 1000u);
+}
+
 TEST(Walk, MediaThatTouchAreBothCrossedInAnyOrderOfShapes) {
   // Four slabs of 1 m across x, touching: sigma_t 0.1, 0.4, none, 0.2. A ray along x sees their sum, turned any way.
   const float sigma[] = {0.1f, 0.4f, 0.2f};

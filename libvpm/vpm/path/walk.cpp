@@ -51,7 +51,10 @@ Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium
   count(counters.rays);
   Encounter met = scene.geometry.encounter(ray, t_max);
   if (!met && t_max < kInfinity) return met;
-  const MediumId known = met ? medium_before(scene, met, ray.direction, medium) : scene.world_medium;
+  MediumId known = met ? medium_before(scene, met, ray.direction, medium) : scene.world_medium;
+  // A grid's box may stand on a floor that names the medium around it: the ray comes to the floor from within the box.
+  if (known != medium && met.surface)
+    if (const Encounter all = scene.geometry.division(ray)) known = medium_before(scene, all, ray.direction, medium);
   if (known != medium) ++counters.medium_mismatches;
   medium = known;
   return met;
