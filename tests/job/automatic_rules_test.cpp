@@ -40,7 +40,7 @@ constexpr double kRays = 3.0 * 2.0 * kPixels;
 /// Two passes, in which all pixels show a light of 1 but those of one block in one channel: these show `there` there,
 /// with that standard error.
 PilotError pilot(float there, float standard_error, float correction = 0.0f) {
-  PilotError error{.rays = kPixels, .corrections = std::vector<Rgb>(kEyeBlocks * kPixels, Rgb(0.0f))};
+  PilotError error{.pixels = kPixels, .corrections = std::vector<Rgb>(kEyeBlocks * kPixels, Rgb(0.0f))};
   for (const float off : {standard_error, -standard_error}) {
     error.shown.emplace_back(kEyeBlocks * kPixels, Rgb(1.0f));
     for (size_t i = 0; i < kPixels; ++i) error.shown.back()[6 * kPixels + i].y = there + off;
@@ -63,7 +63,7 @@ TEST(Automatic, LightThatOthersShowForCertainIsNoise) {
 
 /// A pilot of one pixel of each block beside one of four: the first of these is what both have.
 TEST(Automatic, LightIsMissingOnlyWherePilotsSeeTheSamePixels) {
-  PilotError few{.rays = 1, .corrections = std::vector<Rgb>(kEyeBlocks, Rgb(0.0f))};
+  PilotError few{.pixels = 1, .corrections = std::vector<Rgb>(kEyeBlocks, Rgb(0.0f))};
   few.shown.assign(2, std::vector<Rgb>(kEyeBlocks, Rgb(1.0f)));
   PilotError many = pilot(1.0f, 0.0f);
   for (std::vector<Rgb>& pass : many.shown) pass[3] = Rgb(100.0f);
@@ -75,7 +75,7 @@ TEST(Automatic, LightIsMissingOnlyWherePilotsSeeTheSamePixels) {
 /// A tenth is missing everywhere, which no block is sure of: their noise is large, and all of them together have none.
 TEST(Automatic, LightThatIsMissingInAllBlocksTogetherIsNoise) {
   const auto noisy = [](float mean) {
-    PilotError error{.rays = 1, .corrections = std::vector<Rgb>(kEyeBlocks, Rgb(0.0f))};
+    PilotError error{.pixels = 1, .corrections = std::vector<Rgb>(kEyeBlocks, Rgb(0.0f))};
     for (const float sign : {1.0f, -1.0f}) {
       error.shown.emplace_back();
       for (size_t block = 0; block < kEyeBlocks; ++block)

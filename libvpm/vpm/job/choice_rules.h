@@ -33,6 +33,7 @@ struct ChosenCount {
 /// fit into `seconds` (0: no limit), and fewer yet where that lets one pass fit; and no more than fill maps of
 /// kMostStored.
 ChosenCount choose_count(const PassCost& cost, double seconds);
+inline constexpr double kPassesShare = 0.75;  // of the seconds of a render, that a pilot leaves to passes
 inline constexpr uint64_t kLeastCount = 1000;
 inline constexpr double kMostStored = 2e7;
 

@@ -11,8 +11,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kPassesShare = 0.75;  // of the seconds of a render, that a pilot leaves to passes
-
 /// A gather radius to be chosen.
 struct OpenRadius {
   const char* key;

@@ -13,8 +13,8 @@
 namespace vpm {
 
 inline constexpr size_t kEyeBlocks = 64;  // parts of the picture, eight in either direction
-inline constexpr size_t kRaysOfBlock =
-    kEyeRays;  // eight in either direction; in small pictures some pixels are the same
+/// Eight in either direction; in small pictures some pixels are the same.
+inline constexpr size_t kRaysOfBlock = kEyeRays;
 
 /// Which pixels of its part of the picture a block has: those in the middle, side by side as rays of a picture are
 /// followed, which tell what these take; or evenly spread ones, which see all edges of light.

@@ -113,7 +113,8 @@ struct ErrorSums {
   std::array<double, kSmallPasses> bias2_without{};  // each of the passes
 };
 
-/// Less a standard error, by the jackknife over passes: these are few, and their corrections have much noise.
+/// Less a standard error, by the jackknife over passes [Tukey1958]: these are few, and their corrections have much
+/// noise.
 double sure_bias2(const ErrorSums& sums) {
   constexpr double n = kSmallPasses;
   double mean = 0.0, squares = 0.0;
@@ -152,8 +153,9 @@ void add_pixel(const FoundByPass& found, size_t pixel, int channel, double scale
   }
 }
 
-/// What squares of a pixel are divided by, as those of a film are (FilmErrors): by the pixel's own mean, but by no more
-/// than what is surely there of it or `near`, the mean of pixels near it, as a rare bright sample hides its error else.
+/// What squares of a pixel are divided by: its own mean, but no more than what is surely there of it or `near`, the
+/// mean of pixels near it, as a rare bright sample hides its error else. So are those of a film (FilmErrors), which
+/// also knows the darkest side of a pixel.
 double scale_at(const FoundByPass& found, size_t pixel, int channel, double near, double mean) {
   const double own = std::abs(mean_among(found, pixel, pixel + 1, channel));
   const double n = 3.0 * static_cast<double>(found.size());
@@ -203,11 +205,12 @@ struct SeenMean {
   double mean = 0.0, standard_error = 0.0, correction = 0.0;
 };
 SeenMean seen_in(const PilotError& error, size_t first_block, size_t last_block, size_t pixels, int channel) {
-  const size_t step = error.rays / pixels;
+  const size_t step = error.pixels / pixels;
   const double each = 1.0 / static_cast<double>((last_block - first_block) * pixels);
   const auto mean_of_light = [&](const std::vector<Rgb>& light) {
     double sum = 0.0;
-    for (size_t i = first_block * error.rays; i < last_block * error.rays; i += step) sum += double{light[i][channel]};
+    for (size_t i = first_block * error.pixels; i < last_block * error.pixels; i += step)
+      sum += double{light[i][channel]};
     return each * sum;
   };
   Moments moments;
@@ -229,7 +232,7 @@ PilotError error_of_pass(const Scene& scene, const RenderSettings& settings, con
   const SmallPasses small = plan_small(scene, settings, cost, seconds);
   FoundByPass found;
   for (int pass = 0; pass < kSmallPasses; ++pass) found.push_back(render_small(scene, small, pass));
-  PilotError error{.pass = relative_errors(found, small.rays), .rays = small.rays};
+  PilotError error{.pass = relative_errors(found, small.rays), .pixels = small.rays};
   error.pass.rays /= settings.samples_per_pixel;
   error.pass.photons *= small.share;
   keep_what_is_shown(found, error);
@@ -237,8 +240,8 @@ PilotError error_of_pass(const Scene& scene, const RenderSettings& settings, con
 }
 
 double unseen_light(const PilotError& error, const PilotError& other) {
-  const size_t pixels = std::min(error.rays, other.rays);  // of a block, that both have
-  const auto rays = static_cast<double>(3 * error.shown.size() * error.rays);
+  const size_t pixels = std::min(error.pixels, other.pixels);  // of a block, that both have
+  const auto rays = static_cast<double>(3 * error.shown.size() * error.pixels);
   double sum = 0.0;
   for (int channel = 0; channel < 3; ++channel) {
     const SeenMean all = seen_in(other, 0, kEyeBlocks, pixels, channel);

@@ -20,7 +20,7 @@ struct PassError {
 
 struct PilotError {
   PassError pass{};
-  size_t rays = 0;  // pixels of each block: a power of two, every (kRaysOfBlock / rays)-th of the same ones
+  size_t pixels = 0;  // of each block: a power of two, every (kRaysOfBlock / pixels)-th of the same ones
   // Block by block, W/(m^2 sr). The places of pixels are the same for all ways to render.
   std::vector<std::vector<Rgb>> shown{};  // the light of each pixel, pass by pass
   std::vector<Rgb> corrections{};         // what kernels are told to lack, in the mean of passes

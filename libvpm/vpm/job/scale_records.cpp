@@ -81,10 +81,10 @@ double ScaledPasses::error_after_passes(double passes, const RecordFactors& fact
   return error_after(error, settings_, static_cast<int>(passes));
 }
 
-/// Where neither passes nor seconds are given, as many as take as long as usual ones. Some where none fits.
+/// As many as are asked for or fit into the seconds, 0 where none does; where neither is given, as many as take as long
+/// as usual ones.
 double ScaledPasses::passes_of(const RecordFactors& factors) const {
   constexpr double kManyPasses = 10'000.0, kUsual = 64.0;
-  constexpr double kPassesShare = 0.75;  // of the seconds of a render, which a pilot leaves
   if (settings_.until.counts_passes()) return settings_.until.passes;
   const double each = seconds_of_pass(factors), seconds = settings_.until.seconds;
   if (seconds == 0.0) return kUsual * seconds_of_pass({}) / each;
