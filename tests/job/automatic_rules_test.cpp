@@ -169,7 +169,8 @@ TEST(Automatic, ErrorsFallAsRadiiShrink) {
   EXPECT_DOUBLE_EQ(error_after({4e-3, 0.0, 0.0}, settings, 3), 4e-3 / 3);
   const double second = 5.0 / 6.0, third = second * 8.0 / 9.0;
   EXPECT_NEAR(error_after({0.0, 9e-3, 0.0}, settings, 3), 1e-3 * (1.0 + 1.0 / second + 1.0 / third), 1e-9);
-  EXPECT_NEAR(error_after({0.0, 0.0, 9e-3}, settings, 3), 1e-3 * std::pow(1.0 + second + third, 2), 1e-9);
+  const double bias = 1.0 + std::pow(second, 0.25 * kPowerOfBias) + std::pow(third, 0.25 * kPowerOfBias);
+  EXPECT_NEAR(error_after({0.0, 0.0, 9e-3}, settings, 3), 1e-3 * bias * bias, 1e-9);
 }
 
 }  // namespace

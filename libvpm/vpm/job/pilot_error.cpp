@@ -110,25 +110,13 @@ double mean_among(const FoundByPass& found, size_t begin, size_t end, int channe
 /// Sums over pixels.
 struct ErrorSums {
   double rays = 0.0, photons = 0.0, bias2 = 0.0;
-  std::array<double, kSmallPasses> bias2_without{};  // each of the passes
 };
-
-/// Less a standard error, by the jackknife over passes [Tukey1958]: these are few, and their corrections have much
-/// noise.
-double sure_bias2(const ErrorSums& sums) {
-  constexpr double n = kSmallPasses;
-  double mean = 0.0, squares = 0.0;
-  for (const double without : sums.bias2_without) mean += without / n;
-  for (const double without : sums.bias2_without) squares += (without - mean) * (without - mean);
-  return std::max(0.0, sums.bias2 - std::sqrt(squares * (n - 1.0) / n));
-}
 
 /// Adds unbiased estimates of one pixel. Rays through one place have their photons in common, and all passes the
 /// places.
 void add_pixel(const FoundByPass& found, size_t pixel, int channel, double scale, ErrorSums& sum) {
   constexpr double n = kSmallPasses;
   double x = 0.0, y = 0.0, products = 0.0, along = 0.0, apart = 0.0, apart2 = 0.0, corrected = 0.0, corrected2 = 0.0;
-  std::array<double, kSmallPasses> corrections{};
   for (size_t pass = 0; pass < kSmallPasses; ++pass) {
     const auto& [first, second, elsewhere] = found[pass][pixel];
     const double one = double{first.value[channel]}, again = double{second.value[channel]};
@@ -139,18 +127,14 @@ void add_pixel(const FoundByPass& found, size_t pixel, int channel, double scale
     along += 0.5 * (one - again) * (one - again) / n;
     apart += difference / n;
     apart2 += difference * difference / n;
-    corrections[pass] = 0.5 * (double{first.correction[channel]} + double{second.correction[channel]});
-    corrected += corrections[pass];
-    corrected2 += corrections[pass] * corrections[pass];
+    const double correction = 0.5 * (double{first.correction[channel]} + double{second.correction[channel]});
+    corrected += correction;
+    corrected2 += correction * correction;
   }
   const double of_places = 0.5 * (apart * apart - (apart2 - apart * apart) / (n - 1.0));
   sum.rays += (along + of_places) / scale;
   sum.photons += (products - x * y / n) / (n - 1.0) / scale;
   sum.bias2 += (corrected * corrected - corrected2) / (n * (n - 1.0)) / scale;
-  for (size_t i = 0; i < kSmallPasses; ++i) {
-    const double others = corrected - corrections[i], their_squares = corrected2 - corrections[i] * corrections[i];
-    sum.bias2_without[i] += (others * others - their_squares) / ((n - 1.0) * (n - 2.0)) / scale;
-  }
 }
 
 /// What squares of a pixel are divided by: its own mean, but no more than what is surely there of it or `near`, the
@@ -184,7 +168,7 @@ PassError relative_errors(const FoundByPass& found, size_t rays) {
       add_pixels(found, block * rays, (block + 1) * rays, channel, mean, sum);
   }
   const double each = 1.0 / static_cast<double>(3 * kEyeBlocks * rays);
-  return {each * std::max(0.0, sum.rays), each * std::max(0.0, sum.photons), each * sure_bias2(sum)};
+  return {each * std::max(0.0, sum.rays), each * std::max(0.0, sum.photons), each * std::max(0.0, sum.bias2)};
 }
 
 /// What it is that pixels show, for unseen_light().
@@ -264,7 +248,7 @@ double error_after(const PassError& error, const RenderSettings& settings, int p
     const bool shrinks = settings.radii != RadiusSchedule::constant;
     const double measure = shrinks ? measure_of_pass(best_a(kDimension, order), pass) : 1.0;
     noise += 1.0 / measure;
-    bias += std::pow(measure, double(order) / kDimension);
+    bias += std::pow(measure, 0.5 * kPowerOfBias / kDimension);
   }
   const double n = passes;
   return error.rays / n + error.photons * noise / (n * n) + error.bias2 * (bias / n) * (bias / n);

@@ -11,11 +11,15 @@
 
 namespace vpm {
 
+/// A picture's squared bias goes as the fourth power of the radius where light is smooth, and as the first or second at
+/// edges: stated errors take a middle, too (papers/stated-error.md).
+constexpr double kPowerOfBias = 2.5;
+
 /// Parts of the relative MSE of one pass.
 struct PassError {
   double rays = 0.0;     // variance of what rays find among the same photons
   double photons = 0.0;  // variance that is due to photons
-  double bias2 = 0.0;    // what the kernels' corrections surely tell of the squared bias: less a standard error
+  double bias2 = 0.0;    // the squared bias that the kernels' corrections tell of
 };
 
 struct PilotError {

@@ -17,11 +17,10 @@
 namespace vpm {
 namespace {
 
-constexpr double kWider = 2.0,
-                 kNarrower = 0.5;  // the other radii that are measured; narrower ones where some are widest
-// A picture's squared bias goes as the fourth power of the radius where light is smooth, and as the first or second at
-// edges, where it is four times what corrections tell: stated errors take a middle, too (papers/stated-error.md).
-constexpr double kPowerOfBias = 2.5, kOfOrders = 2.5;
+// The other radii that are measured are wide, as bias is there told best from noise, but no wider than the widest;
+// narrow ones where some nearly are.
+constexpr double kWider = 4.0, kLeastWider = 1.4, kNarrower = 0.5;
+constexpr double kOfOrders = 2.5;  // at edges squared bias is four times what corrections tell: a middle
 
 bool is_radius(const Choice& choice) { return choice.key.ends_with(".radius"); }
 bool is_number(const Choice& choice) { return choice.key == "photons.emitted"; }
@@ -30,7 +29,8 @@ std::string scaled(const Choice& choice, const RecordFactors& factors, double di
   const double value = std::stod(choice.value);
   if (is_number(choice)) return fmt::format("{}", static_cast<uint64_t>(rounded(factors.photons * value, 2)));
   const double most = std::max(value, kLargestRadius * diagonal);
-  return fmt::format("{}", rounded_radius(std::min(factors.radius * value, most)));
+  const float radius = rounded_radius(std::min(factors.radius * value, most));
+  return factors.radius > 1.0 && radius <= value ? choice.value : fmt::format("{}", radius);
 }
 
 }  // namespace
@@ -51,10 +51,10 @@ ScaledPasses::ScaledPasses(const Scene& scene, double limit, const RenderSetting
   bias2_ = shown_.pass.bias2;
   if (!scales_radii_) return;
   const double diagonal = scene.bounds.diagonal();
-  const bool widest = std::any_of(choices.begin(), choices.end(), [&](const Choice& choice) {
-    return is_radius(choice) && scaled(choice, {.radius = kWider}, diagonal) == choice.value;
-  });
-  const double factor = widest ? kNarrower : kWider;
+  double factor = kWider;
+  for (const Choice& choice : choices)
+    if (is_radius(choice)) factor = std::min(factor, kLargestRadius * diagonal / std::stod(choice.value));
+  if (factor < kLeastWider) factor = kNarrower;
   RenderSettings others = settings;
   std::vector<Choice> other_choices = choices;
   scale(scene, {.radius = factor}, others, other_choices);
@@ -65,7 +65,6 @@ ScaledPasses::ScaledPasses(const Scene& scene, double limit, const RenderSetting
   const double lessened = (other_noise_ - other.photons) / (1.0 - std::pow(factor, -power_of_noise_));
   kernel_noise_ = std::clamp(lessened, 0.0, other_noise_);
   other_noise_ -= kernel_noise_;
-  // Bias is told best from noise where it is large.
   if (factor > 1.0) bias2_ = other.bias2 * std::pow(factor, -kPowerOfBias);
 }
 
