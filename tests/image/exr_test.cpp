@@ -4,6 +4,7 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfTiledOutputFile.h>
@@ -112,6 +113,26 @@ class Exr : public testing::Test {
   const fs::path folder_ = fs::path(testing::TempDir()) / ("vpm-exr-test-" + std::to_string(getpid()));
   const fs::path file_ = folder_ / "test.exr";
 };
+
+/// As OpenEXR itself reads it, too: no pixel is anywhere else.
+TEST_F(Exr, APartOfAPictureIsItsDataWindow) {
+  const Image part = noise(5, 3), layer = noise(5, 3);
+  write_exr(file_, part, {{"layer", &layer}}, {}, ExrWindow{{4, 6, 9, 9}, 12, 10});
+  const ExrChannels whole = read_exr_channels(file_);
+  ASSERT_EQ(whole.width, 12);
+  ASSERT_EQ(whole.height, 10);
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 12; ++x) {
+      const bool inside = x >= 4 && x < 9 && y >= 6;
+      const auto i = static_cast<size_t>(y * 12 + x);
+      EXPECT_EQ(whole.planes.at("G")[i], inside && y < 9 ? part.at(x - 4, y - 6).g : 0.0f);
+      EXPECT_EQ(whole.planes.at("layer.B")[i], inside && y < 9 ? layer.at(x - 4, y - 6).b : 0.0f);
+    }
+  }
+  const Imf::InputFile file(file_.c_str());
+  EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({4, 6}, {8, 8}));
+  EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {11, 9}));
+}
 
 TEST_F(Exr, RoundTripIsExact) {
   const Image radiance = random_bits(67, 45, 0), variance = random_bits(67, 45, 1);

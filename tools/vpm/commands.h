@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vpm/base/progress.h"
+#include "vpm/input/view_scene.h"
 
 namespace vpm::tools {
 
@@ -30,11 +31,30 @@ struct RenderOptions : PassOptions {
   bool checkpoint = false;      // keep one next to the image after each pass
   bool overwrite = false;       // begin anew where there is one
   bool resume = false;          // go on from that
+  std::string size;             // "640x480", pixels; empty: the scene's
+  std::string crop;             // "x0,y0,x1,y1", pixels from the upper left, ends excluded; empty: all
+  std::optional<int> samples;   // a pixel in each pass
+  bool quiet = false;           // say nothing but warnings and errors
 };
 /// Renders a scene to an EXR file, with a PNG preview and a JSON report next to it. 130 when interrupted: the finished
 /// passes are written.
 /// With a checkpoint a killed render loses the pass under way, and goes on to the same bits.
 int render_command(const RenderOptions& options);
+
+struct ViewOptions : RenderOptions {  // `scene` is a .vdb, and `automatic` is not asked
+  ViewWishes wishes;
+  std::string scene_output;  // .toml, for the scene that is made; empty: none
+};
+/// Makes a scene around a grid, shows a first picture of it at once, and renders it as render_command() does.
+int view_command(const ViewOptions& options);
+
+struct TonemapOptions {
+  std::string picture;            // .exr
+  std::string output;             // .png
+  std::optional<float> exposure;  // stops; none: auto_exposure()
+};
+/// Writes a picture as a PNG file.
+int tonemap_command(const TonemapOptions& options);
 
 struct BakeOptions : PassOptions {
   std::string mesh;      // the name of a shape in the scene

@@ -18,10 +18,13 @@ constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-ErrorLog::ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film)
+ErrorLog::ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film,
+                   const Camera& camera)
     : reference_(read_reference(reference)), csv_(std::move(csv)) {
   check_writable(csv_, 1 << 16);
   const Image& truth = reference_.mean;
+  if (camera.crop && truth.width == camera.width && truth.height == camera.height)
+    reference_ = {cropped(truth, *camera.crop), cropped(reference_.variance, *camera.crop)};
   if (truth.width != film.width() || truth.height != film.height())
     throw InputError(fmt::format("{}: the reference has {} x {} pixels, but the render {} x {}", reference.string(),
                                  truth.width, truth.height, film.width(), film.height()));

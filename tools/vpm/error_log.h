@@ -15,8 +15,9 @@ namespace vpm::tools {
 class ErrorLog {
  public:
   /// Throws InputError where the reference cannot be read or has another size than the film, and where the CSV file
-  /// could not be written. Where the film has passes already, the lines that the file has of them stay.
-  ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film);
+  /// could not be written. Where the camera has a crop, the reference may be that of the whole. Where the film has
+  /// passes already, the lines that the file has of them stay.
+  ErrorLog(const std::filesystem::path& reference, std::filesystem::path csv, const Film& film, const Camera& camera);
 
   /// After each pass; and once more after the last.
   void add(const RenderResult& so_far);

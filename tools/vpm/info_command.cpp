@@ -112,6 +112,12 @@ std::string medium_text(const Scene& scene, MediumId medium) {
   return medium == kVacuum ? "vacuum" : "medium " + scene.media[medium].name;
 }
 
+std::string crop_text(const Camera& camera) {
+  if (!camera.crop) return "";
+  const auto& [x0, y0, x1, y1] = *camera.crop;
+  return fmt::format(", of which ({}, {}) to ({}, {}) are rendered", x0, y0, x1 - 1, y1 - 1);
+}
+
 /// What a render would run; what it would skip, and why, where that is asked for.
 void print_stages(const RenderJob& job, bool all) {
   size_t skipped = 0;
@@ -132,8 +138,8 @@ void print_scene(const InfoOptions& options) {
   for (const std::string& note : job.notes) fmt::print("note: {}\n", note);
   print_stages(job, options.all);
   for (const Medium& m : scene.media) print_medium(m);
-  fmt::print("camera at {} m, {} x {} pixels, in {}\n", text(scene.camera.position), scene.camera.width,
-             scene.camera.height, medium_text(scene, scene.camera_medium));
+  fmt::print("camera at {} m, {} x {} pixels{}, in {}\n", text(scene.camera.position), scene.camera.width,
+             scene.camera.height, crop_text(scene.camera), medium_text(scene, scene.camera_medium));
   if (box.empty())
     fmt::print("no shapes\n");
   else

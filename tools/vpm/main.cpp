@@ -53,6 +53,28 @@ std::string check_error(const std::string& text) {
   const double error = parse(text, 0.0);
   return error > 0.0 && std::isfinite(error) ? "" : fmt::format("{} is not a relative MSE above 0", text);
 }
+std::string check_depth(const std::string& text) {
+  const double depth = parse(text, 0.0);
+  return depth > 0.0 && std::isfinite(depth) ? "" : fmt::format("{} is not an optical depth above 0", text);
+}
+
+/// The whole numbers that such a separator parts, or -1 for one that is none.
+std::vector<int> numbers_in(const std::string& text, char separator) {
+  std::vector<int> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, separator);) numbers.push_back(parse(part, -1));
+  return numbers;
+}
+std::string check_film_size(const std::string& text) {
+  const std::vector<int> sides = numbers_in(text, 'x');
+  const bool right = sides.size() == 2 && std::min(sides[0], sides[1]) >= 1;
+  return right ? "" : fmt::format("{} is no size in pixels such as 640x480", text);
+}
+std::string check_crop(const std::string& text) {
+  const std::vector<int> ends = numbers_in(text, ',');
+  const bool right = ends.size() == 4 && *std::min_element(ends.begin(), ends.end()) >= 0;
+  return right ? "" : fmt::format("{} is no part of a picture such as 0,0,64,48", text);
+}
 std::string check_rate(const std::string& text) {
   const double rate = parse(text, 0.0);
   return rate > 0.0 && rate < 1.0 ? "" : fmt::format("{} is not a probability between 0 and 1", text);
@@ -73,27 +95,35 @@ void add_progress(CLI::App* command, ProgressMode& mode) {
       ->transform(CLI::CheckedTransformer(modes));
 }
 
+void add_exposure(CLI::App* command, std::optional<float>& exposure, const std::string& what) {
+  command
+      ->add_option("--exposure", exposure,
+                   fmt::format("Stops by which {} is exposed: values times 2^STOPS, clipped to [0, 1], then the sRGB "
+                               "curve; default: such that the 99th percentile of the luminance becomes 0.8",
+                               what))
+      ->check(check_stops);
+}
+
 /// What all commands that run passes are told; returns the option --passes.
 CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std::string& usual_name) {
-  command->add_option("scene", options.scene, "Scene file (.toml)")->required();
   command->add_option("-o,--output", options.output,
                       "Image to write (.exr); default: " + usual_name + ".exr in the current folder");
   command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  command
-      ->add_option("--exposure", options.exposure,
-                   "Stops by which the preview is exposed: values times 2^STOPS, clipped to [0, 1], then the sRGB "
-                   "curve; default: such that the 99th percentile of the luminance becomes 0.8")
-      ->check(check_stops);
+  add_exposure(command, options.exposure, "the preview");
   add_progress(command, options.progress);
   return command->add_option("--passes", options.passes, "Passes to average")->check(whole_number(1, 1'000'000'000));
 }
 
-void add_render(CLI::App& app, RenderOptions& options) {
-  CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
-  CLI::Option* passes = add_pass_options(command, options, "SCENE");
+void add_scene(CLI::App* command, std::string& scene) {
+  command->add_option("scene", scene, "Scene file (.toml)")->required();
+}
+
+/// What all are told that render a picture.
+void add_picture_options(CLI::App* command, RenderOptions& options, const std::string& usual_name) {
+  CLI::Option* passes = add_pass_options(command, options, usual_name);
   command->add_option("--time", options.seconds, "Render passes until this many seconds are over")
       ->check(check_seconds)
       ->excludes(passes);
@@ -102,6 +132,20 @@ void add_render(CLI::App& app, RenderOptions& options) {
                    "Render passes until the estimated relative MSE is no more than this; with --time: or until then")
       ->check(check_error)
       ->excludes(passes);
+  command->add_option("--size", options.size, "Film in pixels, WIDTHxHEIGHT: 640x480")->check(check_film_size);
+  command->add_option("--spp", options.samples, "Samples of a pixel in each pass")->check(whole_number(1, 1'000'000));
+  command
+      ->add_option("--crop", options.crop,
+                   "Render these pixels only, x0,y0,x1,y1 from the upper left, ends excluded: the same bits as in the "
+                   "whole picture")
+      ->check(check_crop);
+  command->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+}
+
+void add_render(CLI::App& app, RenderOptions& options) {
+  CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
+  add_scene(command, options.scene);
+  add_picture_options(command, options, "SCENE");
   command->add_option("--reference", options.reference,
                       "EXR image of the truth: log error against time to a CSV file next to the image");
   command->add_flag(
@@ -118,9 +162,33 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->excludes(overwrite);
 }
 
+void add_view(CLI::App& app, ViewOptions& options) {
+  CLI::App* command = app.add_subcommand("view", "Show a grid (.vdb): makes a scene around it and renders that");
+  command->add_option("grid_file", options.scene, "Grid file (.vdb)")->required();
+  add_picture_options(command, options, "FILE");
+  command->add_option("--grid", options.wishes.grid, "Name of the grid; default: \"density\", or the only one");
+  command
+      ->add_option("--optical-depth", options.wishes.optical_depth,
+                   "Optical depth across the medium, from which the extinction follows")
+      ->check(check_depth)
+      ->capture_default_str();
+  const std::map<std::string, UpAxis> axes{{"y", UpAxis::y}, {"z", UpAxis::z}};
+  command->add_option("--up", options.wishes.up, "Axis that is up: y (default), or z")
+      ->transform(CLI::CheckedTransformer(axes));
+  command->add_option("--scene", options.scene_output, "Also write the scene that is made, for editing (.toml)");
+}
+
+void add_tonemap(CLI::App& app, TonemapOptions& options) {
+  CLI::App* command = app.add_subcommand("tonemap", "Write an EXR picture as a PNG file");
+  command->add_option("picture", options.picture, "Picture (.exr)")->required();
+  command->add_option("output", options.output, "File to write (.png)")->required();
+  add_exposure(command, options.exposure, "the picture");
+}
+
 void add_bake(CLI::App& app, BakeOptions& options) {
   CLI::App* command =
       app.add_subcommand("bake", "Bake the irradiance on a shape over its texture coordinates into an EXR light map");
+  add_scene(command, options.scene);
   add_pass_options(command, options, "SCENE.MESH");
   command->add_option("--mesh", options.mesh, "Name of the shape: a quad, or a mesh with texture coordinates")
       ->required();
@@ -236,6 +304,8 @@ int run(int argc, char** argv) {
       "Example: vpm render scenes/smoke.toml --time 20 renders for 20 seconds to smoke.exr and smoke.png.\n"
       "vpm help COMMAND tells the options of a command; scenes/README.md how scenes are written.");
   RenderOptions render;
+  ViewOptions view;
+  TonemapOptions tonemap;
   BakeOptions bake;
   CompareOptions compare;
   InfoOptions info;
@@ -245,6 +315,8 @@ int run(int argc, char** argv) {
   ValidateOptions validate;
   ExactOptions exact;
   add_render(app, render);
+  add_view(app, view);
+  add_tonemap(app, tonemap);
   add_bake(app, bake);
   add_compare(app, compare);
   add_info(app, info);
@@ -269,6 +341,8 @@ int run(int argc, char** argv) {
     return status == 0 ? 0 : kBadInput;
   }
   if (app.got_subcommand("render")) return render_command(render);
+  if (app.got_subcommand("view")) return view_command(view);
+  if (app.got_subcommand("tonemap")) return tonemap_command(tonemap);
   if (app.got_subcommand("bake")) return bake_command(bake);
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("info")) return info_command(info);

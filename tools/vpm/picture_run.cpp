@@ -1,17 +1,15 @@
-// vpm render: scene file in, picture and report out.
+// One render from a job to its files.
+#include "picture_run.h"
+
 #include <fmt/format.h>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
-#include "commands.h"
 #include "error_log.h"
-#include "pass_run.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/file_lock.h"
-#include "vpm/base/parallel.h"
-#include "vpm/input/scene_file.h"
 #include "vpm/job/checkpoint.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
@@ -51,38 +49,53 @@ std::unique_ptr<FileLock> lock_checkpoint(const RenderOptions& options, const st
   return lock;
 }
 
-std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outputs& outputs, const Film& film) {
+std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outputs& outputs, const Film& film,
+                                       const Camera& camera) {
   if (options.reference.empty()) return std::nullopt;
   if (std::error_code none; std::filesystem::equivalent(options.reference, outputs.exr, none))
     throw InputError(
         fmt::format("cannot write '{}': it is the reference; name another output with -o", outputs.exr.string()));
-  return ErrorLog(options.reference, outputs.errors, film);
+  return ErrorLog(options.reference, outputs.errors, film, camera);
+}
+
+void print_summary(const Outputs& outputs, const RenderJob& job, const RenderResult& result) {
+  const std::string error = error_text(job, result);
+  fmt::print("{}: {} in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), passes_text(result.film.passes()),
+             result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
 }
 
 }  // namespace
 
-int render_command(const RenderOptions& options) {
-  set_threads(options.threads);
-  const Outputs outputs = output_paths(options, std::filesystem::path(options.scene).stem().string());
+std::vector<std::string> overrides_of(const RenderOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (!options.layers.empty()) overrides.push_back("combined.layers=true");
-  RenderJob job = load_scene(options.scene, overrides, options.automatic ? LeftOut::automatic : LeftOut::usual);
+  if (const size_t x = options.size.find('x'); x != std::string::npos) {
+    overrides.push_back("film.width=" + options.size.substr(0, x));
+    overrides.push_back("film.height=" + options.size.substr(x + 1));
+  }
+  if (!options.crop.empty()) overrides.push_back(fmt::format("film.crop=[{}]", options.crop));
+  if (options.samples) overrides.push_back(fmt::format("render.samples_per_pixel={}", *options.samples));
+  return overrides;
+}
+
+int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job) {
   apply_options(options, job.settings);
   apply_limits(options, job.settings.until);
   const bool checkpoint = options.checkpoint || options.resume;
   const Camera& camera = job.scene.camera;
-  check_outputs(outputs, static_cast<uint64_t>(camera.width) * camera.height, checkpoint, job);
+  const PixelRect rendered = camera.rendered();
+  check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height(), checkpoint, job);
   const std::unique_ptr<FileLock> lock = lock_checkpoint(options, outputs.checkpoint);
   choose_all(options, outputs, job);
   const Identity identity = identity_of(job);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
-  std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film);
+  std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film, camera);
   if (begun.film.passes() == 0) {
     foresee(job);
     look_for_kernel_light(job);
   }
   begun.seconds += job.pilot_seconds;
-  print_notes(job);
+  if (!options.quiet) print_notes(job);
   if (const StopRule& until = job.settings.until; until.counts_passes() && begun.film.passes() >= until.passes)
     fmt::print(stderr, "note: the checkpoint has {} already, and none is added\n", passes_text(begun.film.passes()));
   const std::atomic<bool>& stop = stop_on_signals();
@@ -90,14 +103,13 @@ int render_command(const RenderOptions& options) {
     if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
     if (log) log->add(so_far);
   };
-  const RenderResult result = render(job.scene, job.settings, std::move(begun), {stop, options.progress, finished});
+  const ProgressMode progress = options.quiet ? ProgressMode::never : options.progress;
+  const RenderResult result = render(job.scene, job.settings, std::move(begun), {stop, progress, finished});
   if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
   print_warnings(warnings_of(job, result));
   if (log) log->finish(result);
   write_outputs(options, outputs, job, result);
-  const std::string error = error_text(job, result);
-  fmt::print("{}: {} in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), passes_text(result.film.passes()),
-             result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
+  if (!options.quiet) print_summary(outputs, job, result);
   return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;
 }
 

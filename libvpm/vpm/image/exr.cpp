@@ -39,12 +39,24 @@ constexpr int64_t kMostLinesAtOnce = 256;  // that a compression packs together
 
 /// Adds the three channels of `image` to a header and to the buffer that OpenEXR writes from.
 void add_channels(Imf::Header& header, Imf::FrameBuffer& buffer, const std::string& prefix, const Image& image) {
+  const Imath::V2i first = header.dataWindow().min;
+  const auto across = static_cast<intptr_t>(sizeof(Rgb)), down = across * image.width;
   for (int c = 0; c < 3; ++c) {
     const std::string name = prefix + "RGB"[c];
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    char* base = reinterpret_cast<char*>(const_cast<float*>(&image.pixels.data()[0][c]));  // only read
-    buffer.insert(name, Imf::Slice(Imf::FLOAT, base, sizeof(Rgb), sizeof(Rgb) * static_cast<size_t>(image.width)));
+    const auto pixels = reinterpret_cast<intptr_t>(&image.pixels.data()[0][c]);  // only read
+    auto* const origin = reinterpret_cast<char*>(pixels - first.x * across - first.y * down);
+    buffer.insert(name, Imf::Slice(Imf::FLOAT, origin, static_cast<size_t>(across), static_cast<size_t>(down)));
   }
+}
+
+/// A picture of the image's size, or what `part` says.
+Imf::Header header_of(const Image& image, const std::optional<ExrWindow>& part) {
+  const ExrWindow window = part.value_or(ExrWindow{{0, 0, image.width, image.height}, image.width, image.height});
+  const auto& [x0, y0, x1, y1] = window.data;
+  assert(window.data.width() == image.width && window.data.height() == image.height);
+  const Imath::Box2i display({0, 0}, {window.width - 1, window.height - 1}), data({x0, y0}, {x1 - 1, y1 - 1});
+  return {display, data};
 }
 
 /// Throws unless the pixels of `names` can be had in memory.
@@ -147,12 +159,12 @@ std::array<std::string, 3> colour_channels(const path& file, const Names& all) {
 }  // namespace
 
 void write_exr(const path& file, const Image& radiance, const std::vector<ExrLayer>& layers,
-               const std::vector<std::pair<std::string, std::string>>& metadata) {
+               const std::vector<std::pair<std::string, std::string>>& metadata, const std::optional<ExrWindow>& part) {
   assert(!radiance.pixels.empty());
   TemporaryFile temporary(file);
   std::ofstream out(temporary.path(), std::ios::binary);
   try {
-    Imf::Header header(radiance.width, radiance.height);
+    Imf::Header header = header_of(radiance, part);
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [key, value] : metadata) {
       assert(header.find(key) == header.end());

@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "vpm/image/crop.h"
 #include "vpm/image/image.h"
 
 namespace vpm {
@@ -17,11 +19,20 @@ struct ExrLayer {
   const Image* image;
 };
 
+/// Which part of a picture of width x height pixels a file holds.
+struct ExrWindow {
+  PixelRect data;
+  int width, height;
+};
+
 /// Writes the float channels R, G, B and those of the layers into one part, ZIP compressed (lossless), and each pair of
 /// `metadata` as a string attribute; the keys must be distinct and none of the format's own names. Equal arguments give
 /// equal bytes: no time stamp. The file appears whole or not at all; throws InputError where it cannot be written.
+/// Where the images are a part of a picture, `part` tells which: they are the file's data window, and the whole is its
+/// display window.
 void write_exr(const std::filesystem::path& path, const Image& radiance, const std::vector<ExrLayer>& layers,
-               const std::vector<std::pair<std::string, std::string>>& metadata);
+               const std::vector<std::pair<std::string, std::string>>& metadata,
+               const std::optional<ExrWindow>& part = {});
 
 /// Reads R, G, B of the first part's default layer; a file that has Y, or one channel of any name, instead is grey. The
 /// picture is the display window: black where the file has no pixels, without those the file has outside it. Non-finite

@@ -15,6 +15,20 @@ int small_integer(TableReader& table, const std::string& key, uint64_t hi, int f
   return static_cast<int>(table.integer(key, 1, hi, static_cast<uint64_t>(fallback)));
 }
 
+/// [x0, y0, x1, y1], ends excluded.
+std::optional<PixelRect> read_crop(TableReader& film, int width, int height) {
+  if (!film.has("crop")) return std::nullopt;
+  const std::vector<double> ends = film.numbers("crop", 4);
+  const auto whole = [](double end) { return std::floor(end) == end && std::abs(end) <= double{kLargestFilm}; };
+  const auto at = [&](size_t i) { return static_cast<int>(ends[i]); };
+  if (std::all_of(ends.begin(), ends.end(), whole)) {
+    const PixelRect crop{at(0), at(1), at(2), at(3)};
+    if (lies_in(crop, width, height)) return crop;
+  }
+  film.fail("crop", fmt::format("[film] crop is no part of the {} x {} pixels", width, height),
+            "four whole numbers: [x0, y0, x1, y1] from the upper left corner, without column x1 and row y1");
+}
+
 Filter read_filter(TableReader& film) {
   Filter filter;
   filter.kind = film.choice<FilterKind>(
@@ -155,13 +169,15 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
                 "give it an 'up' that points elsewhere");
   int width = 512, height = 512;
   Filter filter;
+  std::optional<PixelRect> crop;
   if (film) {
     width = small_integer(*film, "width", kLargestFilm, width);
     height = small_integer(*film, "height", kLargestFilm, height);
     filter = read_filter(*film);
+    crop = read_crop(*film, width, height);
     film->finish();
   }
-  return make_camera(position, target, up, fov, {width, height, filter});
+  return make_camera(position, target, up, fov, {width, height, filter, crop});
 }
 
 RenderSettings read_settings(TableReader& root, const SceneFacts& facts, AutomaticSettings& automatic) {

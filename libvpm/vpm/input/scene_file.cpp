@@ -183,15 +183,7 @@ void assemble_plan(ScenePlan& plan, RenderJob& job) {
   for (std::string& note : assembled.notes) job.notes.push_back(std::move(note));
 }
 
-}  // namespace
-
-RenderJob load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out) {
-  if (std::filesystem::path(path).extension() == ".vdb")
-    throw InputError(fmt::format(
-        "{}: this is a grid, not a scene: a scene file (.toml) names it in a medium, as scenes/smoke.toml does; "
-        "vpm info {} tells what it holds",
-        path, path));
-  Document document = read_toml(path);
+RenderJob load(Document document, const std::vector<std::string>& options, LeftOut left_out) {
   for (const std::string& option : options) apply_override(document, option);
   if (left_out == LeftOut::automatic)
     for (const std::string& option : left_to_choose(document)) apply_override(document, option);
@@ -206,9 +198,25 @@ RenderJob load_scene(const std::string& path, const std::vector<std::string>& op
   Fingerprint fingerprint = fingerprint_of(document, job.files);
   job.hash = std::move(fingerprint.hash);
   job.contents = std::move(fingerprint.contents);
-  job.source = path;
+  job.source = document.sources.front()->name;
   job.overrides = options;
   return job;
+}
+
+}  // namespace
+
+RenderJob load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out) {
+  if (std::filesystem::path(path).extension() == ".vdb")
+    throw InputError(fmt::format(
+        "{}: this is a grid, not a scene: a scene file (.toml) names it in a medium, as scenes/smoke.toml does; "
+        "vpm info {} tells what it holds",
+        path, path));
+  return load(read_toml(path), options, left_out);
+}
+
+RenderJob load_scene_text(const std::string& text, const std::string& name, const std::vector<std::string>& options,
+                          LeftOut left_out) {
+  return load(parse_toml(text, name), options, left_out);
 }
 
 }  // namespace vpm

@@ -18,5 +18,9 @@ enum class LeftOut { usual, automatic };
 /// current one. Throws InputError for anything that is not right, telling file:line:column, or the option.
 RenderJob load_scene(const std::string& path, const std::vector<std::string>& overrides = {},
                      LeftOut left_out = LeftOut::usual);
+/// Reads a text as the scene file of that name, whether or not there is such a file: its folder is where relative paths
+/// start from.
+RenderJob load_scene_text(const std::string& text, const std::string& name,
+                          const std::vector<std::string>& overrides = {}, LeftOut left_out = LeftOut::usual);
 
 }  // namespace vpm

@@ -68,10 +68,12 @@ std::vector<std::string> split_lines(const std::string& text) {
 
 }  // namespace
 
-Document read_toml(const std::string& path) {
+Document read_toml(const std::string& path) { return parse_toml(read_whole_file(path), path); }
+
+Document parse_toml(std::string text, const std::string& name) {
   Document document;
-  document.text = read_whole_file(path);
-  document.sources.push_back(std::make_unique<Source>(Source{path, split_lines(document.text)}));
+  document.text = std::move(text);
+  document.sources.push_back(std::make_unique<Source>(Source{name, split_lines(document.text)}));
   const Source* source = document.sources.front().get();
   check_toml(document.text, source);
   try {

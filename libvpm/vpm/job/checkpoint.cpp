@@ -181,7 +181,7 @@ RenderResult take_result(NamedFields fields) {
   RenderResult result{
       take_film(fields, "film"), {}, fields.take<double>("seconds"), fields.take_all<PixelDisc>("discs")};
   const size_t pixels = static_cast<size_t>(result.film.width()) * static_cast<size_t>(result.film.height());
-  if (!result.discs.empty() && result.discs.size() != pixels)
+  if (!result.discs.empty() && result.discs.size() < pixels)  // there are more where the film is a crop
     throw FieldError(fmt::format("its field 'discs' has {} numbers for {} pixels", result.discs.size(), pixels));
   result.layers = take_layers(fields, result.film);
   for_each_counter(
@@ -204,9 +204,11 @@ Identity checkpoint_identity(const std::filesystem::path& path) {
 uint64_t checkpoint_bytes(const RenderJob& job) {
   const bool discs = job.settings.radii == RadiusSchedule::per_pixel && scattering_of(job.scene).surfaces;
   const Camera& camera = job.scene.camera;
-  const uint64_t pixels = static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height);
+  const auto count = [](int width, int height) { return static_cast<uint64_t>(width) * static_cast<uint64_t>(height); };
+  const PixelRect rendered = camera.rendered();
   const uint64_t layers = layer_names(job.settings).size() * Film::kBytesOfPlainPixel;
-  return pixels * (Film::kBytesOfPixel + layers + (discs ? sizeof(PixelDisc) : 0));
+  return count(rendered.width(), rendered.height()) * (Film::kBytesOfPixel + layers) +
+         (discs ? count(camera.width, camera.height) * sizeof(PixelDisc) : 0);
 }
 
 void write_checkpoint(const std::filesystem::path& path, const Identity& identity, const RenderResult& result) {

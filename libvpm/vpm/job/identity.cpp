@@ -49,7 +49,10 @@ Identity identity_of(const RenderJob& job) {
   for (const auto& [name, value] : job.contents) identity.emplace_back(as_name(name), one_line(value));
   if (job.contents.empty()) {
     identity.emplace_back("scene", job.hash);
-    identity.emplace_back("film", fmt::format("{} x {}", job.scene.camera.width, job.scene.camera.height));
+    const Camera& camera = job.scene.camera;
+    const auto& [x0, y0, x1, y1] = camera.rendered();
+    identity.emplace_back("film", fmt::format("{} x {}", camera.width, camera.height));
+    identity.emplace_back("crop", fmt::format("{} {} {} {}", x0, y0, x1, y1));
   }
   identity.emplace_back("render.seed", std::to_string(job.settings.seed));
   for (const Field& field : estimate_fields(job.settings)) identity.emplace_back(field.key, value_of(field));

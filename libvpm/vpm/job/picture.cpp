@@ -70,7 +70,8 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
   if (errors && result.film.shows_bias()) layers.push_back({"bias", &errors->bias});
   const Layers parts = layers_of(job.settings, result);
   for (size_t i = 0; i < parts.names.size(); ++i) layers.push_back({parts.names[i], &parts.images[i]});
-  write_exr(path, result.film.mean(), layers, metadata);
+  const Camera& camera = job.scene.camera;
+  write_exr(path, result.film.mean(), layers, metadata, ExrWindow{camera.rendered(), camera.width, camera.height});
 }
 
 Image light_map_of(const UvLayout& layout, const RenderResult& result) {

@@ -60,13 +60,25 @@ class ProgressNote {
 void check_size(const RenderResult& result, const Camera& camera, size_t layers) {
   const Film& film = result.film;
   const size_t pixels = static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
-  if (film.width() != camera.width || film.height() != camera.height ||
-      (!result.discs.empty() && result.discs.size() != pixels))
-    throw InputError(fmt::format("what is rendered so far has {} x {} pixels, but the camera {} x {}", film.width(),
-                                 film.height(), camera.width, camera.height));
+  const PixelRect rendered = camera.rendered();
+  if (film.width() != rendered.width() || film.height() != rendered.height())
+    throw InputError(fmt::format("what is rendered so far has {} x {} pixels, but the camera renders {} x {}",
+                                 film.width(), film.height(), rendered.width(), rendered.height()));
+  if (!result.discs.empty() && result.discs.size() != pixels)
+    throw InputError(
+        fmt::format("what is rendered so far has {} discs, but the camera {} pixels", result.discs.size(), pixels));
   if (film.passes() > 0 && result.layers.size() != layers)
     throw InputError(fmt::format("what is rendered so far has {} layers, but the settings ask for {}",
                                  result.layers.size(), layers));
+}
+
+/// The pictures of a pass, cut to the camera's crop.
+Pass cut(Pass pass, const Camera& camera) {
+  if (!camera.crop) return pass;
+  pass.image = cropped(pass.image, *camera.crop);
+  if (!pass.correction.pixels.empty()) pass.correction = cropped(pass.correction, *camera.crop);
+  for (Image& layer : pass.layers) layer = cropped(layer, *camera.crop);
+  return pass;
 }
 
 /// Adds the next pass.
@@ -85,7 +97,10 @@ void add(RenderResult& result, const Pass& pass) {
 
 std::string passes_text(int passes) { return passes == 1 ? "1 pass" : fmt::format("{} passes", passes); }
 
-RenderResult nothing_rendered(const Camera& camera) { return {Film(camera.width, camera.height), {}, 0.0, {}}; }
+RenderResult nothing_rendered(const Camera& camera) {
+  const PixelRect rendered = camera.rendered();
+  return {Film(rendered.width(), rendered.height()), {}, 0.0, {}};
+}
 
 std::optional<FilmErrors> errors_of(const RenderResult& result) {
   if (result.errors || result.film.passes() < 2) return result.errors;
@@ -106,7 +121,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
                     const RunControl& control) {
   validate(settings, facts_of(scene));
   check_size(result, scene.camera, layer_names(settings).size());
-  const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
+  const auto whole = [&](const RenderResult& so_far, const PassProgress& shown) {
     const int pass = so_far.film.next_pass();
     switch (settings.integrator) {
       case Integrator::path:
@@ -117,6 +132,9 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
         return render_photon_pass_after(so_far.discs, scene, settings, {pass, control.stop, shown});
     }
     __builtin_unreachable();
+  };
+  const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
+    return cut(whole(so_far, shown), scene.camera);
   };
   return run_passes(settings.until, {make, tile_count(scene.camera)}, std::move(result), control);
 }

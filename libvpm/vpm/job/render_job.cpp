@@ -13,6 +13,12 @@
 namespace vpm {
 namespace {
 
+/// The share of the film's pixels that are rendered.
+double share_rendered(const Camera& camera) {
+  const PixelRect rendered = camera.rendered();
+  return double(rendered.width()) * rendered.height() / (double(camera.width) * camera.height);
+}
+
 /// What was chosen, and how to have it again.
 void note_choices(RenderJob& job) {
   if (job.choices.empty()) return;
@@ -57,7 +63,8 @@ void foresee(RenderJob& job) {
   const Stopwatch looking;
   check_memory(job.scene, job.settings, PassOf::picture, physical_memory());
   if (const double seconds = job.settings.until.seconds; seconds > 0.0) {
-    const PassCost cost = time_pass(job.scene, job.settings, std::min(0.1 * seconds, 1.0));
+    PassCost cost = time_pass(job.scene, job.settings, std::min(0.1 * seconds, 1.0));
+    cost.eye *= share_rendered(job.scene.camera);
     if (std::string text = too_long_text(cost, job.settings); !text.empty()) job.notes.push_back(std::move(text));
   }
   job.pilot_seconds += looking.seconds();

@@ -35,6 +35,13 @@ class PixelBlock {
   size_t size_ = 0;
 };
 
+/// The tiles that meet the pixels which are rendered, counted as pixels are.
+PixelRect tiles_of(const Camera& camera) {
+  const PixelRect pixels = camera.rendered();
+  const auto end = [](int pixel) { return (pixel + kTile - 1) / kTile; };
+  return {pixels.x0 / kTile, pixels.y0 / kTile, end(pixels.x1), end(pixels.y1)};
+}
+
 /// What the rays of a tile share.
 struct TileWork {
   EyeCounters& counters;
@@ -75,7 +82,8 @@ void render_block(const Scene& scene, const RenderSettings& settings, const Radi
 }  // namespace
 
 uint64_t tile_count(const Camera& camera) {
-  return chunk_count(static_cast<size_t>(camera.width), kTile) * chunk_count(static_cast<size_t>(camera.height), kTile);
+  const PixelRect tiles = tiles_of(camera);
+  return static_cast<uint64_t>(tiles.width()) * static_cast<uint64_t>(tiles.height());
 }
 
 Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
@@ -84,13 +92,15 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
   const Camera& camera = scene.camera;
   Pass result(camera.width, camera.height);
   result.statistics.passes = 1;
-  const int tiles_x = static_cast<int>(chunk_count(static_cast<size_t>(camera.width), kTile));
+  const PixelRect tiled = tiles_of(camera);
   const uint64_t tiles = tile_count(camera);
   std::vector<EyeCounters> counters(tiles);
   Progress bar("image", tiles, progress.stages);
   parallel_for_chunks(tiles, 1, [&](size_t tile, size_t, size_t) {
     if (stop) return;
-    const int x0 = static_cast<int>(tile % tiles_x) * kTile, y0 = static_cast<int>(tile / tiles_x) * kTile;
+    const auto across = static_cast<size_t>(tiled.width());
+    const int x0 = (tiled.x0 + static_cast<int>(tile % across)) * kTile;
+    const int y0 = (tiled.y0 + static_cast<int>(tile / across)) * kTile;
     TileWork work{counters[tile], {}};
     const glm::ivec2 end = glm::min(glm::ivec2(x0, y0) + kTile, glm::ivec2(camera.width, camera.height));
     for (int y = y0; y < end.y; y += kBlockEdge)

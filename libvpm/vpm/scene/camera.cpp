@@ -30,7 +30,7 @@ double Camera::film_per_angle(const Vec3& towards) const {
 }
 
 Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, const FilmFormat& film) {
-  const auto& [width, height, filter] = film;
+  const auto& [width, height, filter, crop] = film;
   if (!is_finite(position) || !is_finite(target) || !is_finite(up))
     throw InputError("camera: a coordinate is not finite");
   if (!(fov > 0.0f && fov < 180.0f)) {
@@ -40,6 +40,7 @@ Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, flo
     throw InputError(
         fmt::format("camera: the film has {} x {} pixels, each side must have 1 to {}", width, height, kLargestFilm));
   }
+  if (crop && !lies_in(*crop, width, height)) throw InputError("camera: the crop is empty, or not inside the film");
   if (!(filter.radius > 0.0f) || std::isinf(filter.radius))
     throw InputError("camera: the filter's radius must be positive");
   const Vec3d ahead = Vec3d(target) - Vec3d(position);
@@ -58,6 +59,7 @@ Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, flo
   camera.width = width;
   camera.height = height;
   camera.filter = filter;
+  camera.crop = crop;
   return camera;
 }
 

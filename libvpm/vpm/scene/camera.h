@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "vpm/base/vec.h"
+#include "vpm/image/crop.h"
 
 namespace vpm {
 
@@ -28,6 +29,7 @@ inline constexpr int kLargestFilm = 32768;
 struct FilmFormat {
   int width = 256, height = 256;  // pixels, 1 to kLargestFilm
   Filter filter{};
+  std::optional<PixelRect> crop{};  // the pixels to render; nothing: all
 };
 
 struct Camera {
@@ -36,7 +38,10 @@ struct Camera {
   float tan_half_fov = 0.5f;      // of the full vertical angle; pixels are square
   int width = 256, height = 256;  // pixels
   Filter filter;
+  std::optional<PixelRect> crop{};  // the pixels to render, some of them; nothing: all
 
+  /// The pixels that are rendered.
+  PixelRect rendered() const { return crop.value_or(PixelRect{0, 0, width, height}); }
   /// The ray through film coordinates in pixels: (0, 0) is the image's upper left corner, (width, height) the lower
   /// right.
   Ray ray(const Vec2& film) const;
@@ -48,7 +53,8 @@ struct Camera {
 };
 
 /// A camera at `position` (m) that looks at `target`. `fov` is the full vertical angle in degrees, in (0, 180). Throws
-/// InputError where these define no camera, for a film of no such size, and for a filter without width.
+/// InputError where these define no camera, for a film of no such size, for a crop that is empty or not inside, and for
+/// a filter without width.
 Camera make_camera(const Vec3& position, const Vec3& target, const Vec3& up, float fov, const FilmFormat& film);
 
 }  // namespace vpm

@@ -124,6 +124,8 @@ void check_camera(const SceneParts& parts) {
   const PartName part{PartKind::camera};
   if (!is_finite(camera.position)) throw PartError(part, "its position must be finite");
   if (camera.width < 1 || camera.height < 1) throw PartError(part, "its film must have a pixel at least");
+  if (!lies_in(camera.rendered(), camera.width, camera.height))
+    throw PartError(part, "its crop must have a pixel, and lie inside the film");
   if (!(camera.tan_half_fov > 0.0f && std::isfinite(camera.tan_half_fov)))
     throw PartError(part, "its field of view must lie between 0 and 180 degrees");
   if (!(camera.filter.radius > 0.0f && std::isfinite(camera.filter.radius)))

@@ -69,6 +69,8 @@ std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::str
                                       const std::vector<std::string>& settings, const std::string& purpose) {
   try {
     auto entrant = std::make_unique<Entrant>(Entrant{load_scene(scene.file, joined(scene.settings, settings)), ""});
+    if (entrant->loaded.scene.camera.crop)
+      throw InputError("whole pictures are compared; leave out film.crop, and make the film smaller");
     entrant->identity = fmt::format("vpm {}; scene {}; {}; {}", version(), entrant->loaded.hash,
                                     settings_text(entrant->loaded), purpose);
     return entrant;

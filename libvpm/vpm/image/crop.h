@@ -1,0 +1,28 @@
+// Parts of pictures.
+#pragma once
+
+#include <cassert>
+
+#include "vpm/image/image.h"
+
+namespace vpm {
+
+/// A rectangle of pixels, counted from the upper left corner, without the column x1 and the row y1.
+struct PixelRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool operator==(const PixelRect&) const = default;
+};
+
+/// Has it a pixel, and all of its pixels in a picture of that size?
+constexpr bool lies_in(const PixelRect& rect, int width, int height) {
+  return 0 <= rect.x0 && rect.x0 < rect.x1 && rect.x1 <= width && 0 <= rect.y0 && rect.y0 < rect.y1 &&
+         rect.y1 <= height;
+}
+
+/// That part, which lies in the image.
+Image cropped(const Image& image, const PixelRect& rect);
+
+}  // namespace vpm

@@ -1,0 +1,262 @@
+// The grid, what of it is dense, and a stage around that.
+#include "vpm/input/view_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "vpm/base/error.h"
+
+namespace vpm {
+namespace {
+
+bool is_level_set(const GridSummary& grid) { return grid.grid_class == "level set"; }
+bool holds_numbers(const GridSummary& grid) {
+  return grid.value_type.starts_with("float") || grid.value_type.starts_with("double");
+}
+bool holds_values(const GridSummary& grid) { return holds_numbers(grid) && grid.active_voxels > 0; }
+
+/// "density (float, fog volume), Cd (vec3s, unknown)".
+std::string list_of(const std::vector<GridSummary>& grids) {
+  std::vector<std::string> names;
+  for (const GridSummary& grid : grids)
+    names.push_back(fmt::format("{} ({}, {}{})", grid.name.empty() ? "(unnamed)" : grid.name, grid.value_type,
+                                grid.grid_class, grid.active_voxels > 0 ? "" : ", no active voxels"));
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// What of a grid is dense, told by its densities on a lattice.
+struct DensePart {
+  Box box;             // m
+  double depth = 0.0;  // the integral of the density across, 1/m of extinction at density 1 times m
+};
+
+/// The columns are those along `across`, an axis of the world. The depth is that below which nine tenths of the columns
+/// stay which meet something dense.
+DensePart dense_part(const DensityGrid& grid, int across) {
+  constexpr int kLattice = 128;  // points along an edge
+  constexpr double kDense = 0.01;
+  constexpr double kShare = 0.9;
+  const Box bounds = grid.bounds();
+  const Vec3d step = (Vec3d(bounds.hi) - Vec3d(bounds.lo)) / double{kLattice};
+  std::vector<float> densities(size_t{kLattice} * kLattice * kLattice);
+  const auto at = [](const Vec3i& p) { return (static_cast<size_t>(p.z) * kLattice + p.y) * kLattice + p.x; };
+  const auto visit = [](auto&& each) {
+    for (int z = 0; z < kLattice; ++z)
+      for (int y = 0; y < kLattice; ++y)
+        for (int x = 0; x < kLattice; ++x) each(Vec3i(x, y, z));
+  };
+  visit([&](const Vec3i& p) { densities[at(p)] = grid.density(Vec3(Vec3d(bounds.lo) + (Vec3d(p) + 0.5) * step)); });
+  const double dense = kDense * *std::max_element(densities.begin(), densities.end());
+  Vec3i lo(kLattice), hi(-1);
+  std::vector<double> columns(size_t{kLattice} * kLattice);
+  visit([&](const Vec3i& p) {
+    const double density = densities[at(p)];
+    if (density <= dense) return;
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+    columns[static_cast<size_t>(p[(across + 1) % 3] * kLattice + p[(across + 2) % 3])] += density * step[across];
+  });
+  std::erase(columns, 0.0);
+  if (columns.empty()) return {};
+  const auto high = columns.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(columns.size()));
+  std::nth_element(columns.begin(), high, columns.end());
+  DensePart part;
+  part.box = {Vec3(Vec3d(bounds.lo) + Vec3d(lo) * step), Vec3(Vec3d(bounds.lo) + Vec3d(hi + 1) * step)};
+  part.depth = *high;
+  return part;
+}
+
+/// Axes of the picture in the world.
+struct Axes {
+  Vec3d right, up, ahead;  // unit
+};
+Axes axes_of(UpAxis up) {
+  if (up == UpAxis::y) return {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  return {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+}
+
+/// Where things stand, m.
+struct Stage {
+  Vec3d target, camera, floor, lamp;
+  double floor_radius, lamp_angle;  // half of the cone's, degrees
+  double lamp_distance;
+};
+
+constexpr double kFov = 35.0;  // degrees
+
+/// The distance from which all corners of a box are seen, in a frame with some air.
+double distance_to_see(const Box& box, const Vec3d& middle, const Vec3d& towards_camera, const Axes& axes) {
+  constexpr double kFilled = 0.85;  // of the frame
+  const Vec3d right = glm::normalize(glm::cross(axes.up, towards_camera)), up = glm::cross(towards_camera, right);
+  const double slope = kFilled * std::tan(glm::radians(0.5 * kFov));
+  double distance = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d p =
+        Vec3d(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z) -
+        middle;
+    const double off = std::max(std::abs(glm::dot(p, right)), std::abs(glm::dot(p, up)));
+    distance = std::max(distance, glm::dot(p, towards_camera) + off / slope);
+  }
+  return distance;
+}
+
+Stage stage_for(const Box& box, UpAxis up) {
+  const Axes axes = axes_of(up);
+  const Vec3d lo(box.lo), hi(box.hi), middle = 0.5 * (lo + hi);
+  const double radius = 0.5 * glm::length(hi - lo), height = glm::dot(hi - lo, axes.up);
+  const Vec3d towards_camera = glm::normalize(0.2 * axes.right + 0.22 * axes.up - axes.ahead);
+  const Vec3d towards_lamp = glm::normalize(-1.0 * axes.right + 1.1 * axes.up + 0.35 * axes.ahead);
+  Stage stage{};
+  stage.target = middle;
+  stage.camera = middle + distance_to_see(box, middle, towards_camera, axes) * towards_camera;
+  stage.floor = middle - 0.52 * height * axes.up;
+  stage.floor_radius = 3.0 * radius;
+  stage.lamp_distance = 3.5 * radius;
+  stage.lamp = middle + stage.lamp_distance * towards_lamp;
+  stage.lamp_angle = glm::degrees(std::asin(1.15 * radius / stage.lamp_distance));
+  return stage;
+}
+
+std::string toml_vector(const Vec3d& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z); }
+std::string toml_string(const std::string& s) {
+  std::string out = "\"";
+  for (const char c : s) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  return out + '"';
+}
+
+/// What is read of the grid.
+struct ShownGrid {
+  std::string path_in_scene, name;
+  bool from_level_set, clamp_negative;
+};
+
+std::string scene_text(const ShownGrid& grid, double sigma_t, const ViewWishes& wishes, const Stage& stage) {
+  const Vec3d up = axes_of(wishes.up).up;
+  const double irradiance = 10.0;  // W/m^2, of the lamp in the middle
+  const Vec3d intensity = irradiance * stage.lamp_distance * stage.lamp_distance * Vec3d(1.0, 0.8, 0.55);
+  std::string keys;
+  if (!grid.name.empty()) keys += fmt::format("grid = {}\n", toml_string(grid.name));
+  if (grid.from_level_set) keys += "from_level_set = true  # a fog of density 1 inside\n";
+  if (grid.clamp_negative) keys += "clamp_negative = true  # negative densities are read as 0\n";
+  return fmt::format(
+      R"(# A grid of {path}, as vpm view shows it: a medium over a round floor, lit by a warm spot and a dim sky. What is
+# "auto" is chosen by vpm render after a short pilot.
+
+[camera]
+position = {camera}
+target = {target}
+up = {up}
+fov = {fov}
+
+[film]
+width = 512
+height = 512
+filter = "gaussian"
+
+[media.medium]
+type = "grid"
+path = {path}
+{keys}sigma_t = {sigma_t:.4g}  # 1/m at density 1: an optical depth of about {depth:g} across
+albedo = [0.96, 0.95, 0.94]
+phase = {{ type = "henyey-greenstein", g = 0.3 }}
+
+[materials.floor]
+type = "lambertian"
+reflectance = [0.32, 0.30, 0.28]
+
+[[shapes]]
+name = "floor"
+type = "disc"
+material = "floor"
+center = {floor}
+normal = {up}
+radius = {floor_radius:.6g}
+
+[[lights]]
+name = "lamp"
+type = "spot"
+position = {lamp}
+target = {target}
+inner_angle = {inner:.4g}  # degrees from the axis: all of the medium is lit
+outer_angle = {outer:.4g}
+intensity = {intensity}  # W/sr
+
+[[lights]]
+name = "sky"
+type = "environment"
+radiance = [0.045, 0.065, 0.11]  # W/(m^2 sr)
+
+[render]
+integrator = "auto"
+seconds = 20
+
+[distance]
+strategy = "auto"
+
+[photons]
+emitted = "auto"
+
+[volume]
+radius = "auto"
+
+[surface]
+radius = "auto"
+)",
+      fmt::arg("path", toml_string(grid.path_in_scene)), fmt::arg("camera", toml_vector(stage.camera)),
+      fmt::arg("target", toml_vector(stage.target)), fmt::arg("up", toml_vector(up)), fmt::arg("fov", kFov),
+      fmt::arg("keys", keys), fmt::arg("sigma_t", sigma_t), fmt::arg("depth", wishes.optical_depth),
+      fmt::arg("floor", toml_vector(stage.floor)), fmt::arg("floor_radius", stage.floor_radius),
+      fmt::arg("lamp", toml_vector(stage.lamp)), fmt::arg("inner", stage.lamp_angle),
+      fmt::arg("outer", 1.25 * stage.lamp_angle), fmt::arg("intensity", toml_vector(intensity)));
+}
+
+}  // namespace
+
+std::string grid_to_show(const std::string& path, const std::vector<GridSummary>& grids, const std::string& wish) {
+  const auto named = [&](const std::string& name) {
+    return std::find_if(grids.begin(), grids.end(), [&](const GridSummary& grid) { return grid.name == name; });
+  };
+  if (!wish.empty()) {
+    if (named(wish) == grids.end())
+      throw InputError(fmt::format("{}: there is no grid '{}'; there are: {}", path, wish, list_of(grids)));
+    return wish;
+  }
+  if (const auto density = named("density"); density != grids.end() && holds_values(*density)) return "density";
+  std::vector<std::string> names;
+  for (const GridSummary& grid : grids)
+    if (holds_values(grid)) names.push_back(grid.name);
+  if (names.size() == 1) return names[0];
+  if (names.empty())
+    throw InputError(
+        fmt::format("{}: no grid can be a density, which is of float or double and has active voxels; "
+                    "there are: {}",
+                    path, list_of(grids)));
+  throw InputError(fmt::format("{}: several grids could be meant; name one with --grid, as --grid '{}': {}", path,
+                               names[0], list_of(grids)));
+}
+
+ViewScene make_view_scene(const std::string& path, const std::string& path_in_scene, const ViewWishes& wishes) {
+  const std::vector<GridSummary> grids = list_grids(path);
+  const std::string name = grid_to_show(path, grids, wishes.grid);
+  const GridSummary& summary =
+      *std::find_if(grids.begin(), grids.end(), [&](const GridSummary& grid) { return grid.name == name; });
+  const bool level_set = is_level_set(summary);
+  const bool negative = !level_set && summary.values && summary.values->min < 0.0;
+  const LoadedGrid loaded =
+      load_grid({.path = path, .name = name, .from_level_set = level_set, .clamp_negative = negative});
+  const DensePart part = dense_part(*loaded.grid, wishes.up == UpAxis::y ? 2 : 1);
+  if (part.depth == 0.0) throw InputError(fmt::format("{}: the grid '{}' is 0 everywhere", path, name));
+  const double sigma_t = wishes.optical_depth / part.depth;
+  ViewScene scene;
+  scene.text = scene_text({path_in_scene, name, level_set, negative}, sigma_t, wishes, stage_for(part.box, wishes.up));
+  scene.notes.push_back(
+      fmt::format("grid '{}'{}: sigma_t {:.4g} 1/m at density 1, an optical depth of {:g} across (--optical-depth)",
+                  name, level_set ? ", a level set, as a fog of density 1 inside" : "", sigma_t, wishes.optical_depth));
+  return scene;
+}
+
+}  // namespace vpm

@@ -1,0 +1,38 @@
+// A scene around a grid of which nothing is known but its file: what `vpm view` shows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vpm/input/grid_file.h"
+
+namespace vpm {
+
+/// The axis of the world that is up in a grid's file.
+enum class UpAxis { y, z };
+
+/// What a user says of the view.
+struct ViewWishes {
+  std::string grid{};          // its name; empty: the one that can be meant
+  double optical_depth = 5.0;  // across the medium, > 0
+  UpAxis up = UpAxis::y;
+};
+
+/// A scene file's text and what a user should know of how it came about.
+struct ViewScene {
+  std::string text;
+  std::vector<std::string> notes;
+};
+
+/// The name of the grid that is to be shown: that of `wish`; or of the grids of numbers the only one, or the one named
+/// "density". Throws InputError, listing the grids, where none or several could be meant.
+std::string grid_to_show(const std::string& path, const std::vector<GridSummary>& grids, const std::string& wish);
+
+/// Makes a commented scene file that shows a grid of `path`, which is written into it as `path_in_scene`: seen from a
+/// little above, over a round floor, lit by a spot and a dim sky, all sized by the part of the grid where densities are
+/// not small, with an extinction such that the thickest columns across have the wished optical depth. A level set
+/// becomes a fog; negative densities are read as 0, and counted. Throws InputError as grid_to_show() and load_grid(),
+/// and for a grid that is 0 everywhere.
+ViewScene make_view_scene(const std::string& path, const std::string& path_in_scene, const ViewWishes& wishes);
+
+}  // namespace vpm

@@ -1,0 +1,114 @@
+// The scene around a grid: which grid is meant, its extinction, and that all of it is seen.
+#include "vpm/input/view_scene.h"
+
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include "input/grid_folder.h"
+#include "vpm/base/error.h"
+#include "vpm/input/scene_file.h"
+
+namespace vpm {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A cube of such voxels, each a tenth of a metre wide, with a margin of zeros around it.
+openvdb::FloatGrid::Ptr cube_grid(const std::string& name, int voxels, int margin, float density = 1.0f) {
+  auto grid = openvdb::FloatGrid::create(0.0f);
+  grid->setName(name);
+  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
+  auto accessor = grid->getAccessor();
+  const openvdb::Coord end(voxels - 1 + margin);
+  for (const openvdb::Coord& c : openvdb::CoordBBox(openvdb::Coord(-margin), end)) accessor.setValueOn(c, 0.0f);
+  for (const openvdb::Coord& c : openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(voxels - 1)))
+    accessor.setValueOn(c, density);
+  return grid;
+}
+
+class ViewOfGrid : public GridFile {
+ protected:
+  ViewScene view(const ViewWishes& wishes = {}) const { return make_view_scene(path_, path_, wishes); }
+  RenderJob job_of(const ViewWishes& wishes = {}) const { return load_scene_text(view(wishes).text, "view.toml"); }
+  std::string refusal_of(const ViewWishes& wishes = {}) const {
+    try {
+      view(wishes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "(accepted)";
+  }
+};
+
+TEST_F(ViewOfGrid, HasTheOpticalDepthAcrossThatIsWished) {
+  write({cube_grid("density", 32, 8, 0.25f)});
+  for (const double depth : {5.0, 0.5}) {
+    const Medium& medium = job_of({.optical_depth = depth}).scene.media.at(0);
+    const double across = 32 * 0.1;
+    EXPECT_NEAR(medium.sigma_t.g * 0.25 * across, depth, 0.03 * depth);  // as columns are told by a lattice
+  }
+}
+
+/// Whatever is 0 around what is dense, and whichever axis is up, the corners of that are in the frame and near its
+/// edge; and the floor lies below.
+TEST_F(ViewOfGrid, ShowsAllThatIsDenseAndNotMuchMore) {
+  for (const int margin : {0, 40}) {
+    write({cube_grid("density", 20, margin)});
+    for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
+      const Camera camera = job_of({.up = up}).scene.camera;
+      float widest = 0.0f;
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p(corner & 1 ? 2.0f : 0.0f, corner & 2 ? 2.0f : 0.0f, corner & 4 ? 2.0f : 0.0f);
+        const std::optional<Vec2> film = camera.film_of(glm::normalize(p - camera.position));
+        ASSERT_TRUE(film);
+        for (const int axis : {0, 1}) widest = std::max(widest, std::abs((*film)[axis] / 256.0f - 1.0f));
+      }
+      EXPECT_LT(widest, 0.95f);
+      EXPECT_GT(widest, 0.7f);
+    }
+  }
+}
+
+TEST_F(ViewOfGrid, TakesTheDensityOfSeveralGridsAndTheOnlyOneOfAnyName) {
+  const auto temperature = cube_grid("temperature", 8, 0, 300.0f);
+  write({temperature, cube_grid("density", 8, 0)});
+  EXPECT_TRUE(contains(view().text, "grid = \"density\""));
+  EXPECT_TRUE(contains(view({.grid = "temperature"}).text, "grid = \"temperature\""));
+  write({cube_grid("smoke", 8, 0)});
+  EXPECT_TRUE(contains(view().text, "grid = \"smoke\""));
+  write({cube_grid("", 8, 0)});
+  EXPECT_EQ(job_of().scene.media.size(), 1u);
+}
+
+TEST_F(ViewOfGrid, RefusesWhereSeveralGridsOrNoneCouldBeMeant) {
+  write({cube_grid("smoke", 8, 0), cube_grid("dust", 8, 0)});
+  EXPECT_TRUE(contains(refusal_of(), "several grids could be meant; name one with --grid"));
+  EXPECT_TRUE(contains(refusal_of(), "smoke (float, fog volume), dust (float, fog volume)"));
+  EXPECT_TRUE(contains(refusal_of({.grid = "fog"}), "there is no grid 'fog'; there are: smoke"));
+  auto vectors = openvdb::Vec3SGrid::create();
+  vectors->setName("Cd");
+  write({vectors});
+  EXPECT_TRUE(contains(refusal_of(), "no grid can be a density"));
+  write({cube_grid("density", 8, 0, 0.0f)});
+  EXPECT_TRUE(contains(refusal_of(), "0 everywhere"));
+}
+
+TEST_F(ViewOfGrid, ReadsNegativeNoiseAsNothingAndSaysSo) {
+  auto grid = cube_grid("density", 16, 2);
+  grid->getAccessor().setValueOn(openvdb::Coord(-2), -0.01f);
+  write({grid});
+  EXPECT_TRUE(contains(view().text, "clamp_negative = true"));
+  EXPECT_EQ(job_of().clamped_density_values, 1u);
+}
+
+TEST_F(ViewOfGrid, MakesAFogOfALevelSet) {
+  auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, openvdb::Vec3f(0.0f), 0.05f);
+  sphere->setName("ball");
+  write({sphere});
+  EXPECT_TRUE(contains(view().notes.at(0), "a level set, as a fog of density 1 inside"));
+  const RenderJob job = job_of();
+  EXPECT_FLOAT_EQ(job.scene.media.at(0).grid->density(Vec3(0.0f)), 1.0f);
+}
+
+}  // namespace
+}  // namespace vpm

@@ -1,0 +1,128 @@
+// A grid to a picture in one command, and the options that change what a picture is of.
+#include "tools/plume.h"
+#include "vpm/image/crop.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/png.h"
+
+namespace vpm {
+namespace {
+
+class VpmCrop : public VpmRender, public ::testing::WithParamInterface<const char*> {};
+
+/// The crop begins and ends within tiles.
+TEST_P(VpmCrop, HasTheBitsOfThatPartOfTheWhole) {
+  const std::vector<std::string> settings{"--set", "render.integrator=" + std::string(GetParam()), "--set",
+                                          "render.samples_per_pixel=2"};
+  const auto render = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "scene.toml", "-o", name + ".exr", "--passes", "3"};
+    arguments.insert(arguments.end(), settings.begin(), settings.end());
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    vpm_succeeds(arguments);
+  };
+  render("whole", {});
+  render("part", {"--crop", "13,5,37,20"});
+  ExrChannels whole = read_exr_channels(path("whole.exr"));
+  const ExrChannels part = read_exr_channels(path("part.exr"));
+  ASSERT_EQ(part.width, 40);
+  ASSERT_EQ(part.height, 24);
+  double sum = 0.0;
+  for (const auto& [name, plane] : part.planes) {
+    for (size_t i = 0; i < plane.size(); ++i) {
+      const size_t x = i % 40, y = i / 40;
+      const bool inside = x >= 13 && x < 37 && y >= 5 && y < 20;
+      ASSERT_EQ(plane[i], inside ? whole.planes.at(name)[i] : 0.0f) << name << " at " << x << ", " << y;
+      sum += double{plane[i]};
+    }
+  }
+  EXPECT_GT(sum, 0.0);
+  const Image preview = read_png(path("part.png"), PngValues::srgb);
+  EXPECT_EQ(preview.width, 24);
+  EXPECT_EQ(preview.height, 15);
+}
+INSTANTIATE_TEST_SUITE_P(Integrators, VpmCrop, ::testing::Values("photon", "combined", "path"),
+                         [](const auto& of) { return std::string(of.param); });
+
+/// Pixels with radii of their own do not notice, nor does a render that goes on.
+TEST_F(VpmRender, ACropWithRadiiPerPixelGoesOn) {
+  const std::vector<std::string> common{"--set", "render.radii=per-pixel", "--set", "surface.direct=photons"};
+  const auto render = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", "scene.toml"});
+    arguments.insert(arguments.end(), common.begin(), common.end());
+    vpm_succeeds(arguments);
+    return read_exr(path(arguments[3]));
+  };
+  const Image whole = render({"-o", "whole.exr", "--passes", "4"});
+  render({"-o", "part.exr", "--passes", "2", "--crop", "5,9,30,21", "--checkpoint"});
+  const Image part = render({"-o", "part.exr", "--passes", "4", "--crop", "5,9,30,21", "--resume"});
+  const PixelRect crop{5, 9, 30, 21};
+  EXPECT_TRUE(same_pixels(cropped(part, crop), cropped(whole, crop)));
+  vpm_refuses({"render", "scene.toml", "-o", "part.exr", "--passes", "6", "--crop", "5,9,30,22", "--resume", "--set",
+               "render.radii=per-pixel", "--set", "surface.direct=photons"},
+              {"film.crop"});
+}
+
+TEST_F(VpmRender, ErrorsOfACropAreLoggedAgainstThatPartOfTheReference) {
+  vpm_succeeds({"render", "scene.toml", "-o", "truth.exr", "--passes", "4"});
+  vpm_succeeds(
+      {"render", "scene.toml", "-o", "part.exr", "--passes", "4", "--crop", "5,9,30,21", "--reference", "truth.exr"});
+  const std::string log = read("part.errors.csv");
+  EXPECT_NE(log.find("\n4,"), std::string::npos) << log;
+}
+
+TEST_F(VpmRender, SizeAndSamplesAreThoseOfTheOptions) {
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--size", "31x17", "--spp", "3", "--passes", "1"});
+  const Image picture = read_exr(path("a.exr"));
+  EXPECT_EQ(picture.width, 31);
+  EXPECT_EQ(picture.height, 17);
+  EXPECT_EQ(report("a.json")["eye"]["camera_rays"], 31 * 17 * 3);
+}
+
+TEST_F(VpmRender, QuietSaysNothing) {
+  const ProcessResult result =
+      vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--quiet", "--auto", "--progress", "always"});
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(VpmRender, RefusesSizesAndCropsThatAreNone) {
+  for (const char* size : {"640", "640x", "0x480", "640x480x2", "axb"})
+    vpm_refuses({"render", "scene.toml", "--size", size}, {"--size", "no size in pixels such as 640x480"});
+  for (const char* crop : {"0,0,1", "-1,0,3,3", "0,0,1.5,2"})
+    vpm_refuses({"render", "scene.toml", "--crop", crop}, {"--crop", "no part of a picture"});
+  for (const char* crop : {"0,0,41,24", "7,3,7,9", "9,3,8,9"})
+    vpm_refuses({"render", "scene.toml", "--crop", crop}, {"film.crop", "no part of the 40 x 24 pixels"});
+  vpm_refuses({"render", "scene.toml", "--spp", "0"}, {"--spp"});
+}
+
+TEST_F(VpmRender, TonemapWritesThePreview) {
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--exposure", "1.5"});
+  vpm_succeeds({"tonemap", "a.exr", "b.png", "--exposure", "1.5"});
+  EXPECT_TRUE(read("a.png") == read("b.png"));
+  vpm_succeeds({"render", "scene.toml", "-o", "a.exr"});
+  vpm_succeeds({"tonemap", "a.exr", "b.png"});
+  EXPECT_TRUE(read("a.png") == read("b.png"));
+  vpm_refuses({"tonemap", "a.exr", "b.jpg"}, {"b.jpg", "must end in .png"});
+  vpm_refuses({"tonemap", "none.exr", "b.png"}, {"none.exr", "no such file"});
+}
+
+TEST_F(VpmRender, ViewShowsAGridAndWritesItsScene) {
+  vpm_succeeds({"view", "smoke.vdb", "-o", "a.exr", "--size", "48x48", "--passes", "2", "--scene", "made.toml"});
+  const Image picture = read_exr(path("a.exr"));
+  EXPECT_EQ(picture.width, 48);
+  EXPECT_GT(sum(picture), 0.0);
+  const ProcessResult again = vpm_succeeds({"info", "made.toml"});
+  EXPECT_NE(again.out.find("medium medium: grid"), std::string::npos) << again.out;
+  vpm_succeeds({"view", "smoke.vdb", "--size", "48x48", "--passes", "1", "--quiet"});
+  EXPECT_TRUE(std::filesystem::exists(path("smoke.exr")));
+}
+
+TEST_F(VpmRender, ViewRefusesWhatIsNoGrid) {
+  vpm_refuses({"view", "scene.toml"}, {"scene.toml"});
+  vpm_refuses({"view", "none.vdb"}, {"none.vdb"});
+  vpm_refuses({"view", "smoke.vdb", "--optical-depth", "0"}, {"--optical-depth"});
+  vpm_refuses({"view", "smoke.vdb", "--grid", "heat"}, {"no grid 'heat'", "density"});
+  vpm_refuses({"view", "smoke.vdb", "--scene", "made.txt"}, {"must end in .toml"});
+}
+
+}  // namespace
+}  // namespace vpm
