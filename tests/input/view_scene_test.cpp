@@ -101,6 +101,16 @@ TEST_F(ViewOfGrid, ReadsNegativeNoiseAsNothingAndSaysSo) {
   EXPECT_EQ(job_of().clamped_density_values, 1u);
 }
 
+TEST_F(ViewOfGrid, EndsABackgroundAtTheBoxOfTheVoxels) {
+  auto grid = openvdb::FloatGrid::create(2.0f);
+  grid->setName("density");
+  grid->fill(openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(15)), 1.0f);
+  write({grid});
+  const RenderJob job = job_of();
+  EXPECT_EQ(job.scene.shapes.size(), 2u);  // the floor, and the box
+  EXPECT_EQ(job.scene.media.at(0).grid->density(Vec3(7.0f)), 1.0f);
+}
+
 TEST_F(ViewOfGrid, MakesAFogOfALevelSet) {
   auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, openvdb::Vec3f(0.0f), 0.05f);
   sphere->setName("ball");

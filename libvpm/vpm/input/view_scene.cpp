@@ -132,7 +132,17 @@ std::string toml_string(const std::string& s) {
 struct ShownGrid {
   std::string path_in_scene, name;
   bool from_level_set, clamp_negative;
+  std::optional<Box> bounds;  // m, where it has a background that would fill all space
 };
+
+/// A shape that ends a medium with a background.
+std::string bounds_text(const std::optional<Box>& bounds) {
+  if (!bounds) return "";
+  return fmt::format(
+      "[[shapes]]\nname = \"bounds\"  # the box of the grid's voxels: its background would fill all space\ntype = "
+      "\"box\"\nmaterial = {{ type = \"boundary\" }}\nmin = {}\nmax = {}\ninside = \"medium\"\n\n",
+      toml_vector(Vec3d(bounds->lo)), toml_vector(Vec3d(bounds->hi)));
+}
 
 std::string scene_text(const ShownGrid& grid, double sigma_t, const ViewWishes& wishes, const Stage& stage) {
   const Vec3d up = axes_of(wishes.up).up;
@@ -176,7 +186,7 @@ center = {floor}
 normal = {up}
 radius = {floor_radius:.6g}
 
-[[lights]]
+{bounds}[[lights]]
 name = "lamp"
 type = "spot"
 position = {lamp}
@@ -210,8 +220,9 @@ radius = "auto"
       fmt::arg("target", toml_vector(stage.target)), fmt::arg("up", toml_vector(up)), fmt::arg("fov", kFov),
       fmt::arg("keys", keys), fmt::arg("sigma_t", sigma_t), fmt::arg("depth", wishes.optical_depth),
       fmt::arg("floor", toml_vector(stage.floor)), fmt::arg("floor_radius", stage.floor_radius),
-      fmt::arg("lamp", toml_vector(stage.lamp)), fmt::arg("inner", stage.lamp_angle),
-      fmt::arg("outer", 1.25 * stage.lamp_angle), fmt::arg("intensity", toml_vector(intensity)));
+      fmt::arg("bounds", bounds_text(grid.bounds)), fmt::arg("lamp", toml_vector(stage.lamp)),
+      fmt::arg("inner", stage.lamp_angle), fmt::arg("outer", 1.25 * stage.lamp_angle),
+      fmt::arg("intensity", toml_vector(intensity)));
 }
 
 }  // namespace
@@ -246,13 +257,19 @@ ViewScene make_view_scene(const std::string& path, const std::string& path_in_sc
       *std::find_if(grids.begin(), grids.end(), [&](const GridSummary& grid) { return grid.name == name; });
   const bool level_set = is_level_set(summary);
   const bool negative = !level_set && summary.values && summary.values->min < 0.0;
-  const LoadedGrid loaded =
-      load_grid({.path = path, .name = name, .from_level_set = level_set, .clamp_negative = negative});
+  const bool filled = !level_set && summary.background && *summary.background != 0.0;
+  const LoadedGrid loaded = load_grid({.path = path,
+                                       .name = name,
+                                       .from_level_set = level_set,
+                                       .clamp_negative = negative,
+                                       .has_bounding_shape = filled});
   const DensePart part = dense_part(*loaded.grid, wishes.up == UpAxis::y ? 2 : 1);
   if (part.depth == 0.0) throw InputError(fmt::format("{}: the grid '{}' is 0 everywhere", path, name));
   const double sigma_t = wishes.optical_depth / part.depth;
   ViewScene scene;
-  scene.text = scene_text({path_in_scene, name, level_set, negative}, sigma_t, wishes, stage_for(part.box, wishes.up));
+  const std::optional<Box> bounds = filled ? std::optional(summary.world_box) : std::nullopt;
+  scene.text =
+      scene_text({path_in_scene, name, level_set, negative, bounds}, sigma_t, wishes, stage_for(part.box, wishes.up));
   scene.notes.push_back(
       fmt::format("grid '{}'{}: sigma_t {:.4g} 1/m at density 1, an optical depth of {:g} across (--optical-depth)",
                   name, level_set ? ", a level set, as a fog of density 1 inside" : "", sigma_t, wishes.optical_depth));
