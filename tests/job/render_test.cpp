@@ -7,6 +7,7 @@
 
 #include "vpm/base/progress.h"
 #include "vpm/image/exr.h"
+#include "vpm/job/identity.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/render_job.h"
@@ -51,6 +52,17 @@ TEST(Render, StopsByCountTimeAndSignal) {
   const RenderResult timed = render_until(job, {.seconds = 0.3});
   EXPECT_GT(timed.film.passes(), 3);
   EXPECT_LT(timed.seconds, 2.0);
+}
+
+TEST(Render, ACropTellsAJobFromAnother) {
+  const RenderJob whole = lit_floor();
+  RenderJob part = lit_floor();
+  EXPECT_EQ(identity_of(part), identity_of(whole));
+  part.scene.camera.crop = PixelRect{2, 3, 7, 9};
+  EXPECT_NE(identity_of(part), identity_of(whole));
+  const RenderResult result = render(part.scene, part.settings, nothing_rendered(part.scene.camera));
+  EXPECT_EQ(result.film.width(), 5);
+  EXPECT_EQ(result.film.height(), 6);
 }
 
 TEST(Render, TellsThatAnErrorIsNotReached) {
