@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tev_display.h"
 #include "vpm/base/progress.h"
 #include "vpm/input/view_scene.h"
 
@@ -22,7 +23,14 @@ struct PassOptions {
   ProgressMode progress = ProgressMode::automatic;
 };
 
+/// How a run can be watched.
+struct WatchOptions {
+  std::optional<TevAddress> display;  // of a viewer that shows the picture after each pass
+  std::optional<double> preview;      // s, > 0: after so long the files are written again, after the next pass
+};
+
 struct RenderOptions : PassOptions {
+  WatchOptions watch;
   std::optional<double> seconds;
   std::optional<double> error;  // relative MSE to stop at
   std::string reference;        // .exr: the truth, against which errors are logged; empty: none

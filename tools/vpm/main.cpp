@@ -117,6 +117,17 @@ CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std
   return command->add_option("--passes", options.passes, "Passes to average")->check(whole_number(1, 1'000'000'000));
 }
 
+void add_watch_options(CLI::App* command, WatchOptions& options) {
+  command->add_option_function<std::string>(
+      "--display", [&options](const std::string& text) { options.display = tev_address(text); },
+      "Show the picture after each pass in the viewer tev: tev, or tev:HOST:PORT where it does not listen as usual");
+  command
+      ->add_option("--preview", options.preview,
+                   "Write picture, preview and report after the first pass already, and again after the passes that "
+                   "end this many seconds or more after the last time")
+      ->check(check_seconds);
+}
+
 void add_scene(CLI::App* command, std::string& scene) {
   command->add_option("scene", scene, "Scene file (.toml)")->required();
 }
@@ -139,6 +150,7 @@ void add_picture_options(CLI::App* command, RenderOptions& options, const std::s
                    "Render these pixels only, x0,y0,x1,y1 from the upper left, ends excluded: the same bits as in the "
                    "whole picture")
       ->check(check_crop);
+  add_watch_options(command, options.watch);
   command->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "error_log.h"
+#include "run_watch.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/file_lock.h"
@@ -58,6 +59,19 @@ std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outpu
   return ErrorLog(options.reference, outputs.errors, film, camera);
 }
 
+/// Tells what a user should know before the first pass. What that took is part of the render's time.
+void look_ahead(const RenderOptions& options, RenderJob& job, RenderResult& begun) {
+  if (begun.film.passes() == 0) {
+    foresee(job);
+    look_for_kernel_light(job);
+  }
+  begun.seconds += job.pilot_seconds;
+  if (options.quiet) return;
+  print_notes(job);
+  if (const StopRule& until = job.settings.until; until.counts_passes() && begun.film.passes() >= until.passes)
+    fmt::print(stderr, "note: the checkpoint has {} already, and none is added\n", passes_text(begun.film.passes()));
+}
+
 void print_summary(const Outputs& outputs, const RenderJob& job, const RenderResult& result) {
   const std::string error = error_text(job, result);
   fmt::print("{}: {} in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), passes_text(result.film.passes()),
@@ -84,30 +98,28 @@ int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJ
   const bool checkpoint = options.checkpoint || options.resume;
   const Camera& camera = job.scene.camera;
   const PixelRect rendered = camera.rendered();
-  check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height(), checkpoint, job);
+  const int copies = options.watch.preview ? 2 : 1;  // a picture, and while it is rewritten its successor
+  check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height() * copies, checkpoint, job);
   const std::unique_ptr<FileLock> lock = lock_checkpoint(options, outputs.checkpoint);
+  const std::atomic<bool>& stop = stop_on_signals();
   choose_all(options, outputs, job);
   const Identity identity = identity_of(job);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
   std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film, camera);
-  if (begun.film.passes() == 0) {
-    foresee(job);
-    look_for_kernel_light(job);
-  }
-  begun.seconds += job.pilot_seconds;
-  if (!options.quiet) print_notes(job);
-  if (const StopRule& until = job.settings.until; until.counts_passes() && begun.film.passes() >= until.passes)
-    fmt::print(stderr, "note: the checkpoint has {} already, and none is added\n", passes_text(begun.film.passes()));
-  const std::atomic<bool>& stop = stop_on_signals();
+  look_ahead(options, job, begun);
+  const ProgressMode progress = options.quiet ? ProgressMode::never : options.progress;
+  RunWatch watch(options.watch, progress, outputs.exr.string(), begun.film,
+                 [&](const RenderResult& so_far) { write_outputs(options, outputs, job, so_far); });
   const auto finished = [&](const RenderResult& so_far) {
     if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
     if (log) log->add(so_far);
+    watch.finished(so_far);
   };
-  const ProgressMode progress = options.quiet ? ProgressMode::never : options.progress;
   const RenderResult result = render(job.scene, job.settings, std::move(begun), {stop, progress, finished});
   if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
   print_warnings(warnings_of(job, result));
   if (log) log->finish(result);
+  watch.finish(result);
   write_outputs(options, outputs, job, result);
   if (!options.quiet) print_summary(outputs, job, result);
   return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;

@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kRewritten = 2.0;  // s, after which better pictures are written, unless --preview says
+
 /// The scene, and the name under which it is read: that of the file that is written, where one is.
 struct MadeScene {
   ViewScene scene;
@@ -54,7 +56,9 @@ int view_command(const ViewOptions& options) {
   const PixelRect rendered = job.scene.camera.rendered();
   check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height(), false, job);
   show_first_picture(options, outputs, job);
-  return render_picture(options, outputs, std::move(job));
+  RenderOptions watched = options;
+  if (!watched.watch.preview) watched.watch.preview = kRewritten;
+  return render_picture(watched, outputs, std::move(job));
 }
 
 }  // namespace vpm::tools
