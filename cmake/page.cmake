@@ -1,26 +1,29 @@
-# Writes page_template.cpp: page.html of a folder, with the files of that folder that it names, and Chart.js, in it.
-# cmake -D FOLDER= -D CHART= -D OUTPUT= -P page.cmake
-file(READ "${FOLDER}/page.html" page)
-string(REGEX MATCHALL "@[a-z_]+[.](css|js)@" places "${page}")
-foreach(place IN LISTS places)
-  string(REPLACE "@" "" name "${place}")
-  if(name STREQUAL "chart.js")
-    file(READ "${CHART}" text)
-  else()
-    file(READ "${FOLDER}/${name}" text)
+# Writes a function that returns a page: an HTML file with the styles and scripts that it names as @name.css@ and
+# @name.js@ in it. These are FILES.
+# cmake -D PAGE=page.html -D "FILES=a.js;..." -D FUNCTION= -D OUTPUT=page.cpp -P page.cmake
+file(READ "${PAGE}" page)
+foreach(path IN LISTS FILES)
+  get_filename_component(name "${path}" NAME)
+  file(READ "${path}" text)
+  string(FIND "${page}" "@${name}@" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "${PAGE} has no place for ${name}")
   endif()
-  string(REPLACE "${place}" "${text}" page "${page}")
+  string(REPLACE "@${name}@" "${text}" page "${page}")
 endforeach()
+if(page MATCHES "@[a-z_.]+[.](css|js)@")
+  message(FATAL_ERROR "${PAGE} names ${CMAKE_MATCH_0}, which is not listed")
+endif()
 set(delimiter "vpm_page")
 if(page MATCHES "[)]${delimiter}\"")
   message(FATAL_ERROR "the page has the end of the string in it that it becomes")
 endif()
-file(WRITE "${OUTPUT}" "// ${FOLDER} and Chart.js. Written by cmake/page.cmake.
-#include \"compare/page_template.h\"
+file(WRITE "${OUTPUT}" "// ${PAGE} and what it names. Written by cmake/page.cmake.
+#include \"page/templates.h\"
 
 namespace vpm::tools {
 
-std::string_view page_template() {
+std::string_view ${FUNCTION}() {
   return R\"${delimiter}(${page})${delimiter}\";
 }
 

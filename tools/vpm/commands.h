@@ -102,6 +102,13 @@ struct ErrorOptions {
 /// Prints how far pictures are from a reference; of a series also how fast that falls with passes.
 int error_command(const ErrorOptions& options);
 
+struct ReportOptions {
+  std::string report;  // .json, as render_command() writes it beside its image
+  std::string output;  // .html; empty: the report's name
+};
+/// Writes a page of a render: its report and the picture beside that, to be looked at in a browser.
+int report_command(const ReportOptions& options);
+
 struct MediaOptions {
   std::string name;      // of a generator; empty: list them
   int resolution = 128;  // voxels along the longest edge

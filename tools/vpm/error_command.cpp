@@ -64,13 +64,9 @@ bool share_noise(const Origin& one, const Origin& other) {
 /// The picture of a file with what it tells of its noise.
 NoisyImage read_picture(const std::string& path, const ExrChannels& file) {
   NoisyImage picture{read_exr(path), {}, {}};
-  Image variance(file.width, file.height);
-  for (int c = 0; c < 3; ++c) {
-    const auto plane = file.planes.find(std::string("variance.") + "RGB"[c]);
-    if (plane == file.planes.end()) return picture;
-    for (size_t i = 0; i < variance.pixels.size(); ++i) variance.pixels[i][c] = plane->second[i];
-  }
-  if (const size_t broken = non_finite_pixels(variance); broken > 0) {
+  std::optional<Image> variance = layer_of(file, "variance");
+  if (!variance) return picture;
+  if (const size_t broken = non_finite_pixels(*variance); broken > 0) {
     fmt::print(stderr, "warning: {}: {} of its variances are not finite, so that none of them is used\n", path, broken);
     return picture;
   }

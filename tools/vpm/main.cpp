@@ -245,6 +245,13 @@ void add_error(CLI::App& app, ErrorOptions& options) {
   command->add_flag("--json", options.json, "Print JSON");
 }
 
+void add_report(CLI::App& app, ReportOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("report", "Make one page of a render: picture, errors, times, energy, settings");
+  command->add_option("report", options.report, "JSON report that vpm render wrote beside its image")->required();
+  command->add_option("-o,--output", options.output, "Page to write (.html); default: the report's name");
+}
+
 void add_media(CLI::App& app, MediaOptions& options) {
   CLI::App* command = app.add_subcommand("media", "Make one of vpm's own density grids; without a name: list them");
   command->add_option("name", options.name, "Which one");
@@ -322,6 +329,7 @@ int run(int argc, char** argv) {
   CompareOptions compare;
   InfoOptions info;
   ErrorOptions error;
+  ReportOptions report;
   MediaOptions media;
   MeshOptions mesh;
   ValidateOptions validate;
@@ -333,6 +341,7 @@ int run(int argc, char** argv) {
   add_compare(app, compare);
   add_info(app, info);
   add_error(app, error);
+  add_report(app, report);
   add_media(app, media);
   add_mesh(app, mesh);
   add_validate(app, validate);
@@ -359,6 +368,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("info")) return info_command(info);
   if (app.got_subcommand("error")) return error_command(error);
+  if (app.got_subcommand("report")) return report_command(report);
   if (app.got_subcommand("mesh")) return mesh_command(mesh);
   if (app.got_subcommand("validate")) return validate_command(validate);
   if (app.got_subcommand("exact")) return exact_command(exact);

@@ -206,4 +206,14 @@ ExrChannels read_exr_channels(const path& file) {
   return read_channels(file, [](const Names& all) { return all; });
 }
 
+std::optional<Image> layer_of(const ExrChannels& file, const std::string& name) {
+  Image image(file.width, file.height);
+  for (int c = 0; c < 3; ++c) {
+    const auto plane = file.planes.find((name.empty() ? "" : name + ".") + "RGB"[c]);
+    if (plane == file.planes.end()) return std::nullopt;
+    for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i][c] = plane->second[i];
+  }
+  return image;
+}
+
 }  // namespace vpm

@@ -50,4 +50,8 @@ struct ExrChannels {
 /// Throws as read_exr does.
 ExrChannels read_exr_channels(const std::filesystem::path& path);
 
+/// A layer as a picture: the channels name.R, name.G and name.B, or R, G and B where the name is empty. Nothing where
+/// the file lacks one of them.
+std::optional<Image> layer_of(const ExrChannels& file, const std::string& name);
+
 }  // namespace vpm

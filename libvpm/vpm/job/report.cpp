@@ -10,6 +10,7 @@
 #include "vpm/base/version.h"
 #include "vpm/estimate/pass_map.h"
 #include "vpm/job/found_by_techniques.h"
+#include "vpm/job/messages.h"
 #include "vpm/job/setting.h"
 #include "vpm/job/stage_lines.h"
 #include "vpm/render/plan.h"
@@ -71,6 +72,14 @@ Json json_of(const SettingValue& value) {
 Json settings(const RenderSettings& s) {
   Json all = Json::object();
   for (const Field& field : estimate_fields(s)) all[field.key] = json_of(field.value);
+  return all;
+}
+
+/// What the render chose, as --set takes it, and why.
+Json chosen(const RenderJob& job) {
+  Json all = Json::array();
+  for (const Choice& choice : job.choices)
+    all.push_back({{"key", choice.key}, {"value", choice.value}, {"reason", choice.reason}});
   return all;
 }
 
@@ -208,6 +217,8 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
           {"passes", s.passes},
           {"settings", settings(job.settings)},
           {"stages", stage_lines(job.scene, job.settings, shown)},
+          {"overrides", job.overrides},
+          {"chosen", chosen(job)},
           {"notes", job.notes},
           {"clamped_density_values", job.clamped_density_values},
           {"times", section({{"unit", "s, wall clock"}, {"total", result.seconds}}, counts["times"])},
@@ -222,6 +233,7 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
 
 std::string render_report(const RenderJob& job, const std::string& image, const RenderResult& result) {
   Json report = report_of(job, image, "radiance, W/(m^2 sr)", scattering_of(job.scene), result);
+  report["warnings"] = warnings_of(job, result);
   report["error"] = errors(job, result);
   report["light_of_kernels_alone"] = kernel_light(job);
   report["techniques"] = techniques(job, result);
@@ -233,6 +245,7 @@ std::string render_report(const RenderJob& job, const std::string& image, const 
 std::string light_map_report(const RenderJob& job, const std::string& image, const std::string& mesh,
                              const UvLayout& layout, const RenderResult& result) {
   Json report = report_of(job, image, "irradiance, W/m^2", {.surfaces = true}, result);
+  report["warnings"] = warnings_of_light_map(job, result);
   report["texels"] = texels(counted(result.statistics)["eye"]);
   report["light_map"] = {{"mesh", mesh},
                          {"covered_texels", layout.covered_texels()},

@@ -5,8 +5,6 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 
-#include "vpm/job/setting.h"
-
 namespace vpm {
 namespace {
 
@@ -35,19 +33,6 @@ std::string text_of_domain(const Integers& domain) {
 }
 std::string text_of_domain(const Numbers& domain) { return text_of(domain.range); }
 
-std::string values_of(const Setting& setting) {
-  std::string text = std::visit([](const auto& domain) { return text_of_domain(domain); }, setting.domain);
-  if (!setting.unit.empty()) text += fmt::format(" {}", setting.unit);
-  return setting.automatic ? text + ", or " + word(kAuto) : text;
-}
-
-std::string usual_of(const Setting& setting) {
-  if (!setting.default_text.empty()) return std::string(setting.default_text);
-  const std::string text = text_of(setting.member.get({}));
-  if (std::holds_alternative<Words>(setting.domain)) return word(text);
-  return std::holds_alternative<Flags>(setting.domain) ? "`" + text + "`" : text;
-}
-
 std::vector<Row> rows() {
   std::vector<Row> all;
   for (const Setting& setting : all_settings()) {
@@ -62,6 +47,19 @@ std::vector<Row> rows() {
 }
 
 }  // namespace
+
+std::string values_of(const Setting& setting) {
+  std::string text = std::visit([](const auto& domain) { return text_of_domain(domain); }, setting.domain);
+  if (!setting.unit.empty()) text += fmt::format(" {}", setting.unit);
+  return setting.automatic ? text + ", or " + word(kAuto) : text;
+}
+
+std::string usual_of(const Setting& setting) {
+  if (!setting.default_text.empty()) return std::string(setting.default_text);
+  const std::string text = text_of(setting.member.get({}));
+  if (std::holds_alternative<Words>(setting.domain)) return word(text);
+  return std::holds_alternative<Flags>(setting.domain) ? "`" + text + "`" : text;
+}
 
 std::string settings_table() {
   std::string table = "| section | key | meaning | values | default |\n| --- | --- | --- | --- | --- |\n";

@@ -30,18 +30,6 @@ void make_folder(const fs::path& folder) {
   if (error) throw InputError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
 }
 
-/// One of the layers of three channels, R, G and B after `prefix`; nothing where the file has it not.
-std::optional<Image> layer(const ExrChannels& file, const std::string& prefix) {
-  Image image(file.width, file.height);
-  constexpr const char* kChannels[] = {"R", "G", "B"};
-  for (int c = 0; c < 3; ++c) {
-    const auto plane = file.planes.find(prefix + kChannels[c]);
-    if (plane == file.planes.end()) return std::nullopt;
-    for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i][c] = plane->second[i];
-  }
-  return image;
-}
-
 /// How the layer of what a technique finds is called, as in pictures of `vpm render`.
 std::string name_of_part(const FoundByTechnique& technique) {
   return fmt::format("combined.{}.weighted", technique.name);
@@ -110,7 +98,7 @@ std::vector<Image> Store::parts(const std::string& identity, size_t budget) cons
   const fs::path path = file("runs", identity, fmt::format(".{}.exr", budget));
   const ExrChannels channels = read_exr_channels(path);
   for (const FoundByTechnique& technique : all) {
-    std::optional<Image> part = layer(channels, name_of_part(technique) + ".");
+    std::optional<Image> part = layer_of(channels, name_of_part(technique));
     if (!part)
       throw InputError(fmt::format("{}: the run is damaged: there is no layer {}; remove its .json, and it is repeated",
                                    path.string(), name_of_part(technique)));
@@ -155,7 +143,7 @@ void Store::add_reference(const std::string& identity, const Reference& referenc
 Reference read_reference(const fs::path& path) {
   const ExrChannels file = read_exr_channels(path);
   Reference reference{read_exr(path), Image(file.width, file.height)};
-  if (std::optional<Image> variance = layer(file, "variance."))
+  if (std::optional<Image> variance = layer_of(file, "variance"))
     reference.variance = std::move(*variance);
   else
     reference.doubt = "the reference does not tell its own noise";

@@ -1,8 +1,6 @@
 // The page put together: each scene's plot, tables and pictures, and the texts behind them.
 'use strict';
 
-const find = id => document.getElementById(id);
-
 function provenance() {
   const {machine} = results;
   return [

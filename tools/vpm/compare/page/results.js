@@ -3,7 +3,6 @@
 
 const kFamilyWise = 0.05;  // rate of pairs wrongly called different
 
-const read = id => JSON.parse(document.getElementById(id).textContent);
 const results = read('results');
 const about = read('about');
 

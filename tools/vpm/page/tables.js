@@ -1,14 +1,6 @@
 // Tables whose rows are sorted by a click on a column's head.
 'use strict';
 
-/** An element with attributes and children, which are elements or text. */
-function element(tag, attributes = {}, ...children) {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children);
-  return made;
-}
-
 /** Numbers by size, words by the alphabet, what is not known last. */
 function compareKeys(a, b, direction) {
   if (a === null || b === null) return (a === null) - (b === null);
@@ -58,16 +50,3 @@ function intervalCell(bounded) {
   const [, value, brackets = '', power = ''] = interval(bounded).match(/^(.*?)( \[.*\])?(\u202f.*)?$/);
   return element('span', {}, value, element('span', {class: 'brackets'}, brackets), power);
 }
-
-/** A list of terms and what they are. */
-function fillFacts(list, facts) {
-  for (const [term, text] of facts) list.append(element('div', {}, element('dt', {}, term), element('dd', {}, text)));
-}
-
-function fillSelect(select, names, chosen = 0) {
-  names.forEach((name, i) => select.append(new Option(name, i, i === chosen, i === chosen)));
-}
-
-/** A text that opens on demand. */
-const foldedText = (title, text) =>
-    element('details', {}, element('summary', {}, title), element('pre', {tabindex: '0'}, text));

@@ -18,7 +18,7 @@ function decoded({exponent, halves}) {
   return values;
 }
 
-/** The pictures of a scene, decoded when they are first looked at. */
+/** Pictures of one size, decoded when they are first looked at. */
 class Pictures {
   constructor({width, height, pictures}, names) {
     Object.assign(this, {width, height, encoded: pictures, names});
@@ -38,11 +38,14 @@ const channelMeans = values => [0, 1, 2].map(c => {
   return 3 * sum / values.length;
 });
 
-/** Differences A - B of a pixel's channels over sqrt(B^2 + 0.01 mean(B)^2): their mean square is the relative MSE. */
-function relativeDifferences(values, others, means, at, differences) {
+/**
+ * What is `off` at a pixel's channels, over sqrt(B^2 + 0.01 mean(B)^2) of another picture: of differences A - B the
+ * mean square is the relative MSE.
+ */
+function relativeTo(others, means, off, at, d) {
   for (let c = 0; c < 3; ++c) {
-    const off = values[at + c] - others[at + c];
-    differences[c] = off === 0 ? 0 : off / Math.sqrt(others[at + c] ** 2 + 0.01 * means[c] ** 2);
+    const x = off(at + c);
+    d[c] = x === 0 ? 0 : x / Math.sqrt(others[at + c] ** 2 + 0.01 * means[c] ** 2);
   }
 }
 
@@ -50,10 +53,10 @@ const rootMeanSquare = d => Math.sqrt((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) 
 
 /** Relative MSE of a picture against another; the noise of both counts. */
 function relativeError(values, others) {
-  const means = channelMeans(others), d = [0, 0, 0];
+  const means = channelMeans(others), d = [0, 0, 0], off = i => values[i] - others[i];
   let sum = 0;
   for (let at = 0; at < values.length; at += 3) {
-    relativeDifferences(values, others, means, at, d);
+    relativeTo(others, means, off, at, d);
     sum += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
   }
   return sum / values.length;
@@ -108,16 +111,30 @@ const kPainters = {
       return Number.isFinite(values[at] + values[at + 1] + values[at + 2]);
     };
   },
-  relative: (pictures, {picture, against, full}) =>
-      differencePainter(pictures, picture, against, d => heat(heatPlace(rootMeanSquare(d), full))),
-  signed: (pictures, {picture, against, full}) =>
-      differencePainter(pictures, picture, against, d => signed((d[0] + d[1] + d[2]) / 3 / full)),
+  relative: (pictures, layer) => errorPainter(pictures, layer, differenceOf(pictures, layer), heatOf(layer)),
+  signed: (pictures, layer) => errorPainter(pictures, layer, differenceOf(pictures, layer), signOf(layer)),
+  // Pictures that are errors of `against` themselves.
+  error: (pictures, layer) => errorPainter(pictures, layer, valueOf(pictures, layer), heatOf(layer)),
+  bias: (pictures, layer) => errorPainter(pictures, layer, valueOf(pictures, layer), signOf(layer)),
 };
 
-function differencePainter(pictures, picture, against, colourOf) {
-  const values = pictures.of(picture), others = pictures.of(against), means = channelMeans(others), d = [0, 0, 0];
+const heatOf = ({full}) => d => heat(heatPlace(rootMeanSquare(d), full));
+const signOf = ({full}) => d => signed((d[0] + d[1] + d[2]) / 3 / full);
+
+function differenceOf(pictures, {picture, against}) {
+  const values = pictures.of(picture), others = pictures.of(against);
+  return i => values[i] - others[i];
+}
+
+function valueOf(pictures, {picture}) {
+  const values = pictures.of(picture);
+  return i => values[i];
+}
+
+function errorPainter(pictures, {against}, off, colourOf) {
+  const others = pictures.of(against), means = channelMeans(others), d = [0, 0, 0];
   return (at, colour) => {
-    relativeDifferences(values, others, means, at, d);
+    relativeTo(others, means, off, at, d);
     const known = Number.isFinite(d[0] + d[1] + d[2]);
     if (known) [colour[0], colour[1], colour[2]] = colourOf(d);
     return known;

@@ -1,0 +1,20 @@
+// Data in pages: JSON in the places that a template has for it, pictures as text.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "json.h"
+#include "vpm/image/image.h"
+
+namespace vpm::tools {
+
+/// A picture as half floats, 8 bytes of text to a pixel: what to_half() makes of it, its halves with the lower byte
+/// first and as base64.
+Json picture_json(const Image& image);
+
+/// The page up to a place, which must be there, and JSON instead of that; what is returned, and the place, are taken
+/// off `rest`.
+std::string up_to(std::string_view& rest, std::string_view place, const std::string& json);
+
+}  // namespace vpm::tools

@@ -1,0 +1,110 @@
+// Pictures are reduced to what a page can hold; what else is shown is the report itself.
+#include "report/page_data.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "page/embedded.h"
+#include "page/templates.h"
+#include "report/shown_settings.h"
+#include "vpm/base/error.h"
+#include "vpm/estimate/combined/technique.h"
+
+namespace vpm::tools {
+namespace {
+
+/// A picture in the page: what it is, of which kPainters of the page has one each, and its name for people.
+struct Shown {
+  std::string kind, name;
+  Image image;
+};
+
+/// Every square of pixels as their mean; squares at the right and lower border may be cut.
+Image block_means(const Image& image, int block) {
+  Image means((image.width + block - 1) / block, (image.height + block - 1) / block);
+  for (int y = 0; y < means.height; ++y)
+    for (int x = 0; x < means.width; ++x) {
+      const int right = std::min(image.width, (x + 1) * block), bottom = std::min(image.height, (y + 1) * block);
+      Rgbd sum(0.0);
+      for (int v = y * block; v < bottom; ++v)
+        for (int u = x * block; u < right; ++u) sum += Rgbd(image.at(u, v));
+      means.at(x, y) = Rgb(sum / static_cast<double>((right - x * block) * (bottom - y * block)));
+    }
+  return means;
+}
+
+Image square_root(Image image) {
+  for (Rgb& pixel : image.pixels)
+    for (int c = 0; c < 3; ++c) pixel[c] = std::sqrt(pixel[c]);
+  return image;
+}
+
+/// What the file has of radiance, variance, bias, and light of techniques.
+std::vector<Shown> layers_in(const ExrChannels& file, const TechniqueSet& techniques) {
+  std::vector<Shown> all;
+  const auto add = [&](const std::string& layer, const std::string& kind, const std::string& name) {
+    if (std::optional<Image> image = layer_of(file, layer)) all.push_back({kind, name, std::move(*image)});
+  };
+  add("", "radiance", "radiance");
+  if (all.empty()) throw InputError("the picture has no channels R, G and B");
+  add("variance", "error", "standard error");
+  add("bias", "bias", "bias");
+  for (const TechniqueInfo& info : kTechniques)
+    if (techniques.has(info.technique))
+      add(fmt::format("combined.{}.weighted", info.name), "radiance", std::string(info.name));
+  return all;
+}
+
+/// Standard errors are roots of means of variances: those of single pixels, as a reader of the picture meets them.
+std::string pictures_json(const RenderReport& report) {
+  const ExrChannels& file = report.picture;
+  const std::vector<Shown> layers = layers_in(file, report.settings.combined.techniques);
+  const int block = block_for(file.width, file.height, layers.size());
+  Json pictures = Json::array();
+  int width = 0, height = 0;
+  for (const Shown& layer : layers) {
+    Image image = block_means(layer.image, block);
+    if (layer.kind == "error") image = square_root(std::move(image));
+    width = image.width;
+    height = image.height;
+    Json picture = picture_json(image);
+    picture["kind"] = layer.kind;
+    picture["name"] = layer.name;
+    pictures.push_back(std::move(picture));
+  }
+  return Json{{"width", width}, {"height", height}, {"block", block}, {"pictures", std::move(pictures)}}.dump();
+}
+
+/// What each technique is, by name.
+Json technique_words() {
+  Json words = Json::object();
+  for (const TechniqueInfo& info : kTechniques) words[std::string(info.name)] = info.summary;
+  return words;
+}
+
+}  // namespace
+
+int block_for(int width, int height, size_t pictures) {
+  const size_t most = std::min(kMostPixels, kMostPixelsInAll / pictures);
+  const auto pixels = [&](int block) {
+    return static_cast<size_t>((width + block - 1) / block) * static_cast<size_t>((height + block - 1) / block);
+  };
+  int block = 1;
+  while (pixels(block) > most) ++block;
+  return block;
+}
+
+std::string report_page(const RenderReport& report) {
+  std::string_view rest = report_template();
+  const Json data{{"report", report.json},
+                  {"seed", report.json.at("seed").dump()},  // all its digits
+                  {"settings", shown_settings(report)},
+                  {"techniques", technique_words()},
+                  {"commands", commands_again(report.json)}};
+  std::string page = up_to(rest, "@report@", data.dump());
+  page += up_to(rest, "@pictures@", pictures_json(report));
+  return page.append(rest);
+}
+
+}  // namespace vpm::tools
