@@ -5,6 +5,7 @@ const data = read('data'), encoded = read('pictures');
 const report = data.report;
 
 const lastName = path => path.split(/[/\\]/).pop();
+const counted = x => Math.round(x).toLocaleString('en');
 const percentOr = x => (x === null ? kNothing : percent(x));
 
 /** Relative MSE, with how well it is known. */
@@ -30,7 +31,7 @@ function facts() {
     ['Relative MSE', errorText(report)],
     ['Time', `${number(report.times.total)} s on ${report.threads} ${report.threads === 1 ? 'thread' : 'threads'}`],
     ['Passes', `${report.passes}, seed ${data.seed}`],
-    ['Photons', `${plain(report.photons.emitted)} emitted`],
+    ['Photons', `${counted(report.photons.emitted)} emitted`],
     ['Memory', `${number(report.memory.peak_of_process / 1e6)} MB at most`],
     ['Program', report.program],
   ];
@@ -57,8 +58,6 @@ const kPhotonCounts = [
   ['stored_planes', 'stored as planes'],
   ['merged', 'merged into others'],
 ];
-
-const counted = x => Math.round(x).toLocaleString('en');
 
 function fillPhotons(section) {
   const {photons, passes, lights} = report;

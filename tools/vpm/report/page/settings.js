@@ -37,7 +37,7 @@ function aboutSettings(settings) {
   const chosen = settings.filter(row => row.reason).length, changed = settings.filter(row => !row.is_usual).length;
   return `${changed} of ${settings.length} are not the default; these are bold. ` +
       `${chosen === 0 ? 'None' : chosen} of them ${chosen === 1 ? 'was' : 'were'} chosen by the render. ` +
-      'Settings that would change nothing are left out. What they are is told as in scenes/README.md, which tells more.';
+      'Settings that would change nothing are left out. Meanings are those of scenes/README.md, where what is "below" is found.';
 }
 
 function commandList(commands) {

@@ -11,6 +11,7 @@ class Viewer extends PictureView {
     super(root, pictures);
     this.block = block;  // pixels of the file along an edge of one that is shown
     this.fillModes(pictures.names, 'shown');
+    this.markParts();
     this.reset();
     this.find('.modes').addEventListener('input', () => this.resetScale());
     this.listen();
@@ -18,6 +19,13 @@ class Viewer extends PictureView {
 
   get shown() { return Number(this.find('.modes input:checked').value); }
   get kind() { return this.pictures.encoded[this.shown].kind; }
+
+  /** Says that pictures of radiance other than the first are parts of that. */
+  markParts() {
+    const first = this.pictures.encoded.findIndex(({kind}, i) => i > 0 && kind === 'radiance');
+    if (first > 0)
+      this.find('.modes').children[1 + first].before(element('span', {class: 'muted'}, 'of the radiance, found by'));
+  }
 
   reset() {
     this.view = wholeView(this.pictures);
@@ -29,7 +37,7 @@ class Viewer extends PictureView {
   resetScale() {
     if (this.kind === 'radiance') return;
     const typical = relativeSize(this.pictures.of(this.shown), this.pictures.of(0));
-    this.find('.range input').value = Math.log10(3 * typical || 1);
+    this.find('.range input').value = Math.log10(5 * typical || 1);
   }
 
   panes(width, height) {
