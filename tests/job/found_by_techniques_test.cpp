@@ -21,6 +21,13 @@ Film film_of_first_pixel(const std::vector<float>& values) {
   return film;
 }
 
+RenderSettings with_layers() {
+  RenderSettings settings;
+  settings.integrator = Integrator::combined;
+  settings.combined.layers = true;
+  return settings;
+}
+
 /// Connections find a quarter of the light and short beams the rest, in two passes.
 RenderResult two_techniques() {
   RenderResult result{film_of_first_pixel({7.0f, 9.0f}), {}, 0.0, {}};
@@ -33,7 +40,7 @@ RenderResult two_techniques() {
 }
 
 TEST(FoundByTechniques, AreSharesAndVariancesOfLayers) {
-  RenderSettings settings;
+  RenderSettings settings = with_layers();
   settings.combined.techniques.set(Technique::light_tracing, false);
   const std::vector<FoundByTechnique> found = found_by_techniques(settings, two_techniques());
   ASSERT_EQ(found.size(), 5u);  // all but three
@@ -52,8 +59,8 @@ TEST(FoundByTechniques, AreSharesAndVariancesOfLayers) {
 
 TEST(FoundByTechniques, HavePicturesThatSumToTheWhole) {
   const RenderResult result = two_techniques();
-  const std::vector<Image> parts = parts_of_techniques({}, result);
-  ASSERT_EQ(parts.size(), found_by_techniques({}, result).size());
+  const std::vector<Image> parts = parts_of_techniques(with_layers(), result);
+  ASSERT_EQ(parts.size(), found_by_techniques(with_layers(), result).size());
   Rgb sum(0.0f);
   for (const Image& part : parts) sum += part.at(0, 0);
   EXPECT_EQ(sum, result.film.mean().at(0, 0));
@@ -61,14 +68,22 @@ TEST(FoundByTechniques, HavePicturesThatSumToTheWhole) {
 
 TEST(FoundByTechniques, AreNothingWithoutLayersOrLight) {
   RenderResult result{film_of_first_pixel({0.0f}), {}, 0.0, {}};
-  EXPECT_TRUE(found_by_techniques({}, result).empty());
-  EXPECT_TRUE(parts_of_techniques({}, result).empty());
+  EXPECT_TRUE(found_by_techniques(with_layers(), result).empty());
+  EXPECT_TRUE(parts_of_techniques(with_layers(), result).empty());
   result.layers.assign(2 * kTechniques.size(), result.film);
-  for (const FoundByTechnique& found : found_by_techniques({}, result)) {
+  for (const FoundByTechnique& found : found_by_techniques(with_layers(), result)) {
     EXPECT_EQ(found.share_of_light, 0.0);
     EXPECT_EQ(found.found_alone, 0.0);
     EXPECT_TRUE(std::isnan(found.variance));  // of one pass
   }
+}
+
+TEST(FoundByTechniques, AreNotLayersOfWhatTheCameraSees) {
+  RenderResult result{film_of_first_pixel({1.0f}), {}, 0.0, {}};
+  RenderSettings settings;
+  settings.layers.set(ViewLayer::albedo, true);
+  result.layers.assign(1, result.film);
+  EXPECT_TRUE(found_by_techniques(settings, result).empty());
 }
 
 }  // namespace

@@ -66,17 +66,17 @@ TEST(Setting, HasAKeyOfItsOwnOrOfNeedsThatExcludeEachOther) {
 /// A member that is added to the settings does not compile here until it is named, and counted: then it is declared.
 TEST(Setting, IsEveryMemberOfTheSettings) {
   const RenderSettings s;
-  const auto& [integrator, seed, until, samples, emitted, stored, sequence, in_cube, flights, planes, max_events, guide,
-               combined, distance, transmittance, volume, surface, caustics, aimed, radii, form, floor, volume_direct,
-               beam_length, plane_use, direct_samples, surface_direct, surface_samples, indirect, gather_rays,
-               gather_by, irradiance, step] = s;
+  const auto& [integrator, seed, until, samples, view, emitted, stored, sequence, in_cube, flights, planes, max_events,
+               guide, combined, distance, transmittance, volume, surface, caustics, aimed, radii, form, floor,
+               volume_direct, beam_length, plane_use, direct_samples, surface_direct, surface_samples, indirect,
+               gather_rays, gather_by, irradiance, step] = s;
   [[maybe_unused]] const auto& [passes, seconds, error] = until;
   [[maybe_unused]] const auto& [importons, aim, split, scatter] = guide;
   [[maybe_unused]] const auto& [techniques, heuristic, layers] = combined;
   [[maybe_unused]] const auto& [strategy, length, optical, majorant, extinction] = distance;
   [[maybe_unused]] const auto& [estimator, march, comb] = transmittance;
   [[maybe_unused]] const auto& [mode, radius, count, kernel, boundary, beam_count] = volume;
-  constexpr size_t kOwn = 33 - 8, kOfStopRule = 3, kOfGuide = 4, kOfCombined = 3, kOfDistance = 5, kOfTransmittance = 3,
+  constexpr size_t kOwn = 34 - 8, kOfStopRule = 3, kOfGuide = 4, kOfCombined = 3, kOfDistance = 5, kOfTransmittance = 3,
                    kOfGather = 6;
   constexpr size_t kUndeclared = 3;  // surface.beam_count, caustics.beam_count, and caustics.boundary, the surface's
   constexpr size_t kCombined = 1;    // surface.method
@@ -126,6 +126,9 @@ TEST(Setting, IsTheMemberThatItsKeyNames) {
   s.surface_direct = DirectLight::photons;
   EXPECT_EQ(find_setting("surface.method", s)->member.get(s), SettingValue(std::string()));  // a pair without a name
   EXPECT_FALSE(find_setting("film.width", s));
+  EXPECT_EQ(find_setting("render.layers", s)->member.get(s), SettingValue(std::string("none")));
+  set("render.layers", "samples+depth");
+  EXPECT_TRUE(s.layers.has(ViewLayer::depth) && s.layers.has(ViewLayer::samples) && !s.layers.has(ViewLayer::normal));
 }
 
 TEST(Setting, IsReadAgainFromItsText) {

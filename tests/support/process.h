@@ -13,6 +13,9 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -127,6 +130,16 @@ class Process {
 /// Runs a program to its end.
 inline ProcessResult run_program(const std::vector<std::string>& arguments, const ProcessLimits& limits = {}) {
   return Process(arguments, limits).wait();
+}
+
+/// The path of the first of these programs that a folder of PATH has; nothing where there is none.
+inline std::optional<std::string> program_in_path(const std::vector<std::string>& names) {
+  const char* folders = std::getenv("PATH");
+  std::istringstream path(folders ? folders : "");
+  for (std::string folder; std::getline(path, folder, ':');)
+    for (const std::string& name : names)
+      if (const std::string file = folder + "/" + name; access(file.c_str(), X_OK) == 0) return file;
+  return std::nullopt;
 }
 
 }  // namespace vpm

@@ -76,6 +76,49 @@ TEST_F(VpmRender, TheImageTellsWhereItIsFrom) {
   EXPECT_EQ(exr.metadata.at("vpm.sceneHash"), report("a.json")["scene_hash"]);
 }
 
+TEST_F(VpmRender, WritesTheLayersThatAreAskedFor) {
+  vpm_succeeds({"render", "--layers", "samples,depth", "scene.toml", "-o", "a.exr"});
+  const ExrChannels by_option = read_exr_channels(path("a.exr"));
+  EXPECT_EQ(by_option.planes.at("samples.X")[0], 2.0f);
+  EXPECT_EQ(by_option.planes.count("depth.Z"), 1u);
+  EXPECT_EQ(by_option.planes.count("normal.X"), 0u);
+  vpm_succeeds({"render", "scene.toml", "-o", "b.exr", "--set", "render.layers=[\"depth\", \"samples\"]"});
+  const ExrChannels by_setting = read_exr_channels(path("b.exr"));
+  EXPECT_EQ(by_setting.planes, by_option.planes);
+  EXPECT_NE(by_setting.metadata.at("vpm.settings").find("render.layers=depth+samples"), std::string::npos);
+  vpm_succeeds({"render", "scene.toml", "-o", "c.exr", "--layers", "combined,normal", "--set",
+                "render.integrator=combined", "--set", "photons.emitted=100"});
+  const ExrChannels both = read_exr_channels(path("c.exr"));
+  EXPECT_EQ(both.planes.count("normal-variance.Z"), 1u);
+  EXPECT_EQ(both.planes.count("combined.connections.weighted.variance.R"), 1u);
+}
+
+TEST_F(VpmRender, RefusesLayersThatThereAreNot) {
+  vpm_refuses(
+      {"render", "scene.toml", "--layers", "depth,normals"},
+      {"normals", "combined", "depth", "normal", "albedo", "transmittance", "single-scattering-albedo", "samples"});
+  vpm_refuses({"render", "scene.toml", "--layers", "depth,depth"}, {"'depth' twice"});
+  vpm_refuses({"render", "scene.toml", "--set", "render.layers=[\"deep\"]"}, {"layers", "'deep'", "depth"});
+  vpm_refuses({"render", "scene.toml", "--layers", "combined"}, {"combined", "integrator"});
+  vpm_refuses({"bake", "scene.toml", "--mesh", "floor", "--set", "render.layers=[\"depth\"]"},
+              {"render.layers", "light map"});
+}
+
+TEST_F(VpmRender, GoesOnWithItsLayers) {
+  const std::vector<std::string> layers{"--layers", "depth,albedo,single-scattering-albedo"};
+  const auto render = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", "scene.toml"});
+    options.insert(options.end(), layers.begin(), layers.end());
+    vpm_succeeds(options);
+  };
+  render({"-o", "a.exr"});
+  render({"-o", "b.exr", "--passes", "1", "--checkpoint"});
+  render({"-o", "b.exr", "--passes", "2", "--resume"});
+  EXPECT_EQ(read_exr_channels(path("b.exr")).planes, read_exr_channels(path("a.exr")).planes);
+  vpm_refuses({"render", "scene.toml", "-o", "b.exr", "--resume", "--layers", "depth"},
+              {"render.layers: depth+albedo"});
+}
+
 TEST_F(VpmRender, TheReportNamesEveryLightAndItsPower) {
   write("two.toml", std::string(kScene) +
                         "[[lights]]\ntype = 'environment'\nradiance = [1, 2, 3]\n"

@@ -32,18 +32,21 @@ struct WatchOptions {
 struct RenderOptions : PassOptions {
   WatchOptions watch;
   std::optional<double> seconds;
-  std::optional<double> error;  // relative MSE to stop at
-  std::string reference;        // .exr: the truth, against which errors are logged; empty: none
-  bool automatic = false;       // choose settings that the scene leaves out
-  std::string layers;           // "combined", or empty: none
-  bool checkpoint = false;      // keep one next to the image after each pass
-  bool overwrite = false;       // begin anew where there is one
-  bool resume = false;          // go on from that
-  std::string size;             // "640x480", pixels; empty: the scene's
-  std::string crop;             // "x0,y0,x1,y1", pixels from the upper left, ends excluded; empty: all
-  std::optional<int> samples;   // a pixel in each pass
-  bool quiet = false;           // say nothing but warnings and errors
+  std::optional<double> error;      // relative MSE to stop at
+  std::string reference;            // .exr: the truth, against which errors are logged; empty: none
+  bool automatic = false;           // choose settings that the scene leaves out
+  std::vector<std::string> layers;  // of known_layers(); of what the camera sees, these are in the scene's place
+  bool checkpoint = false;          // keep one next to the image after each pass
+  bool overwrite = false;           // begin anew where there is one
+  bool resume = false;              // go on from that
+  std::string size;                 // "640x480", pixels; empty: the scene's
+  std::string crop;                 // "x0,y0,x1,y1", pixels from the upper left, ends excluded; empty: all
+  std::optional<int> samples;       // a pixel in each pass
+  bool quiet = false;               // say nothing but warnings and errors
 };
+/// kCombinedLayers, and the words of render.layers.
+std::vector<std::string> known_layers();
+inline constexpr const char* kCombinedLayers = "combined";
 /// Renders a scene to an EXR file, with a PNG preview and a JSON report next to it. 130 when interrupted: the finished
 /// passes are written.
 /// With a checkpoint a killed render loses the pass under way, and goes on to the same bits.

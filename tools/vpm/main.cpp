@@ -163,8 +163,13 @@ void add_render(CLI::App& app, RenderOptions& options) {
   command->add_flag(
       "--auto", options.automatic,
       "Choose what the scene leaves out of integrator, radii, photons and distance strategy, and tell why");
-  command->add_option("--layers", options.layers, "Write these layers, too: combined (what each technique finds)")
-      ->check(CLI::IsMember({"combined"}));
+  command
+      ->add_option("--layers", options.layers,
+                   "Write these layers, too, separated by commas: combined (what each technique finds), and of what a "
+                   "pixel sees depth, normal, albedo, transmittance, single-scattering-albedo, samples")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(known_layers()));
   CLI::Option* checkpoint =
       command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint next to the image after each pass");
   CLI::Option* overwrite =

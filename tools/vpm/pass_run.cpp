@@ -12,7 +12,7 @@
 #include "vpm/base/error.h"
 #include "vpm/image/png.h"
 #include "vpm/job/checkpoint.h"
-#include "vpm/render/technique_layers.h"
+#include "vpm/render/view_layers.h"
 
 namespace vpm::tools {
 namespace {
@@ -84,7 +84,7 @@ Outputs output_paths(const PassOptions& options, const std::string& name) {
 void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const RenderJob& job) {
   constexpr uint64_t kReportBytes = 1 << 16;
   const uint64_t film = checkpoint ? 2 * checkpoint_bytes(job) : 0;  // the checkpoint, and its successor
-  const uint64_t channels = 9 + 6 * layer_names(job.settings).size();
+  const uint64_t channels = 9 + layer_channels(job.settings);
   const uint64_t bytes = pixels * (channels * sizeof(float) + 3) + film + kReportBytes;  // of all, which share a folder
   std::vector<fs::path> written{outputs.exr, outputs.png, outputs.json};
   if (checkpoint) written.push_back(outputs.checkpoint);

@@ -2,6 +2,7 @@
 #include "picture_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,6 +23,12 @@ namespace {
 void apply_limits(const RenderOptions& options, StopRule& until) {
   if (options.seconds) until.seconds = *options.seconds;
   if (options.error) until.error = *options.error;
+}
+
+/// The settings that ask for such layers.
+void add_layers(std::vector<std::string> layers, std::vector<std::string>& overrides) {
+  if (std::erase(layers, kCombinedLayers) > 0) overrides.push_back("combined.layers=true");
+  if (!layers.empty()) overrides.push_back(fmt::format("render.layers=[\"{}\"]", fmt::join(layers, "\", \"")));
 }
 
 void write_outputs(const RenderOptions& options, const Outputs& outputs, const RenderJob& job,
@@ -80,9 +87,15 @@ void print_summary(const Outputs& outputs, const RenderJob& job, const RenderRes
 
 }  // namespace
 
+std::vector<std::string> known_layers() {
+  std::vector<std::string> names{kCombinedLayers};
+  for (const ViewLayerInfo& info : kViewLayers) names.emplace_back(info.name);
+  return names;
+}
+
 std::vector<std::string> overrides_of(const RenderOptions& options) {
   std::vector<std::string> overrides = options.overrides;
-  if (!options.layers.empty()) overrides.push_back("combined.layers=true");
+  add_layers(options.layers, overrides);
   if (const size_t x = options.size.find('x'); x != std::string::npos) {
     overrides.push_back("film.width=" + options.size.substr(0, x));
     overrides.push_back("film.height=" + options.size.substr(x + 1));

@@ -37,12 +37,14 @@ constexpr int64_t kMostLinesAtOnce = 256;  // that a compression packs together
   throw InputError("cannot read '" + file.string() + "': " + why);
 }
 
-/// Adds the three channels of `image` to a header and to the buffer that OpenEXR writes from.
-void add_channels(Imf::Header& header, Imf::FrameBuffer& buffer, const std::string& prefix, const Image& image) {
+/// Adds a channel for each letter, of the first components of `image`, to a header and to the buffer that OpenEXR
+/// writes from.
+void add_channels(Imf::Header& header, Imf::FrameBuffer& buffer, const std::string& prefix, const std::string& letters,
+                  const Image& image) {
   const Imath::V2i first = header.dataWindow().min;
   const auto across = static_cast<intptr_t>(sizeof(Rgb)), down = across * image.width;
-  for (int c = 0; c < 3; ++c) {
-    const std::string name = prefix + "RGB"[c];
+  for (int c = 0; c < static_cast<int>(letters.size()); ++c) {
+    const std::string name = prefix + letters[static_cast<size_t>(c)];
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     const auto pixels = reinterpret_cast<intptr_t>(&image.pixels.data()[0][c]);  // only read
     auto* const origin = reinterpret_cast<char*>(pixels - first.x * across - first.y * down);
@@ -171,10 +173,11 @@ void write_exr(const path& file, const Image& radiance, const std::vector<ExrLay
       header.insert(key, Imf::StringAttribute(value));
     }
     Imf::FrameBuffer buffer;
-    add_channels(header, buffer, "", radiance);
+    add_channels(header, buffer, "", "RGB", radiance);
     for (const ExrLayer& layer : layers) {
-      assert(layer.image->width == radiance.width && layer.image->height == radiance.height);
-      add_channels(header, buffer, layer.name + ".", *layer.image);
+      assert(layer.image->width == radiance.width && layer.image->height == radiance.height &&
+             layer.letters.size() <= 3);
+      add_channels(header, buffer, layer.name + ".", layer.letters, *layer.image);
     }
     Imf::StdOFStream stream(out, file.c_str());
     Imf::OutputFile output(stream, header, 0);

@@ -17,6 +17,7 @@ namespace vpm {
 struct ExrLayer {
   std::string name;  // of its channels: name.R, name.G, name.B
   const Image* image;
+  std::string letters = "RGB";  // others in place of these, and as few as the layer needs, from the first component on
 };
 
 /// Which part of a picture of width x height pixels a file holds.

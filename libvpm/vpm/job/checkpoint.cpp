@@ -13,7 +13,7 @@
 #include "vpm/base/fnv.h"
 #include "vpm/job/named_fields.h"
 #include "vpm/render/plan.h"
-#include "vpm/render/technique_layers.h"
+#include "vpm/render/view_layers.h"
 
 namespace vpm {
 
@@ -206,7 +206,7 @@ uint64_t checkpoint_bytes(const RenderJob& job) {
   const Camera& camera = job.scene.camera;
   const auto count = [](int width, int height) { return static_cast<uint64_t>(width) * static_cast<uint64_t>(height); };
   const PixelRect rendered = camera.rendered();
-  const uint64_t layers = layer_names(job.settings).size() * Film::kBytesOfPlainPixel;
+  const uint64_t layers = layer_films(job.settings) * Film::kBytesOfPlainPixel;
   return count(rendered.width(), rendered.height()) * (Film::kBytesOfPixel + layers) +
          (discs ? count(camera.width, camera.height) * sizeof(PixelDisc) : 0);
 }

@@ -10,7 +10,7 @@ namespace {
 /// Those in use whose layers are kept.
 std::vector<TechniqueInfo> techniques_with_layers(const RenderSettings& settings, const RenderResult& result) {
   std::vector<TechniqueInfo> with;
-  if (result.layers.empty()) return with;
+  if (layer_names(settings).empty() || result.layers.empty()) return with;
   for (const TechniqueInfo& info : kTechniques)
     if (settings.combined.techniques.has(info.technique)) with.push_back(info);
   return with;

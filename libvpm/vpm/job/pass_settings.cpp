@@ -8,6 +8,20 @@ using S = RenderSettings;
 using G = GuideSettings;
 
 constexpr uint64_t kMostSamples = 1'000'000;
+constexpr std::string_view kNoLayers = "none";
+
+SettingValue get_layers(const S& s) {
+  std::string joined;
+  for (const ViewLayerInfo& info : kViewLayers)
+    if (s.layers.has(info.layer)) joined += (joined.empty() ? "" : "+") + std::string(info.name);
+  return joined.empty() ? std::string(kNoLayers) : joined;
+}
+
+void set_layers(S& s, const SettingValue& value) {
+  const std::vector<std::string> words = words_in(std::get<std::string>(value));
+  for (const ViewLayerInfo& info : kViewLayers)
+    s.layers.set(info.layer, std::find(words.begin(), words.end(), info.name) != words.end());
+}
 
 std::vector<Setting> declare_render() {
   return {
@@ -59,6 +73,11 @@ std::vector<Setting> declare_render() {
            "longest step of the eye rays' march, in optical thickness; photons of homogeneous media are summed in "
            "steps of a radius where `boundary` is `\"ends\"`; with `\"beams-points\"` that of the densest place counts "
            "everywhere"},
+      {.key = "render.layers",
+       .member = {get_layers, set_layers},
+       .domain = WordSet{names_of(std::span<const ViewLayerInfo>(kViewLayers)).words},
+       .meaning = "layers of the picture that tell what its pixels see, see below; `--layers` does the same",
+       .default_text = "none"},
   };
 }
 

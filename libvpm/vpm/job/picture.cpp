@@ -9,6 +9,7 @@
 #include "vpm/image/exr.h"
 #include "vpm/job/setting.h"
 #include "vpm/render/technique_layers.h"
+#include "vpm/render/view_layers.h"
 
 namespace vpm {
 namespace {
@@ -32,24 +33,26 @@ Image grey_image(const UvLayout& layout, const std::vector<float>& values) {
   return image;
 }
 
-/// The parts of the picture, and from two passes on the variances of their means.
-struct Layers {
-  std::vector<std::string> names;
-  std::vector<Image> images;
-};
-Layers layers_of(const RenderSettings& settings, const RenderResult& result) {
-  Layers layers;
+/// The parts of the picture, from two passes on with the variances of their means, and what the camera sees.
+std::vector<NamedLayer> layers_of(const RenderSettings& settings, const RenderResult& result) {
+  std::vector<NamedLayer> layers;
   const std::vector<std::string> names = layer_names(settings);
-  for (size_t i = 0; i < result.layers.size(); ++i) {
-    const Film& film = result.layers[i];
-    layers.names.push_back(names[i]);
-    layers.images.push_back(film.mean());
-    if (film.passes() < 2) continue;
-    layers.names.push_back(names[i] + ".variance");
-    layers.images.push_back(film.variance_of_mean());
+  const std::span<const Film> films(result.layers);
+  for (size_t i = 0; i < names.size(); ++i) {
+    layers.push_back({names[i], "RGB", films[i].mean()});
+    if (films[i].passes() > 1) layers.push_back({names[i] + ".variance", "RGB", films[i].variance_of_mean()});
   }
+  for (NamedLayer& layer : named_view_layers(settings, result.film, films.subspan(names.size())))
+    layers.push_back(std::move(layer));
   return layers;
 }
+
+/// What pictures with layers of what the camera sees tell of them.
+constexpr const char* kViewQuantities =
+    "; depth: m to the first surface, 1e10 where there is none; normal: of that surface; albedo: of what scatters "
+    "light "
+    "first; transmittance: of the media before the first surface; single-scattering-albedo: of these media; samples: "
+    "their number";
 
 }  // namespace
 
@@ -57,9 +60,12 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
   Metadata metadata = provenance(job, result.film);
   metadata.emplace_back(
       "vpm.quantity",
-      "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as "
-      "its photons show it, were it to go as the squared radius; vpm.varianceOfMeans: variance of the mean over "
-      "pixels; combined.NAME.weighted: what a technique finds, times its share; combined.NAME.unweighted: without");
+      std::string(
+          "radiance, W/(m^2 sr); variance.*: variance of the mean of passes; bias.*: its kernels' bias as "
+          "its photons show it, were it to go as the squared radius; vpm.varianceOfMeans: variance of the mean over "
+          "pixels; combined.NAME.weighted: what a technique finds, times its share; combined.NAME.unweighted: "
+          "without") +
+          (job.settings.layers.empty() ? "" : kViewQuantities));
   const std::optional<FilmErrors> errors = errors_of(result);
   if (errors) {
     const Rgbd& means = errors->variance_of_channel_means;
@@ -68,8 +74,8 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
   std::vector<ExrLayer> layers;
   if (errors) layers.push_back({"variance", &errors->variance});
   if (errors && result.film.shows_bias()) layers.push_back({"bias", &errors->bias});
-  const Layers parts = layers_of(job.settings, result);
-  for (size_t i = 0; i < parts.names.size(); ++i) layers.push_back({parts.names[i], &parts.images[i]});
+  const std::vector<NamedLayer> more = layers_of(job.settings, result);
+  for (const NamedLayer& layer : more) layers.push_back({layer.name, &layer.image, layer.letters});
   const Camera& camera = job.scene.camera;
   write_exr(path, result.film.mean(), layers, metadata, ExrWindow{camera.rendered(), camera.width, camera.height});
 }

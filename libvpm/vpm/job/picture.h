@@ -17,9 +17,9 @@ inline constexpr const char* kVarianceOfMeans = "vpm.varianceOfMeans";
 
 /// Writes the mean of the passes, W/(m^2 sr), from two passes on with the variance of that mean (layer "variance") and,
 /// where radii shrink, the bias that the passes show (layer "bias"), layer_names() where they are asked for, from two
-/// passes on with a further layer NAME.variance each, and metadata under "vpm....". Where the camera has a crop, that
-/// is the data window of the file, and the film its display window. The file appears whole or not at all; throws
-/// InputError where it cannot be written.
+/// passes on with a further layer NAME.variance each, named_view_layers(), and metadata under "vpm....". Where the
+/// camera has a crop, that is the data window of the file, and the film its display window. The file appears whole or
+/// not at all; throws InputError where it cannot be written.
 void write_picture(const std::filesystem::path& path, const RenderJob& job, const RenderResult& result);
 
 /// A light map as it is written: the mean of its passes, dilated() by kDilation texels.

@@ -12,7 +12,7 @@
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
-#include "vpm/render/technique_layers.h"
+#include "vpm/render/view_layers.h"
 
 namespace vpm {
 namespace {
@@ -68,7 +68,7 @@ void check_size(const RenderResult& result, const Camera& camera, size_t layers)
     throw InputError(
         fmt::format("what is rendered so far has {} discs, but the camera {} pixels", result.discs.size(), pixels));
   if (film.passes() > 0 && result.layers.size() != layers)
-    throw InputError(fmt::format("what is rendered so far has {} layers, but the settings ask for {}",
+    throw InputError(fmt::format("what is rendered so far has {} films of layers, but the settings ask for {}",
                                  result.layers.size(), layers));
 }
 
@@ -120,7 +120,7 @@ double highest_error(const RenderResult& result) {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const RunControl& control) {
   validate(settings, facts_of(scene));
-  check_size(result, scene.camera, layer_names(settings).size());
+  check_size(result, scene.camera, layer_films(settings));
   const auto whole = [&](const RenderResult& so_far, const PassProgress& shown) {
     const int pass = so_far.film.next_pass();
     switch (settings.integrator) {

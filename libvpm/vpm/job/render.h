@@ -27,7 +27,7 @@ struct RenderResult {
   std::optional<FilmErrors> errors = {};  // of the film, once it has two passes and run_passes() has come to its end;
                                           // where the stop rule asks for an error also after each pass, once there
                                           // are kLeastPasses
-  std::vector<Film> layers = {};          // parts of the film, as layer_names() names them, once there is a pass
+  std::vector<Film> layers = {};          // layer_films() of them, as in Pass::layers, once there is a pass
 };
 
 /// "1 pass", "16 passes".

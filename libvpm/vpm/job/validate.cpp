@@ -235,6 +235,8 @@ void validate_light_map(const RenderSettings& settings, const SceneFacts& facts)
   refuse_if(settings.radii == RadiusSchedule::per_pixel, "render.radii",
             "texels of a light map have no radii of their own, but render.radii is \"per-pixel\"",
             "write \"per-pass\", or add --set render.radii=per-pass");
+  refuse_if(!settings.layers.empty(), "render.layers", "a light map has no layers of what a camera sees",
+            "leave out 'layers'");
   refuse_if(settings.until.error > 0.0, "render.error", "a light map is not baked until an error is reached",
             "write 'passes' instead, or add --passes N");
 }

@@ -211,7 +211,8 @@ Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, in
   ready.add_light_tracing(result.image);
   if (layers) {
     ready.add_light_tracing(*layers);
-    result.layers = layers->images();
+    std::vector<Image> parts = layers->images();
+    result.layers.insert(result.layers.begin(), parts.begin(), parts.end());
   }
   result.statistics.merge(ready.statistics());
   return result;

@@ -6,6 +6,7 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
+#include "vpm/render/view_layers.h"
 
 namespace vpm {
 namespace {
@@ -92,6 +93,11 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
   const Camera& camera = scene.camera;
   Pass result(camera.width, camera.height);
   result.statistics.passes = 1;
+  ViewSums views(settings.layers, camera.width, camera.height);
+  const RadianceOfRays estimated = settings.layers.empty() ? radiance : [&](std::span<EyeRay> rays) {
+    for (const EyeRay& each : rays) views.add(each.work.pixel, view_along(scene, each.ray));
+    radiance(rays);
+  };
   const PixelRect tiled = tiles_of(camera);
   const uint64_t tiles = tile_count(camera);
   std::vector<EyeCounters> counters(tiles);
@@ -106,12 +112,13 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
     for (int y = y0; y < end.y; y += kBlockEdge)
       for (int x = x0; x < end.x; x += kBlockEdge) {
         const PixelBlock block({x, y}, glm::min(glm::ivec2(x, y) + kBlockEdge, end));
-        render_block(scene, settings, radiance, block, work, pass, result);
+        render_block(scene, settings, estimated, block, work, pass, result);
       }
     bar.advance();
     if (progress.tiles) progress.tiles->advance();
   });
   for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
+  result.layers = views.means(settings.samples_per_pixel);
   result.statistics.eye_seconds = rendering.seconds();
   return result;
 }

@@ -14,7 +14,7 @@ namespace vpm {
 struct Pass {
   Image image;                  // radiance, W/(m^2 sr)
   Image correction;             // what would take away a bias of its kernels that goes as r^2 (KernelPair)
-  std::vector<Image> layers;    // parts of the radiance, as layer_names() names them
+  std::vector<Image> layers;    // layer_films() of them: parts of the radiance, then what the camera sees
   std::vector<uint64_t> found;  // photons in each pixel's disc, over its samples, where pixels have discs of their own
   RenderStatistics statistics;
 

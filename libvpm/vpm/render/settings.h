@@ -10,6 +10,7 @@
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/guide_settings.h"
 #include "vpm/photon/photon_sequence.h"
+#include "vpm/render/view_layer.h"
 
 namespace vpm {
 
@@ -67,6 +68,7 @@ struct RenderSettings {
   uint64_t seed = 1;
   StopRule until;             // when the render ends
   int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
+  ViewLayerSet layers;        // what pictures tell besides the light
 
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
   uint64_t photons_stored =

@@ -1,0 +1,40 @@
+// The layers that a render can have of what its camera sees, besides the light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace vpm {
+
+/// What a pixel tells of that which its rays come through and to.
+enum class ViewLayer : uint32_t { depth, normal, albedo, transmittance, single_scattering_albedo, samples };
+
+struct ViewLayerInfo {
+  ViewLayer layer;
+  std::string_view name;
+};
+/// All, in the order of ViewLayer.
+inline constexpr std::array<ViewLayerInfo, 6> kViewLayers{
+    {{ViewLayer::depth, "depth"},
+     {ViewLayer::normal, "normal"},
+     {ViewLayer::albedo, "albedo"},
+     {ViewLayer::transmittance, "transmittance"},
+     {ViewLayer::single_scattering_albedo, "single-scattering-albedo"},
+     {ViewLayer::samples, "samples"}}};
+
+/// A set of layers, none unless told otherwise.
+class ViewLayerSet {
+ public:
+  constexpr bool has(ViewLayer layer) const { return (bits_ & bit(layer)) != 0; }
+  constexpr void set(ViewLayer layer, bool in) { bits_ = in ? bits_ | bit(layer) : bits_ & ~bit(layer); }
+  constexpr bool empty() const { return bits_ == 0; }
+  bool operator==(const ViewLayerSet&) const = default;
+
+ private:
+  static constexpr uint32_t bit(ViewLayer layer) { return 1u << static_cast<uint32_t>(layer); }
+
+  uint32_t bits_ = 0;
+};
+
+}  // namespace vpm
