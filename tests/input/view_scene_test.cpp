@@ -29,7 +29,9 @@ openvdb::FloatGrid::Ptr cube_grid(const std::string& name, int voxels, int margi
 class ViewOfGrid : public GridFile {
  protected:
   ViewScene view(const ViewWishes& wishes = {}) const { return make_view_scene(path_, path_, wishes); }
-  RenderJob job_of(const ViewWishes& wishes = {}) const { return load_scene_text(view(wishes).text, "view.toml"); }
+  RenderJob job_of(const ViewWishes& wishes = {}) const {
+    return load_scene(SceneText{"view.toml", view(wishes).text});
+  }
   std::string refusal_of(const ViewWishes& wishes = {}) const {
     try {
       view(wishes);

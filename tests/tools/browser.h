@@ -22,12 +22,7 @@ enum class Scheme { dark, light };
 
 /// A browser, where there is one.
 inline std::optional<std::string> chromium() {
-  const char* folders = std::getenv("PATH");
-  std::istringstream path(folders ? folders : "");
-  for (std::string folder; std::getline(path, folder, ':');)
-    for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
-      if (const auto file = std::filesystem::path(folder) / name; access(file.c_str(), X_OK) == 0) return file.string();
-  return std::nullopt;
+  return program_in_path({"chromium", "chromium-browser", "google-chrome"});
 }
 
 /// What a page has in the element of that name.

@@ -7,7 +7,6 @@
 #include "commands.h"
 #include "exact_problems.h"
 #include "json.h"
-#include "vpm/base/error.h"
 
 namespace vpm::tools {
 
@@ -22,15 +21,6 @@ void print_problems() {
       fmt::print("  {:<10} {}{}\n", key.name, key.meaning, note);
     }
   }
-}
-
-const ExactProblem& find_problem(const std::string& name) {
-  std::string names;
-  for (const ExactProblem& problem : exact_problems()) {
-    if (problem.name == name) return problem;
-    names += (names.empty() ? "" : ", ") + problem.name;
-  }
-  throw InputError(fmt::format("exact: there is no problem {}; problems: {}", name, names));
 }
 
 /// The digits that the error leaves.
@@ -88,7 +78,7 @@ int exact_command(const ExactOptions& options) {
     print_problems();
     return 0;
   }
-  const ExactProblem& problem = find_problem(options.problem);
+  const ExactProblem& problem = find_exact_problem(options.problem);
   ExactArguments arguments(problem.name, problem.keys, options.arguments);
   const std::vector<ExactQuantity> quantities = problem.solve(arguments);
   arguments.expect_all_read();

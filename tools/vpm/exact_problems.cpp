@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vpm/base/error.h"
 #include "vpm/base/vec.h"
 #include "vpm/study/exact/airlight.h"
 #include "vpm/study/exact/point_source.h"
@@ -298,6 +299,15 @@ const std::vector<ExactProblem>& exact_problems() {
        solve_sphere_problem},
   };
   return problems;
+}
+
+const ExactProblem& find_exact_problem(const std::string& name) {
+  std::string names;
+  for (const ExactProblem& problem : exact_problems()) {
+    if (problem.name == name) return problem;
+    names += (names.empty() ? "" : ", ") + problem.name;
+  }
+  throw InputError(fmt::format("exact: there is no problem {}; problems: {}", name, names));
 }
 
 }  // namespace vpm::tools

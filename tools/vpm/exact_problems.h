@@ -63,5 +63,7 @@ struct ExactProblem {
 };
 
 const std::vector<ExactProblem>& exact_problems();
+/// The problem of that name. Throws InputError where there is none.
+const ExactProblem& find_exact_problem(const std::string& name);
 
 }  // namespace vpm::tools

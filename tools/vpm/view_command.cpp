@@ -51,7 +51,7 @@ int view_command(const ViewOptions& options) {
   set_threads(options.threads);
   const Outputs outputs = output_paths(options, fs::path(options.scene).stem().string());
   const MadeScene made = make_scene(options);
-  RenderJob job = load_scene_text(made.scene.text, made.name, overrides_of(options));
+  RenderJob job = load_scene(SceneText{made.name, made.scene.text}, overrides_of(options));
   for (const std::string& note : made.scene.notes) job.notes.push_back(note);
   const PixelRect rendered = job.scene.camera.rendered();
   check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height(), false, job);

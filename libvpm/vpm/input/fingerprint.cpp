@@ -74,12 +74,14 @@ const Setting* setting_of(const std::string& key) {
 
 }  // namespace
 
-Fingerprint fingerprint_of(const Document& document, const std::vector<std::string>& files) {
+Fingerprint fingerprint_of(const Document& document, const std::vector<std::string>& files,
+                           const std::vector<std::pair<std::string, std::string>>& given) {
   KeyValues values;
   add_values(document.root, "", values);
   for (size_t i = 0; i < files.size(); ++i)
     values.emplace_back(fmt::format("file {}, {}", i + 1, std::filesystem::path(files[i]).filename().string()),
                         "bytes of hash " + hash_of_bytes(files[i]));
+  for (const auto& [name, hash] : given) values.emplace_back(name, "values of hash " + hash);
   Fingerprint fingerprint;
   Fnv1a hash;
   for (auto& [key, value] : values) {

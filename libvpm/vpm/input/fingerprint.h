@@ -15,7 +15,9 @@ struct Fingerprint {
 };
 
 /// Of a document with its options applied. Comments and white space do not take part, nor do settings that only say
-/// which passes are rendered. `files` are those that it names. Throws InputError where one of them cannot be read.
-Fingerprint fingerprint_of(const Document& document, const std::vector<std::string>& files);
+/// which passes are rendered. `files` are those that it names, and `given` is what it was given in memory: names, and
+/// hashes of values. Throws InputError where one of the files cannot be read.
+Fingerprint fingerprint_of(const Document& document, const std::vector<std::string>& files,
+                           const std::vector<std::pair<std::string, std::string>>& given = {});
 
 }  // namespace vpm

@@ -1,4 +1,4 @@
-// Writing procedural fields with OpenVDB.
+// Writing grids with OpenVDB.
 #include "vpm/input/grid_writer.h"
 
 #include <fmt/format.h>
@@ -103,22 +103,50 @@ void check_written(const std::string& path) {
   read_vdb_layout(cursor);
 }
 
-}  // namespace
+/// The values other than 0.
+openvdb::FloatGrid::Ptr sparse_grid(const GridValues& values) {
+  auto grid = openvdb::FloatGrid::create(0.0f);
+  auto accessor = grid->getAccessor();
+  for (Vec3i p(0); p.x < values.count.x; ++p.x)
+    for (p.y = 0; p.y < values.count.y; ++p.y)
+      for (p.z = 0; p.z < values.count.z; ++p.z)
+        if (const float value = values.at(p); value != 0.0f) accessor.setValue({p.x, p.y, p.z}, value);
+  openvdb::tools::prune(grid->tree());
+  openvdb::math::Mat4d rows;  // acts on rows, where ours acts on columns: its memory is the same
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) rows[i][j] = values.index_to_world[i][j];
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(rows));
+  grid->setName("density");
+  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+  return grid;
+}
 
-void write_media_grid(const std::string& name, int resolution, const std::string& path) {
-  const ProceduralField& field = find_field(name);
-  if (resolution < 2 || resolution > 2048)
-    throw InputError(fmt::format("resolution {}: must lie between 2 and 2048", resolution));
+/// Writes the grid that `make` makes. The file appears whole or not at all.
+template <class Make>
+void write_whole(Make&& make, const std::string& path) {
   TemporaryFile file(path);
   try {
     openvdb::initialize();
-    write_file(sample(Lattice(field, resolution)), file.path());
+    write_file(make(), file.path());
     fix_unique_number(file.path());
   } catch (const std::exception& e) {
     throw InputError(fmt::format("{}: cannot be written: {}", path, e.what()));
   }
   check_written(file.path());
   file.commit();
+}
+
+}  // namespace
+
+void write_media_grid(const std::string& name, int resolution, const std::string& path) {
+  const ProceduralField& field = find_field(name);
+  if (resolution < 2 || resolution > 2048)
+    throw InputError(fmt::format("resolution {}: must lie between 2 and 2048", resolution));
+  write_whole([&] { return sample(Lattice(field, resolution)); }, path);
+}
+
+void write_grid(const GridValues& values, const std::string& path) {
+  write_whole([&] { return sparse_grid(values); }, path);
 }
 
 }  // namespace vpm

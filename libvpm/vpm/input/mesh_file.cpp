@@ -32,17 +32,20 @@ void add_fan(const std::vector<uint32_t>& corners, TriangleMesh& mesh) {
   for (size_t i = 2; i < corners.size(); ++i) mesh.triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
 }
 
+LoadedMesh checked_mesh(const std::string& name, TriangleMesh mesh, uint64_t first) {
+  if (mesh.triangles.empty()) fail_in_mesh(name, 0, "the mesh has no faces");
+  check_indices(name, mesh, first);
+  LoadedMesh loaded{std::move(mesh), 0};
+  loaded.degenerate_triangles = drop_flat_triangles(loaded.mesh);
+  if (loaded.mesh.triangles.empty()) fail_in_mesh(name, 0, "no face of the mesh has an area");
+  return loaded;
+}
+
 LoadedMesh load_mesh(const std::string& path) {
   const std::string extension = lower_extension(path);
   if (extension != ".ply" && extension != ".obj") fail_in_mesh(path, 0, "a mesh must be a .ply or .obj file");
   const std::string text = read_whole_file(path);
-  LoadedMesh loaded;
-  loaded.mesh = extension == ".ply" ? parse_ply(path, text) : parse_obj(path, text);
-  if (loaded.mesh.triangles.empty()) fail_in_mesh(path, 0, "the mesh has no faces");
-  check_indices(path, loaded.mesh, extension == ".obj" ? 1 : 0);
-  loaded.degenerate_triangles = drop_flat_triangles(loaded.mesh);
-  if (loaded.mesh.triangles.empty()) fail_in_mesh(path, 0, "no face of the mesh has an area");
-  return loaded;
+  return extension == ".ply" ? checked_mesh(path, parse_ply(path, text)) : checked_mesh(path, parse_obj(path, text), 1);
 }
 
 }  // namespace vpm

@@ -20,4 +20,8 @@ struct LoadedMesh {
 /// not have or has for a part of its corners only, has values of them that are not finite, or normals of length zero.
 LoadedMesh load_mesh(const std::string& path);
 
+/// A mesh from elsewhere, without its triangles that have no area. Throws InputError, "name: ...", where it holds no
+/// face with an area, or faces name vertices that it does not have; `first` is the number of the first vertex.
+LoadedMesh checked_mesh(const std::string& name, TriangleMesh mesh, uint64_t first = 0);
+
 }  // namespace vpm

@@ -57,20 +57,23 @@ void read_coefficients(TableReader& table, bool grid, Medium& medium) {
   }
 }
 
-GridRequest read_grid(TableReader& table) {
+/// `given`: the grid is in memory, and the key `grid` describes it.
+GridRequest read_grid(TableReader& table, bool given) {
   GridRequest request;
-  request.path = table.path("path");
+  if (!given) {
+    request.path = table.path("path");
+    request.from_level_set = table.flag("from_level_set", false);
+  }
   if (table.has("grid")) request.name = table.string("grid");
   request.interpolation = table.choice<Interpolation>(
       "interpolation", {{"trilinear", Interpolation::trilinear}, {"nearest", Interpolation::nearest}},
       Interpolation::trilinear);
-  request.from_level_set = table.flag("from_level_set", false);
   request.clamp_negative = table.flag("clamp_negative", false);
   request.object_to_world = read_transform(table, "transform");
   return request;
 }
 
-MediumPlan read_medium(TableReader table, const std::string& name, const Names& names) {
+MediumPlan read_medium(TableReader table, const std::string& name, const Names& names, const GridValues* given) {
   std::optional<GridRequest> request;
   MediumPart part;
   Medium& medium = part.medium;
@@ -79,7 +82,7 @@ MediumPlan read_medium(TableReader table, const std::string& name, const Names& 
   medium.phase = read_phase(table);
   read_coefficients(table, grid, medium);
   if (grid) {
-    request = read_grid(table);
+    request = read_grid(table, given != nullptr);
     part.boundary = table.choice<GridBoundary>(
         "boundary", {{"box", GridBoundary::box}, {"shapes", GridBoundary::shapes}}, GridBoundary::automatic);
     if (table.has("outside")) part.outside = read_medium_name(table, "outside", names, kVacuum);
@@ -90,7 +93,7 @@ MediumPlan read_medium(TableReader table, const std::string& name, const Names& 
   if (!is_finite(medium.sigma_t))
     table.fail_here("the extinction of " + table.title() + " is too large for single precision");
   table.finish();
-  return {std::move(part), std::move(table), std::move(request)};
+  return {std::move(part), std::move(table), std::move(request), given};
 }
 
 }  // namespace
@@ -106,9 +109,10 @@ MediumId read_medium_name(TableReader& table, const std::string& key, const Name
   table.fail(key, "there is no medium '" + name + "'", suggest(name, known, "there are"));
 }
 
-std::vector<MediumPlan> read_media(TableReader& section, const Names& names) {
+std::vector<MediumPlan> read_media(TableReader& section, const Names& names, const GivenParts& given) {
   std::vector<MediumPlan> plans;
-  for (auto& [name, table] : section.named_tables("media")) plans.push_back(read_medium(table, name, names));
+  for (auto& [name, table] : section.named_tables("media"))
+    plans.push_back(read_medium(table, name, names, given.grid(name)));
   return plans;
 }
 

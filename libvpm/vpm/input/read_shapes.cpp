@@ -41,14 +41,16 @@ TriangleMesh read_box(TableReader& table) {
   return box_mesh(Vec3d(lo), Vec3d(hi));
 }
 
-TriangleMesh read_mesh(TableReader& table, ShapePart& part) {
-  const std::string path = table.path("path");
+/// `given`: the mesh is in memory, and the key `mesh` describes it.
+TriangleMesh read_mesh(TableReader& table, ShapePart& part, const TriangleMesh* given) {
+  const std::string key = given ? "mesh" : "path";
+  const std::string source = given ? table.string(key) : table.path(key);
   try {
-    LoadedMesh loaded = load_mesh(path);
+    LoadedMesh loaded = given ? checked_mesh(source, *given) : load_mesh(source);
     part.degenerate_triangles = loaded.degenerate_triangles;
     return std::move(loaded.mesh);
   } catch (const InputError& error) {
-    table.fail("path", error.what());
+    table.fail(key, error.what());
   }
 }
 
@@ -66,27 +68,36 @@ TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePart& pa
   return mesh;
 }
 
-Surface read_surface(TableReader& table, ShapePart& part) {
-  using Reader = Surface (*)(TableReader&, ShapePart&);
-  const auto read = table.choice<Reader>(
-      "type",
-      {{"sphere", [](TableReader& t, ShapePart&) -> Surface { return read_sphere(t); }},
-       {"disc", [](TableReader& t, ShapePart&) -> Surface { return read_disc(t); }},
-       {"quad", [](TableReader& t, ShapePart& p) -> Surface { return QuadMesh{read_triangles(t, read_quad(t), p)}; }},
-       {"box", [](TableReader& t, ShapePart& p) -> Surface { return read_triangles(t, read_box(t), p); }},
-       {"mesh", [](TableReader& t, ShapePart& p) -> Surface { return read_triangles(t, read_mesh(t, p), p); }}});
-  return read(table, part);
+Surface read_surface(TableReader& table, ShapePart& part, const TriangleMesh* given) {
+  enum class Kind { sphere, disc, quad, box, mesh };
+  switch (table.choice<Kind>("type", {{"sphere", Kind::sphere},
+                                      {"disc", Kind::disc},
+                                      {"quad", Kind::quad},
+                                      {"box", Kind::box},
+                                      {"mesh", Kind::mesh}})) {
+    case Kind::sphere:
+      return read_sphere(table);
+    case Kind::disc:
+      return read_disc(table);
+    case Kind::quad:
+      return QuadMesh{read_triangles(table, read_quad(table), part)};
+    case Kind::box:
+      return read_triangles(table, read_box(table), part);
+    case Kind::mesh:
+      return read_triangles(table, read_mesh(table, part, given), part);
+  }
+  __builtin_unreachable();
 }
 
-ShapePart read_shape(TableReader& table, const Names& media, const Names& material_names, MediumId world,
+ShapePart read_shape(TableReader& table, const ShapeContext& context, const TriangleMesh* given,
                      std::vector<MaterialPlan>& materials) {
   ShapePart part;
   part.name = table.string("name", "");
   part.title = table.title();
-  part.surface = read_surface(table, part);
-  part.material = read_shape_material(table, material_names, materials);
-  const Interface sides{read_medium_name(table, "inside", media, world),
-                        read_medium_name(table, "outside", media, world)};
+  part.surface = read_surface(table, part, given);
+  part.material = read_shape_material(table, context.materials, materials);
+  const Interface sides{read_medium_name(table, "inside", context.media, context.world),
+                        read_medium_name(table, "outside", context.media, context.world)};
   if (table.has("inside") || table.has("outside")) part.media = sides;
   if (table.has("emission")) part.emission = table.rgb("emission", kNotNegative);
   table.finish();
@@ -95,11 +106,11 @@ ShapePart read_shape(TableReader& table, const Names& media, const Names& materi
 
 }  // namespace
 
-std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
-                                   MediumId world, std::vector<MaterialPlan>& materials) {
+std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const ShapeContext& context,
+                                   std::vector<MaterialPlan>& materials) {
   std::vector<ShapePlan> plans;
   for (TableReader& table : tables) {
-    ShapePart part = read_shape(table, media, material_names, world, materials);
+    ShapePart part = read_shape(table, context, context.given.mesh(plans.size()), materials);
     plans.push_back({std::move(part), table});
   }
   return plans;

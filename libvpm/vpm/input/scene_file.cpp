@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "vpm/base/error.h"
+#include "vpm/base/fnv.h"
 #include "vpm/input/fingerprint.h"
 #include "vpm/input/sections.h"
 #include "vpm/job/setting.h"
@@ -29,7 +30,7 @@ struct ScenePlan {
 
 Names keys_of(const TableReader* section) { return section ? section->keys() : Names{}; }
 
-void read_media_and_world(TableReader& root, ScenePlan& plan, Names& names) {
+void read_media_and_world(TableReader& root, const GivenParts& given, ScenePlan& plan, Names& names) {
   std::optional<TableReader> media = root.table("media", "[media]");
   names = keys_of(media ? &*media : nullptr);
   plan.world_table = root.table("world", "[world]");
@@ -37,7 +38,7 @@ void read_media_and_world(TableReader& root, ScenePlan& plan, Names& names) {
     plan.world_medium = read_medium_name(*plan.world_table, "medium", names, kVacuum);
     plan.world_table->finish();
   }
-  if (media) plan.media = read_media(*media, names);
+  if (media) plan.media = read_media(*media, names, given);
 }
 
 void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan) {
@@ -64,15 +65,15 @@ SceneFacts facts_of(const ScenePlan& plan) {
   return facts;
 }
 
-ScenePlan read_plan(TableReader& root, RenderJob& job) {
+ScenePlan read_plan(TableReader& root, const GivenParts& given, RenderJob& job) {
   ScenePlan plan;
   Names media;
-  read_media_and_world(root, plan, media);
+  read_media_and_world(root, given, plan, media);
   std::optional<TableReader> materials = root.table("materials", "[materials]");
   if (materials) plan.materials = read_materials(*materials);
   std::vector<TableReader> shapes = root.tables("shapes", "[[shapes]]");
-  plan.shapes =
-      read_shapes(shapes, media, keys_of(materials ? &*materials : nullptr), plan.world_medium, plan.materials);
+  const Names material_names = keys_of(materials ? &*materials : nullptr);
+  plan.shapes = read_shapes(shapes, {media, material_names, plan.world_medium, given}, plan.materials);
   std::vector<TableReader> lights = root.tables("lights", "[[lights]]");
   plan.lights = read_lights(lights);
   read_camera_section(root, media, plan);
@@ -151,14 +152,14 @@ SceneParts parts_of(ScenePlan& plan) {
 
 void load_medium_grid(const MediumPlan& plan, const GridRequest& request, Medium& medium, RenderJob& job) {
   try {
-    LoadedGrid grid = load_grid(request);
+    LoadedGrid grid = plan.given ? density_of(*plan.given, request) : load_grid(request);
     medium.grid = std::move(grid.grid);
     job.clamped_density_values += grid.clamped_values;
     if (grid.clamped_values > 0)
       job.notes.push_back("medium '" + medium.name + "': " + std::to_string(grid.clamped_values) +
                           " negative densities set to 0, as clamp_negative asks");
   } catch (const InputError& error) {
-    plan.table.fail("path", error.what());
+    plan.table.fail(plan.given ? "grid" : "path", error.what());
   }
 }
 
@@ -183,21 +184,51 @@ void assemble_plan(ScenePlan& plan, RenderJob& job) {
   for (std::string& note : assembled.notes) job.notes.push_back(std::move(note));
 }
 
-RenderJob load(Document document, const std::vector<std::string>& options, LeftOut left_out) {
-  for (const std::string& option : options) apply_override(document, option);
-  if (left_out == LeftOut::automatic)
-    for (const std::string& option : left_to_choose(document)) apply_override(document, option);
+std::string hash_of(const TriangleMesh& mesh) {
+  Fnv1a hash;
+  const auto add = [&](const auto& list) {
+    hash.add({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0])});
+    hash.add(std::to_string(list.size()));  // keeps lists apart
+  };
+  add(mesh.positions);
+  add(mesh.triangles);
+  add(mesh.normals);
+  add(mesh.uvs);
+  return hash.digits();
+}
+
+/// Names and hashes of parts that are in memory.
+std::vector<std::pair<std::string, std::string>> hashes_of(const GivenParts& given) {
+  std::vector<std::pair<std::string, std::string>> hashes;
+  for (const auto& [medium, grid] : given.grids) hashes.emplace_back("grid of " + medium, hash_of(grid));
+  for (const auto& [shape, mesh] : given.meshes)
+    hashes.emplace_back("mesh of shape " + std::to_string(shape), hash_of(mesh));
+  return hashes;
+}
+
+/// A scene file with its options applied becomes a job.
+RenderJob job_of(const Document& document, const GivenParts& given) {
   RenderJob job;
   TableReader root(document.root, "the scene file", job.files);
-  ScenePlan plan = read_plan(root, job);
+  ScenePlan plan = read_plan(root, given, job);
   try {
     assemble_plan(plan, job);
   } catch (const PartError& error) {
     fail_at_part(error, root, plan);
   }
-  Fingerprint fingerprint = fingerprint_of(document, job.files);
+  Fingerprint fingerprint = fingerprint_of(document, job.files, hashes_of(given));
   job.hash = std::move(fingerprint.hash);
   job.contents = std::move(fingerprint.contents);
+  return job;
+}
+
+/// The same of one without its options.
+RenderJob job_with(Document document, const std::vector<std::string>& options, LeftOut left_out,
+                   const GivenParts& given) {
+  for (const std::string& option : options) apply_override(document, option);
+  if (left_out == LeftOut::automatic)
+    for (const std::string& option : left_to_choose(document)) apply_override(document, option);
+  RenderJob job = job_of(document, given);
   job.source = document.sources.front()->name;
   job.overrides = options;
   return job;
@@ -211,12 +242,11 @@ RenderJob load_scene(const std::string& path, const std::vector<std::string>& op
         "{}: this is a grid, not a scene: a scene file (.toml) names it in a medium, as scenes/smoke.toml does; "
         "vpm info {} tells what it holds",
         path, path));
-  return load(read_toml(path), options, left_out);
+  return job_with(read_toml(path), options, left_out, {});
 }
 
-RenderJob load_scene_text(const std::string& text, const std::string& name, const std::vector<std::string>& options,
-                          LeftOut left_out) {
-  return load(parse_toml(text, name), options, left_out);
+RenderJob load_scene(const SceneText& scene, const std::vector<std::string>& options, LeftOut left_out) {
+  return job_with(parse_toml(scene.name, scene.text), options, left_out, scene.given);
 }
 
 }  // namespace vpm

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vpm/input/given_parts.h"
 #include "vpm/job/render_job.h"
 
 namespace vpm {
@@ -18,9 +19,17 @@ enum class LeftOut { usual, automatic };
 /// current one. Throws InputError for anything that is not right, telling file:line:column, or the option.
 RenderJob load_scene(const std::string& path, const std::vector<std::string>& overrides = {},
                      LeftOut left_out = LeftOut::usual);
-/// Reads a text as the scene file of that name, whether or not there is such a file: its folder is where relative paths
-/// start from.
-RenderJob load_scene_text(const std::string& text, const std::string& name,
-                          const std::vector<std::string>& overrides = {}, LeftOut left_out = LeftOut::usual);
+
+/// A scene file that is in memory, and parts of it that no text holds.
+struct SceneText {
+  std::string name;  // what errors call it; paths in the text are relative to the folder that it names
+  std::string text;  // TOML
+  /// A grid of these stands in the text as `grid = "..."` of its medium, in the place of `path`, a mesh as
+  /// `mesh = "..."` of its shape; what is between the quotes describes it in errors.
+  GivenParts given{};
+};
+/// The same of a scene in memory. The given parts must live until then, and no longer.
+RenderJob load_scene(const SceneText& scene, const std::vector<std::string>& overrides = {},
+                     LeftOut left_out = LeftOut::usual);
 
 }  // namespace vpm

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "vpm/input/grid_file.h"
+#include "vpm/input/given_parts.h"
 #include "vpm/input/table_reader.h"
 #include "vpm/job/choice.h"
 #include "vpm/job/validate.h"
@@ -28,9 +28,10 @@ struct MediumPlan {
   MediumPart part;
   TableReader table;
   std::optional<GridRequest> grid;
+  const GridValues* given = nullptr;  // in the place of that grid's file
 };
 /// Reads [media.*].
-std::vector<MediumPlan> read_media(TableReader& section, const Names& names);
+std::vector<MediumPlan> read_media(TableReader& section, const Names& names, const GivenParts& given);
 
 /// A material.
 struct MaterialPlan {
@@ -54,9 +55,15 @@ struct ShapePlan {
   ShapePart part;
   TableReader table;
 };
+/// What shapes may name: media and materials; which medium is around those that name none; and meshes that are given.
+struct ShapeContext {
+  const Names &media, &materials;
+  MediumId world;
+  const GivenParts& given;
+};
 /// Reads [[shapes]]; appends materials that shapes define in place to `materials`.
-std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const Names& media, const Names& material_names,
-                                   MediumId world, std::vector<MaterialPlan>& materials);
+std::vector<ShapePlan> read_shapes(std::vector<TableReader>& tables, const ShapeContext& context,
+                                   std::vector<MaterialPlan>& materials);
 
 /// The affine map of a list of steps, applied in the list's order; the identity where `key` is missing. Refuses
 /// singular ones.

@@ -52,8 +52,8 @@ void check_toml(const std::string& text, const Source* source);
 
 /// Parses a TOML file. Throws InputError with file:line:column where it is not TOML.
 Document read_toml(const std::string& path);
-/// Parses a text as the content of a file of that name. Throws as read_toml().
-Document parse_toml(std::string text, const std::string& name);
+/// The same of a text; `name` is what errors call it.
+Document parse_toml(const std::string& name, std::string text);
 
 /// A TOML value as written after "key ="; nothing where the text is none.
 std::unique_ptr<Node> parse_toml_value(const std::string& text, const Source* source);

@@ -68,9 +68,9 @@ std::vector<std::string> split_lines(const std::string& text) {
 
 }  // namespace
 
-Document read_toml(const std::string& path) { return parse_toml(read_whole_file(path), path); }
+Document read_toml(const std::string& path) { return parse_toml(path, read_whole_file(path)); }
 
-Document parse_toml(std::string text, const std::string& name) {
+Document parse_toml(const std::string& name, std::string text) {
   Document document;
   document.text = std::move(text);
   document.sources.push_back(std::make_unique<Source>(Source{name, split_lines(document.text)}));

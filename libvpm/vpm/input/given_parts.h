@@ -1,0 +1,27 @@
+// Parts of a scene that its maker holds in memory, where a scene file would name files.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "vpm/input/grid_values.h"
+#include "vpm/surface/geometry.h"
+
+namespace vpm {
+
+struct GivenParts {
+  std::map<std::string, GridValues> grids;  // of media, by their names
+  std::map<size_t, TriangleMesh> meshes;    // of shapes, by their numbers in [[shapes]]
+
+  const GridValues* grid(const std::string& medium) const {
+    const auto found = grids.find(medium);
+    return found == grids.end() ? nullptr : &found->second;
+  }
+  const TriangleMesh* mesh(size_t shape) const {
+    const auto found = meshes.find(shape);
+    return found == meshes.end() ? nullptr : &found->second;
+  }
+};
+
+}  // namespace vpm

@@ -1,0 +1,177 @@
+// Renders: passes of a scene so far, each further set of passes a new value; and what is read off them.
+#include <fmt/format.h>
+#include <filesystem>
+#include <memory>
+
+#include "bindings.h"
+#include "scene_job.h"
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
+#include "vpm/image/png.h"
+#include "vpm/job/messages.h"
+#include "vpm/job/picture.h"
+#include "vpm/job/render.h"
+#include "vpm/job/report.h"
+#include "vpm/render/technique_layers.h"
+
+namespace vpm::python {
+namespace {
+
+/// The passes of a render so far; immutable once it is made.
+struct Passes {
+  std::shared_ptr<SceneJob> scene;
+  JobState state;
+  RenderResult result;
+
+  /// Calls use(const RenderJob&) without the interpreter's lock.
+  template <class Use>
+  auto with(Use&& use) const {
+    const py::gil_scoped_release others_run;
+    JobState own = state;
+    return with_job(*scene, own, [&](const RenderJob& job) { return use(job); });
+  }
+};
+
+/// What run_interruptibly() found goes on as it is, unless passes that are finished are to be handed over first.
+void raise(std::optional<py::error_already_set>& raised) {
+  if (raised) throw *std::move(raised);
+}
+
+StopRule stop_rule(std::optional<int> passes, std::optional<double> seconds, std::optional<double> error,
+                   StopRule otherwise) {
+  if (passes) return {.passes = *passes};
+  if (seconds) otherwise.seconds = *seconds;
+  if (error) otherwise.error = *error;
+  return otherwise;
+}
+
+/// Before the first pass: chooses what is "auto", and looks ahead as the command line does.
+std::shared_ptr<Passes> begin(const std::shared_ptr<SceneJob>& scene, std::optional<int> passes,
+                              std::optional<double> seconds, std::optional<double> error,
+                              std::optional<uint64_t> seed) {
+  auto begun = std::make_shared<Passes>(Passes{scene,
+                                               [&] {
+                                                 const py::gil_scoped_release others_run;
+                                                 const std::scoped_lock lock(scene->busy);
+                                                 return JobState(scene->job);
+                                               }(),
+                                               nothing_rendered(scene->job.scene.camera)});
+  RenderSettings& settings = begun->state.settings;
+  settings.until = stop_rule(passes, seconds, error, settings.until);
+  if (seed) settings.seed = *seed;
+  std::atomic<bool> stop{false};
+  auto raised = run_interruptibly(stop, [&] {
+    with_job(*scene, begun->state, [](RenderJob& job) {
+      choose(job);
+      foresee(job);
+      look_for_kernel_light(job);
+    });
+  });
+  raise(raised);
+  begun->result.seconds = begun->state.pilot_seconds;
+  return begun;
+}
+
+/// The same render with another stop rule; a render by passes adds none below those that it has.
+std::shared_ptr<Passes> until(const Passes& before, std::optional<int> passes, std::optional<double> seconds,
+                              std::optional<double> error) {
+  auto after = std::make_shared<Passes>(before);
+  after->state.settings.until = stop_rule(passes, seconds, error, before.state.settings.until);
+  return after;
+}
+
+/// Renders until the stop rule is met, or one pass; and what a signal's handler raised meanwhile, or None.
+std::pair<std::shared_ptr<Passes>, py::object> advance(const Passes& before, bool one_pass, bool progress) {
+  auto after = std::make_shared<Passes>(before);
+  std::atomic<bool> stop{false};
+  std::function<void(const RenderResult&)> finished;
+  if (one_pass) finished = [&](const RenderResult&) { stop = true; };
+  const RunControl control{stop, progress ? ProgressMode::automatic : ProgressMode::never, finished};
+  auto raised = run_interruptibly(stop, [&] {
+    with_job(*after->scene, after->state, [&](RenderJob& job) {
+      after->result = render(job.scene, job.settings, std::move(after->result), control);
+    });
+  });
+  if (raised && !raised->matches(PyExc_KeyboardInterrupt)) raise(raised);
+  return {after, raised ? raised->value() : py::none()};
+}
+
+py::object stated_error_dict(const Passes& passes) {
+  const std::optional<StatedError> stated = stated_error_of(passes.result);
+  if (!stated) return py::none();
+  py::dict told;
+  told["total"] = stated->total.value;
+  told["total_standard_error"] = stated->total.standard_error;
+  told["variance"] = stated->variance.value;
+  told["variance_standard_error"] = stated->variance.standard_error;
+  told["squared_bias"] = stated->squared_bias.value;
+  told["squared_bias_standard_error"] = stated->squared_bias.standard_error;
+  told["highest"] = stated->highest;
+  return told;
+}
+
+py::dict layers_of(const Passes& passes) {
+  py::dict layers;
+  const std::vector<std::string> names = layer_names(passes.state.settings);
+  for (size_t i = 0; i < passes.result.layers.size(); ++i) {
+    const Film& film = passes.result.layers[i];
+    layers[py::str(names[i])] = array_of(film.mean());
+    if (film.passes() >= 2) layers[py::str(names[i] + ".variance")] = array_of(film.variance_of_mean());
+  }
+  return layers;
+}
+
+/// One of the pictures of the film's errors; None below two passes.
+py::object error_picture(const py::object& self, Image FilmErrors::*picture) {
+  const auto& passes = self.cast<const Passes&>();
+  return passes.result.errors ? py::object(view_of((*passes.result.errors).*picture, self)) : py::none();
+}
+
+void write(const Passes& passes, const std::string& path, std::optional<float> exposure) {
+  const std::filesystem::path exr = path;
+  if (exr.extension() != ".exr")
+    throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", path));
+  if (passes.result.film.passes() == 0) throw InputError(path + ": no pass is finished, and nothing is written");
+  passes.with([&](const RenderJob& job) {
+    const Image picture = passes.result.film.mean();
+    write_picture(exr, job, passes.result);
+    write_png(std::filesystem::path(exr).replace_extension(".png"), picture,
+              exposure ? *exposure : auto_exposure(picture));
+    write_text(std::filesystem::path(exr).replace_extension(".json"), render_report(job, path, passes.result));
+  });
+}
+
+}  // namespace
+
+void bind_renders(py::module_& module) {
+  py::class_<Passes, std::shared_ptr<Passes>>(module, "Passes")
+      .def_property_readonly("count", [](const Passes& p) { return p.result.film.passes(); })
+      .def_property_readonly("seconds", [](const Passes& p) { return p.result.seconds; })
+      .def_property_readonly("seed", [](const Passes& p) { return p.state.settings.seed; })
+      .def_property_readonly("notes", [](const Passes& p) { return p.state.notes; })
+      .def("warnings", [](const Passes& p) { return p.with([&](auto& job) { return warnings_of(job, p.result); }); })
+      .def("error_text", [](const Passes& p) { return p.with([&](auto& job) { return error_text(job, p.result); }); })
+      .def("report",
+           [](const Passes& p) { return p.with([&](auto& job) { return render_report(job, "", p.result); }); })
+      .def("radiance", [](const Passes& p) { return array_of(p.result.film.mean()); })
+      .def("variance", [](const py::object& self) { return error_picture(self, &FilmErrors::variance); })
+      .def("bias",
+           [](const py::object& self) {
+             const auto& passes = self.cast<const Passes&>();
+             return passes.result.film.shows_bias() ? error_picture(self, &FilmErrors::bias) : py::none();
+           })
+      .def("variance_of_means",
+           [](const Passes& p) -> py::object {
+             if (!p.result.errors) return py::none();
+             const Rgbd& means = p.result.errors->variance_of_channel_means;
+             return py::make_tuple(means.r, means.g, means.b);
+           })
+      .def("layers", &layers_of)
+      .def("stated_error", &stated_error_dict)
+      .def("write", &write)
+      .def("until", &until)
+      .def("advance", &advance);
+  module.def("begin", &begin);
+}
+
+}  // namespace vpm::python

@@ -1,0 +1,61 @@
+// A scene that several renders share, each with settings of its own.
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vpm/job/render_job.h"
+
+namespace vpm::python {
+
+/// A job as it was loaded. Its scene is immutable; what a render changes of the rest is that render's.
+struct SceneJob {
+  RenderJob job;
+  std::mutex busy{};
+};
+
+/// What a render changes of a job.
+struct JobState {
+  RenderSettings settings;
+  AutomaticSettings automatic;
+  std::vector<Choice> choices;
+  std::vector<std::string> notes;
+  std::optional<KernelLight> kernel_light;
+  double pilot_seconds = 0.0;
+
+  explicit JobState(const RenderJob& job)
+      : settings(job.settings),
+        automatic(job.automatic),
+        choices(job.choices),
+        notes(job.notes),
+        kernel_light(job.kernel_light),
+        pilot_seconds(job.pilot_seconds) {}
+
+  void exchange(RenderJob& job) {
+    std::swap(settings, job.settings);
+    std::swap(automatic, job.automatic);
+    std::swap(choices, job.choices);
+    std::swap(notes, job.notes);
+    std::swap(kernel_light, job.kernel_light);
+    std::swap(pilot_seconds, job.pilot_seconds);
+  }
+};
+
+/// Calls use(RenderJob&) with the scene's job in that state. One at a time: the others wait. Do not hold the
+/// interpreter's lock.
+template <class Use>
+auto with_job(SceneJob& scene, JobState& state, Use&& use) {
+  const std::scoped_lock lock(scene.busy);
+  state.exchange(scene.job);
+  struct Back {
+    SceneJob& scene;
+    JobState& state;
+    ~Back() { state.exchange(scene.job); }
+  } const back{scene, state};
+  return use(scene.job);
+}
+
+}  // namespace vpm::python

@@ -1,0 +1,107 @@
+// What pictures are measured against: exact solutions, and how far pictures are apart.
+#include <limits>
+#include <map>
+
+#include "bindings.h"
+#include "exact_problems.h"
+#include "vpm/base/error.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/metrics.h"
+#include "vpm/image/noisy_difference.h"
+
+namespace vpm::python {
+namespace {
+
+py::array_t<double> doubles_of(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+/// name, unit, place, its unit, places, values (NaN: there is none), errors.
+py::tuple tuple_of(const tools::ExactQuantity& quantity) {
+  std::vector<double> values;
+  for (const std::optional<double>& value : quantity.values)
+    values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  return py::make_tuple(quantity.name, quantity.unit, quantity.place, quantity.place_unit, doubles_of(quantity.places),
+                        doubles_of(values), doubles_of(quantity.errors));
+}
+
+py::list solve_exactly(const std::string& name, const std::vector<std::string>& given) {
+  std::vector<tools::ExactQuantity> quantities;
+  {
+    const py::gil_scoped_release others_run;
+    const tools::ExactProblem& problem = tools::find_exact_problem(name);
+    tools::ExactArguments arguments(problem.name, problem.keys, given);
+    quantities = problem.solve(arguments);
+    arguments.expect_all_read();
+  }
+  py::list told;
+  for (const tools::ExactQuantity& quantity : quantities) told.append(tuple_of(quantity));
+  return told;
+}
+
+/// Of each problem its name, what it is, and its keys: name, meaning, what it is otherwise, whether it must be given.
+py::list problems() {
+  py::list all;
+  for (const tools::ExactProblem& problem : tools::exact_problems()) {
+    py::list keys;
+    for (const tools::ExactKey& key : problem.keys)
+      keys.append(py::make_tuple(key.name, key.meaning, key.otherwise, key.required));
+    all.append(py::make_tuple(problem.name, problem.summary, keys));
+  }
+  return all;
+}
+
+/// A picture, the variances of its pixels and those of its channels' means, where they are known.
+using NoisyArray = std::tuple<Floats, std::optional<Floats>, std::optional<std::array<double, 3>>>;
+
+NoisyImage noisy_image(const NoisyArray& array) {
+  const auto& [picture, variance, of_means] = array;
+  NoisyImage noisy{image_of(picture), {}, {}};
+  if (variance) noisy.variance = image_of(*variance);
+  if (of_means) noisy.variance_of_channel_means = Rgbd((*of_means)[0], (*of_means)[1], (*of_means)[2]);
+  return noisy;
+}
+
+py::tuple tuple_of(const Rgbd& c) { return py::make_tuple(c.r, c.g, c.b); }
+
+py::dict difference(const NoisyArray& one, const NoisyArray& other) {
+  const NoisyImage picture = noisy_image(one), reference = noisy_image(other);
+  py::dict told;
+  told["mse"] = mse(picture.image, reference.image);
+  told["relative_mse"] = relative_mse(picture.image, reference.image);
+  told["relative_mse_of_pbrt"] = relative_mse_of_pbrt(picture.image, reference.image);
+  told["means"] = tuple_of(channel_means(picture.image));
+  told["means_of_reference"] = tuple_of(channel_means(reference.image));
+  const NoisyDifference apart = noisy_difference(picture, reference);
+  told["difference_of_means"] = tuple_of(apart.of_channel_means);
+  told["standard_errors_of_means"] = tuple_of(apart.standard_errors);
+  told["less_noise"] = apart.less_noise;
+  told["standard_error"] = apart.standard_error;
+  told["noise"] = apart.noise;
+  told["noise_of_reference"] = apart.noise_of_reference;
+  return told;
+}
+
+/// The picture, its planes by their names, and its attributes.
+py::tuple read_planes(const std::string& path) {
+  const ExrChannels channels = read_exr_channels(path);
+  py::dict planes;
+  for (const auto& [name, values] : channels.planes)
+    planes[py::str(name)] = py::array_t<float>({channels.height, channels.width}, values.data());
+  py::dict metadata;
+  for (const auto& [name, text] : channels.metadata)
+    metadata[py::str(name)] = py::reinterpret_steal<py::str>(
+        PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape"));
+  return py::make_tuple(array_of(read_exr(path)), planes, metadata);
+}
+
+}  // namespace
+
+void bind_studies(py::module_& module) {
+  module.def("exact", &solve_exactly);
+  module.def("exact_problems", &problems);
+  module.def("difference", &difference);
+  module.def("read_exr", &read_planes);
+}
+
+}  // namespace vpm::python

@@ -1,0 +1,21 @@
+"""vpm: volumetric photon mapping, measured.
+
+    import vpm
+    result = vpm.render("scenes/smoke.toml", passes=4)
+    result.radiance                     # array (height, width, 3), float32, W/(m^2 sr)
+    result.write("smoke.exr")           # what `vpm render` writes
+
+`Scene`, `Grid` and `Mesh` make scenes; `render` and `passes` render them; `error`, `exact` and `read_comparison` tell
+how good pictures are. Lengths are in m, coefficients in 1/m, radiance in W/(m^2 sr).
+"""
+from ._render import Interrupted, Result, passes, render
+from ._scene import Grid, Mesh, Scene
+from ._study import (Comparison, Errors, Picture, Quantity, error, exact, exact_problems, read_comparison, read_exr)
+from ._vpm import InputError, set_threads, thread_count, version
+
+__all__ = [
+    "Comparison", "Errors", "Grid", "InputError", "Interrupted", "Mesh", "Picture", "Quantity", "Result", "Scene",
+    "error", "exact", "exact_problems", "passes", "read_comparison", "read_exr", "render", "set_threads",
+    "thread_count", "version",
+]
+__version__ = version().split()[0]
