@@ -2,13 +2,10 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "tools/vpm_binary.h"
 #include "vpm/image/image.h"

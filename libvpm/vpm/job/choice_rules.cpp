@@ -8,6 +8,7 @@
 
 #include "vpm/estimate/pass_map.h"
 #include "vpm/job/forecast.h"
+#include "vpm/job/render.h"
 
 namespace vpm {
 namespace {
