@@ -92,6 +92,8 @@ inline std::string receive_packet(int connection) {
   if (head.size() < 4) return "";
   uint32_t length = 0;
   std::memcpy(&length, head.data(), sizeof(length));
+  EXPECT_TRUE(length > 4 && length < 1 << 21) << length;
+  if (length <= 4) return "";
   return head + receive(connection, length - 4);
 }
 

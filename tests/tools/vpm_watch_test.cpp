@@ -16,12 +16,15 @@
 namespace vpm {
 namespace {
 
+using Json = nlohmann::json;
+
 class VpmWatch : public VpmBinary {
  protected:
-  /// A ball of fog, on a film of that size; from afar it covers few pixels, and passes take no time.
-  void write_scene(int width, int height, bool from_afar = false) const {
+  void write_scene(int width, int height) const { write("fog.toml", ball_of_fog(width, height)); }
+  /// From so far away that the fog covers few pixels, and passes take no time.
+  void write_quick_scene(int width, int height) const {
     std::string scene = ball_of_fog(width, height);
-    if (from_afar) scene.replace(scene.find("[0, 0, 3]"), 9, "[0, 0, 40]");
+    scene.replace(scene.find("[0, 0, 3]"), 9, "[0, 0, 40]");
     write("fog.toml", scene);
   }
 
@@ -34,16 +37,16 @@ class VpmWatch : public VpmBinary {
   }
 
   /// Watched, the render succeeds, says one line that has each of `words`, and gives the picture that it gives
-  /// unwatched. Returns by how much longer it took, s.
+  /// unwatched. Returns how long it took, s.
   double renders_the_same(int passes, const ViewerPort& port, const std::vector<std::string>& words) const {
-    const double alone = vpm_succeeds(render("alone", passes)).seconds;
+    vpm_succeeds(render("alone", passes));
     const ProcessResult watched = vpm_succeeds(render("watched", passes, {"--display", port.option()}));
-    EXPECT_EQ(std::count(watched.err.begin(), watched.err.end(), '\n'), words.empty() ? 0 : 1) << watched.err;
+    EXPECT_EQ(std::count(watched.err.begin(), watched.err.end(), '\n'), 1) << watched.err;
     expect_words(watched.err, words);
     EXPECT_TRUE(read("watched.exr") == read("alone.exr"));
     EXPECT_TRUE(read("watched.png") == read("alone.png"));
     EXPECT_EQ(without_circumstances(report("watched.json")), without_circumstances(report("alone.json")));
-    return watched.seconds - alone;
+    return watched.seconds;
   }
 
   /// Renders to a.exr, watched by a viewer that reads all.
@@ -51,7 +54,7 @@ class VpmWatch : public VpmBinary {
     const ViewerPort port;
     port.listen();
     ShownInViewer shown;
-    std::thread viewer([&] {
+    std::jthread viewer([&] {
       const Descriptor connection(port.accept());
       for (std::string packet; !(packet = receive_packet(connection)).empty();) shown.take(packet);
     });
@@ -61,6 +64,8 @@ class VpmWatch : public VpmBinary {
     return shown;
   }
 };
+
+class SlowVpmWatch : public VpmWatch {};  // waits, and looks at the clock
 
 // --- A viewer
 
@@ -96,7 +101,7 @@ TEST_F(VpmWatch, AViewerIsSentTheBytesOfItsProtocol) {
 }
 
 TEST_F(VpmWatch, TheViewersLastPictureIsThatOfTheFile) {
-  write_scene(400, 300, true);  // more than one packet holds
+  write_quick_scene(400, 300);  // more than one packet holds
   const ShownInViewer shown = watched(3, {});
   EXPECT_EQ(shown.name, "a.exr");
   EXPECT_EQ(shown.created, 1);
@@ -108,9 +113,9 @@ TEST_F(VpmWatch, TheViewersLastPictureIsThatOfTheFile) {
 }
 
 TEST_F(VpmWatch, WherePassesAreQuickMostAreNotShownButTheLastIs) {
-  write_scene(400, 300, true);
-  const ShownInViewer shown = watched(40, {"--set", "photons.emitted=20"});
-  EXPECT_LE(shown.updates, 30);
+  write_quick_scene(400, 300);
+  const ShownInViewer shown = watched(20, {"--set", "photons.emitted=20"});
+  EXPECT_LE(shown.updates, 15);
   EXPECT_GT(sum(shown.picture), 0.0);
   EXPECT_TRUE(same_pixels(shown.picture, read_exr(path("a.exr"))));
 }
@@ -122,11 +127,11 @@ TEST_F(VpmWatch, AViewerThatIsNotThereIsSaidAndChangesNothing) {
 }
 
 TEST_F(VpmWatch, AViewerThatLeavesIsSaidOnceAndChangesNothing) {
-  write_scene(100, 80, true);
+  write_quick_scene(100, 80);
   const ViewerPort port;
   port.listen();
   ShownInViewer shown;
-  std::thread viewer([&] {
+  std::jthread viewer([&] {
     const Descriptor connection(port.accept());
     for (std::string packet; shown.updates < 1 && !(packet = receive_packet(connection)).empty();) shown.take(packet);
   });
@@ -135,25 +140,27 @@ TEST_F(VpmWatch, AViewerThatLeavesIsSaidOnceAndChangesNothing) {
   EXPECT_EQ(shown.packets, 2);
 }
 
-TEST_F(VpmWatch, AViewerThatDoesNotReadHoldsUpTheRenderForTwoSecondsAtMost) {
-  write_scene(300, 200, true);
+TEST_F(SlowVpmWatch, AViewerThatDoesNotReadHoldsUpTheRenderForTwoSecondsAtMost) {
+  write_quick_scene(300, 200);
   const ViewerPort port;
   port.listen();
-  const double longer = renders_the_same(30, port, {"note: the viewer shows no more than ", "timed out"});
-  EXPECT_GT(longer, 1.0);  // it was waited for
-  EXPECT_LT(longer, 6.0);  // and machines are busy
+  renders_the_same(30, port, {"note: the viewer shows no more than ", "timed out"});
+  const Json times = report("watched.json")["times"];
+  const double between_passes = times["total"].get<double>() - times["eye_pass"].get<double>();
+  EXPECT_GE(between_passes, 2.0);
+  EXPECT_LT(between_passes, 7.0);  // machines are busy
 }
 
-TEST_F(VpmWatch, AViewerThatTakesNoConnectionHoldsUpTheRenderForTwoSecondsAtMost) {
+TEST_F(SlowVpmWatch, AViewerThatTakesNoConnectionHoldsUpTheRenderForTwoSecondsAtMost) {
   write_scene(40, 30);
   const ViewerPort port;
   port.listen(0);
   const auto make = [] { return socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0); };
   const Descriptor first(make()), second(make());
   for (const int waiting : {int{first}, int{second}}) port.connect_from(waiting);
-  const double longer = renders_the_same(3, port, {"note: no viewer shows the picture", "timed out"});
-  EXPECT_GT(longer, 1.0);
-  EXPECT_LT(longer, 6.0);
+  const double seconds = renders_the_same(3, port, {"note: no viewer shows the picture", "timed out"});
+  EXPECT_GE(seconds, 2.0);
+  EXPECT_LT(seconds, 7.0);
 }
 
 TEST_F(VpmWatch, BadOptionsAreRefusedBeforeRendering) {
@@ -167,9 +174,9 @@ TEST_F(VpmWatch, BadOptionsAreRefusedBeforeRendering) {
 
 // --- Files in the course of a render
 
-/// Waits until something is so, 20 s at most.
+/// Waits until something is so, a minute at most.
 bool comes_true(const std::function<bool()>& is_so) {
-  for (const Stopwatch waiting; waiting.seconds() < 20.0;) {
+  for (const Stopwatch waiting; waiting.seconds() < 60.0;) {
     if (is_so()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -178,7 +185,7 @@ bool comes_true(const std::function<bool()>& is_so) {
 
 class VpmPreview : public VpmWatch {
  protected:
-  VpmPreview() { write_scene(100, 80); }
+  VpmPreview() { write_quick_scene(100, 80); }
 
   /// A render without an end, to be interrupted.
   std::vector<std::string> endless(const std::string& preview) const {
@@ -202,7 +209,7 @@ class VpmPreview : public VpmWatch {
 };
 
 TEST_F(VpmPreview, FilesAreThereBeforeTheEndWholeAndNewAgainAndAgain) {
-  Process process(endless("0.01"), {60.0, 0, folder_.string()});
+  Process process(endless("0.01"), {100.0, 0, folder_.string()});
   ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(path("a.json")); }));
   for (int last = 0, more = 0; more < 5; ++more) {
     EXPECT_TRUE(comes_true([&] { return passes_of_picture() > last; }));
@@ -214,7 +221,7 @@ TEST_F(VpmPreview, FilesAreThereBeforeTheEndWholeAndNewAgainAndAgain) {
 }
 
 TEST_F(VpmPreview, FilesAreLeftAloneForSoManySeconds) {
-  Process process(endless("1000"), {60.0, 0, folder_.string()});
+  Process process(endless("1000"), {100.0, 0, folder_.string()});
   ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(path("a.json")); }));
   EXPECT_TRUE(process.wait_for_error_output(", relative MSE below"));  // after eight passes
   EXPECT_EQ(passes_of_picture(), 1);
@@ -223,7 +230,7 @@ TEST_F(VpmPreview, FilesAreLeftAloneForSoManySeconds) {
 }
 
 TEST_F(VpmPreview, AFileThatCannotBeWrittenIsSaidAndEndsNothing) {
-  Process process(endless("0.01"), {60.0, 0, folder_.string()});
+  Process process(endless("0.01"), {100.0, 0, folder_.string()});
   ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(path("a.json")); }));
   std::error_code again;  // where the render is quicker
   EXPECT_TRUE(comes_true([&] {
