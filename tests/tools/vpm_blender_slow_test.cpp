@@ -12,7 +12,7 @@
 namespace vpm {
 namespace {
 
-constexpr int kFilmWidth = 12, kFilmHeight = 8, kX = 7, kY = 5;
+constexpr int kFilmWidth = 12, kFilmHeight = 8, kPixelX = 7, kPixelY = 5;
 
 /// A ball of fog before a floor and the sky.
 const std::string kFogAndFloor = fmt::format(R"(
@@ -70,10 +70,10 @@ class SlowVpmBlender : public VpmBinary {
   std::map<std::string, Pixel> shown_by(const std::string& blender, const std::string& picture) const {
     const std::string script = std::string(VPM_SOURCE_DIR) + "/tests/tools/blender_layers.py";
     const auto text = [](int number) { return std::to_string(number); };
-    const ProcessResult run =
-        run_program({blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python", script, "--",
-                     path(picture), text(kFilmWidth), text(kFilmHeight), text(kX), text(kY), folder_.string()},
-                    {300.0, 0, folder_.string()});
+    const ProcessResult run = run_program(
+        {blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python", script, "--", path(picture),
+         text(kFilmWidth), text(kFilmHeight), text(kPixelX), text(kPixelY), folder_.string()},
+        {300.0, 0, folder_.string()});
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     return passes_in(run.out);
   }
@@ -90,7 +90,7 @@ TEST_F(SlowVpmBlender, ShowsLayersByTheirNames) {
   const auto expect = [&](const std::string& pass, const std::vector<std::string>& channels) {
     ASSERT_TRUE(shown.contains(pass)) << pass << " is missing of " << ::testing::PrintToString(shown);
     for (size_t c = 0; c < 3; ++c) {
-      const float value = file.planes.at(channels[std::min(c, channels.size() - 1)])[kY * kFilmWidth + kX];
+      const float value = file.planes.at(channels[std::min(c, channels.size() - 1)])[kPixelY * kFilmWidth + kPixelX];
       EXPECT_NEAR(shown.at(pass)[c], value, 1e-6f * (1.0f + std::abs(value))) << pass;
     }
   };
