@@ -1,5 +1,5 @@
-# Writes a function that returns a page: an HTML file with the styles and scripts that it names as @name.css@ and
-# @name.js@ in it. These are FILES.
+# Writes a function that returns a page: an HTML file with the files in it that it names as @name.css@, @name.js@ and
+# @name.html@. These are FILES.
 # cmake -D PAGE=page.html -D "FILES=a.js;..." -D FUNCTION= -D OUTPUT=page.cpp -P page.cmake
 file(READ "${PAGE}" page)
 foreach(path IN LISTS FILES)
@@ -11,7 +11,7 @@ foreach(path IN LISTS FILES)
   endif()
   string(REPLACE "@${name}@" "${text}" page "${page}")
 endforeach()
-if(page MATCHES "@[a-z_.]+[.](css|js)@")
+if(page MATCHES "@[a-z_.]+[.](css|html|js)@")
   message(FATAL_ERROR "${PAGE} names ${CMAKE_MATCH_0}, which is not listed")
 endif()
 set(delimiter "vpm_page")

@@ -35,6 +35,16 @@ TEST_F(VpmReportPage, DoesInABrowserWhatItSays) {
   EXPECT_EQ(verdict(*browser, Scheme::dark, 500), "passed");
 }
 
+TEST_F(VpmReportPage, ShowsARenderWithoutErrorsAndPhotons) {
+  const std::optional<std::string> browser = chromium();
+  if (!browser) GTEST_SKIP() << "there is no Chromium here";
+  vpm_succeeds({"render", "fog.toml", "-o", "paths.exr", "--passes", "1", "--set", "render.integrator=path"});
+  vpm_succeeds({"report", "paths.json"});
+  EXPECT_EQ(
+      BrowsedPage::verdict(*browser, "paths.html", json::object(), {"report_of_paths_check.js"}, Scheme::light, 1000),
+      "passed");
+}
+
 TEST_F(VpmReportPage, IsLightOrDarkAsItsReaderHasIt) {
   const std::optional<std::string> browser = chromium();
   if (!browser) GTEST_SKIP() << "there is no Chromium here";

@@ -1,4 +1,4 @@
-// The pages before anything is in them: a page.html with the styles and scripts it names. What is here is written by
+// The pages before anything is in them: a page.html with the files that it names. What is here is written by
 // cmake/page.cmake.
 #pragma once
 

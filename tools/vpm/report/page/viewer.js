@@ -11,6 +11,7 @@ class Viewer extends PictureView {
     super(root, pictures);
     this.block = block;  // pixels of the file along an edge of one that is shown
     this.fillModes(pictures.names, 'shown');
+    this.find('.modes').hidden = pictures.length === 1;
     this.markParts();
     this.reset();
     this.find('.modes').addEventListener('input', () => this.resetScale());
