@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tools/rendered_fog.h"
+#include "vpm/image/crop.h"
 #include "vpm/image/exr.h"
 
 namespace vpm {
@@ -99,6 +100,15 @@ TEST_F(VpmReport, HoldsThePixelsOfThePicture) {
   EXPECT_EQ(names, expected);
 }
 
+TEST_F(VpmReport, ShowsThePixelsOfACrop) {
+  vpm_succeeds({"render", "fog.toml", "-o", "part.exr", "--passes", "1", "--crop", "3,2,9,6"});
+  vpm_succeeds({"report", "part.json"});
+  const json pictures = data_of(read("part.html"), "pictures");
+  EXPECT_EQ(pictures.at("width"), 6);
+  EXPECT_EQ(pictures.at("height"), 4);
+  expect_same_halves(decoded(pictures, 0), cropped(read_exr(path("part.exr")), {3, 2, 9, 6}), "radiance");
+}
+
 TEST_F(VpmReport, ReducesLargePicturesToMeansOfSquares) {
   constexpr int kLargeWidth = 1101, kLargeHeight = 1000;
   Image large(kLargeWidth, kLargeHeight);
@@ -113,6 +123,7 @@ TEST_F(VpmReport, ReducesLargePicturesToMeansOfSquares) {
   json of_large = report("fog.json");
   of_large["width"] = kLargeWidth;
   of_large["height"] = kLargeHeight;
+  of_large["rendered_pixels"] = {{"x0", 0}, {"y0", 0}, {"x1", kLargeWidth}, {"y1", kLargeHeight}};
   write("large.json", of_large.dump());
   vpm_succeeds({"report", "large.json"});
   const json pictures = data_of(read("large.html"), "pictures");

@@ -233,6 +233,11 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
 
 std::string render_report(const RenderJob& job, const std::string& image, const RenderResult& result) {
   Json report = report_of(job, image, "radiance, W/(m^2 sr)", scattering_of(job.scene), result);
+  const Camera& camera = job.scene.camera;
+  report["width"] = camera.width;
+  report["height"] = camera.height;
+  const auto& [x0, y0, x1, y1] = camera.rendered();
+  report["rendered_pixels"] = {{"x0", x0}, {"y0", y0}, {"x1", x1}, {"y1", y1}};
   report["warnings"] = warnings_of(job, result);
   report["error"] = errors(job, result);
   report["light_of_kernels_alone"] = kernel_light(job);

@@ -10,6 +10,7 @@
 #include "report/shown_settings.h"
 #include "vpm/base/error.h"
 #include "vpm/estimate/combined/technique.h"
+#include "vpm/image/crop.h"
 
 namespace vpm::tools {
 namespace {
@@ -40,11 +41,18 @@ Image square_root(Image image) {
   return image;
 }
 
-/// What the file has of radiance, variance, bias, and light of techniques.
-std::vector<Shown> layers_in(const ExrChannels& file, const TechniqueSet& techniques) {
+/// What the file has of radiance, variance, bias, and light of techniques, in the pixels that were rendered.
+std::vector<Shown> layers_in(const RenderReport& report) {
+  const ExrChannels& file = report.picture;
+  const TechniqueSet& techniques = report.settings.combined.techniques;
+  const Json& pixels = report.json.at("rendered_pixels");
+  const PixelRect rendered{pixels.at("x0"), pixels.at("y0"), pixels.at("x1"), pixels.at("y1")};
+  if (!lies_in(rendered, file.width, file.height))
+    throw InputError("the pixels that the report calls rendered are none of the picture's");
   std::vector<Shown> all;
   const auto add = [&](const std::string& layer, const std::string& kind, const std::string& name) {
-    if (std::optional<Image> image = layer_of(file, layer)) all.push_back({kind, name, std::move(*image)});
+    if (const std::optional<Image> image = layer_of(file, layer))
+      all.push_back({kind, name, cropped(*image, rendered)});
   };
   add("", "radiance", "radiance");
   if (all.empty()) throw InputError("the picture has no channels R, G and B");
@@ -58,9 +66,8 @@ std::vector<Shown> layers_in(const ExrChannels& file, const TechniqueSet& techni
 
 /// Standard errors are roots of means of variances: those of single pixels, as a reader of the picture meets them.
 std::string pictures_json(const RenderReport& report) {
-  const ExrChannels& file = report.picture;
-  const std::vector<Shown> layers = layers_in(file, report.settings.combined.techniques);
-  const int block = block_for(file.width, file.height, layers.size());
+  const std::vector<Shown> layers = layers_in(report);
+  const int block = block_for(layers[0].image.width, layers[0].image.height, layers.size());
   Json pictures = Json::array();
   int width = 0, height = 0;
   for (const Shown& layer : layers) {

@@ -39,9 +39,9 @@ Json report_in(const fs::path& path) {
   if (!is_by_vpm(json)) refuse(path, "is no report of vpm; vpm report wants the .json file that vpm render writes");
   if (json.contains("light_map")) refuse(path, "is of a light map; vpm report shows reports of vpm render");
   for (const char* const section :
-       {"scene",    "scene_hash", "image",     "width",  "height",     "seed",     "threads", "passes",
-        "settings", "stages",     "overrides", "chosen", "notes",      "warnings", "times",   "lights",
-        "photons",  "energy",     "memory",    "error",  "techniques", "eye"})
+       {"scene",  "scene_hash", "image",  "width",     "height", "rendered_pixels", "seed",     "threads",
+        "passes", "settings",   "stages", "overrides", "chosen", "notes",           "warnings", "times",
+        "lights", "photons",    "energy", "memory",    "error",  "techniques",      "eye"})
     if (!json.contains(section))
       refuse(path, fmt::format("has no '{}': it is by {}, and this is vpm {}; render again, or use that vpm", section,
                                json["program"].get<std::string>(), version()));

@@ -24,10 +24,16 @@ function errorText({error}) {
   return parts.join('; ');
 }
 
+/** Which pixels were rendered, where these are not all. */
+function cropText({width, height, rendered_pixels: {x0, y0, x1, y1}}) {
+  if (x1 - x0 === width && y1 - y0 === height) return '';
+  return `, of which (${x0}, ${y0}) to (${x1 - 1}, ${y1 - 1}) are rendered and shown`;
+}
+
 function facts() {
   return [
     ['Scene', `${report.scene}, hash ${report.scene_hash}`],
-    ['Picture', `${report.image}, ${report.width} × ${report.height} pixels; ${report.quantity}`],
+    ['Picture', `${report.image}, ${report.width} × ${report.height} pixels${cropText(report)}; ${report.quantity}`],
     ['Relative MSE', errorText(report)],
     ['Time', `${number(report.times.total)} s on ${report.threads} ${report.threads === 1 ? 'thread' : 'threads'}`],
     ['Passes', `${report.passes}, seed ${data.seed}`],
