@@ -97,8 +97,7 @@ function aboutPictures({width, height, block, pictures}, report) {
   const size = `The pictures take ${number(megabytes, 2)} MB of this page, as half floats (11 bits).`;
   if (block === 1) return `${size} Each pixel is one of the file.`;
   const {x0, y0, x1, y1} = report.rendered_pixels;
-  return `${size} The file has ${x1 - x0} × ${y1 - y0} pixels; here are ${width} × ${
-             height}, each the mean of ` +
+  return `${size} The file has ${x1 - x0} × ${y1 - y0} pixels; here are ${width} × ${height}, each the mean of ` +
       `${block} × ${block} of these. Standard errors and bias are those of single pixels of the file, over which the ` +
       'root mean square and the mean are taken.';
 }
