@@ -82,7 +82,7 @@ TEST(GivenParts, AMeshIsTheOneThatItsFileIs) {
   const std::string told = message_of([&] { load_text(shape + "mesh = \"a box\"\n", {{}, {{0, wrong}}}); });
   EXPECT_NE(told.find("a box: a face names vertex 8 (counted from 0), but there are only 8"), std::string::npos)
       << told;
-  EXPECT_NE(told.find("memory:13:8"), std::string::npos) << told;
+  EXPECT_NE(told.find("memory:14:8"), std::string::npos) << told;
 }
 
 TEST(GivenParts, ArraysThatAreNoDensityAreRefusedAtTheirLine) {

@@ -1,6 +1,7 @@
 """Builds the package with the project's own CMake, in its folder build/release: what is compiled there already is used
 again."""
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -18,8 +19,6 @@ MODULE = f"_vpm{sysconfig.get_config_var('EXT_SUFFIX')}"
 
 class BuildByCMake(build_ext):
     def run(self):
-        if not (ROOT / "libvpm").is_dir():
-            sys.exit("vpm is built within its source tree: pip install ./tools/python there")
         environment = {key: value for key, value in os.environ.items() if key not in ("CFLAGS", "CXXFLAGS", "LDFLAGS")}
         subprocess.run([ROOT / "tools/build", "release", "vpm_python"], check=True, env=environment)
         built = ROOT / "build/release/python/vpm" / MODULE
@@ -32,8 +31,11 @@ class BuildByCMake(build_ext):
         shutil.copy2(built, target / MODULE)
 
 
+if not (ROOT / "libvpm").is_dir():
+    sys.exit("vpm is built within its source tree: pip install ./tools/python there")
 SCRATCH.mkdir(parents=True, exist_ok=True)
 setup(
+    version=re.search(r"project\(vpm VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1],
     packages=["vpm"],
     package_data={"vpm": ["*.pyi", "py.typed"]},
     ext_modules=[Extension("vpm._vpm", [])],

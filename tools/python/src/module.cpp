@@ -1,8 +1,10 @@
 // The module vpm._vpm: what the package vpm calls of the library. The package is what users see.
 #include "bindings.h"
 
+#include <algorithm>
 #include <chrono>
 #include <future>
+#include <string>
 #include <utility>
 
 #include "vpm/base/error.h"

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "bindings.h"
 #include "scene_job.h"
@@ -31,11 +34,6 @@ struct Passes {
     return with_job(*scene, own, [&](const RenderJob& job) { return use(job); });
   }
 };
-
-/// What run_interruptibly() found goes on as it is, unless passes that are finished are to be handed over first.
-void raise(std::optional<py::error_already_set>& raised) {
-  if (raised) throw *std::move(raised);
-}
 
 StopRule stop_rule(std::optional<int> passes, std::optional<double> seconds, std::optional<double> error,
                    StopRule otherwise) {
@@ -67,7 +65,7 @@ std::shared_ptr<Passes> begin(const std::shared_ptr<SceneJob>& scene, std::optio
       look_for_kernel_light(job);
     });
   });
-  raise(raised);
+  if (raised) throw *std::move(raised);
   begun->result.seconds = begun->state.pilot_seconds;
   return begun;
 }
@@ -92,7 +90,7 @@ std::pair<std::shared_ptr<Passes>, py::object> advance(const Passes& before, boo
       after->result = render(job.scene, job.settings, std::move(after->result), control);
     });
   });
-  if (raised && !raised->matches(PyExc_KeyboardInterrupt)) raise(raised);
+  if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw *std::move(raised);
   return {after, raised ? raised->value() : py::none()};
 }
 
@@ -127,17 +125,29 @@ py::object error_picture(const py::object& self, Image FilmErrors::*picture) {
   return passes.result.errors ? py::object(view_of((*passes.result.errors).*picture, self)) : py::none();
 }
 
+/// Throws InputError where writing there would replace a file that the scene is read from.
+void check_target(const std::filesystem::path& path, const RenderJob& job) {
+  std::vector<std::string> read = job.files;
+  read.push_back(job.source);
+  for (const std::string& file : read)
+    if (std::error_code none; std::filesystem::equivalent(path, file, none))
+      throw InputError(
+          fmt::format("cannot write '{}': the scene is read from '{}'; name another output", path.string(), file));
+}
+
 void write(const Passes& passes, const std::string& path, std::optional<float> exposure) {
   const std::filesystem::path exr = path;
   if (exr.extension() != ".exr")
     throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", path));
   if (passes.result.film.passes() == 0) throw InputError(path + ": no pass is finished, and nothing is written");
+  const std::filesystem::path png = std::filesystem::path(exr).replace_extension(".png"),
+                              json = std::filesystem::path(exr).replace_extension(".json");
   passes.with([&](const RenderJob& job) {
+    for (const std::filesystem::path& target : {exr, png, json}) check_target(target, job);
     const Image picture = passes.result.film.mean();
     write_picture(exr, job, passes.result);
-    write_png(std::filesystem::path(exr).replace_extension(".png"), picture,
-              exposure ? *exposure : auto_exposure(picture));
-    write_text(std::filesystem::path(exr).replace_extension(".json"), render_report(job, path, passes.result));
+    write_png(png, picture, exposure ? *exposure : auto_exposure(picture));
+    write_text(json, render_report(job, path, passes.result));
   });
 }
 
@@ -150,7 +160,6 @@ void bind_renders(py::module_& module) {
       .def_property_readonly("seed", [](const Passes& p) { return p.state.settings.seed; })
       .def_property_readonly("notes", [](const Passes& p) { return p.state.notes; })
       .def("warnings", [](const Passes& p) { return p.with([&](auto& job) { return warnings_of(job, p.result); }); })
-      .def("error_text", [](const Passes& p) { return p.with([&](auto& job) { return error_text(job, p.result); }); })
       .def("report",
            [](const Passes& p) { return p.with([&](auto& job) { return render_report(job, "", p.result); }); })
       .def("radiance", [](const Passes& p) { return array_of(p.result.film.mean()); })

@@ -1,11 +1,13 @@
 // Scenes from files, from text with arrays, and arrays into files.
-#include <fmt/format.h>
+#include <algorithm>
 #include <memory>
+#include <optional>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "bindings.h"
 #include "scene_job.h"
-#include "vpm/base/error.h"
 #include "vpm/input/grid_writer.h"
 #include "vpm/input/mesh_writer.h"
 #include "vpm/input/scene_file.h"

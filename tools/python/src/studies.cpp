@@ -1,10 +1,13 @@
 // What pictures are measured against: exact solutions, and how far pictures are apart.
+#include <array>
 #include <limits>
-#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "bindings.h"
 #include "exact_problems.h"
-#include "vpm/base/error.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
 #include "vpm/image/noisy_difference.h"

@@ -94,13 +94,13 @@ class Result:
     @property
     def report(self) -> dict[str, Any]:
         """The report that the command line writes as JSON: provenance, times, counts, the energy ledger."""
-        return json.loads(self._passes.report())
+        told: dict[str, Any] = json.loads(self._passes.report())
+        return told
 
     def write(self, path: str | os.PathLike[str], *, exposure: float | None = None) -> None:
         """Writes what `vpm render -o PATH` writes: the EXR, its PNG preview and its JSON report beside it. `exposure`:
         stops by which the preview is exposed."""
-        _vpm_path = os.fspath(path)
-        self._passes.write(_vpm_path, exposure)
+        self._passes.write(os.fspath(path), exposure)
 
     def resume(self, *, passes: int | None = None, seconds: float | None = None, error: float | None = None,
                progress: bool = False) -> Result:

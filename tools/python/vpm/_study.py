@@ -40,7 +40,8 @@ def exact_problems() -> dict[str, dict[str, str]]:
     """The problems that `exact` solves: of each the keys that it takes, with what they mean."""
     def meaning(text: str, otherwise: str, required: bool) -> str:
         return text + (" [required]" if required else f" [{otherwise}]" if otherwise else "")
-    return {name: {key: meaning(*rest) for key, *rest in keys} for name, _, keys in _vpm.exact_problems()}
+    return {name: {key: meaning(text, otherwise, required) for key, text, otherwise, required in keys}
+            for name, _, keys in _vpm.exact_problems()}
 
 
 class Picture(NamedTuple):
