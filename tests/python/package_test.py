@@ -84,10 +84,10 @@ def ball_file(tmp_path):
 
 
 def without_times(value):
-    """A report without what differs from run to run: times, and the place of the image."""
+    """A report without what differs from run to run: times, peaks of memory, and the place of the image."""
     if isinstance(value, dict):
         return {key: without_times(entry) for key, entry in value.items()
-                if not any(word in key for word in ("second", "image", "times"))}
+                if not any(word in key for word in ("second", "image", "times", "peak"))}
     return [without_times(entry) for entry in value] if isinstance(value, list) else value
 
 
