@@ -88,14 +88,9 @@ void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, con
   const uint64_t bytes = pixels * (channels * sizeof(float) + 3) + film + kReportBytes;  // of all, which share a folder
   std::vector<fs::path> written{outputs.exr, outputs.png, outputs.json};
   if (checkpoint) written.push_back(outputs.checkpoint);
-  std::vector<std::string> read = job.files;
-  read.push_back(job.source);
   for (const fs::path& path : written) {
     check_writable(path, bytes);
-    for (const std::string& file : read)
-      if (std::error_code none; fs::equivalent(path, file, none))
-        throw InputError(fmt::format("cannot write '{}': the scene is read from '{}'; name another output with -o",
-                                     path.string(), file));
+    check_not_read(path, job);
   }
 }
 

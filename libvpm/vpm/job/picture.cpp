@@ -33,8 +33,15 @@ Image grey_image(const UvLayout& layout, const std::vector<float>& values) {
   return image;
 }
 
-/// The parts of the picture, from two passes on with the variances of their means, and what the camera sees.
-std::vector<NamedLayer> layers_of(const RenderSettings& settings, const RenderResult& result) {
+/// What pictures with layers of what the camera sees tell of them.
+constexpr const char* kViewQuantities =
+    "; depth: m to the first surface, 1e10 where there is none; normal: of that surface; albedo: of what scatters "
+    "light first; transmittance: of the media before the first surface; single-scattering-albedo: of these media; "
+    "samples: their number";
+
+}  // namespace
+
+std::vector<NamedLayer> picture_layers(const RenderSettings& settings, const RenderResult& result) {
   std::vector<NamedLayer> layers;
   const std::vector<std::string> names = layer_names(settings);
   const std::span<const Film> films(result.layers);
@@ -46,15 +53,6 @@ std::vector<NamedLayer> layers_of(const RenderSettings& settings, const RenderRe
     layers.push_back(std::move(layer));
   return layers;
 }
-
-/// What pictures with layers of what the camera sees tell of them.
-constexpr const char* kViewQuantities =
-    "; depth: m to the first surface, 1e10 where there is none; normal: of that surface; albedo: of what scatters "
-    "light "
-    "first; transmittance: of the media before the first surface; single-scattering-albedo: of these media; samples: "
-    "their number";
-
-}  // namespace
 
 void write_picture(const std::filesystem::path& path, const RenderJob& job, const RenderResult& result) {
   Metadata metadata = provenance(job, result.film);
@@ -74,7 +72,7 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
   std::vector<ExrLayer> layers;
   if (errors) layers.push_back({"variance", &errors->variance});
   if (errors && result.film.shows_bias()) layers.push_back({"bias", &errors->bias});
-  const std::vector<NamedLayer> more = layers_of(job.settings, result);
+  const std::vector<NamedLayer> more = picture_layers(job.settings, result);
   for (const NamedLayer& layer : more) layers.push_back({layer.name, &layer.image, layer.letters});
   const Camera& camera = job.scene.camera;
   write_exr(path, result.film.mean(), layers, metadata, ExrWindow{camera.rendered(), camera.width, camera.height});

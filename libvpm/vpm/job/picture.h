@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
 #include "vpm/render/uv_layout.h"
+#include "vpm/render/view_layers.h"
 
 namespace vpm {
 
@@ -15,11 +17,14 @@ namespace vpm {
 /// Pixels of photon maps are correlated: it cannot be told from the variances of pixels.
 inline constexpr const char* kVarianceOfMeans = "vpm.varianceOfMeans";
 
+/// Further pictures of a render: its layer_names(), from two passes on with a further layer NAME.variance each, and its
+/// named_view_layers().
+std::vector<NamedLayer> picture_layers(const RenderSettings& settings, const RenderResult& result);
+
 /// Writes the mean of the passes, W/(m^2 sr), from two passes on with the variance of that mean (layer "variance") and,
-/// where radii shrink, the bias that the passes show (layer "bias"), layer_names() where they are asked for, from two
-/// passes on with a further layer NAME.variance each, named_view_layers(), and metadata under "vpm....". Where the
-/// camera has a crop, that is the data window of the file, and the film its display window. The file appears whole or
-/// not at all; throws InputError where it cannot be written.
+/// where radii shrink, the bias that the passes show (layer "bias"), picture_layers(), and metadata under "vpm....".
+/// Where the camera has a crop, that is the data window of the file, and the film its display window. The file appears
+/// whole or not at all; throws InputError where it cannot be written.
 void write_picture(const std::filesystem::path& path, const RenderJob& job, const RenderResult& result);
 
 /// A light map as it is written: the mean of its passes, dilated() by kDilation texels.

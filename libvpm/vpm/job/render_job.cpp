@@ -58,6 +58,15 @@ void choose_again(RenderJob& job, std::vector<Choice> choices) {
   note_choices(job);
 }
 
+void check_not_read(const std::filesystem::path& path, const RenderJob& job) {
+  std::vector<std::string> read = job.files;
+  read.push_back(job.source);
+  for (const std::string& file : read)
+    if (std::error_code none; std::filesystem::equivalent(path, file, none))
+      throw InputError(
+          fmt::format("cannot write '{}': the scene is read from '{}'; name another output", path.string(), file));
+}
+
 void foresee(RenderJob& job) {
   validate(job.settings, facts_of(job.scene));
   const Stopwatch looking;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,9 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings = {}
 void choose(RenderJob& job);
 /// The same with the choices of an earlier run, in the place of a pilot. Throws InputError as set_chosen().
 void choose_again(RenderJob& job, std::vector<Choice> choices);
+
+/// Throws InputError where writing to `path` would replace a file that the scene is read from.
+void check_not_read(const std::filesystem::path& path, const RenderJob& job);
 
 /// Looks ahead at the first pass. Notes in the job where it will not fit into the seconds of the stop rule, and what
 /// would; for that it times a few photons and rays, for a tenth of these seconds and at most a second. Throws

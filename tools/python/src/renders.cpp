@@ -15,7 +15,6 @@
 #include "vpm/job/picture.h"
 #include "vpm/job/render.h"
 #include "vpm/job/report.h"
-#include "vpm/render/technique_layers.h"
 
 namespace vpm::python {
 namespace {
@@ -108,13 +107,13 @@ py::object stated_error_dict(const Passes& passes) {
   return told;
 }
 
+/// Arrays (height, width, channels), or (height, width) where there is one channel.
 py::dict layers_of(const Passes& passes) {
   py::dict layers;
-  const std::vector<std::string> names = layer_names(passes.state.settings);
-  for (size_t i = 0; i < passes.result.layers.size(); ++i) {
-    const Film& film = passes.result.layers[i];
-    layers[py::str(names[i])] = array_of(film.mean());
-    if (film.passes() >= 2) layers[py::str(names[i] + ".variance")] = array_of(film.variance_of_mean());
+  for (NamedLayer& layer : picture_layers(passes.state.settings, passes.result)) {
+    const py::array image = array_of(std::move(layer.image));
+    const bool single = layer.letters.size() == 1;
+    layers[py::str(layer.name)] = single ? py::object(image[py::make_tuple(py::ellipsis(), 0)]) : py::object(image);
   }
   return layers;
 }
@@ -125,16 +124,6 @@ py::object error_picture(const py::object& self, Image FilmErrors::*picture) {
   return passes.result.errors ? py::object(view_of((*passes.result.errors).*picture, self)) : py::none();
 }
 
-/// Throws InputError where writing there would replace a file that the scene is read from.
-void check_target(const std::filesystem::path& path, const RenderJob& job) {
-  std::vector<std::string> read = job.files;
-  read.push_back(job.source);
-  for (const std::string& file : read)
-    if (std::error_code none; std::filesystem::equivalent(path, file, none))
-      throw InputError(
-          fmt::format("cannot write '{}': the scene is read from '{}'; name another output", path.string(), file));
-}
-
 void write(const Passes& passes, const std::string& path, std::optional<float> exposure) {
   const std::filesystem::path exr = path;
   if (exr.extension() != ".exr")
@@ -143,7 +132,7 @@ void write(const Passes& passes, const std::string& path, std::optional<float> e
   const std::filesystem::path png = std::filesystem::path(exr).replace_extension(".png"),
                               json = std::filesystem::path(exr).replace_extension(".json");
   passes.with([&](const RenderJob& job) {
-    for (const std::filesystem::path& target : {exr, png, json}) check_target(target, job);
+    for (const std::filesystem::path& target : {exr, png, json}) check_not_read(target, job);
     const Image picture = passes.result.film.mean();
     write_picture(exr, job, passes.result);
     write_png(png, picture, exposure ? *exposure : auto_exposure(picture));

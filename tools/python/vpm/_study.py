@@ -47,17 +47,26 @@ def exact_problems() -> dict[str, dict[str, str]]:
 class Picture(NamedTuple):
     """What an EXR file holds."""
     radiance: Image  # (height, width, 3)
-    layers: dict[str, Image]  # (height, width, 3), by name: "variance", ...
+    layers: dict[str, Image]  # (height, width, 3), or (height, width) of one channel, by name: "variance", "depth", ...
     planes: dict[str, NDArray[np.float32]]  # (height, width), every channel by its name: "R", "variance.R", ...
     metadata: dict[str, str]
 
 
 def read_exr(path: str | os.PathLike[str]) -> Picture:
-    """Reads an EXR file: R, G and B, or grey, as vpm does; layers are those that have channels NAME.R, .G and .B."""
+    """Reads an EXR file: R, G and B, or grey, as vpm does; layers are those that have channels NAME.R, .G and .B, or
+    .X, .Y and .Z, or one, as depth.Z: arrays (height, width, 3) or (height, width)."""
     radiance, planes, metadata = _vpm.read_exr(os.fspath(path))
-    names = [name[:-2] for name in planes if name.endswith(".R")]
-    layers = {name: np.stack([planes[f"{name}.{c}"] for c in "RGB"], axis=-1)
-              for name in names if all(f"{name}.{c}" in planes for c in "RGB")}
+    letters: dict[str, set[str]] = {}
+    for plane in planes:
+        name, _, letter = plane.rpartition(".")
+        letters.setdefault(name, set()).add(letter)
+    layers = {}
+    for name, given in letters.items():
+        if name and len(given) == 1:
+            layers[name] = planes[f"{name}.{min(given)}"]
+        for three in ("RGB", "XYZ"):
+            if name and given == set(three):
+                layers[name] = np.stack([planes[f"{name}.{c}"] for c in three], axis=-1)
     return Picture(radiance, layers, planes, metadata)
 
 
