@@ -66,8 +66,8 @@ class Result:
     @functools.cached_property
     def layers(self) -> dict[str, Image]:
         """The layers that a picture file of it has: what each technique finds, "combined.NAME.weighted" and the like,
-        W/(m^2 sr), where the scene says combined.layers = true; and what the camera sees, those of render.layers. Arrays
-        (height, width, 3), or (height, width) where there is one channel, as of "depth"."""
+        W/(m^2 sr), where the scene says combined.layers = true; and what the camera sees, those of render.layers.
+        Arrays (height, width, 3), or (height, width) where there is one channel, as of "depth"."""
         return self._passes.layers()
 
     @functools.cached_property
