@@ -2,6 +2,7 @@
 import copy
 import json
 import os
+import pickle
 import signal
 import subprocess
 import threading
@@ -136,6 +137,33 @@ def test_layers_are_those_of_the_file(ball_file, tmp_path):
     assert {"variance", *result.layers} <= set(layers) and len(result.layers) > 4
     for name, layer in result.layers.items():
         assert np.array_equal(layer, layers[name])
+
+
+def test_a_crop_is_an_array_of_its_pixels_wherever_it_comes_from(ball_file, tmp_path):
+    whole = vpm.render(ball_file, passes=2, seed=3)
+    part = vpm.render(ball_file, overrides={"film.crop": [3, 2, 13, 9]}, passes=2)
+    assert part.window == (3, 2, 13, 9) and part.radiance.shape == (7, 10, 3)
+    part.write(tmp_path / "part.exr")
+    picture = vpm.read_exr(tmp_path / "part.exr")
+    assert picture.window == part.window and np.array_equal(picture.radiance, part.radiance)
+    assert np.array_equal(picture.layers["variance"], part.variance)
+    told = vpm.error(part.radiance, whole.radiance[2:9, 3:13])
+    assert vpm.error(part, whole).relative_mse == vpm.error(picture, whole).relative_mse == told.relative_mse
+    whole.write(tmp_path / "whole.exr")
+    line = json.loads(command("error", tmp_path / "part.exr", tmp_path / "whole.exr", "--json")[0])
+    assert line["relative_mse"]["value"] == told.relative_mse
+    with pytest.raises(vpm.InputError, match="no pixel in common"):
+        vpm.error(part, vpm.render(ball_file, overrides={"film.crop": [13, 2, 15, 9]}, passes=2))
+
+
+def test_what_would_be_lost_is_refused():
+    result = vpm.render(BALL, passes=1)
+    with pytest.raises(ValueError, match="read-only"):
+        result.radiance[0, 0] = 1
+    with pytest.raises(TypeError, match="write\\(\\) them"):
+        pickle.dumps(result)
+    with pytest.raises(TypeError, match="anew of their file"):
+        copy.deepcopy(vpm.Scene(BALL))
 
 
 def test_pictures_are_not_copied():

@@ -50,7 +50,7 @@ TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
                     {20.0, 0, folder_.string()});
     const ProcessResult result = interrupt(process, SIGINT, "render  [");
     EXPECT_EQ(result.status, 130) << result.err;
-    EXPECT_NE(result.err.find("nothing is written"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("no picture is written"), std::string::npos) << result.err;
     EXPECT_EQ(files(), before);
   }
 }
@@ -169,7 +169,7 @@ TEST_F(VpmRender, ACheckpointTellsInWhatAnotherSceneDiffers) {
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "1", "--checkpoint"});
   vpm_refuses(resumed(2, {"--set", "volume.radius=0.2", "--set", "media.smoke.albedo=[0.9, 0.8, 0.6]", "--set",
                           "lights.lamp.power=11"}),
-              {"is of another render; remove it, or render again what it is of\n"
+              {"is of another render; render on with the options that it began with\n"
                "  media.smoke.albedo: [0.9, 0.8, 0.7] in the checkpoint, [0.9, 0.8, 0.6] asked for\n"
                "  lights.lamp.power: 10 in the checkpoint, 11 asked for\n"
                "  volume.radius: default in the checkpoint, 0.2 asked for\n"});

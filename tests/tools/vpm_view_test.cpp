@@ -2,6 +2,7 @@
 #include "tools/plume.h"
 #include "vpm/image/crop.h"
 #include "vpm/image/exr.h"
+#include "vpm/image/metrics.h"
 #include "vpm/image/png.h"
 
 namespace vpm {
@@ -67,6 +68,26 @@ TEST_F(VpmRender, ErrorsOfACropAreLoggedAgainstThatPartOfTheReference) {
       {"render", "scene.toml", "-o", "part.exr", "--passes", "4", "--crop", "5,9,30,21", "--reference", "truth.exr"});
   const std::string log = read("part.errors.csv");
   EXPECT_NE(log.find("\n4,"), std::string::npos) << log;
+}
+
+/// As arrays of the crops alone would be; the crop of another film, or none in common, is refused.
+TEST_F(VpmRender, ErrorsOfACropAreThoseOfItsPixels) {
+  vpm_succeeds({"render", "scene.toml", "-o", "truth.exr", "--passes", "2", "--seed", "7"});
+  vpm_succeeds({"render", "scene.toml", "-o", "part.exr", "--passes", "2", "--crop", "5,9,30,21"});
+  const auto told =
+      nlohmann::json::parse(vpm_succeeds({"error", "part.exr", "truth.exr", "--json", "--worst", "1"}).out);
+  const PixelRect crop{5, 9, 30, 21};
+  const Image part = cropped(read_exr(path("part.exr")), crop), truth = cropped(read_exr(path("truth.exr")), crop);
+  EXPECT_EQ(told["width"], 25);
+  EXPECT_NEAR(told["relative_mse"]["value"], relative_mse(part, truth), 1e-9);
+  const PixelError worst = worst_pixels(part, truth, 1)[0];
+  EXPECT_EQ(told["worst_pixels"][0]["x"], 5 + worst.x);
+  EXPECT_EQ(told["worst_pixels"][0]["y"], 9 + worst.y);
+  vpm_succeeds({"render", "scene.toml", "-o", "other.exr", "--passes", "2", "--crop", "31,9,35,21"});
+  vpm_refuses({"error", "part.exr", "other.exr"}, {"no pixel in common"});
+  vpm_refuses({"error", "--series", "part.exr", "truth.exr"}, {"part.exr is a crop"});
+  vpm_refuses({"render", "scene.toml", "-o", "more.exr", "--crop", "4,9,30,21", "--reference", "part.exr"},
+              {"lacks pixels that are rendered"});
 }
 
 TEST_F(VpmRender, SizeAndSamplesAreThoseOfTheOptions) {

@@ -12,6 +12,7 @@
 #include "json.h"
 #include "vpm/base/error.h"
 #include "vpm/base/line_fit.h"
+#include "vpm/image/crop.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
 #include "vpm/image/noisy_difference.h"
@@ -119,7 +120,8 @@ void check_output(const ErrorOptions& options) {
 /// Two pictures of one size, and how far they are apart.
 struct Pair {
   NoisyImage picture, reference;
-  bool same_seed;  // do they share noise?
+  bool same_seed;                 // do they share noise?
+  std::optional<PixelRect> crop;  // of their film, where they are compared there alone
   Errors errors;
   NoisyDifference difference;
 };
@@ -130,9 +132,10 @@ Json report_of_pair(const ErrorOptions& options, const Pair& pair) {
   const NoisyDifference& difference = pair.difference;
   const Rgbd of_image = channel_means(image), of_reference = channel_means(reference);
   Json worst = Json::array();
+  const PixelRect crop = pair.crop.value_or(PixelRect{});
   for (const PixelError& pixel : worst_pixels(image, reference, static_cast<size_t>(options.worst)))
-    worst.push_back({{"x", pixel.x},
-                     {"y", pixel.y},
+    worst.push_back({{"x", crop.x0 + pixel.x},
+                     {"y", crop.y0 + pixel.y},
                      {"image", rgb(image.at(pixel.x, pixel.y))},
                      {"reference", rgb(reference.at(pixel.x, pixel.y))},
                      {"relative_square", number(pixel.error)}});
@@ -181,8 +184,12 @@ void print_pair(const ErrorOptions& options, const Pair& pair) {
   const Image &image = pair.picture.image, &reference = pair.reference.image;
   const Errors& errors = pair.errors;
   const NoisyDifference& difference = pair.difference;
-  fmt::print("{} (I) against {} (R), {} x {} pixels\n", options.images[0], options.images[1], image.width,
-             image.height);
+  const PixelRect crop = pair.crop.value_or(PixelRect{});
+  fmt::print("{} (I) against {} (R), {} x {} pixels{}\n", options.images[0], options.images[1], image.width,
+             image.height,
+             pair.crop ? fmt::format(", ({}, {}) to ({}, {}) of the film, which both have", crop.x0, crop.y0,
+                                     crop.x1 - 1, crop.y1 - 1)
+                       : "");
   fmt::print("{:<14} {:<12.6g} {}\n", "MSE", errors.mse, kMse);
   fmt::print("{:<14} {:<12.6g} {}\n", "relMSE", errors.relative_mse, kRelativeMse);
   print_noise(pair);
@@ -203,8 +210,8 @@ void print_pair(const ErrorOptions& options, const Pair& pair) {
     fmt::print("worst pixels (column and row from the top left): I, R, (I - R)^2 / (R^2 + 0.01 mean(R)^2)\n");
   for (const PixelError& pixel : worst_pixels(image, reference, static_cast<size_t>(options.worst))) {
     const Rgb i = image.at(pixel.x, pixel.y), r = reference.at(pixel.x, pixel.y);
-    fmt::print("  {:>5} {:>5}  ({:.4g}, {:.4g}, {:.4g})  ({:.4g}, {:.4g}, {:.4g})  {:.3g}\n", pixel.x, pixel.y, i.r,
-               i.g, i.b, r.r, r.g, r.b, pixel.error);
+    fmt::print("  {:>5} {:>5}  ({:.4g}, {:.4g}, {:.4g})  ({:.4g}, {:.4g}, {:.4g})  {:.3g}\n", crop.x0 + pixel.x,
+               crop.y0 + pixel.y, i.r, i.g, i.b, r.r, r.g, r.b, pixel.error);
   }
 }
 
@@ -221,6 +228,25 @@ void resample(const ErrorOptions& options, NoisyImage& picture, const Image& ref
   picture = resampled(picture, reference.width, reference.height);
 }
 
+NoisyImage cropped(const NoisyImage& picture, const PixelRect& rect) {
+  if (rect.width() == picture.image.width && rect.height() == picture.image.height) return picture;
+  NoisyImage part{cropped(picture.image, rect), {}, {}};
+  if (picture.variance) part.variance = cropped(*picture.variance, rect);
+  return part;  // what the means of all pixels vary says nothing of theirs
+}
+
+/// The pixels that both files have, where pictures are crops of one film.
+PixelRect pixels_of_both(const ErrorOptions& options, const ExrChannels& picture, const ExrChannels& reference) {
+  const PixelRect both = common_pixels(picture.held, reference.held);
+  if (!lies_in(both, reference.width, reference.height))
+    throw InputError(
+        fmt::format("{} and {} have no pixel in common: they are crops", options.images[0], options.images[1]));
+  return both;
+}
+
+/// A crop has no size to bring to another; whole pictures have.
+bool is_crop(const ExrChannels& file) { return file.held != PixelRect{0, 0, file.width, file.height}; }
+
 int compare_pair(const ErrorOptions& options) {
   check_output(options);
   const ExrChannels files[] = {read_exr_channels(options.images[0]), read_exr_channels(options.images[1])};
@@ -228,9 +254,17 @@ int compare_pair(const ErrorOptions& options) {
             read_picture(options.images[1], files[1]),
             share_noise(origin_of(files[0]), origin_of(files[1])),
             {},
+            {},
             {}};
+  if (options.resample) resample(options, pair.picture, pair.reference.image);
+  if (is_crop(files[0]) || is_crop(files[1])) {
+    if (options.resample) throw InputError("--resample is for whole pictures, and one of these is a crop");
+    errors_of(pair.picture.image, options.images[0], pair.reference.image, options.images[1]);  // their sizes
+    pair.crop = pixels_of_both(options, files[0], files[1]);
+    pair.picture = cropped(pair.picture, *pair.crop);
+    pair.reference = cropped(pair.reference, *pair.crop);
+  }
   const Image& reference = pair.reference.image;
-  if (options.resample) resample(options, pair.picture, reference);
   const Image& image = pair.picture.image;
   pair.errors = errors_of(image, options.images[0], reference, options.images[1]);
   pair.difference = noisy_difference(pair.picture, pair.reference);
@@ -349,14 +383,22 @@ void print_series_json(const std::vector<Member>& series, const std::string& to,
   fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
+void refuse_crop(const std::string& path, const ExrChannels& file) {
+  if (is_crop(file))
+    throw InputError(fmt::format("{} is a crop: a series is of whole pictures; two pictures are compared there", path));
+}
+
 int compare_series(const ErrorOptions& options) {
   const std::string& to = options.images.back();
+  refuse_crop(to, read_exr_channels(to));
   const NoisyImage reference = read_picture(to, read_exr_channels(to));
   std::vector<Member> series;
   for (size_t i = 0; i + 1 < options.images.size(); ++i) {
     const std::string& path = options.images[i];
     const Image image = read_exr(path);
-    series.push_back({path, origin_of(read_exr_channels(path)), errors_of(image, path, reference.image, to)});
+    const ExrChannels file = read_exr_channels(path);
+    refuse_crop(path, file);
+    series.push_back({path, origin_of(file), errors_of(image, path, reference.image, to)});
     warn_of_non_finite(image, path);
   }
   warn_of_non_finite(reference.image, to);

@@ -23,8 +23,14 @@ ErrorLog::ErrorLog(const std::filesystem::path& reference, std::filesystem::path
     : reference_(read_reference(reference)), csv_(std::move(csv)) {
   check_writable(csv_, 1 << 16);
   const Image& truth = reference_.mean;
-  if (camera.crop && truth.width == camera.width && truth.height == camera.height)
-    reference_ = {cropped(truth, *camera.crop), cropped(reference_.variance, *camera.crop)};
+  const PixelRect rendered = camera.rendered();
+  if (reference_.part && common_pixels(*reference_.part, rendered) != rendered)
+    throw InputError(
+        fmt::format("{}: the reference is a crop, and lacks pixels that are rendered", reference.string()));
+  if (camera.crop && truth.width == camera.width && truth.height == camera.height) {
+    reference_.mean = cropped(truth, *camera.crop);
+    reference_.variance = cropped(reference_.variance, *camera.crop);
+  }
   if (truth.width != film.width() || truth.height != film.height())
     throw InputError(fmt::format("{}: the reference has {} x {} pixels, but the render {} x {}", reference.string(),
                                  truth.width, truth.height, film.width(), film.height()));

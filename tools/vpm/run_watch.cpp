@@ -45,7 +45,8 @@ void RunWatch::show(const RenderResult& so_far) {
     viewer_->show(so_far.film.mean());
   } catch (const SendError& error) {
     viewer_.reset();
-    say(fmt::format("note: the viewer shows no more than {}: {}", passes_text(shown_), error.what()));
+    const std::string shown = shown_ == 0 ? "nothing" : "no more than " + passes_text(shown_);
+    say(fmt::format("note: the viewer shows {}: {}", shown, error.what()));
   }
   shown_ = so_far.film.passes();
   showing_ = showing.seconds();

@@ -36,6 +36,13 @@ MadeScene make_scene(const ViewOptions& options) {
   return made;
 }
 
+/// A pilot of integrators takes longer than a few passes do: where these are counted, photons are gathered.
+std::vector<std::string> overrides_of_view(const ViewOptions& options) {
+  std::vector<std::string> overrides = overrides_of(options);
+  if (options.passes) overrides.insert(overrides.begin(), "render.integrator=photon");
+  return overrides;
+}
+
 /// One pass of few photons, before anything is chosen: a picture to look at while a pilot runs.
 void show_first_picture(const ViewOptions& options, const Outputs& outputs, const RenderJob& job) {
   RenderSettings settings = job.settings;
@@ -51,7 +58,7 @@ int view_command(const ViewOptions& options) {
   set_threads(options.threads);
   const Outputs outputs = output_paths(options, fs::path(options.scene).stem().string());
   const MadeScene made = make_scene(options);
-  RenderJob job = load_scene(SceneText{made.name, made.scene.text}, overrides_of(options));
+  RenderJob job = load_scene(SceneText{made.name, made.scene.text}, overrides_of_view(options));
   for (const std::string& note : made.scene.notes) job.notes.push_back(note);
   const PixelRect rendered = job.scene.camera.rendered();
   check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height(), false, job);

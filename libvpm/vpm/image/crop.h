@@ -22,6 +22,11 @@ constexpr bool lies_in(const PixelRect& rect, int width, int height) {
          rect.y1 <= height;
 }
 
+/// The pixels that both have; none may be: then x1 <= x0 or y1 <= y0.
+constexpr PixelRect common_pixels(const PixelRect& a, const PixelRect& b) {
+  return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1};
+}
+
 /// That part, which lies in the image.
 Image cropped(const Image& image, const PixelRect& rect);
 

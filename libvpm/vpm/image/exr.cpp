@@ -133,6 +133,10 @@ ExrChannels read_channels(const path& file, const std::function<Names(const Name
     ExrChannels result;
     result.width = header.displayWindow().max.x - header.displayWindow().min.x + 1;
     result.height = header.displayWindow().max.y - header.displayWindow().min.y + 1;
+    const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
+    result.held = common_pixels({data.min.x - display.min.x, data.min.y - display.min.y, data.max.x - display.min.x + 1,
+                                 data.max.y - display.min.y + 1},
+                                {0, 0, result.width, result.height});
     for (auto i = header.begin(); i != header.end(); ++i) {
       const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute());
       if (text) result.metadata[i.name()] = text->value();

@@ -44,6 +44,7 @@ Image read_exr(const std::filesystem::path& path);
 /// Every channel of a file's first part, over the display window, and its string attributes.
 struct ExrChannels {
   int width = 0, height = 0;
+  PixelRect held;                                    // the pixels that the file has; the others are 0
   std::map<std::string, std::vector<float>> planes;  // rows from the top
   std::map<std::string, std::string> metadata;       // among them the format's own "type"
 };

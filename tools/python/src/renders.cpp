@@ -147,6 +147,11 @@ void bind_renders(py::module_& module) {
       .def_property_readonly("count", [](const Passes& p) { return p.result.film.passes(); })
       .def_property_readonly("seconds", [](const Passes& p) { return p.result.seconds; })
       .def_property_readonly("seed", [](const Passes& p) { return p.state.settings.seed; })
+      .def_property_readonly("window",
+                             [](const Passes& p) {
+                               const auto& [x0, y0, x1, y1] = p.scene->job.scene.camera.rendered();
+                               return py::make_tuple(x0, y0, x1, y1);
+                             })
       .def_property_readonly("notes", [](const Passes& p) { return p.state.notes; })
       .def("warnings", [](const Passes& p) { return p.with([&](auto& job) { return warnings_of(job, p.result); }); })
       .def("report",

@@ -85,7 +85,7 @@ py::dict difference(const NoisyArray& one, const NoisyArray& other) {
   return told;
 }
 
-/// The picture, its planes by their names, and its attributes.
+/// The picture, its planes by their names, its attributes, and the pixels that the file has.
 py::tuple read_planes(const std::string& path) {
   const ExrChannels channels = read_exr_channels(path);
   py::dict planes;
@@ -95,7 +95,8 @@ py::tuple read_planes(const std::string& path) {
   for (const auto& [name, text] : channels.metadata)
     metadata[py::str(name)] = py::reinterpret_steal<py::str>(
         PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape"));
-  return py::make_tuple(array_of(read_exr(path)), planes, metadata);
+  const auto& [x0, y0, x1, y1] = channels.held;
+  return py::make_tuple(array_of(read_exr(path)), planes, metadata, py::make_tuple(x0, y0, x1, y1));
 }
 
 }  // namespace

@@ -16,6 +16,12 @@ from ._vpm import InputError
 Image = NDArray[np.float32]
 
 
+def _read_only(picture: Image) -> Image:
+    """What is written to a file is the render, and not the array: changes of that would be lost."""
+    picture.setflags(write=False)
+    return picture
+
+
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C while vpm rendered. `result` has the passes that were finished by then; it may have none."""
 
@@ -32,6 +38,9 @@ class Result:
 
     def __init__(self, passes: _vpm.Passes):
         self._passes = passes
+
+    def __reduce__(self) -> Any:
+        raise TypeError("results of vpm are not pickled or copied: write() them, and read_exr() what is written")
 
     @property
     def passes(self) -> int:
@@ -50,8 +59,13 @@ class Result:
 
     @functools.cached_property
     def radiance(self) -> Image:
-        """The mean of the passes, W/(m^2 sr); black without any."""
-        return self._passes.radiance()
+        """The mean of the passes, W/(m^2 sr), read-only; black without any. Of a crop its pixels alone: `window`."""
+        return _read_only(self._passes.radiance())
+
+    @property
+    def window(self) -> tuple[int, int, int, int]:
+        """x0, y0, x1, y1: where the pictures are in the whole film, ends excluded."""
+        return self._passes.window
 
     @functools.cached_property
     def variance(self) -> Image | None:
@@ -68,7 +82,7 @@ class Result:
         """The layers that a picture file of it has: what each technique finds, "combined.NAME.weighted" and the like,
         W/(m^2 sr), where the scene says combined.layers = true; and what the camera sees, those of render.layers.
         Arrays (height, width, 3), or (height, width) where there is one channel, as of "depth"."""
-        return self._passes.layers()
+        return {name: _read_only(layer) for name, layer in self._passes.layers().items()}
 
     @functools.cached_property
     def stated_error(self) -> dict[str, float] | None:

@@ -106,6 +106,9 @@ class Scene:
         else:
             self._job = _vpm.load_file(os.fspath(source), options, auto)
 
+    def __reduce__(self) -> Any:
+        raise TypeError("scenes of vpm are not pickled or copied: make them anew of their file or dict")
+
     @staticmethod
     def text_of(source: Mapping[str, Any]) -> str:
         """The dict as the text of a scene file, in which arrays are only described."""

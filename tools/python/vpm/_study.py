@@ -45,17 +45,21 @@ def exact_problems() -> dict[str, dict[str, str]]:
 
 
 class Picture(NamedTuple):
-    """What an EXR file holds."""
+    """What an EXR file holds. Of a crop these are the pixels of `window` alone."""
     radiance: Image  # (height, width, 3)
     layers: dict[str, Image]  # (height, width, 3), or (height, width) of one channel, by name: "variance", "depth", ...
     planes: dict[str, NDArray[np.float32]]  # (height, width), every channel by its name: "R", "variance.R", ...
     metadata: dict[str, str]
+    window: tuple[int, int, int, int]  # x0, y0, x1, y1: where the pixels are in the whole picture, ends excluded
 
 
 def read_exr(path: str | os.PathLike[str]) -> Picture:
     """Reads an EXR file: R, G and B, or grey, as vpm does; layers are those that have channels NAME.R, .G and .B, or
     .X, .Y and .Z, or one, as depth.Z: arrays (height, width, 3) or (height, width)."""
-    radiance, planes, metadata = _vpm.read_exr(os.fspath(path))
+    whole, whole_planes, metadata, window = _vpm.read_exr(os.fspath(path))
+    x0, y0, x1, y1 = window
+    radiance = whole[y0:y1, x0:x1]
+    planes = {name: plane[y0:y1, x0:x1] for name, plane in whole_planes.items()}
     letters: dict[str, set[str]] = {}
     for plane in planes:
         name, _, letter = plane.rpartition(".")
@@ -67,7 +71,7 @@ def read_exr(path: str | os.PathLike[str]) -> Picture:
         for three in ("RGB", "XYZ"):
             if name and given == set(three):
                 layers[name] = np.stack([planes[f"{name}.{c}"] for c in three], axis=-1)
-    return Picture(radiance, layers, planes, metadata)
+    return Picture(radiance, layers, planes, metadata, window)
 
 
 Pictured = Union[Result, Picture, str, "os.PathLike[str]", ArrayLike]
@@ -90,12 +94,13 @@ class Errors(NamedTuple):
 
 def error(picture: Pictured, reference: Pictured) -> Errors:
     """How far a picture is from a reference, as `vpm error` tells it. Both are results of renders, EXR files (paths,
-    or what `read_exr` returns) or arrays (height, width, 3). All but arrays tell their noise, too."""
-    one, other = _noisy(picture), _noisy(reference)
-    (height, width), (to_height, to_width) = one[0].shape[:2], other[0].shape[:2]
+    or what `read_exr` returns) or arrays (height, width, 3). All but arrays tell their noise, too. Where one is a crop,
+    they are compared in the pixels that both have."""
+    one, other = _in_common(_noisy(picture), _noisy(reference))
+    (height, width), (to_height, to_width) = one.image.shape[:2], other.image.shape[:2]
     if (height, width) != (to_height, to_width):
         raise InputError(f"the picture has {width} x {height} pixels and the reference has {to_width} x {to_height}")
-    return Errors(**_vpm.difference(one, other))
+    return Errors(**_vpm.difference(one[:3], other[:3]))
 
 
 class Comparison(NamedTuple):
@@ -166,16 +171,43 @@ def _quantity(told: list[Any]) -> Quantity:
     return Quantity(values, errors, unit, places, place, place_unit)
 
 
-def _noisy(picture: Pictured) -> tuple[Any, Any, Any]:
-    """The picture, the variances of its pixels and of its channels' means; None where they are not known."""
+class _Noisy(NamedTuple):
+    """A picture, and the variances of its pixels and of its channels' means; None where they are not known."""
+    image: Any
+    variance: Any = None
+    of_means: Any = None
+    window: tuple[int, int, int, int] | None = None  # where it is in the whole; None of arrays
+
+
+def _noisy(picture: Pictured) -> _Noisy:
     if isinstance(picture, Result):
-        return picture.radiance, picture.variance, picture._passes.variance_of_means()
+        return _Noisy(picture.radiance, picture.variance, picture._passes.variance_of_means(), picture.window)
     if isinstance(picture, (str, os.PathLike)):
         picture = read_exr(picture)
     if isinstance(picture, Picture):
         variance = picture.layers.get("variance")
         means = picture.metadata.get("vpm.varianceOfMeans", "").split()
         if variance is None or not np.all(np.isfinite(variance)):
-            return picture.radiance, None, None
-        return picture.radiance, variance, tuple(map(float, means)) if len(means) == 3 else None
-    return np.asarray(picture, np.float32), None, None
+            return _Noisy(picture.radiance, window=picture.window)
+        of_means = tuple(map(float, means)) if len(means) == 3 else None
+        return _Noisy(picture.radiance, variance, of_means, picture.window)
+    return _Noisy(np.asarray(picture, np.float32))
+
+
+def _in_common(one: _Noisy, other: _Noisy) -> tuple[_Noisy, _Noisy]:
+    """Both in the pixels that both have, where these are known and not the same."""
+    if one.window is None or other.window is None or one.window == other.window:
+        return one, other
+    x0, y0 = max(one.window[0], other.window[0]), max(one.window[1], other.window[1])
+    x1, y1 = min(one.window[2], other.window[2]), min(one.window[3], other.window[3])
+    if x0 >= x1 or y0 >= y1:
+        raise InputError("the picture and the reference have no pixel in common: they are crops")
+
+    def part(noisy: _Noisy) -> _Noisy:
+        left, top, right, bottom = noisy.window or (0, 0, 0, 0)
+        if (left, top, right, bottom) == (x0, y0, x1, y1):
+            return noisy
+        rows, columns = slice(y0 - top, y1 - top), slice(x0 - left, x1 - left)
+        return _Noisy(noisy.image[rows, columns], None if noisy.variance is None else noisy.variance[rows, columns])
+
+    return part(one), part(other)

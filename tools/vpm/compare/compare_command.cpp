@@ -129,6 +129,9 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
       contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);
     } else {
       contest.reference = read_reference(scene.reference);
+      if (contest.reference.part)
+        throw InputError(fmt::format("{}: the reference of scene '{}' is a crop; whole pictures are compared",
+                                     scene.place, scene.name));
     }
     for (const auto& method : contest.methods) check_size(contest.reference.mean, method->loaded.scene.camera, scene);
     contests.push_back(std::move(contest));

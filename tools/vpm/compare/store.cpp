@@ -143,6 +143,7 @@ void Store::add_reference(const std::string& identity, const Reference& referenc
 Reference read_reference(const fs::path& path) {
   const ExrChannels file = read_exr_channels(path);
   Reference reference{read_exr(path), Image(file.width, file.height)};
+  if (file.held != PixelRect{0, 0, file.width, file.height}) reference.part = file.held;
   if (std::optional<Image> variance = layer_of(file, "variance"))
     reference.variance = std::move(*variance);
   else

@@ -1,9 +1,11 @@
 // How far repeated pictures of one method are from the truth, and how much of that is bias.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "vpm/image/crop.h"
 #include "vpm/image/image.h"
 
 namespace vpm {
@@ -11,8 +13,9 @@ namespace vpm {
 /// A picture taken for the truth, with the variance that it has itself.
 struct Reference {
   Image mean;
-  Image variance;          // of each pixel of `mean`; black: it is exact
-  std::string doubt = "";  // why biases cannot be judged against it; empty: they can
+  Image variance;                      // of each pixel of `mean`; black: it is exact
+  std::optional<PixelRect> part = {};  // the pixels that it has, where it is a crop
+  std::string doubt = "";              // why biases cannot be judged against it; empty: they can
 };
 
 /// An estimate between the ends of a 95 % confidence interval.
