@@ -127,10 +127,11 @@ TEST_F(Checkpoint, BringsBackLayers) {
 
 TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
   write_checkpoint(path_, kRender, some_result());
-  refuses({{"render.seed", "2"}, {"scene", "fog"}},
-          "it is of another render; render on with the options that it began with\n  render.seed: 1 in the checkpoint, 2 "
-          "asked for\n  volume.radius: 0.25 in the checkpoint, nothing asked for\n"
-          "  scene: nothing in the checkpoint, fog asked for");
+  refuses(
+      {{"render.seed", "2"}, {"scene", "fog"}},
+      "it is of another render; render on with the options that it began with\n  render.seed: 1 in the checkpoint, 2 "
+      "asked for\n  volume.radius: 0.25 in the checkpoint, nothing asked for\n"
+      "  scene: nothing in the checkpoint, fog asked for");
   refuses({kRender[1], kRender[0]}, "\n  the same keys stand in another order");
 }
 
