@@ -232,7 +232,8 @@ RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& 
   const std::string bytes = content_of(path);
   const auto [found, rest] = parts_of(path, bytes);
   if (found != identity)
-    refuse(path, "it is of another render; render on with the options that it began with" + differences(found, identity));
+    refuse(path,
+           "it is of another render; render on with the options that it began with" + differences(found, identity));
   const size_t sum_at = bytes.size() - std::min(rest.size(), kChecksum);
   if (checksum(std::string_view(bytes).substr(0, sum_at)) != bytes.substr(sum_at))
     refuse(path, "it is damaged or not whole: its checksum is wrong");
