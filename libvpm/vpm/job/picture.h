@@ -9,7 +9,7 @@
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
 #include "vpm/render/uv_layout.h"
-#include "vpm/render/view_layers.h"
+#include "vpm/render/view_layer.h"
 
 namespace vpm {
 

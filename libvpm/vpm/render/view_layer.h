@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
+
+#include "vpm/image/image.h"
 
 namespace vpm {
 
@@ -35,6 +38,12 @@ class ViewLayerSet {
   static constexpr uint32_t bit(ViewLayer layer) { return 1u << static_cast<uint32_t>(layer); }
 
   uint32_t bits_ = 0;
+};
+
+/// A layer as it is written: its channels are called name.C for each letter C, of which `image` has as many.
+struct NamedLayer {
+  std::string name, letters;
+  Image image;
 };
 
 }  // namespace vpm

@@ -35,11 +35,6 @@ class ViewSums {
   std::vector<Rgbd> sums_;  // of a pixel's films side by side
 };
 
-/// A layer as it is written: its channels are called name.C for each letter C, of which `image` has as many.
-struct NamedLayer {
-  std::string name, letters;
-  Image image;
-};
 /// The layers of a picture with view_films() films besides, of the same passes, one at least. From two passes on, each
 /// layer that is a mean of samples is followed by NAME-variance: that of the mean. Depth and single-scattering albedo
 /// are ratios of such means: of distances over the share of samples that see a surface, and of what is scattered over
