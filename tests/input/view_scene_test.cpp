@@ -1,6 +1,7 @@
 // The scene around a grid: which grid is meant, its extinction, and that all of it is seen.
 #include "vpm/input/view_scene.h"
 
+#include <fmt/format.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include "input/grid_folder.h"
@@ -51,23 +52,28 @@ TEST_F(ViewOfGrid, HasTheOpticalDepthAcrossThatIsWished) {
   }
 }
 
-/// Whatever is 0 around what is dense, and whichever axis is up, the corners of that are in the frame and near its
-/// edge; and the floor lies below.
+/// Whatever is 0 around what is dense, whichever axis is up, and whatever the shape of the picture, the corners of that
+/// are in the frame and near its edge.
 TEST_F(ViewOfGrid, ShowsAllThatIsDenseAndNotMuchMore) {
+  const auto expect_framed = [&](const ViewWishes& wishes, int width, int height) {
+    const std::vector<std::string> film{fmt::format("film.width={}", width), fmt::format("film.height={}", height)};
+    const Camera camera = load_scene(SceneText{"view.toml", view(wishes).text}, film).scene.camera;
+    const Vec2 middle = 0.5f * Vec2(width, height);
+    float widest = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p(corner & 1 ? 2.0f : 0.0f, corner & 2 ? 2.0f : 0.0f, corner & 4 ? 2.0f : 0.0f);
+      const std::optional<Vec2> seen = camera.film_of(glm::normalize(p - camera.position));
+      ASSERT_TRUE(seen);
+      for (const int axis : {0, 1}) widest = std::max(widest, std::abs((*seen)[axis] / middle[axis] - 1.0f));
+    }
+    EXPECT_LT(widest, 0.95f);
+    EXPECT_GT(widest, 0.7f);
+  };
   for (const int margin : {0, 40}) {
     write({cube_grid("density", 20, margin)});
-    for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
-      const Camera camera = job_of({.up = up}).scene.camera;
-      float widest = 0.0f;
-      for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 p(corner & 1 ? 2.0f : 0.0f, corner & 2 ? 2.0f : 0.0f, corner & 4 ? 2.0f : 0.0f);
-        const std::optional<Vec2> film = camera.film_of(glm::normalize(p - camera.position));
-        ASSERT_TRUE(film);
-        for (const int axis : {0, 1}) widest = std::max(widest, std::abs((*film)[axis] / 256.0f - 1.0f));
-      }
-      EXPECT_LT(widest, 0.95f);
-      EXPECT_GT(widest, 0.7f);
-    }
+    for (const UpAxis up : {UpAxis::y, UpAxis::z}) expect_framed({.up = up}, 512, 512);
+    expect_framed({.aspect = 0.5}, 200, 400);
+    expect_framed({.aspect = 3.0}, 600, 200);
   }
 }
 

@@ -152,8 +152,18 @@ def test_a_crop_is_an_array_of_its_pixels_wherever_it_comes_from(ball_file, tmp_
     whole.write(tmp_path / "whole.exr")
     line = json.loads(command("error", tmp_path / "part.exr", tmp_path / "whole.exr", "--json")[0])
     assert line["relative_mse"]["value"] == told.relative_mse
+    with pytest.raises(vpm.InputError, match="the picture has 10 x 7 pixels and the reference has 48 x"):
+        vpm.error(part, vpm.render(ball_file, overrides={"film.width": 48}, passes=1))
+    with pytest.raises(vpm.InputError, match="the picture has"):
+        vpm.error(whole, vpm.render(ball_file, overrides={"film.width": 48}, passes=1))
     with pytest.raises(vpm.InputError, match="no pixel in common"):
         vpm.error(part, vpm.render(ball_file, overrides={"film.crop": [13, 2, 15, 9]}, passes=2))
+
+
+def test_a_render_without_passes_has_no_layers():
+    scene = vpm.Scene(BALL, ['render.layers=["depth"]'])
+    before = vpm.Result(vpm._vpm.begin(scene._job, 1, None, None, None))
+    assert before.passes == 0 and before.layers == {}
 
 
 def test_what_would_be_lost_is_refused():

@@ -25,13 +25,16 @@ struct MadeScene {
 };
 MadeScene make_scene(const ViewOptions& options) {
   const fs::path grid = options.scene;
+  ViewWishes wishes = options.wishes;
+  if (const size_t x = options.size.find('x'); x != std::string::npos)
+    wishes.aspect = std::stod(options.size.substr(0, x)) / std::stod(options.size.substr(x + 1));
   if (options.scene_output.empty())
-    return {make_view_scene(grid, grid, options.wishes), "scene of " + grid.filename().string()};
+    return {make_view_scene(grid, grid, wishes), "scene of " + grid.filename().string()};
   const fs::path output = options.scene_output;
   if (output.extension() != ".toml")
     throw InputError(fmt::format("{}: a scene's name must end in .toml", output.string()));
   const fs::path folder = fs::absolute(output).parent_path();
-  MadeScene made{make_view_scene(grid, fs::absolute(grid).lexically_proximate(folder), options.wishes), output};
+  MadeScene made{make_view_scene(grid, fs::absolute(grid).lexically_proximate(folder), wishes), output};
   write_text(output, made.scene.text);
   return made;
 }

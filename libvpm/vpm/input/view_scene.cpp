@@ -89,7 +89,8 @@ struct Stage {
 constexpr double kFov = 35.0;  // degrees
 
 /// The distance from which all corners of a box are seen, in a frame with some air.
-double distance_to_see(const Box& box, const Vec3d& middle, const Vec3d& towards_camera, const Axes& axes) {
+double distance_to_see(const Box& box, const Vec3d& middle, const Vec3d& towards_camera, const Axes& axes,
+                       double aspect) {
   constexpr double kFilled = 0.85;  // of the frame
   const Vec3d right = glm::normalize(glm::cross(axes.up, towards_camera)), up = glm::cross(towards_camera, right);
   const double slope = kFilled * std::tan(glm::radians(0.5 * kFov));
@@ -98,21 +99,21 @@ double distance_to_see(const Box& box, const Vec3d& middle, const Vec3d& towards
     const Vec3d p =
         Vec3d(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z) -
         middle;
-    const double off = std::max(std::abs(glm::dot(p, right)), std::abs(glm::dot(p, up)));
+    const double off = std::max(std::abs(glm::dot(p, right)) / aspect, std::abs(glm::dot(p, up)));
     distance = std::max(distance, glm::dot(p, towards_camera) + off / slope);
   }
   return distance;
 }
 
-Stage stage_for(const Box& box, UpAxis up) {
-  const Axes axes = axes_of(up);
+Stage stage_for(const Box& box, const ViewWishes& wishes) {
+  const Axes axes = axes_of(wishes.up);
   const Vec3d lo(box.lo), hi(box.hi), middle = 0.5 * (lo + hi);
   const double radius = 0.5 * glm::length(hi - lo), height = glm::dot(hi - lo, axes.up);
   const Vec3d towards_camera = glm::normalize(0.2 * axes.right + 0.22 * axes.up - axes.ahead);
   const Vec3d towards_lamp = glm::normalize(-1.0 * axes.right + 1.1 * axes.up + 0.35 * axes.ahead);
   Stage stage{};
   stage.target = middle;
-  stage.camera = middle + distance_to_see(box, middle, towards_camera, axes) * towards_camera;
+  stage.camera = middle + distance_to_see(box, middle, towards_camera, axes, wishes.aspect) * towards_camera;
   stage.floor = middle - 0.52 * height * axes.up;
   stage.floor_radius = 3.0 * radius;
   stage.lamp_distance = 3.5 * radius;
@@ -121,7 +122,8 @@ Stage stage_for(const Box& box, UpAxis up) {
   return stage;
 }
 
-std::string toml_vector(const Vec3d& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z); }
+/// As floats, which is what a scene makes of them: the shortest text that reads back.
+std::string toml_vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 std::string toml_string(const std::string& s) {
   std::string out = "\"";
   for (const char c : s) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
@@ -141,7 +143,7 @@ std::string bounds_text(const std::optional<Box>& bounds) {
   return fmt::format(
       "[[shapes]]\nname = \"bounds\"  # the box of the grid's voxels: its background would fill all space\ntype = "
       "\"box\"\nmaterial = {{ type = \"boundary\" }}\nmin = {}\nmax = {}\ninside = \"medium\"\n\n",
-      toml_vector(Vec3d(bounds->lo)), toml_vector(Vec3d(bounds->hi)));
+      toml_vector(bounds->lo), toml_vector(bounds->hi));
 }
 
 std::string scene_text(const ShownGrid& grid, double sigma_t, const ViewWishes& wishes, const Stage& stage) {
@@ -184,7 +186,7 @@ type = "disc"
 material = "floor"
 center = {floor}
 normal = {up}
-radius = {floor_radius:.6g}
+radius = {floor_radius}
 
 {bounds}[[lights]]
 name = "lamp"
@@ -216,13 +218,13 @@ radius = "auto"
 [surface]
 radius = "auto"
 )",
-      fmt::arg("path", toml_string(grid.path_in_scene)), fmt::arg("camera", toml_vector(stage.camera)),
-      fmt::arg("target", toml_vector(stage.target)), fmt::arg("up", toml_vector(up)), fmt::arg("fov", kFov),
+      fmt::arg("path", toml_string(grid.path_in_scene)), fmt::arg("camera", toml_vector(Vec3(stage.camera))),
+      fmt::arg("target", toml_vector(Vec3(stage.target))), fmt::arg("up", toml_vector(Vec3(up))), fmt::arg("fov", kFov),
       fmt::arg("keys", keys), fmt::arg("sigma_t", sigma_t), fmt::arg("depth", wishes.optical_depth),
-      fmt::arg("floor", toml_vector(stage.floor)), fmt::arg("floor_radius", stage.floor_radius),
-      fmt::arg("bounds", bounds_text(grid.bounds)), fmt::arg("lamp", toml_vector(stage.lamp)),
-      fmt::arg("inner", stage.lamp_angle), fmt::arg("outer", 1.25 * stage.lamp_angle),
-      fmt::arg("intensity", toml_vector(intensity)));
+      fmt::arg("floor", toml_vector(Vec3(stage.floor))),
+      fmt::arg("floor_radius", static_cast<float>(stage.floor_radius)), fmt::arg("bounds", bounds_text(grid.bounds)),
+      fmt::arg("lamp", toml_vector(Vec3(stage.lamp))), fmt::arg("inner", stage.lamp_angle),
+      fmt::arg("outer", 1.25 * stage.lamp_angle), fmt::arg("intensity", toml_vector(Vec3(intensity))));
 }
 
 }  // namespace
@@ -269,7 +271,7 @@ ViewScene make_view_scene(const std::string& path, const std::string& path_in_sc
   ViewScene scene;
   const std::optional<Box> bounds = filled ? std::optional(summary.world_box) : std::nullopt;
   scene.text =
-      scene_text({path_in_scene, name, level_set, negative, bounds}, sigma_t, wishes, stage_for(part.box, wishes.up));
+      scene_text({path_in_scene, name, level_set, negative, bounds}, sigma_t, wishes, stage_for(part.box, wishes));
   scene.notes.push_back(
       fmt::format("grid '{}'{}: sigma_t {:.4g} 1/m at density 1, an optical depth of {:g} across (--optical-depth)",
                   name, level_set ? ", a level set, as a fog of density 1 inside" : "", sigma_t, wishes.optical_depth));

@@ -16,6 +16,7 @@ struct ViewWishes {
   std::string grid{};          // its name; empty: the one that can be meant
   double optical_depth = 5.0;  // across the medium, > 0
   UpAxis up = UpAxis::y;
+  double aspect = 1.0;  // width over height of the picture
 };
 
 /// A scene file's text and what a user should know of how it came about.
@@ -30,9 +31,9 @@ std::string grid_to_show(const std::string& path, const std::vector<GridSummary>
 
 /// Makes a commented scene file that shows a grid of `path`, which is written into it as `path_in_scene`: seen from a
 /// little above, over a round floor, lit by a spot and a dim sky, all sized by the part of the grid where densities are
-/// not small, with an extinction such that the thickest columns across have the wished optical depth. A level set
-/// becomes a fog; negative densities are read as 0, and counted. Throws InputError as grid_to_show() and load_grid(),
-/// and for a grid that is 0 everywhere.
+/// not small, with an extinction such that nine tenths of the columns across have no more than the wished optical
+/// depth. A level set becomes a fog; negative densities are read as 0, and counted. Throws InputError as grid_to_show()
+/// and load_grid(), and for a grid that is 0 everywhere.
 ViewScene make_view_scene(const std::string& path, const std::string& path_in_scene, const ViewWishes& wishes);
 
 }  // namespace vpm

@@ -43,6 +43,7 @@ constexpr const char* kViewQuantities =
 
 std::vector<NamedLayer> picture_layers(const RenderSettings& settings, const RenderResult& result) {
   std::vector<NamedLayer> layers;
+  if (result.film.passes() == 0) return layers;
   const std::vector<std::string> names = layer_names(settings);
   const std::span<const Film> films(result.layers);
   for (size_t i = 0; i < names.size(); ++i) {

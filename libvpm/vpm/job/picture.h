@@ -17,8 +17,8 @@ namespace vpm {
 /// Pixels of photon maps are correlated: it cannot be told from the variances of pixels.
 inline constexpr const char* kVarianceOfMeans = "vpm.varianceOfMeans";
 
-/// Further pictures of a render: its layer_names(), from two passes on with a further layer NAME.variance each, and its
-/// named_view_layers().
+/// Further pictures of a render, none before its first pass: its layer_names(), from two passes on with a further layer
+/// NAME.variance each, and its named_view_layers().
 std::vector<NamedLayer> picture_layers(const RenderSettings& settings, const RenderResult& result);
 
 /// Writes the mean of the passes, W/(m^2 sr), from two passes on with the variance of that mean (layer "variance") and,

@@ -152,6 +152,11 @@ void bind_renders(py::module_& module) {
                                const auto& [x0, y0, x1, y1] = p.scene->job.scene.camera.rendered();
                                return py::make_tuple(x0, y0, x1, y1);
                              })
+      .def_property_readonly("size",
+                             [](const Passes& p) {
+                               const Camera& camera = p.scene->job.scene.camera;
+                               return py::make_tuple(camera.width, camera.height);
+                             })
       .def_property_readonly("notes", [](const Passes& p) { return p.state.notes; })
       .def("warnings", [](const Passes& p) { return p.with([&](auto& job) { return warnings_of(job, p.result); }); })
       .def("report",

@@ -67,6 +67,11 @@ class Result:
         """x0, y0, x1, y1: where the pictures are in the whole film, ends excluded."""
         return self._passes.window
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the whole film."""
+        return self._passes.size
+
     @functools.cached_property
     def variance(self) -> Image | None:
         """The variance of that mean, (W/(m^2 sr))^2, read-only; None below two passes."""

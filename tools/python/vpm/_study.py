@@ -51,6 +51,7 @@ class Picture(NamedTuple):
     planes: dict[str, NDArray[np.float32]]  # (height, width), every channel by its name: "R", "variance.R", ...
     metadata: dict[str, str]
     window: tuple[int, int, int, int]  # x0, y0, x1, y1: where the pixels are in the whole picture, ends excluded
+    size: tuple[int, int]  # width and height of the whole
 
 
 def read_exr(path: str | os.PathLike[str]) -> Picture:
@@ -71,7 +72,7 @@ def read_exr(path: str | os.PathLike[str]) -> Picture:
         for three in ("RGB", "XYZ"):
             if name and given == set(three):
                 layers[name] = np.stack([planes[f"{name}.{c}"] for c in three], axis=-1)
-    return Picture(radiance, layers, planes, metadata, window)
+    return Picture(radiance, layers, planes, metadata, window, (whole.shape[1], whole.shape[0]))
 
 
 Pictured = Union[Result, Picture, str, "os.PathLike[str]", ArrayLike]
@@ -98,7 +99,7 @@ def error(picture: Pictured, reference: Pictured) -> Errors:
     they are compared in the pixels that both have."""
     one, other = _in_common(_noisy(picture), _noisy(reference))
     (height, width), (to_height, to_width) = one.image.shape[:2], other.image.shape[:2]
-    if (height, width) != (to_height, to_width):
+    if (height, width) != (to_height, to_width) or (one.size and other.size and one.size != other.size):
         raise InputError(f"the picture has {width} x {height} pixels and the reference has {to_width} x {to_height}")
     return Errors(**_vpm.difference(one[:3], other[:3]))
 
@@ -177,26 +178,28 @@ class _Noisy(NamedTuple):
     variance: Any = None
     of_means: Any = None
     window: tuple[int, int, int, int] | None = None  # where it is in the whole; None of arrays
+    size: tuple[int, int] | None = None  # of the whole
 
 
 def _noisy(picture: Pictured) -> _Noisy:
     if isinstance(picture, Result):
-        return _Noisy(picture.radiance, picture.variance, picture._passes.variance_of_means(), picture.window)
+        return _Noisy(picture.radiance, picture.variance, picture._passes.variance_of_means(), picture.window,
+                      picture.size)
     if isinstance(picture, (str, os.PathLike)):
         picture = read_exr(picture)
     if isinstance(picture, Picture):
         variance = picture.layers.get("variance")
         means = picture.metadata.get("vpm.varianceOfMeans", "").split()
         if variance is None or not np.all(np.isfinite(variance)):
-            return _Noisy(picture.radiance, window=picture.window)
+            return _Noisy(picture.radiance, window=picture.window, size=picture.size)
         of_means = tuple(map(float, means)) if len(means) == 3 else None
-        return _Noisy(picture.radiance, variance, of_means, picture.window)
+        return _Noisy(picture.radiance, variance, of_means, picture.window, picture.size)
     return _Noisy(np.asarray(picture, np.float32))
 
 
 def _in_common(one: _Noisy, other: _Noisy) -> tuple[_Noisy, _Noisy]:
-    """Both in the pixels that both have, where these are known and not the same."""
-    if one.window is None or other.window is None or one.window == other.window:
+    """Both in the pixels that both have, where they are crops of films of one size."""
+    if one.window is None or other.window is None or one.window == other.window or one.size != other.size:
         return one, other
     x0, y0 = max(one.window[0], other.window[0]), max(one.window[1], other.window[1])
     x1, y1 = min(one.window[2], other.window[2]), min(one.window[3], other.window[3])
