@@ -40,11 +40,12 @@ Pass render_pass(const Scene& scene, const RenderSettings& settings, int pass) {
 
 /// A box of fog that fills the middle of the picture, before a wall that fills its lower half.
 Scene fog_before_a_wall() {
-  Scene scene = boxed_medium(make_medium(nullptr, Rgb(0.5f, 1.0f, 2.0f), 0.8f), PointLight{Vec3(0, 3, 3), Rgb(9.0f)});
+  Scene scene = unfinished_box(make_medium(nullptr, Rgb(0.5f, 1.0f, 2.0f), 0.8f));
+  scene.lights = {PointLight{Vec3(0, 3, 3), Rgb(9.0f)}};
   add_shape(scene, quad_mesh(Vec3(-99, -99, -2), Vec3(198, 0, 0), Vec3(0, 99, 0)), Lambertian{kFloor});
   scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 60.0f, {kSize, kSize});
   scene.geometry.commit();
-  finish_again(scene);
+  finish(scene);
   return scene;
 }
 

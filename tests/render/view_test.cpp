@@ -105,7 +105,7 @@ TEST(View, WeighsMediaByTheLightTheyTake) {
 TEST(View, OfAGridIsThatOfItsDensityIntegral) {
   const Medium smoke = make_medium(
       make_grid(centred_frame(7, 0.125), [](int x, int y, int z) { return lattice_noise(x, y, z); }), Rgb(1, 2, 4));
-  Scene scene = boxed_medium(smoke, PointLight{});
+  Scene scene = unfinished_box(smoke);
   add_quad_at(scene, -0.37f, Lambertian{});  // in the midst of the grid
   be_ready(scene);
   const Ray ray{Vec3(0.3f, 0.2f, 3.0f), glm::normalize(Vec3(-0.1f, 0.05f, -1.0f))};
@@ -182,7 +182,7 @@ TEST(View, IsWhiteWhereMirrorsShowEachOtherWithoutEnd) {
 }
 
 TEST(View, HasTheAlbedoOfFogAsFarAsItHides) {
-  Scene scene = boxed_medium(make_medium(nullptr, Rgb(0.5f), 0.8f), PointLight{});
+  Scene scene = unfinished_box(make_medium(nullptr, Rgb(0.5f), 0.8f));
   add_quad_at(scene, -2.0f, Lambertian{Rgb(0.25f)});
   be_ready(scene);
   const double left = std::exp(-0.5 * 2.0);
