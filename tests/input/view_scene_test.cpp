@@ -46,7 +46,8 @@ class ViewOfGrid : public GridFile {
 TEST_F(ViewOfGrid, HasTheOpticalDepthAcrossThatIsWished) {
   write({cube_grid("density", 32, 8, 0.25f)});
   for (const double depth : {5.0, 0.5}) {
-    const Medium& medium = job_of({.optical_depth = depth}).scene.media.at(0);
+    const RenderJob job = job_of({.optical_depth = depth});
+    const Medium& medium = job.scene.media.at(0);
     const double across = 32 * 0.1;
     EXPECT_NEAR(medium.sigma_t.g * 0.25 * across, depth, 0.03 * depth);  // as columns are told by a lattice
   }
