@@ -6,6 +6,7 @@ import pickle
 import signal
 import subprocess
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -440,20 +441,31 @@ def test_a_scene_is_rendered_with_several_settings_at_once():
 
 
 def test_other_threads_run_while_vpm_renders():
-    counted, done = [0], threading.Event()
+    """A thread that counts goes on in every fifth of the render's time, not only at its ends."""
+    times, done = [], threading.Event()
 
     def count():
         while not done.is_set():
-            counted[0] += 1
+            times.append(time.monotonic())
+            time.sleep(0.001)
 
     counter = threading.Thread(target=count)
     counter.start()
-    before = counted[0]
-    vpm.render(BALL, passes=5)
-    during = counted[0] - before
+    begun = time.monotonic()
+    vpm.render(BALL, seconds=0.5)
+    ended = time.monotonic()
     done.set()
     counter.join()
-    assert during > 100
+    fifths = np.histogram(times, bins=5, range=(begun, ended))[0]
+    assert ended - begun > 0.25 and fifths.min() > 2, fifths
+
+
+def test_variances_that_are_not_finite_are_told_of():
+    picture = vpm.render(BALL, passes=2)
+    broken = vpm.Picture(picture.radiance, {"variance": np.full_like(picture.radiance, np.nan)}, {}, {}, picture.window,
+                         picture.size)
+    with pytest.warns(UserWarning, match="variances of the picture are not finite"):
+        assert vpm.error(broken, picture).noise == 0
 
 
 def test_ctrl_c_keeps_the_passes_that_are_finished():

@@ -96,7 +96,7 @@ TEST_F(VpmError, TellsWhatOfTheErrorIsNoise) {
 
 TEST_F(VpmError, BringsAPictureToTheSizeOfTheReference) {
   write_exr(path("large.exr"), Image(6, 4), {}, {});
-  vpm_refuses({"error", "large.exr", "reference.exr"}, {"6 x 4", "3 x 2", "--set film.width=3", "--resample"});
+  vpm_refuses({"error", "large.exr", "reference.exr"}, {"6 x 4", "3 x 2", "--size 3x2", "--resample"});
   EXPECT_EQ(json({"large.exr", "reference.exr", "--resample"}).at("width"), 3);
   write_exr(path("nearly.exr"), Image(14, 10), {}, {});  // 3 : 2, but for rounding
   EXPECT_EQ(json({"nearly.exr", "reference.exr", "--resample"}).at("height"), 2);

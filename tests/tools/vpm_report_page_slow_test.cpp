@@ -26,6 +26,17 @@ class VpmReportPage : public RenderedFog {
     return BrowsedPage::verdict(browser, "fog.html", {{"kPixel", pixel}}, {"page_looks.js", "report_check.js"}, scheme,
                                 width);
   }
+
+  /// A script's verdict on the page of a pass with these options.
+  void examine_one_pass(const std::vector<std::string>& options, const std::string& script) const {
+    const std::optional<std::string> browser = chromium();
+    if (!browser) GTEST_SKIP() << "there is no Chromium here";
+    std::vector<std::string> render{"render", "fog.toml", "-o", "one.exr", "--passes", "1"};
+    render.insert(render.end(), options.begin(), options.end());
+    vpm_succeeds(render);
+    vpm_succeeds({"report", "one.json"});
+    EXPECT_EQ(BrowsedPage::verdict(*browser, "one.html", json::object(), {script}, Scheme::light, 1000), "passed");
+  }
 };
 
 TEST_F(VpmReportPage, DoesInABrowserWhatItSays) {
@@ -36,13 +47,12 @@ TEST_F(VpmReportPage, DoesInABrowserWhatItSays) {
 }
 
 TEST_F(VpmReportPage, ShowsARenderWithoutErrorsAndPhotons) {
-  const std::optional<std::string> browser = chromium();
-  if (!browser) GTEST_SKIP() << "there is no Chromium here";
-  vpm_succeeds({"render", "fog.toml", "-o", "paths.exr", "--passes", "1", "--set", "render.integrator=path"});
-  vpm_succeeds({"report", "paths.json"});
-  EXPECT_EQ(
-      BrowsedPage::verdict(*browser, "paths.html", json::object(), {"report_of_paths_check.js"}, Scheme::light, 1000),
-      "passed");
+  examine_one_pass({"--set", "render.integrator=path"}, "report_of_paths_check.js");
+}
+
+/// As pixels of the film, which other commands count, too.
+TEST_F(VpmReportPage, NamesThePixelsOfACropByTheirPlaceInTheFilm) {
+  examine_one_pass({"--crop", "3,2,9,6"}, "report_of_crop_check.js");
 }
 
 TEST_F(VpmReportPage, IsLightOrDarkAsItsReaderHasIt) {

@@ -109,6 +109,15 @@ TEST_F(VpmReport, ShowsThePixelsOfACrop) {
   expect_same_halves(decoded(pictures, 0), cropped(read_exr(path("part.exr")), {3, 2, 9, 6}), "radiance");
 }
 
+/// A scene that vpm view made and did not write has no file to name.
+TEST_F(VpmReport, NamesNoCommandsWhereTheSceneIsInNoFile) {
+  vpm_succeeds({"media", "smoke", "--resolution", "8", "-o", "smoke.vdb"});
+  vpm_succeeds({"view", "smoke.vdb", "--size", "8x8", "--passes", "1"});
+  vpm_succeeds({"report", "smoke.json"});
+  EXPECT_EQ(data_of(read("smoke.html"), "data").at("commands"), json::array());
+  EXPECT_FALSE(data_of((vpm_succeeds({"report", "fog.json"}), read("fog.html")), "data").at("commands").empty());
+}
+
 TEST_F(VpmReport, ReducesLargePicturesToMeansOfSquares) {
   constexpr int kLargeWidth = 1101, kLargeHeight = 1000;
   Image large(kLargeWidth, kLargeHeight);

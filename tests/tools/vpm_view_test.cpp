@@ -1,4 +1,6 @@
 // A grid to a picture in one command, and the options that change what a picture is of.
+#include <sstream>
+
 #include "tools/plume.h"
 #include "vpm/image/crop.h"
 #include "vpm/image/exr.h"
@@ -36,6 +38,8 @@ TEST_P(VpmCrop, HasTheBitsOfThatPartOfTheWhole) {
     }
   }
   EXPECT_GT(sum, 0.0);
+  constexpr int kMet = (40 - 16) * (24 - 16);  // pixels of the tiles of 16 x 16 that it meets, as the film cuts them
+  EXPECT_EQ(report("part.json")["eye"]["camera_rays"], kMet * 2 * 3);
   const Image preview = read_png(path("part.png"), PngValues::srgb);
   EXPECT_EQ(preview.width, 19);
   EXPECT_EQ(preview.height, 6);
@@ -67,7 +71,12 @@ TEST_F(VpmRender, ErrorsOfACropAreLoggedAgainstThatPartOfTheReference) {
   vpm_succeeds(
       {"render", "scene.toml", "-o", "part.exr", "--passes", "4", "--crop", "5,9,30,21", "--reference", "truth.exr"});
   const std::string log = read("part.errors.csv");
-  EXPECT_NE(log.find("\n4,"), std::string::npos) << log;
+  std::istringstream last(log.substr(log.find("\n4,") + 1));
+  std::vector<std::string> fields;
+  for (std::string field; std::getline(last, field, ',');) fields.push_back(field);
+  ASSERT_GT(fields.size(), 4u) << log;
+  EXPECT_EQ(fields[0], "4");
+  EXPECT_EQ(fields[4], "1");  // the mean over the reference's, which has the very same passes
 }
 
 /// As arrays of the crops alone would be; the crop of another film, or none in common, is refused.
@@ -106,9 +115,9 @@ TEST_F(VpmRender, QuietSaysNothing) {
 }
 
 TEST_F(VpmRender, RefusesSizesAndCropsThatAreNone) {
-  for (const char* size : {"640", "640x", "0x480", "640x480x2", "axb"})
+  for (const char* size : {"640", "640x", "0x480", "640x480x2", "640x480x", "axb"})
     vpm_refuses({"render", "scene.toml", "--size", size}, {"--size", "no size in pixels such as 640x480"});
-  for (const char* crop : {"0,0,1", "-1,0,3,3", "0,0,1.5,2"})
+  for (const char* crop : {"0,0,1", "0,0,9,9,", "-1,0,3,3", "0,0,1.5,2"})
     vpm_refuses({"render", "scene.toml", "--crop", crop}, {"--crop", "no part of a picture"});
   for (const char* crop : {"0,0,41,24", "7,3,7,9", "9,3,8,9"})
     vpm_refuses({"render", "scene.toml", "--crop", crop}, {"film.crop", "no part of the 40 x 24 pixels"});
@@ -131,8 +140,18 @@ TEST_F(VpmRender, ViewShowsAGridAndWritesItsScene) {
   const Image picture = read_exr(path("a.exr"));
   EXPECT_EQ(picture.width, 48);
   EXPECT_GT(sum(picture), 0.0);
-  const ProcessResult again = vpm_succeeds({"info", "made.toml"});
-  EXPECT_NE(again.out.find("medium medium: grid"), std::string::npos) << again.out;
+  EXPECT_NE(read("a.json").find("as passes are counted"), std::string::npos);
+  const nlohmann::json told = report("a.json");
+  std::vector<std::string> again{"render", "made.toml", "-o", "b.exr", "--size",
+                                 "48x48",  "--passes",  "2",  "--set", "render.integrator=photon"};
+  for (const nlohmann::json& choice : told["chosen"])
+    again.insert(again.end(), {"--set", choice["key"].get<std::string>() + "=" + choice["value"].get<std::string>()});
+  vpm_succeeds(again);
+  EXPECT_TRUE(same_pixels(picture, read_exr(path("b.exr"))));
+  vpm_refuses({"view", "smoke.vdb", "--scene", "made.toml"}, {"'made.toml' is there already"});
+  std::filesystem::create_directories(path("folder"));
+  vpm_succeeds({"view", "smoke.vdb", "--size", "8x8", "--passes", "1", "--scene", "folder/made.toml"});
+  EXPECT_NE(read("folder/made.toml").find("path = \"../smoke.vdb\""), std::string::npos);
   vpm_succeeds({"view", "smoke.vdb", "--size", "48x48", "--passes", "1", "--quiet"});
   EXPECT_TRUE(std::filesystem::exists(path("smoke.exr")));
 }

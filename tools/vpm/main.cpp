@@ -59,7 +59,7 @@ void add_watch_options(CLI::App* command, WatchOptions& options) {
   command
       ->add_option("--preview", options.preview,
                    "Write picture, preview and report after the first pass already, and again after the passes that "
-                   "end this many seconds or more after the last time")
+                   "end this many seconds or more after the last time, and ten times as long as that took")
       ->check(check_seconds);
 }
 

@@ -28,7 +28,7 @@ Number parse(const std::string& text, Number otherwise) {
 /// The whole numbers that such a separator parts, or -1 for one that is none.
 std::vector<int> numbers_in(const std::string& text, char separator) {
   std::vector<int> numbers;
-  std::istringstream parts(text);
+  std::istringstream parts(text + separator);  // also of what is missing behind a last separator
   for (std::string part; std::getline(parts, part, separator);) numbers.push_back(parse(part, -1));
   return numbers;
 }

@@ -2,6 +2,7 @@
 #include "run_watch.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -10,7 +11,7 @@
 namespace vpm::tools {
 namespace {
 
-constexpr double kRest = 10.0;  // times as long as showing a picture took, the next one is not shown
+constexpr double kRest = 10.0;  // times as long as showing or writing a picture took, none is shown or written
 
 }  // namespace
 
@@ -31,7 +32,8 @@ void RunWatch::connect(const TevAddress& address, const std::string& name, const
 
 void RunWatch::finished(const RenderResult& so_far) {
   if (viewer_ && since_shown_.seconds() >= kRest * showing_) show(so_far);
-  if (preview_ && (!since_rewritten_ || since_rewritten_->seconds() >= *preview_)) rewrite(so_far);
+  if (preview_ && (!since_rewritten_ || since_rewritten_->seconds() >= std::max(*preview_, kRest * rewriting_)))
+    rewrite(so_far);
 }
 
 void RunWatch::finish(const RenderResult& result) {
@@ -54,12 +56,14 @@ void RunWatch::show(const RenderResult& so_far) {
 }
 
 void RunWatch::rewrite(const RenderResult& so_far) {
+  const Stopwatch rewriting;
   try {
     write_(so_far);
   } catch (const InputError& error) {
     if (!failed_) say(fmt::format("warning: the run goes on without a preview: {}", error.what()));
     failed_ = true;
   }
+  rewriting_ = rewriting.seconds();
   since_rewritten_.emplace();
 }
 

@@ -40,7 +40,8 @@ class RunWatch {
   int shown_ = 0;                             // passes of the picture last shown
   double showing_ = 0.0;                      // s that it took
   Stopwatch since_shown_;                     // or since the beginning
-  std::optional<Stopwatch> since_rewritten_;  // once the files have been written
+  double rewriting_ = 0.0;                    // s that the last writing of the files took
+  std::optional<Stopwatch> since_rewritten_;  // once they have been written
   bool failed_ = false;                       // has that failed already?
   bool in_bar_ = false;                       // is the cursor in the line of a progress bar?
 };

@@ -18,31 +18,35 @@ namespace fs = std::filesystem;
 
 constexpr double kRewritten = 2.0;  // s, after which better pictures are written, unless --preview says
 
-/// The scene, and the name under which it is read: that of the file that is written, where one is.
-struct MadeScene {
-  ViewScene scene;
-  std::string name;
-};
-MadeScene make_scene(const ViewOptions& options) {
-  const fs::path grid = options.scene;
-  ViewWishes wishes = options.wishes;
-  if (const size_t x = options.size.find('x'); x != std::string::npos)
-    wishes.aspect = std::stod(options.size.substr(0, x)) / std::stod(options.size.substr(x + 1));
-  if (options.scene_output.empty())
-    return {make_view_scene(grid, grid, wishes), "scene of " + grid.filename().string()};
+/// Where the scene is to be written, which is also the name under which it is read; else a name that is no file's.
+std::string scene_name(const ViewOptions& options) {
+  if (options.scene_output.empty()) return "scene of " + fs::path(options.scene).filename().string();
   const fs::path output = options.scene_output;
   if (output.extension() != ".toml")
     throw InputError(fmt::format("{}: a scene's name must end in .toml", output.string()));
-  const fs::path folder = fs::absolute(output).parent_path();
-  MadeScene made{make_view_scene(grid, fs::absolute(grid).lexically_proximate(folder), wishes), output};
-  write_text(output, made.scene.text);
-  return made;
+  if (fs::exists(output))
+    throw InputError(
+        fmt::format("'{}' is there already, and may have been edited: name another --scene, or render it "
+                    "with vpm render",
+                    output.string()));
+  return output;
 }
+
+ViewScene make_scene(const ViewOptions& options) {
+  ViewWishes wishes = options.wishes;
+  if (const size_t x = options.size.find('x'); x != std::string::npos)
+    wishes.aspect = std::stod(options.size.substr(0, x)) / std::stod(options.size.substr(x + 1));
+  const fs::path grid = options.scene, output = options.scene_output;
+  const bool written = !options.scene_output.empty();
+  return make_view_scene(grid, written ? fs::proximate(grid, fs::absolute(output).parent_path()) : grid, wishes);
+}
+
+constexpr const char* kFewPasses = "render.integrator=photon";
 
 /// A pilot of integrators takes longer than a few passes do: where these are counted, photons are gathered.
 std::vector<std::string> overrides_of_view(const ViewOptions& options) {
   std::vector<std::string> overrides = overrides_of(options);
-  if (options.passes) overrides.insert(overrides.begin(), "render.integrator=photon");
+  if (options.passes) overrides.insert(overrides.begin(), kFewPasses);
   return overrides;
 }
 
@@ -60,11 +64,15 @@ void show_first_picture(const ViewOptions& options, const Outputs& outputs, cons
 int view_command(const ViewOptions& options) {
   set_threads(options.threads);
   const Outputs outputs = output_paths(options, fs::path(options.scene).stem().string());
-  const MadeScene made = make_scene(options);
-  RenderJob job = load_scene(SceneText{made.name, made.scene.text}, overrides_of_view(options));
-  for (const std::string& note : made.scene.notes) job.notes.push_back(note);
+  const std::string name = scene_name(options);
+  const ViewScene made = make_scene(options);
+  RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options));
+  for (const std::string& note : made.notes) job.notes.push_back(note);
+  if (options.passes)
+    job.notes.push_back(fmt::format("{} as passes are counted: choosing would take longer than few", kFewPasses));
   const PixelRect rendered = job.scene.camera.rendered();
   check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height(), false, job);
+  if (!options.scene_output.empty()) write_text(name, made.text);
   show_first_picture(options, outputs, job);
   RenderOptions watched = options;
   if (!watched.watch.preview) watched.watch.preview = kRewritten;

@@ -28,6 +28,8 @@ std::string list_of(const std::vector<GridSummary>& grids) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
+constexpr int kLattice = 128;  // points along an edge
+
 /// What of a grid is dense, told by its densities on a lattice.
 struct DensePart {
   Box box;             // m
@@ -37,7 +39,6 @@ struct DensePart {
 /// The columns are those along `across`, an axis of the world. The depth is that below which nine tenths of the columns
 /// stay which meet something dense.
 DensePart dense_part(const DensityGrid& grid, int across) {
-  constexpr int kLattice = 128;  // points along an edge
   constexpr double kDense = 0.01;
   constexpr double kShare = 0.9;
   const Box bounds = grid.bounds();
@@ -266,7 +267,13 @@ ViewScene make_view_scene(const std::string& path, const std::string& path_in_sc
                                        .clamp_negative = negative,
                                        .has_bounding_shape = filled});
   const DensePart part = dense_part(*loaded.grid, wishes.up == UpAxis::y ? 2 : 1);
-  if (part.depth == 0.0) throw InputError(fmt::format("{}: the grid '{}' is 0 everywhere", path, name));
+  if (part.depth == 0.0)
+    throw InputError(
+        loaded.grid->max_density() > 0.0f
+            ? fmt::format("{}: what the grid '{}' holds is too little to be found at {} points along each edge of its "
+                          "box, by which the view would go: write a scene file for it",
+                          path, name, kLattice)
+            : fmt::format("{}: the grid '{}' is 0 everywhere", path, name));
   const double sigma_t = wishes.optical_depth / part.depth;
   ViewScene scene;
   const std::optional<Box> bounds = filled ? std::optional(summary.world_box) : std::nullopt;

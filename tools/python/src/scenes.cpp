@@ -31,7 +31,7 @@ GridValues grid_values(const py::array_t<float>& array, const Doubles& index_to_
 template <class Vector, class Array>
 std::vector<Vector> rows_of(const Array& array) {
   std::vector<Vector> rows(static_cast<size_t>(array.shape(0)));
-  std::copy_n(array.data(), array.size(), &rows.data()[0][0]);
+  if (!rows.empty()) std::copy_n(array.data(), array.size(), &rows[0][0]);
   return rows;
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import warnings
 from pathlib import Path
 from typing import Any, Iterable, NamedTuple, Union
 
@@ -190,7 +191,10 @@ def _noisy(picture: Pictured) -> _Noisy:
     if isinstance(picture, Picture):
         variance = picture.layers.get("variance")
         means = picture.metadata.get("vpm.varianceOfMeans", "").split()
-        if variance is None or not np.all(np.isfinite(variance)):
+        broken = 0 if variance is None else np.count_nonzero(~np.isfinite(variance).all(axis=-1))
+        if broken:
+            warnings.warn(f"{broken} variances of the picture are not finite, so that none of them is used", stacklevel=3)
+        if variance is None or broken:
             return _Noisy(picture.radiance, window=picture.window, size=picture.size)
         of_means = tuple(map(float, means)) if len(means) == 3 else None
         return _Noisy(picture.radiance, variance, of_means, picture.window, picture.size)

@@ -61,6 +61,7 @@ Json shown_settings(const RenderReport& report) {
 }
 
 Json commands_again(const Json& report) {
+  if (std::filesystem::path(report.at("scene").get<std::string>()).extension() != ".toml") return Json::array();
   const std::string scene = quoted(report.at("scene")), image = report.at("image");
   const std::string options = options_again(report);
   const uint64_t seed = report.at("seed"), passes = report.at("passes");

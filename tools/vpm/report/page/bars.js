@@ -12,10 +12,11 @@ const swatchOf = i => {
 /** A bar of parts {name, value}, of which those above 0 have a length. */
 function barOf(parts, label) {
   const bar = element('div', {class: 'bar', role: 'img', 'aria-label': label});
+  const all = parts.reduce((sum, {value}) => sum + Math.max(0, value), 0);
   parts.forEach(({name, value}, i) => {
     if (!(value > 0)) return;
     const part = element('span', {title: name});
-    part.style.flexGrow = value;
+    part.style.flexGrow = 100 * value / all;  // factors that sum to less than 1 would leave a part of the bar empty
     part.style.background = colourOf(i);
     bar.append(part);
   });

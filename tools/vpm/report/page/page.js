@@ -5,6 +5,8 @@ const data = read('data'), encoded = read('pictures');
 const report = data.report;
 
 const lastName = path => path.split(/[/\\]/).pop();
+const kNoSceneFile =
+    'The scene stands in no file, so that no command renders it again: vpm view --scene writes it to one.';
 const counted = x => Math.round(x).toLocaleString('en');
 const percentOr = x => (x === null ? kNothing : percent(x));
 
@@ -152,8 +154,9 @@ document.title = `${lastName(report.image)}: vpm report`;
 find('title').textContent = lastName(report.scene) || lastName(report.image);
 fillFacts(find('facts'), facts());
 fillWarnings(find('warnings'));
-const viewer =
-    new Viewer(find('picture'), new Pictures(encoded, encoded.pictures.map(({name}) => name)), encoded.block);
+const viewer = new Viewer(
+    find('picture'), new Pictures(encoded, encoded.pictures.map(({name}) => name)), encoded.block,
+    report.rendered_pixels);
 find('about-pictures').textContent = aboutPictures(encoded, report);
 fillTechniques(find('techniques'));
 fillTime(find('time'), report);
@@ -164,6 +167,6 @@ find('about-settings').textContent = aboutSettings(data.settings);
 find('settings').append(settingsTable(data.settings));
 find('notes').hidden = report.notes.length === 0;
 find('notes').append(element('ul', {}, ...report.notes.map(text => element('li', {}, text))));
-find('again').append(...commandList(data.commands));
+find('again').append(...(data.commands.length > 0 ? commandList(data.commands) : [element('p', {}, kNoSceneFile)]));
 fillCounts(find('counts'));
 fillContents();

@@ -7,9 +7,10 @@ const kErrorText = {
 };
 
 class Viewer extends PictureView {
-  constructor(root, pictures, block) {
+  constructor(root, pictures, block, rendered) {
     super(root, pictures);
-    this.block = block;  // pixels of the file along an edge of one that is shown
+    this.block = block;        // pixels of the film along an edge of one that is shown
+    this.rendered = rendered;  // those of the film that are shown
     this.fillModes(pictures.names, 'shown');
     this.find('.modes').hidden = pictures.length === 1;
     this.markParts();
@@ -55,10 +56,12 @@ class Viewer extends PictureView {
     if (!bar.hidden) showColourBar(bar, kind === 'bias', fullScale, kErrorText[kind]);
   }
 
+  /** By its place in the film. */
   nameOf({x, y}) {
-    if (this.block === 1) return super.nameOf({x, y});
-    const ends = at => `${at * this.block} to ${(at + 1) * this.block - 1}`;
-    return `Mean of the pixels (${ends(x)}, ${ends(y)})`;
+    const {x0, y0, x1, y1} = this.rendered, {block} = this;
+    if (block === 1) return super.nameOf({x: x0 + x, y: y0 + y});
+    const ends = (at, begin, end) => `${begin + at * block} to ${Math.min(end, begin + (at + 1) * block) - 1}`;
+    return `Mean of the pixels (${ends(x, x0, x1)}, ${ends(y, y0, y1)})`;
   }
 
   /** Radiance, errors, and the part that is looked at. */

@@ -1,0 +1,48 @@
+// A picture of a file as vpm error compares it: what it tells of its noise and of where it is from, and how far it is
+// from another.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "json.h"
+#include "vpm/image/exr.h"
+#include "vpm/image/noisy_difference.h"
+
+namespace vpm::tools {
+
+inline constexpr const char* kMse = "mean of (I - R)^2";
+inline constexpr const char* kRelativeMse = "mean of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over the channel";
+inline constexpr const char* kRelativeMseOfPbrt = "mean of (I - R)^2 / (R + 0.01)^2";
+
+struct Errors {
+  double mse, relative_mse, relative_mse_of_pbrt;
+};
+/// Throws InputError where the sizes differ.
+void check_same_size(const Image& image, const std::string& path, const Image& reference, const std::string& to);
+/// Throws InputError as check_same_size().
+Errors errors_of(const Image& image, const std::string& path, const Image& reference, const std::string& to);
+
+/// What a file tells of where its picture is from; empty where it does not.
+struct Origin {
+  std::string scene, settings, seed;  // vpm.sceneHash, vpm.settings, vpm.seed
+  std::optional<uint64_t> passes;     // vpm.passes
+
+  /// The first of the settings: with which of the integrators it was rendered.
+  std::string integrator() const { return settings.substr(0, settings.find(' ')); }
+};
+Origin origin_of(const ExrChannels& file);
+
+/// The picture of a file with what it tells of its noise. Variances that are not finite are told of on stderr and not
+/// used.
+NoisyImage read_picture(const std::string& path, const ExrChannels& file);
+/// Does the file hold a part of its picture only?
+bool is_crop(const ExrChannels& file);
+
+/// Errors over pixels that are not finite are not either: says on stderr that the picture has such.
+void warn_of_non_finite(const Image& image, const std::string& path);
+/// A noise of the picture; null where it does not tell.
+Json noise_json(const NoisyImage& picture, double noise);
+
+}  // namespace vpm::tools
