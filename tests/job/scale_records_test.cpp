@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/scenes.h"
 #include "vpm/job/choice_rules.h"
+#include "vpm/job/pass_cost.h"
 
 namespace vpm {
 namespace {
@@ -65,6 +68,26 @@ TEST(ScaleRecords, NarrowsWhereManyPassesLeaveLittleNoise) {
   scaled(scene, many);
   EXPECT_EQ(few.volume.radius.metres(), radius);
   EXPECT_FLOAT_EQ(many.volume.radius.metres(), rounded_radius(0.5 * radius));
+}
+
+/// What is told of the bias at four times the radius is what passes with that radius show, times 2.5 for edges; and it
+/// falls from there as the power 2.5.
+TEST(ScaleRecords, TellBiasByTheWideRadius) {
+  const Scene scene = fog_with_lamp();
+  const double narrow = kLargestRadius * scene.bounds.diagonal() / 5.0;
+  const auto settings_of = [&](double radius) {
+    RenderSettings settings = settings_with(static_cast<float>(radius));
+    settings.radii = RadiusSchedule::constant;
+    settings.photons_emitted = 20'000;
+    return settings;
+  };
+  const RenderSettings settings = settings_of(narrow), wide = settings_of(4.0 * narrow);
+  const double shown = error_of_pass(scene, wide, time_pass(scene, wide), 1.0).pass.bias2;
+  EXPECT_GT(shown, 0.0);
+  const ScaledPasses told(scene, 1.0, settings, choices_of(settings));
+  const auto bias = [&](double factor) { return told.error_after_passes(1e7, {.radius = factor}); };
+  EXPECT_NEAR(bias(4.0) / (2.5 * shown), 1.0, 0.4);
+  EXPECT_NEAR(bias(1.0) / bias(4.0), std::pow(4.0, -2.5), 0.005);
 }
 
 /// A floor below, of whose light there are too few photons: their noise is none of the fog's, and wider radii of that

@@ -92,6 +92,8 @@ TEST_F(VpmRender, ErrorsOfACropAreThoseOfItsPixels) {
   const PixelError worst = worst_pixels(part, truth, 1)[0];
   EXPECT_EQ(told["worst_pixels"][0]["x"], 5 + worst.x);
   EXPECT_EQ(told["worst_pixels"][0]["y"], 9 + worst.y);
+  vpm_succeeds({"error", "part.exr", "truth.exr", "-o", "off.exr"});
+  EXPECT_EQ(read_exr_channels(path("off.exr")).held, crop);
   vpm_succeeds({"render", "scene.toml", "-o", "other.exr", "--passes", "2", "--crop", "31,9,35,21"});
   vpm_refuses({"error", "part.exr", "other.exr"}, {"no pixel in common"});
   vpm_refuses({"error", "--series", "part.exr", "truth.exr"}, {"part.exr is a crop"});
@@ -142,6 +144,8 @@ TEST_F(VpmRender, ViewShowsAGridAndWritesItsScene) {
   EXPECT_GT(sum(picture), 0.0);
   EXPECT_NE(read("a.json").find("as passes are counted"), std::string::npos);
   const nlohmann::json told = report("a.json");
+  EXPECT_EQ(told["settings"]["render.integrator"], "photon");
+  for (const nlohmann::json& choice : told["chosen"]) EXPECT_NE(choice["key"], "render.integrator");
   std::vector<std::string> again{"render", "made.toml", "-o", "b.exr", "--size",
                                  "48x48",  "--passes",  "2",  "--set", "render.integrator=photon"};
   for (const nlohmann::json& choice : told["chosen"])
