@@ -13,7 +13,8 @@ namespace vpm {
 inline const Identity kFuzzIdentity{{"scene", "fuzz"}};  // of the render
 
 inline std::string whole_checkpoint(std::string_view body) {
-  std::string whole = fmt::format("vpm checkpoint of a render\nformat {}\nidentity 1\nscene=fuzz\n", kCheckpointFormat);
+  std::string whole =
+      fmt::format("vpm checkpoint of a render\nformat {}\nidentity 1\nscene=fuzz\norigin {{}}\n", kCheckpointFormat);
   whole.append(body);
   Fnv1a hash;
   hash.add(std::string_view(whole));

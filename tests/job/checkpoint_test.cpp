@@ -20,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const Identity kRender{{"render.seed", "1"}, {"volume.radius", "0.25"}};
+const Origin kOrigin{
+    "/fog scenes/fog.toml", {"media.fog.name=\"a\\nb\"", "film.width=4"}, true, 18'000'000'000'000'000'000u};
 
 class Checkpoint : public ::testing::Test {
  protected:
@@ -60,7 +62,7 @@ class Checkpoint : public ::testing::Test {
 
 TEST_F(Checkpoint, ComesBackToTheLastBit) {
   const RenderResult before = some_result();
-  write_checkpoint(path_, kRender, before);
+  write_checkpoint(path_, kRender, kOrigin, before);
   const std::string written = bytes();
   const RenderResult after = read_checkpoint(path_, kRender);
   EXPECT_EQ(after.film.width(), 3);
@@ -70,7 +72,7 @@ TEST_F(Checkpoint, ComesBackToTheLastBit) {
   EXPECT_EQ(after.seconds, 1.5);
   EXPECT_EQ(after.statistics.ledger.imbalance.mean(), 0.25);
   EXPECT_TRUE(after.discs.empty());
-  write_checkpoint(path_, kRender, after);
+  write_checkpoint(path_, kRender, kOrigin, after);
   EXPECT_TRUE(bytes() == written);
 }
 
@@ -83,7 +85,7 @@ TEST_F(Checkpoint, BringsBackEveryCounter) {
   EXPECT_GT(counters, 40);
   before.statistics.ledger.escaped = Rgbd(0.5, 0.25, 7.0);
   before.statistics.eye.weights.add(-3.0);
-  write_checkpoint(path_, kRender, before);
+  write_checkpoint(path_, kRender, kOrigin, before);
   const RenderStatistics after = read_checkpoint(path_, kRender).statistics;
   int expected = 0;
   for_each_counter(after, [&](const std::string& name, const auto& number) {
@@ -99,7 +101,7 @@ TEST_F(Checkpoint, BringsBackEveryCounter) {
 TEST_F(Checkpoint, BringsBackTheRadiiOfPixels) {
   RenderResult before = some_result();
   for (int i = 0; i < 6; ++i) before.discs.push_back({1.0 / (i + 3), i / 7.0});
-  write_checkpoint(path_, kRender, before);
+  write_checkpoint(path_, kRender, kOrigin, before);
   const RenderResult after = read_checkpoint(path_, kRender);
   ASSERT_EQ(after.discs.size(), 6u);
   EXPECT_EQ(std::memcmp(after.discs.data(), before.discs.data(), 6 * sizeof(PixelDisc)), 0);
@@ -115,18 +117,30 @@ TEST_F(Checkpoint, BringsBackLayers) {
     layer.add(pass, image);
   }
   before.layers = {layer, before.film};
-  write_checkpoint(path_, kRender, before);
+  write_checkpoint(path_, kRender, kOrigin, before);
   const RenderResult after = read_checkpoint(path_, kRender);
   ASSERT_EQ(after.layers.size(), 2u);
   EXPECT_EQ(after.layers[0].sums(), layer.sums());
   EXPECT_EQ(after.layers[1].sums(), before.film.sums());
   before.layers = {Film(3, 2)};  // of no pass
-  write_checkpoint(path_, kRender, before);
+  write_checkpoint(path_, kRender, kOrigin, before);
   refuses(kRender, "its layers.0 is not of the size and the passes of its film");
 }
 
+TEST_F(Checkpoint, TellsWhereItsRenderIsReadFrom) {
+  write_checkpoint(path_, kRender, kOrigin, some_result());
+  const auto [identity, origin, result] = read_checkpoint(path_);
+  EXPECT_EQ(identity, kRender);
+  EXPECT_EQ(origin, kOrigin);
+  EXPECT_EQ(result.film.sums(), some_result().film.sums());
+  for (const char* damaged : {"origin {\"scene\":7}\n", "origin []\n", "origin {\n", "origins {}\n"}) {
+    put("vpm checkpoint of a render\nformat 7\nidentity 0\n" + std::string(damaged));
+    EXPECT_THROW(read_checkpoint(path_), InputError) << damaged;
+  }
+}
+
 TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
-  write_checkpoint(path_, kRender, some_result());
+  write_checkpoint(path_, kRender, kOrigin, some_result());
   refuses(
       {{"render.seed", "2"}, {"scene", "fog"}},
       "it is of another render; render on with the options that it began with\n  render.seed: 1 in the checkpoint, 2 "
@@ -148,7 +162,7 @@ TEST_F(Checkpoint, TakesTheRoomThatIsTold) {
       for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(std::pow(10.0, 4.0 * rng.uniform_double() - 2.0));
     result.film.add(pass, image, image);
   }
-  write_checkpoint(path_, kRender, result);
+  write_checkpoint(path_, kRender, kOrigin, result);
   const auto told = static_cast<double>(checkpoint_bytes(job)), taken = static_cast<double>(fs::file_size(path_));
   EXPECT_LE(taken, told);
   EXPECT_GE(taken, 0.5 * told);
@@ -158,9 +172,9 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
   refuses(kRender, "it is no checkpoint");
-  std::ofstream(path_) << "vpm checkpoint of a render\nformat 6\nidentity 2\nrender.seed=1\n";
+  std::ofstream(path_) << "vpm checkpoint of a render\nformat 7\nidentity 2\nrender.seed=1\n";
   refuses(kRender, "it is damaged or not whole");
-  write_checkpoint(path_, kRender, some_result());
+  write_checkpoint(path_, kRender, kOrigin, some_result());
   const uintmax_t size = fs::file_size(path_);
   for (const uintmax_t left : {size - 1, size / 2, uintmax_t{60}}) {
     fs::resize_file(path_, left);
@@ -171,13 +185,13 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
 }
 
 TEST_F(Checkpoint, OfWhichAnyByteIsAnotherIsRefused) {
-  write_checkpoint(path_, kRender, some_result());
+  write_checkpoint(path_, kRender, kOrigin, some_result());
   const std::string whole = bytes();
   for (size_t at = 0; at < whole.size(); at += 23) {
     std::string flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ 1 << at % 8);
     put(flipped);
-    refuses(kRender, "cannot resume from");
+    refuses(kRender, "cannot go on from");
   }
 }
 
@@ -193,19 +207,19 @@ std::string bytes_of(T number) {
 }
 
 TEST_F(Checkpoint, OfAnotherFormatIsRefused) {
-  write_checkpoint(path_, kRender, some_result());
+  write_checkpoint(path_, kRender, kOrigin, some_result());
   const std::string content = bytes();
-  put(with(content, "format 6\n", "format 7\n"));
-  refuses(kRender, "it is written by another format of checkpoints, 7; this program reads 6");
+  put(with(content, "format 7\n", "format 8\n"));
+  refuses(kRender, "it is written by another format of checkpoints, 8; this program reads 7");
   EXPECT_THROW(checkpoint_identity(path_), InputError);
-  put(with(content, "format 6\n", ""));  // as they were before they told it
-  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 6");
+  put(with(content, "format 7\n", ""));  // as they were before they told it
+  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 7");
 }
 
 TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
   RenderResult result = some_result();
   result.discs.resize(6);
-  write_checkpoint(path_, kRender, result);
+  write_checkpoint(path_, kRender, kOrigin, result);
   std::string content = bytes();
   content.resize(content.size() - 16);
   const auto refuses_text = [&](const std::string& changed, const std::string& why) {
@@ -250,7 +264,7 @@ TEST_F(Checkpoint, OfMoreSumsThanPixelsIsRefused) {
   for (Rgb& pixel : image.pixels) pixel = Rgb(1.0f);
   RenderResult result{Film(30, 2), {}, 1.5, {}};
   result.film.add(0, image);
-  write_checkpoint(path_, kRender, result);
+  write_checkpoint(path_, kRender, kOrigin, result);
   const std::string width = "film.width i32 1 4\n";
   std::string content = with(bytes(), width + bytes_of(30), width + bytes_of(3));
   content.resize(content.size() - 16);
@@ -275,7 +289,7 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
   };
   constexpr const char* kOld = "format_1";  // a whole file, written before files told their format
   put(seed(folder / kOld));
-  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 6; render again");
+  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 7; render again");
   int accepted = 0;
   size_t refused = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -297,10 +311,10 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
 TEST_F(Checkpoint, OfPassesThatAreNotTheFirstGoesOnWithThoseThatAreMissing) {
   RenderResult before{Film(3, 2), {}, 1.5, {}};
   for (const int pass : {0, 1, 4}) before.film.add(pass, Image(3, 2));
-  write_checkpoint(path_, kRender, before);
+  write_checkpoint(path_, kRender, kOrigin, before);
   const RenderResult after = read_checkpoint(path_, kRender);
   EXPECT_EQ(after.film.sums(), before.film.sums());
-  EXPECT_EQ(after.film.next_pass(), 2);
+  EXPECT_EQ(after.film.sums().passes.first_missing(), 2);
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ TEST(Forecast, RefusesCausticPhotonsThatDoNotFitIntoMemory) {
 /// Another pass would end at 3.8 s, and 3.6 s is the longest time for 2 s.
 TEST(Forecast, StartsNoPassThatWouldEndTooLate) {
   int made = 0;
-  const PassMaker naps{[&](const RenderResult&, const PassProgress&) {
+  const PassMaker naps{[&](int, const RenderResult&, const PassProgress&) {
                          std::this_thread::sleep_for(std::chrono::milliseconds(1900));
                          ++made;
                          return Pass(1, 1);

@@ -199,12 +199,27 @@ TEST(RenderJob, TellsItsErrorsAfterEachPass) {
 TEST(Render, DropsThePassUnderWayWhenItIsStopped) {
   const RenderJob job = lit_floor();
   std::atomic<bool> stop{false};
-  const auto make = [&](const RenderResult& so_far, const PassProgress&) {
+  const auto make = [&](int, const RenderResult& so_far, const PassProgress&) {
     stop = so_far.film.passes() == 2;
     return Pass(12, 12);
   };
   const RenderResult result = run_passes({.passes = 5}, {make, 1}, nothing_rendered(job.scene.camera), {stop});
   EXPECT_EQ(result.film.passes(), 2);
+}
+
+TEST(Render, MakesThePassesOfAPieceByTheirNumbers) {
+  std::vector<int> made;
+  const auto make = [&](int number, const RenderResult&, const PassProgress&) {
+    made.push_back(number);
+    return Pass(12, 12);
+  };
+  const StopRule piece{.passes = 3, .first = 5};
+  const RenderJob job = lit_floor();
+  RenderResult begun = nothing_rendered(job.scene.camera);
+  begun.film.add(5, Image(12, 12));
+  const RenderResult result = run_passes(piece, {make, 1}, std::move(begun), {});
+  EXPECT_EQ(made, (std::vector<int>{6, 7}));
+  EXPECT_EQ(result.film.sums().passes.ranges(), (std::vector<PassRange>{{5, 8}}));
 }
 
 TEST(Render, RefusesToGoOnWithAPictureOfAnotherSize) {

@@ -263,7 +263,8 @@ TEST(Film, TellsGroupsByThePassesNumbers) {
   film.add(3, two, two);
   film.add(4, one, one);
   EXPECT_EQ(film.sums().passes.ranges(), (std::vector<PassRange>{{3, 5}, {7, 8}}));
-  EXPECT_EQ(film.next_pass(), 0);
+  EXPECT_EQ(film.sums().passes.first_missing(), 0);
+  EXPECT_EQ(film.sums().passes.first_missing(3), 5);
   EXPECT_EQ(film.sums().passes.count_of(0, 4), 1);
   EXPECT_EQ(film.sums().passes.count_of(1, 4), 0);
   EXPECT_EQ(film.sums().passes.count_of(3, 4), 2);
@@ -274,7 +275,9 @@ TEST(Film, TellsGroupsByThePassesNumbers) {
   EXPECT_THROW(film.merge(other), InputError);
   EXPECT_EQ(film.passes(), 3);
   for (const int pass : {1, 0, 2}) film.add(pass, one);
-  EXPECT_EQ(film.next_pass(), 5);
+  EXPECT_EQ(film.sums().passes.first_missing(), 5);
+  EXPECT_EQ(film.sums().passes.first_missing(7), 8);
+  EXPECT_EQ(film.sums().passes.first_missing(8), 8);
   for (const int pass : {6, 5}) film.add(pass, one);
   EXPECT_EQ(film.sums().passes.ranges(), (std::vector<PassRange>{{0, 8}}));
 }

@@ -176,8 +176,8 @@ TEST(SlowRadiiOfPixels, AreRightInTheMeanWhileTheyShrink) {
 TEST(RadiiOfPixels, OfARenderAreThoseOfItsPassesOneAfterAnother) {
   const Scene scene = lit_floor(PointLight{Vec3(-0.5f, 0.3f, 0.2f), Rgb(1.0f)});
   const RenderSettings settings = per_pixel(3000);
-  const auto run = [&](const RenderResult& so_far, const PassProgress& shown) {
-    return render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kNeverStopped, shown});
+  const auto run = [&](int number, const RenderResult& so_far, const PassProgress& shown) {
+    return render_photon_pass_after(so_far.discs, scene, settings, {number, kNeverStopped, shown});
   };
   const Image passes =
       run_passes(settings.until, {run, tile_count(scene.camera)}, nothing_rendered(scene.camera), {kNeverStopped})

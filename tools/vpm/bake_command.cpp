@@ -44,7 +44,7 @@ UvLayout lay_out(const Scene& scene, const BakeOptions& options) {
 void write_outputs(const Outputs& outputs, const BakeOptions& options, const RenderJob& job, const UvLayout& layout,
                    const RenderResult& result) {
   write_light_map(outputs.exr, job, options.mesh, layout, result);
-  write_preview(outputs, options, light_map_of(layout, result));
+  write_preview(outputs, options.exposure, light_map_of(layout, result));
   write_text(outputs.json, light_map_report(job, outputs.exr.string(), options.mesh, layout, result));
 }
 
@@ -52,7 +52,7 @@ void write_outputs(const Outputs& outputs, const BakeOptions& options, const Ren
 
 int bake_command(const BakeOptions& options) {
   set_threads(options.threads);
-  const Outputs outputs = output_paths(options, usual_name(options));
+  const Outputs outputs = output_paths(options.output, usual_name(options));
   RenderJob job = load_scene(options.scene, options.overrides);
   refuse_automatic(job, "vpm bake");
   apply_options(options, job.settings);

@@ -43,6 +43,7 @@ struct RenderOptions : PassOptions {
   std::string crop;                 // "x0,y0,x1,y1", pixels from the upper left, ends excluded; empty: all
   std::optional<int> samples;       // a pixel in each pass
   bool quiet = false;               // say nothing but warnings and errors
+  std::string pass_range;           // "64:128": of all passes those of these numbers, the end excluded; empty: all
 };
 /// kCombinedLayers, and the words of render.layers.
 std::vector<std::string> known_layers();
@@ -58,6 +59,18 @@ struct ViewOptions : RenderOptions {  // `scene` is a .vdb, and `automatic` is n
 };
 /// Makes a scene around a grid, shows a first picture of it at once, and renders it as render_command() does.
 int view_command(const ViewOptions& options);
+
+struct MergeOptions {
+  std::vector<std::string> pieces;  // checkpoints
+  std::string output;               // .exr; empty: merged.exr in the current folder
+  std::string scene;                // .toml; empty: that of the first piece
+  std::optional<float> exposure;    // of the preview, stops; none: auto_exposure()
+  bool checkpoint = false;          // write one of the whole next to the image
+  bool overwrite = false;           // replace one that is there
+  int threads = 0;                  // 0: all
+};
+/// Adds up pieces of a render, in any order, to the picture of one run.
+int merge_command(const MergeOptions& options);
 
 struct TonemapOptions {
   std::string picture;            // .exr

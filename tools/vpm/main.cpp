@@ -105,6 +105,14 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(known_layers()));
+  command
+      ->add_option("--pass-range", options.pass_range,
+                   "Render a piece, of all passes those of these numbers: 0:64 ends with pass 63. vpm merge makes one "
+                   "picture of the pieces' checkpoints. --passes then tells how many there are in all, for what is "
+                   "\"auto\"")
+      ->check(check_pass_range)
+      ->excludes("--time")
+      ->excludes("--error");
   CLI::Option* checkpoint =
       command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint next to the image after each pass");
   CLI::Option* overwrite =
@@ -128,6 +136,22 @@ void add_view(CLI::App& app, ViewOptions& options) {
   command->add_option("--up", options.wishes.up, "Axis that is up: y (default), or z")
       ->transform(CLI::CheckedTransformer(axes));
   command->add_option("--scene", options.scene_output, "Also write the scene that is made, for editing (.toml)");
+}
+
+void add_merge(CLI::App& app, MergeOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("merge", "Merge pieces of a render (--pass-range) into the picture of one run");
+  command->add_option("pieces", options.pieces, "Checkpoints of the pieces, in any order")->required();
+  command->add_option("-o,--output", options.output,
+                      "Image to write (.exr); default: merged.exr in the current folder");
+  command->add_option("--scene", options.scene,
+                      "Scene file, where it is no longer where the first piece was rendered from");
+  add_exposure(command, options.exposure, "the preview");
+  CLI::Option* checkpoint =
+      command->add_flag("--checkpoint", options.checkpoint, "Also write a checkpoint of the whole next to the image");
+  command->add_flag("--overwrite", options.overwrite, "Let that checkpoint replace one that is there already")
+      ->needs(checkpoint);
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
 }
 
 void add_tonemap(CLI::App& app, TonemapOptions& options) {
@@ -264,6 +288,7 @@ int run(int argc, char** argv) {
       "vpm help COMMAND tells the options of a command; scenes/README.md how scenes are written.");
   RenderOptions render;
   ViewOptions view;
+  MergeOptions merge;
   TonemapOptions tonemap;
   BakeOptions bake;
   CompareOptions compare;
@@ -276,6 +301,7 @@ int run(int argc, char** argv) {
   ExactOptions exact;
   add_render(app, render);
   add_view(app, view);
+  add_merge(app, merge);
   add_tonemap(app, tonemap);
   add_bake(app, bake);
   add_compare(app, compare);
@@ -303,6 +329,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("render")) return render_command(render);
   if (app.got_subcommand("view")) return view_command(view);
+  if (app.got_subcommand("merge")) return merge_command(merge);
   if (app.got_subcommand("tonemap")) return tonemap_command(tonemap);
   if (app.got_subcommand("bake")) return bake_command(bake);
   if (app.got_subcommand("compare")) return compare_command(compare);

@@ -73,6 +73,18 @@ std::string check_crop(const std::string& text) {
   return right ? "" : fmt::format("{} is no part of a picture such as 0,0,64,48", text);
 }
 
+PassRange pass_range(const std::string& text) {
+  const std::vector<int> ends = numbers_in(text, ':');
+  return ends.size() == 2 ? PassRange{ends[0], ends[1]} : PassRange{};
+}
+
+std::string check_pass_range(const std::string& text) {
+  const PassRange range = pass_range(text);
+  return 0 <= range.first && range.first < range.end
+             ? ""
+             : fmt::format("{} is no range of passes such as 0:64, which ends with pass 63", text);
+}
+
 std::string check_rate(const std::string& text) {
   const double rate = parse(text, 0.0);
   return rate > 0.0 && rate < 1.0 ? "" : fmt::format("{} is not a probability between 0 and 1", text);

@@ -72,8 +72,8 @@ int say_interrupted(const StopRule& until, int passes) {
   return kInterrupted;
 }
 
-Outputs output_paths(const PassOptions& options, const std::string& name) {
-  const fs::path exr = options.output.empty() ? name + ".exr" : options.output;
+Outputs output_paths(const std::string& image, const std::string& name) {
+  const fs::path exr = image.empty() ? name + ".exr" : image;
   if (exr.extension() != ".exr")
     throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
   const auto with_extension = [&](const char* extension) { return fs::path(exr).replace_extension(extension); };
@@ -94,8 +94,8 @@ void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, con
   }
 }
 
-void write_preview(const Outputs& outputs, const PassOptions& options, const Image& picture) {
-  write_png(outputs.png, picture, options.exposure ? *options.exposure : auto_exposure(picture));
+void write_preview(const Outputs& outputs, const std::optional<float>& exposure, const Image& picture) {
+  write_png(outputs.png, picture, exposure ? *exposure : auto_exposure(picture));
 }
 
 void apply_options(const PassOptions& options, RenderSettings& settings) {

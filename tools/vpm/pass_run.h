@@ -22,15 +22,15 @@ struct Outputs {
   std::filesystem::path exr, png, json, checkpoint, errors;
 };
 
-/// The paths next to options.output, which must end in .exr; where it is empty: `name`.exr in the current folder.
-Outputs output_paths(const PassOptions& options, const std::string& name);
+/// The paths next to an image, which must end in .exr; where it is empty: `name`.exr in the current folder.
+Outputs output_paths(const std::string& image, const std::string& name);
 
 /// Throws InputError where an output, of an image of that many pixels, could not be written, or would replace a file
 /// that the scene is read from.
 void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, const RenderJob& job);
 
-/// Writes the PNG preview of a picture, exposed as the options say or else by auto_exposure().
-void write_preview(const Outputs& outputs, const PassOptions& options, const Image& picture);
+/// Writes the PNG preview of a picture, exposed by so many stops or else by auto_exposure().
+void write_preview(const Outputs& outputs, const std::optional<float>& exposure, const Image& picture);
 
 /// The seed and the number of passes.
 void apply_options(const PassOptions& options, RenderSettings& settings);

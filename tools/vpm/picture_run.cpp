@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "error_log.h"
+#include "option_checks.h"
 #include "run_watch.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -23,6 +24,7 @@ namespace {
 void apply_limits(const RenderOptions& options, StopRule& until) {
   if (options.seconds) until.seconds = *options.seconds;
   if (options.error) until.error = *options.error;
+  if (!options.pass_range.empty()) until.seconds = until.error = 0.0;  // pieces choose alike, by counts
 }
 
 /// The settings that ask for such layers.
@@ -31,30 +33,12 @@ void add_layers(std::vector<std::string> layers, std::vector<std::string>& overr
   if (!layers.empty()) overrides.push_back(fmt::format("render.layers=[\"{}\"]", fmt::join(layers, "\", \"")));
 }
 
-void write_outputs(const RenderOptions& options, const Outputs& outputs, const RenderJob& job,
-                   const RenderResult& result) {
-  write_picture(outputs.exr, job, result);
-  write_preview(outputs, options, result.film.mean());
-  write_text(outputs.json, render_report(job, outputs.exr.string(), result));
-}
-
 /// Gives values to the settings that are "auto"; those of the checkpoint where the render goes on.
 void choose_all(const RenderOptions& options, const Outputs& outputs, RenderJob& job) {
   if (options.resume && job.automatic.any())
     choose_again(job, choices_of(checkpoint_identity(outputs.checkpoint)));
   else
     choose(job);
-}
-
-/// The lock on the checkpoint, where one is kept. Throws InputError where another run keeps it, and where a checkpoint
-/// would be lost.
-std::unique_ptr<FileLock> lock_checkpoint(const RenderOptions& options, const std::filesystem::path& checkpoint) {
-  if (!options.checkpoint && !options.resume) return nullptr;
-  auto lock = std::make_unique<FileLock>(checkpoint.string() + ".lock");
-  if (!options.resume && !options.overwrite && std::filesystem::exists(checkpoint))
-    throw InputError(
-        fmt::format("'{}' is there already: --resume goes on from it, --overwrite begins anew", checkpoint.string()));
-  return lock;
 }
 
 std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outputs& outputs, const Film& film,
@@ -79,10 +63,11 @@ void look_ahead(const RenderOptions& options, RenderJob& job, RenderResult& begu
     fmt::print(stderr, "note: the checkpoint has {} already, and none is added\n", passes_text(begun.film.passes()));
 }
 
-void print_summary(const Outputs& outputs, const RenderJob& job, const RenderResult& result) {
-  const std::string error = error_text(job, result);
-  fmt::print("{}: {} in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), passes_text(result.film.passes()),
-             result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
+/// From now on the settings ask for those passes alone.
+void apply_pass_range(const std::string& text, StopRule& until) {
+  if (text.empty()) return;
+  const PassRange range = pass_range(text);
+  until = {.passes = range.end - range.first, .first = range.first};
 }
 
 }  // namespace
@@ -105,6 +90,27 @@ std::vector<std::string> overrides_of(const RenderOptions& options) {
   return overrides;
 }
 
+void write_outputs(const Outputs& outputs, const std::optional<float>& exposure, const RenderJob& job,
+                   const RenderResult& result) {
+  write_picture(outputs.exr, job, result);
+  write_preview(outputs, exposure, result.film.mean());
+  write_text(outputs.json, render_report(job, outputs.exr.string(), result));
+}
+
+std::unique_ptr<FileLock> lock_checkpoint(const std::filesystem::path& checkpoint, bool replaced) {
+  auto lock = std::make_unique<FileLock>(checkpoint.string() + ".lock");
+  if (!replaced && std::filesystem::exists(checkpoint))
+    throw InputError(
+        fmt::format("'{}' is there already: --resume goes on from it, --overwrite begins anew", checkpoint.string()));
+  return lock;
+}
+
+void print_summary(const Outputs& outputs, const RenderJob& job, const RenderResult& result) {
+  const std::string error = error_text(job, result);
+  fmt::print("{}: {} in {:.1f} s{}{}; preview {}, report {}\n", outputs.exr.string(), passes_text(result.film.passes()),
+             result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
+}
+
 int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job) {
   apply_options(options, job.settings);
   apply_limits(options, job.settings.until);
@@ -113,18 +119,20 @@ int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJ
   const PixelRect rendered = camera.rendered();
   const int copies = options.watch.preview ? 2 : 1;  // a picture, and while it is rewritten its successor
   check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height() * copies, checkpoint, job);
-  const std::unique_ptr<FileLock> lock = lock_checkpoint(options, outputs.checkpoint);
+  const std::unique_ptr<FileLock> lock =
+      checkpoint ? lock_checkpoint(outputs.checkpoint, options.resume || options.overwrite) : nullptr;
   const std::atomic<bool>& stop = stop_on_signals();
   choose_all(options, outputs, job);
+  apply_pass_range(options.pass_range, job.settings.until);
   const Identity identity = identity_of(job);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
   std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film, camera);
   look_ahead(options, job, begun);
   const ProgressMode progress = options.quiet ? ProgressMode::never : options.progress;
   RunWatch watch(options.watch, progress, outputs.exr.string(), begun.film,
-                 [&](const RenderResult& so_far) { write_outputs(options, outputs, job, so_far); });
+                 [&](const RenderResult& so_far) { write_outputs(outputs, options.exposure, job, so_far); });
   const auto finished = [&](const RenderResult& so_far) {
-    if (checkpoint) write_checkpoint(outputs.checkpoint, identity, so_far);
+    if (checkpoint) write_checkpoint(outputs.checkpoint, identity, origin_of(job), so_far);
     if (log) log->add(so_far);
     watch.finished(so_far);
   };
@@ -133,7 +141,7 @@ int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJ
   print_warnings(warnings_of(job, result));
   if (log) log->finish(result);
   watch.finish(result);
-  write_outputs(options, outputs, job, result);
+  write_outputs(outputs, options.exposure, job, result);
   if (!options.quiet) print_summary(outputs, job, result);
   return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;
 }

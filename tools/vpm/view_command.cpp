@@ -56,14 +56,14 @@ void show_first_picture(const ViewOptions& options, const Outputs& outputs, cons
   settings.until = {.passes = 1};
   settings.photons_emitted = 50'000;
   const RenderResult first = render(job.scene, settings, nothing_rendered(job.scene.camera));
-  write_preview(outputs, options, first.film.mean());
+  write_preview(outputs, options.exposure, first.film.mean());
 }
 
 }  // namespace
 
 int view_command(const ViewOptions& options) {
   set_threads(options.threads);
-  const Outputs outputs = output_paths(options, fs::path(options.scene).stem().string());
+  const Outputs outputs = output_paths(options.output, fs::path(options.scene).stem().string());
   const std::string name = scene_name(options);
   const ViewScene made = make_scene(options);
   RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options));

@@ -231,6 +231,7 @@ RenderJob job_with(Document document, const std::vector<std::string>& options, L
   RenderJob job = job_of(document, given);
   job.source = document.sources.front()->name;
   job.overrides = options;
+  job.left_out_is_automatic = left_out == LeftOut::automatic;
   return job;
 }
 

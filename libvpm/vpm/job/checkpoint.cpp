@@ -1,4 +1,5 @@
-// The file: a line of its own kind, that of its format, those of identity, named fields, and the checksum of all.
+// The file: a line of its own kind, that of its format, those of identity, that of its origin, named fields, and the
+// checksum of all.
 #include "vpm/job/checkpoint.h"
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ std::string checksum(std::string_view bytes) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
-  throw InputError(fmt::format("cannot resume from '{}': {}", path.string(), why));
+  throw InputError(fmt::format("cannot go on from '{}': {}", path.string(), why));
 }
 
 std::string content_of(const std::filesystem::path& path) {
@@ -62,6 +63,7 @@ bool take_line(std::string_view& bytes, std::string_view& line) {
 
 struct Parts {
   Identity identity;
+  Origin origin;
   std::string_view rest;  // fields and checksum
 };
 
@@ -83,6 +85,19 @@ bool take_identity(std::string_view& bytes, Identity& identity) {
   return true;
 }
 
+/// Takes the line "origin {...}"; false where it is not that.
+bool take_origin(std::string_view& bytes, Origin& origin) {
+  constexpr std::string_view kTitle = "origin ";
+  std::string_view line;
+  if (!take_line(bytes, line) || !line.starts_with(kTitle)) return false;
+  try {
+    origin = origin_of_line(std::string(line.substr(kTitle.size())));
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+  return true;
+}
+
 /// Checks kind and format.
 Parts parts_of(const std::filesystem::path& path, std::string_view bytes) {
   constexpr std::string_view kFormat = "format ";
@@ -94,7 +109,8 @@ Parts parts_of(const std::filesystem::path& path, std::string_view bytes) {
     refuse(path, fmt::format("it is written by another format of checkpoints, {}; this program reads {}; render again",
                              number, kCheckpointFormat));
   Parts parts;
-  if (!take_identity(bytes, parts.identity)) refuse(path, "it is damaged or not whole: it does not tell what it is of");
+  if (!take_identity(bytes, parts.identity) || !take_origin(bytes, parts.origin))
+    refuse(path, "it is damaged or not whole: it does not tell what it is of");
   parts.rest = bytes;
   return parts;
 }
@@ -194,6 +210,18 @@ RenderResult take_result(NamedFields fields) {
   return result;
 }
 
+/// What a checkpoint of these bytes holds, of which `rest` are fields and checksum.
+RenderResult result_of(const std::filesystem::path& path, std::string_view bytes, std::string_view rest) {
+  const size_t sum_at = bytes.size() - std::min(rest.size(), kChecksum);
+  if (checksum(bytes.substr(0, sum_at)) != bytes.substr(sum_at))
+    refuse(path, "it is damaged or not whole: its checksum is wrong");
+  try {
+    return take_result(NamedFields(rest.substr(0, rest.size() - kChecksum)));
+  } catch (const FieldError& error) {
+    refuse(path, error.what());
+  }
+}
+
 }  // namespace
 
 Identity checkpoint_identity(const std::filesystem::path& path) {
@@ -211,12 +239,14 @@ uint64_t checkpoint_bytes(const RenderJob& job) {
          (discs ? count(camera.width, camera.height) * sizeof(PixelDisc) : 0);
 }
 
-void write_checkpoint(const std::filesystem::path& path, const Identity& identity, const RenderResult& result) {
+void write_checkpoint(const std::filesystem::path& path, const Identity& identity, const Origin& origin,
+                      const RenderResult& result) {
   std::string bytes = fmt::format("{}\nformat {}\nidentity {}\n", kKind, kCheckpointFormat, identity.size());
   for (const auto& [name, value] : identity) {
     assert(name.find_first_of("=\n") == std::string::npos && value.find('\n') == std::string::npos);
     bytes += fmt::format("{}={}\n", name, value);
   }
+  bytes += fmt::format("origin {}\n", line_of(origin));
   append_field(bytes, "seconds", result.seconds);
   append_field(bytes, "discs", std::span<const PixelDisc>(result.discs));
   for_each_counter(
@@ -228,20 +258,19 @@ void write_checkpoint(const std::filesystem::path& path, const Identity& identit
   write_text(path, bytes + checksum(bytes));
 }
 
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+  const std::string bytes = content_of(path);
+  Parts parts = parts_of(path, bytes);
+  return {std::move(parts.identity), std::move(parts.origin), result_of(path, bytes, parts.rest)};
+}
+
 RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& identity) {
   const std::string bytes = content_of(path);
-  const auto [found, rest] = parts_of(path, bytes);
-  if (found != identity)
-    refuse(path,
-           "it is of another render; render on with the options that it began with" + differences(found, identity));
-  const size_t sum_at = bytes.size() - std::min(rest.size(), kChecksum);
-  if (checksum(std::string_view(bytes).substr(0, sum_at)) != bytes.substr(sum_at))
-    refuse(path, "it is damaged or not whole: its checksum is wrong");
-  try {
-    return take_result(NamedFields(rest.substr(0, rest.size() - kChecksum)));
-  } catch (const FieldError& error) {
-    refuse(path, error.what());
-  }
+  const Parts parts = parts_of(path, bytes);
+  if (parts.identity != identity)
+    refuse(path, "it is of another render; render on with the options that it began with" +
+                     differences(parts.identity, identity, "in the checkpoint", "asked for"));
+  return result_of(path, bytes, parts.rest);
 }
 
 }  // namespace vpm

@@ -75,19 +75,18 @@ std::vector<Choice> choices_of(const Identity& identity) {
   return choices;
 }
 
-std::string differences(const Identity& in_file, const Identity& asked) {
+std::string differences(const Identity& a, const Identity& b, const std::string& of_a, const std::string& of_b) {
   std::string lines;
   const auto tell = [&](const std::string& name, const std::string* there, const std::string* here) {
-    lines += fmt::format("\n  {}: {} in the checkpoint, {} asked for", name, value_or_nothing(there),
-                         value_or_nothing(here));
+    lines += fmt::format("\n  {}: {} {}, {} {}", name, value_or_nothing(there), of_a, value_or_nothing(here), of_b);
   };
-  for (const auto& [name, value] : in_file) {
-    const std::string* const other = find(asked, name);
+  for (const auto& [name, value] : a) {
+    const std::string* const other = find(b, name);
     if (!other || *other != value) tell(name, &value, other);
   }
-  for (const auto& [name, value] : asked)
-    if (!find(in_file, name)) tell(name, nullptr, &value);
-  return lines.empty() && in_file != asked ? "\n  the same keys stand in another order" : lines;
+  for (const auto& [name, value] : b)
+    if (!find(a, name)) tell(name, nullptr, &value);
+  return lines.empty() && a != b ? "\n  the same keys stand in another order" : lines;
 }
 
 }  // namespace vpm

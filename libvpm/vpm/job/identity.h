@@ -19,7 +19,7 @@ Identity identity_of(const RenderJob& job);
 /// The settings that were chosen when the render of this identity began.
 std::vector<Choice> choices_of(const Identity& identity);
 
-/// A line for each field in which they differ: "render.seed: 1 in the checkpoint, 9 asked for".
-std::string differences(const Identity& in_file, const Identity& asked);
+/// A line for each field in which two differ, which are called so: "render.seed: 1 in the checkpoint, 9 asked for".
+std::string differences(const Identity& a, const Identity& b, const std::string& of_a, const std::string& of_b);
 
 }  // namespace vpm

@@ -72,6 +72,17 @@ void check_size(const RenderResult& result, const Camera& camera, size_t layers)
                                  result.layers.size(), layers));
 }
 
+/// A piece goes on with its own passes.
+void check_begin(const Film& film, int first) {
+  if (film.passes() == 0) return;
+  const int begun = film.sums().passes.ranges().front().first;
+  if (begun != first)
+    throw InputError(
+        fmt::format("what is rendered so far begins with pass {}, but the render with pass {}: a piece of a "
+                    "render goes on with the passes that it began with",
+                    begun, first));
+}
+
 /// The pictures of a pass, cut to the camera's crop.
 Pass cut(Pass pass, const Camera& camera) {
   if (!camera.crop) return pass;
@@ -81,9 +92,7 @@ Pass cut(Pass pass, const Camera& camera) {
   return pass;
 }
 
-/// Adds the next pass.
-void add(RenderResult& result, const Pass& pass) {
-  const int number = result.film.next_pass();
+void add(RenderResult& result, int number, const Pass& pass) {
   result.film.add(number, pass.image, pass.correction);
   while (result.layers.size() < pass.layers.size()) result.layers.emplace_back(pass.image.width, pass.image.height);
   for (size_t i = 0; i < pass.layers.size(); ++i) result.layers[i].add(number, pass.layers[i]);
@@ -121,8 +130,8 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
                     const RunControl& control) {
   validate(settings, facts_of(scene));
   check_size(result, scene.camera, layer_films(settings));
-  const auto whole = [&](const RenderResult& so_far, const PassProgress& shown) {
-    const int pass = so_far.film.next_pass();
+  check_begin(result.film, settings.until.first);
+  const auto whole = [&](int pass, const RenderResult& so_far, const PassProgress& shown) {
     switch (settings.integrator) {
       case Integrator::path:
         return render_path_pass(scene, settings, pass, control.stop, shown);
@@ -133,8 +142,8 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
     }
     __builtin_unreachable();
   };
-  const auto make = [&](const RenderResult& so_far, const PassProgress& shown) {
-    return cut(whole(so_far, shown), scene.camera);
+  const auto make = [&](int pass, const RenderResult& so_far, const PassProgress& shown) {
+    return cut(whole(pass, so_far, shown), scene.camera);
   };
   return run_passes(settings.until, {make, tile_count(scene.camera)}, std::move(result), control);
 }
@@ -154,9 +163,10 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
   const PassProgress pass_progress{shown && single, counted ? &bar : nullptr};
   estimate_errors(until, result);  // of a render that goes on
   for (double last = 0.0; !control.stop && share_done(until, result) < 1.0 && !too_late(until, result, last);) {
-    const Pass done = passes.make(result, pass_progress);
+    const int number = result.film.sums().passes.first_missing(until.first);
+    const Pass done = passes.make(number, result, pass_progress);
     if (control.stop) break;
-    add(result, done);
+    add(result, number, done);
     estimate_errors(until, result);
     const double seconds = before + rendering.seconds();
     last = seconds - result.seconds;

@@ -47,9 +47,10 @@ struct RunControl {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const RunControl& control = {});
 
-/// A pass of any kind, to be made after those in `so_far`. It tells its bar of `work` units in its course.
+/// Pass number `number` of any kind, to be made after those in `so_far`. It tells its bar of `work` units in its
+/// course.
 struct PassMaker {
-  std::function<Pass(const RenderResult& so_far, const PassProgress& progress)> make;
+  std::function<Pass(int number, const RenderResult& so_far, const PassProgress& progress)> make;
   uint64_t work = 0;
 };
 /// The same loop over any passes of a film.

@@ -30,6 +30,7 @@ struct RenderJob {
   std::vector<std::string> notes;        // what a user should know of, e.g. clamped densities
   std::string source{};                  // the scene file; empty: made in code
   std::vector<std::string> overrides{};  // "key.path=value" options that changed that file
+  bool left_out_is_automatic = false;    // was what the file leaves out to be chosen, where that is possible?
   std::vector<std::string> files{};      // that it names: grids, meshes, textures, environments
   std::string hash{};                    // tells this scene and the settings of its file from others: of the scene
                                          // file with its options, and of the bytes of those files, 16 hex digits; of

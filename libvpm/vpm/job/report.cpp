@@ -159,6 +159,13 @@ Json techniques(const RenderJob& job, const RenderResult& result) {
   return all;
 }
 
+/// The numbers of the passes: the first of each range, and that after its last.
+Json pass_ranges(const Film& film) {
+  Json all = Json::array();
+  for (const PassRange& range : film.sums().passes.ranges()) all.push_back({range.first, range.end});
+  return all;
+}
+
 /// Of the discs of pixels, for the next pass; null where pixels have none.
 Json disc_radii(const RenderJob& job, const PixelDiscs& discs) {
   if (discs.empty()) return nullptr;
@@ -239,6 +246,7 @@ std::string render_report(const RenderJob& job, const std::string& image, const 
   const auto& [x0, y0, x1, y1] = camera.rendered();
   report["rendered_pixels"] = {{"x0", x0}, {"y0", y0}, {"x1", x1}, {"y1", y1}};
   report["warnings"] = warnings_of(job, result);
+  report["pass_ranges"] = pass_ranges(result.film);
   report["error"] = errors(job, result);
   report["light_of_kernels_alone"] = kernel_light(job);
   report["techniques"] = techniques(job, result);

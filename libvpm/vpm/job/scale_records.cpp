@@ -13,6 +13,7 @@
 #include "vpm/job/choose_records.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
+#include "vpm/job/render.h"
 
 namespace vpm {
 namespace {

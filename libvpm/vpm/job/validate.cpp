@@ -146,6 +146,10 @@ void check_final_gathering(const RenderSettings& s) {
 void check_radii_of_pixels(const RenderSettings& s) {
   if (s.radii != RadiusSchedule::per_pixel) return;
   const std::string pixels = "where render.radii is \"per-pixel\" ";
+  refuse_if(
+      s.until.first > 0, "render.radii",
+      pixels + fmt::format("radii follow from all passes before, so that no piece begins with pass {}", s.until.first),
+      "write other radii, or render all passes in one run");
   refuse_if(s.surface.mode != GatherMode::radius, "surface.gather", pixels + "surfaces gather by radius",
             "write \"radius\", or other radii");
   refuse_if(kernel_order(s.surface.kernel) > 2, "surface.kernel",

@@ -77,8 +77,6 @@ class Film {
   int width() const { return width_; }
   int height() const { return height_; }
   int passes() const { return sums_.passes.count(); }
-  /// The number of the next pass: the least that the film does not have.
-  int next_pass() const { return sums_.passes.first_missing(); }
   const FilmSums& sums() const { return sums_; }
   /// The mean of the passes, W/(m^2 sr); black where there is none.
   Image mean() const;

@@ -43,8 +43,12 @@ class PassSet {
     return std::any_of(ranges_.begin(), ranges_.end(),
                        [&](const PassRange& range) { return range.first < other.end && other.first < range.end; });
   }
-  /// The least number that is not in the set.
-  int first_missing() const { return ranges_.empty() || ranges_[0].first > 0 ? 0 : ranges_[0].end; }
+  /// The least number >= `least` that is not in the set.
+  int first_missing(int least = 0) const {
+    for (const PassRange& range : ranges_)
+      if (range.first <= least && least < range.end) return range.end;
+    return least;
+  }
   /// Adds numbers that are not in the set.
   void add(const PassRange& range) {
     const auto next = std::upper_bound(ranges_.begin(), ranges_.end(), range,

@@ -57,6 +57,7 @@ struct CombinedSettings {
 /// two is reached.
 struct StopRule {
   int passes = 16;       // >= 1; ignored where seconds or error > 0
+  int first = 0;         // >= 0; the number of the first pass: those before it are of other pieces of the render
   double seconds = 0.0;  // > 0: wall clock; passes start until that time is over
   double error = 0.0;    // > 0: passes start until the estimated relative MSE is no more than that
 

@@ -87,9 +87,8 @@ std::vector<Check> check_pixels(int samples, const Effort& effort) {
   RenderResult result = nothing_rendered(scene.camera);
   std::vector<TextbookPixel> textbook(result.film.mean().pixels.size(), {settings.surface.radius.metres()});
   const double power = light_power(scene.lights[0], scene.bounds).g;  // of every photon
-  const auto run = [&](const RenderResult& so_far, const PassProgress& progress) {
-    Pass pass =
-        render_photon_pass_after(so_far.discs, scene, settings, {so_far.film.next_pass(), kNeverStopped, progress});
+  const auto run = [&](int number, const RenderResult& so_far, const PassProgress& progress) {
+    Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {number, kNeverStopped, progress});
     for (size_t i = 0; i < textbook.size(); ++i) textbook[i].add(static_cast<double>(pass.found[i]), power / samples);
     return pass;
   };
