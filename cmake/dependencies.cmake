@@ -15,6 +15,9 @@ if(NOT PROJECT_IS_TOP_LEVEL)
 endif()
 
 find_package(CLI11 CONFIG REQUIRED)
+if(VPM_MPI)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+endif()
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 
 # Chart.js draws the plots of the page that `vpm compare` writes, which has the library in it.

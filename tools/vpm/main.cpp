@@ -10,18 +10,17 @@
 #include <sstream>
 
 #include "commands.h"
+#include "exit_status.h"
 #include "option_checks.h"
 #include "vpm/base/error.h"
 #include "vpm/base/version.h"
+#include "vpm/ranks/ranks.h"
 #include "vpm/study/validate/ladder.h"
 
 namespace {
 
 using namespace vpm;
 using namespace vpm::tools;
-
-constexpr int kFailed = 1;  // not the input's fault: no memory, a library gave up
-constexpr int kBadInput = 2;
 
 void add_progress(CLI::App* command, ProgressMode& mode) {
   const std::map<std::string, ProgressMode> modes{
@@ -328,6 +327,8 @@ int run(int argc, char** argv) {
     return status == 0 ? 0 : kBadInput;
   }
   if (app.got_subcommand("render")) return render_command(render);
+  if (const int ranks = started_ranks(); ranks > 1)
+    throw InputError(fmt::format("{} processes were started to do the same: only render shares its work", ranks));
   if (app.got_subcommand("view")) return view_command(view);
   if (app.got_subcommand("merge")) return merge_command(merge);
   if (app.got_subcommand("tonemap")) return tonemap_command(tonemap);
@@ -349,13 +350,10 @@ int main(int argc, char** argv) {
     const int status = run(argc, argv);
     if (std::fflush(stdout) == 0) return status;
     fmt::print(stderr, "vpm: cannot write to standard output: {}\n", std::strerror(errno));
-  } catch (const InputError& error) {
-    fmt::print(stderr, "vpm: {}\n", error.what());
-    return kBadInput;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "vpm: out of memory\n");
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "vpm: {}\n", error.what());
+  } catch (...) {
+    const Failure failure = failure_of(std::current_exception());
+    fmt::print(stderr, "vpm: {}\n", failure.message);
+    return failure.status;
   }
   return kFailed;
 }

@@ -6,12 +6,11 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "exit_status.h"
 #include "vpm/image/image.h"
 #include "vpm/job/render_job.h"
 
 namespace vpm::tools {
-
-inline constexpr int kInterrupted = 130;  // as shells report a process ended by SIGINT
 
 /// From now on a first SIGINT, SIGTERM or SIGHUP sets what is returned, so that what is finished can be written; one
 /// that comes a few seconds later kills.

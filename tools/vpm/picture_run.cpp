@@ -9,23 +9,20 @@
 
 #include "error_log.h"
 #include "option_checks.h"
+#include "rank_run.h"
 #include "run_watch.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/file_lock.h"
+#include "vpm/input/scene_file.h"
 #include "vpm/job/checkpoint.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/report.h"
+#include "vpm/ranks/together.h"
 
 namespace vpm::tools {
 namespace {
-
-void apply_limits(const RenderOptions& options, StopRule& until) {
-  if (options.seconds) until.seconds = *options.seconds;
-  if (options.error) until.error = *options.error;
-  if (!options.pass_range.empty()) until.seconds = until.error = 0.0;  // pieces choose alike, by counts
-}
 
 /// The settings that ask for such layers.
 void add_layers(std::vector<std::string> layers, std::vector<std::string>& overrides) {
@@ -61,6 +58,13 @@ void look_ahead(const RenderOptions& options, RenderJob& job, RenderResult& begu
   print_notes(job);
   if (const StopRule& until = job.settings.until; until.counts_passes() && begun.film.passes() >= until.passes)
     fmt::print(stderr, "note: the checkpoint has {} already, and none is added\n", passes_text(begun.film.passes()));
+}
+
+/// The exit status; of several ranks, which may be gone, this ends them all.
+int interrupted(Ranks& ranks, const StopRule& until, const RenderResult& result) {
+  const int status = say_interrupted(until, result.film.passes());
+  if (ranks.size() > 1) ranks.abort(status);
+  return status;
 }
 
 /// From now on the settings ask for those passes alone.
@@ -111,9 +115,22 @@ void print_summary(const Outputs& outputs, const RenderJob& job, const RenderRes
              result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
 }
 
-int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job) {
-  apply_options(options, job.settings);
-  apply_limits(options, job.settings.until);
+void apply_run_options(const RenderOptions& options, RenderSettings& settings) {
+  apply_options(options, settings);
+  StopRule& until = settings.until;
+  if (options.seconds) until.seconds = *options.seconds;
+  if (options.error) until.error = *options.error;
+  if (!options.pass_range.empty()) until.seconds = until.error = 0.0;  // pieces choose alike, by counts
+}
+
+RenderJob load_for_render(const RenderOptions& options) {
+  RenderJob job =
+      load_scene(options.scene, overrides_of(options), options.automatic ? LeftOut::automatic : LeftOut::usual);
+  apply_run_options(options, job.settings);
+  return job;
+}
+
+int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job, Ranks& ranks) {
   const bool checkpoint = options.checkpoint || options.resume;
   const Camera& camera = job.scene.camera;
   const PixelRect rendered = camera.rendered();
@@ -125,6 +142,7 @@ int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJ
   choose_all(options, outputs, job);
   apply_pass_range(options.pass_range, job.settings.until);
   const Identity identity = identity_of(job);
+  tell_render(ranks, identity);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
   std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film, camera);
   look_ahead(options, job, begun);
@@ -136,14 +154,14 @@ int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJ
     if (log) log->add(so_far);
     watch.finished(so_far);
   };
-  const RenderResult result = render(job.scene, job.settings, std::move(begun), {stop, progress, finished});
-  if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
+  const RenderResult result = lead_render(ranks, job.scene, job.settings, std::move(begun), {stop, progress, finished});
+  if (result.film.passes() == 0) return interrupted(ranks, job.settings.until, result);
   print_warnings(warnings_of(job, result));
   if (log) log->finish(result);
   watch.finish(result);
   write_outputs(outputs, options.exposure, job, result);
   if (!options.quiet) print_summary(outputs, job, result);
-  return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;
+  return stop ? interrupted(ranks, job.settings.until, result) : 0;
 }
 
 }  // namespace vpm::tools

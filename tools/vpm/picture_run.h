@@ -12,6 +12,7 @@
 #include "vpm/base/file_lock.h"
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
+#include "vpm/ranks/ranks.h"
 
 namespace vpm::tools {
 
@@ -29,7 +30,14 @@ std::unique_ptr<FileLock> lock_checkpoint(const std::filesystem::path& checkpoin
 /// A line of what is rendered, and where it is.
 void print_summary(const Outputs& outputs, const RenderJob& job, const RenderResult& result);
 
-/// Renders a job as the options say, which have changed its scene already. Returns the exit status.
-int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job);
+/// The seed, and when the render ends.
+void apply_run_options(const RenderOptions& options, RenderSettings& settings);
+
+/// The job of a scene file with these options.
+RenderJob load_for_render(const RenderOptions& options);
+
+/// Renders a job as the options say, which have changed its scene already, with the other ranks. Returns the exit
+/// status.
+int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job, Ranks& ranks);
 
 }  // namespace vpm::tools

@@ -3,16 +3,19 @@
 
 #include "commands.h"
 #include "picture_run.h"
+#include "rank_run.h"
 #include "vpm/base/parallel.h"
-#include "vpm/input/scene_file.h"
 
 namespace vpm::tools {
 
 int render_command(const RenderOptions& options) {
+  const std::unique_ptr<Ranks> ranks = join_ranks();
   set_threads(options.threads);
-  const Outputs outputs = output_paths(options.output, std::filesystem::path(options.scene).stem().string());
-  const LeftOut left_out = options.automatic ? LeftOut::automatic : LeftOut::usual;
-  return render_picture(options, outputs, load_scene(options.scene, overrides_of(options), left_out));
+  return run_as_rank(*ranks, [&] {
+    if (!ranks->leads()) return make_passes_for_leader(*ranks, options);
+    const Outputs outputs = output_paths(options.output, std::filesystem::path(options.scene).stem().string());
+    return render_picture(options, outputs, load_for_render(options), *ranks);
+  });
 }
 
 }  // namespace vpm::tools

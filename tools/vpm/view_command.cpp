@@ -10,6 +10,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/job/render.h"
+#include "vpm/ranks/alone.h"
 
 namespace vpm::tools {
 namespace {
@@ -67,6 +68,7 @@ int view_command(const ViewOptions& options) {
   const std::string name = scene_name(options);
   const ViewScene made = make_scene(options);
   RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options));
+  apply_run_options(options, job.settings);
   for (const std::string& note : made.notes) job.notes.push_back(note);
   if (options.passes)
     job.notes.push_back(fmt::format("{} as passes are counted: choosing would take longer than few", kFewPasses));
@@ -76,7 +78,8 @@ int view_command(const ViewOptions& options) {
   show_first_picture(options, outputs, job);
   RenderOptions watched = options;
   if (!watched.watch.preview) watched.watch.preview = kRewritten;
-  return render_picture(watched, outputs, std::move(job));
+  Alone alone;
+  return render_picture(watched, outputs, std::move(job), alone);
 }
 
 }  // namespace vpm::tools

@@ -12,18 +12,12 @@
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
-#include "vpm/job/named_fields.h"
+#include "vpm/job/counted_fields.h"
 #include "vpm/render/plan.h"
 #include "vpm/render/view_layers.h"
 
 namespace vpm {
 
-template <>
-inline constexpr std::string_view kFieldType<Rgbd> = "rgb64";
-template <>
-inline constexpr std::string_view kFieldType<Moments> = "moments";
-template <>
-inline constexpr std::string_view kFieldType<WeightMoments> = "weights";
 template <>
 inline constexpr std::string_view kFieldType<PassRange> = "range";
 template <>
@@ -200,12 +194,7 @@ RenderResult take_result(NamedFields fields) {
   if (!result.discs.empty() && result.discs.size() < pixels)  // there are more where the film is a crop
     throw FieldError(fmt::format("its field 'discs' has {} numbers for {} pixels", result.discs.size(), pixels));
   result.layers = take_layers(fields, result.film);
-  for_each_counter(
-      result.statistics,
-      [&](const std::string& name, auto& number) {
-        number = fields.take<std::remove_reference_t<decltype(number)>>(name);
-      },
-      "statistics");
+  take_counters(fields, result.statistics);
   fields.refuse_others();
   return result;
 }
@@ -249,9 +238,7 @@ void write_checkpoint(const std::filesystem::path& path, const Identity& identit
   bytes += fmt::format("origin {}\n", line_of(origin));
   append_field(bytes, "seconds", result.seconds);
   append_field(bytes, "discs", std::span<const PixelDisc>(result.discs));
-  for_each_counter(
-      result.statistics, [&](const std::string& name, const auto& number) { append_field(bytes, name, number); },
-      "statistics");
+  append_counters(bytes, result.statistics);
   append_film(bytes, "film", result.film);
   append_field(bytes, "layers", static_cast<uint32_t>(result.layers.size()));
   for (size_t i = 0; i < result.layers.size(); ++i) append_film(bytes, layer_name(i), result.layers[i]);

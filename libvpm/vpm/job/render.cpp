@@ -126,26 +126,34 @@ double highest_error(const RenderResult& result) {
   return stated ? stated->highest : std::numeric_limits<double>::infinity();
 }
 
-RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
-                    const RunControl& control) {
+void check_begun(const Scene& scene, const RenderSettings& settings, const RenderResult& result) {
   validate(settings, facts_of(scene));
   check_size(result, scene.camera, layer_films(settings));
   check_begin(result.film, settings.until.first);
+}
+
+PassMaker pass_maker(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop) {
   const auto whole = [&](int pass, const RenderResult& so_far, const PassProgress& shown) {
     switch (settings.integrator) {
       case Integrator::path:
-        return render_path_pass(scene, settings, pass, control.stop, shown);
+        return render_path_pass(scene, settings, pass, stop, shown);
       case Integrator::combined:
-        return render_combined_pass(scene, settings, pass, control.stop, shown);
+        return render_combined_pass(scene, settings, pass, stop, shown);
       case Integrator::photon:
-        return render_photon_pass_after(so_far.discs, scene, settings, {pass, control.stop, shown});
+        return render_photon_pass_after(so_far.discs, scene, settings, {pass, stop, shown});
     }
     __builtin_unreachable();
   };
-  const auto make = [&](int pass, const RenderResult& so_far, const PassProgress& shown) {
+  const auto make = [&scene, whole](int pass, const RenderResult& so_far, const PassProgress& shown) {
     return cut(whole(pass, so_far, shown), scene.camera);
   };
-  return run_passes(settings.until, {make, tile_count(scene.camera)}, std::move(result), control);
+  return {make, tile_count(scene.camera)};
+}
+
+RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
+                    const RunControl& control) {
+  check_begun(scene, settings, result);
+  return run_passes(settings.until, pass_maker(scene, settings, control.stop), std::move(result), control);
 }
 
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result,

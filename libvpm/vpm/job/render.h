@@ -56,6 +56,12 @@ struct PassMaker {
 /// The same loop over any passes of a film.
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result, const RunControl& control);
 
+/// The passes of render(): of the scene and the settings, which must live until then, and left early, with what must be
+/// dropped, once `stop` is set.
+PassMaker pass_maker(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop);
+/// Throws what render() throws before its first pass.
+void check_begun(const Scene& scene, const RenderSettings& settings, const RenderResult& result);
+
 /// A render of the camera's film before its first pass.
 RenderResult nothing_rendered(const Camera& camera);
 

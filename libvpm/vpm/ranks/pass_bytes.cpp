@@ -1,0 +1,59 @@
+// Named fields of images and counts.
+#include "vpm/ranks/pass_bytes.h"
+
+#include <fmt/format.h>
+#include <span>
+#include <type_traits>
+
+#include "vpm/job/counted_fields.h"
+
+namespace vpm {
+
+template <>
+inline constexpr std::string_view kFieldType<Rgb> = "rgb32";
+
+namespace {
+
+void append_image(std::string& bytes, const std::string& name, const Image& image) {
+  append_field(bytes, name + ".width", image.width);
+  append_field(bytes, name + ".height", image.height);
+  append_field(bytes, name, std::span<const Rgb>(image.pixels));
+}
+
+Image take_image(NamedFields& fields, const std::string& name) {
+  Image image;
+  image.width = fields.take<int>(name + ".width");
+  image.height = fields.take<int>(name + ".height");
+  image.pixels = fields.take_all<Rgb>(name);
+  return image;
+}
+
+std::string layer_name(size_t number) { return fmt::format("layers.{}", number); }
+
+}  // namespace
+
+std::string bytes_of(const Pass& pass) {
+  std::string bytes;
+  append_image(bytes, "image", pass.image);
+  append_image(bytes, "correction", pass.correction);
+  append_field(bytes, "layers", static_cast<uint64_t>(pass.layers.size()));
+  for (size_t i = 0; i < pass.layers.size(); ++i) append_image(bytes, layer_name(i), pass.layers[i]);
+  append_field(bytes, "found", std::span<const uint64_t>(pass.found));
+  append_counters(bytes, pass.statistics);
+  return bytes;
+}
+
+Pass pass_of(std::string_view bytes) {
+  NamedFields fields(bytes);
+  Pass pass(0, 0);
+  pass.image = take_image(fields, "image");
+  pass.correction = take_image(fields, "correction");
+  pass.layers.resize(fields.take<uint64_t>("layers"));
+  for (size_t i = 0; i < pass.layers.size(); ++i) pass.layers[i] = take_image(fields, layer_name(i));
+  pass.found = fields.take_all<uint64_t>("found");
+  take_counters(fields, pass.statistics);
+  fields.refuse_others();
+  return pass;
+}
+
+}  // namespace vpm

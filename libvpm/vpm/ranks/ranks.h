@@ -1,0 +1,42 @@
+// The processes that make a picture together, as mpiexec starts them: ranks 0 to size - 1. Rank 0 leads.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace vpm {
+
+struct Message {
+  int from = 0;  // a rank
+  std::string bytes;
+};
+
+/// For several threads at a time.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+  bool leads() const { return rank() == 0; }
+
+  /// Returns once the bytes are on their way, or once the other rank reads them.
+  virtual void send(int to, const std::string& bytes) = 0;
+  /// A message that has come; messages of one rank come in the order in which it sent them.
+  virtual std::optional<Message> poll() = 0;
+
+  /// Ends all ranks with this exit status: it does not return.
+  virtual void abort(int status) = 0;
+};
+
+/// Joins the ranks that this process was started with. It is one of one where vpm is built without MPI. Throws
+/// InputError where such a vpm is started as one of several, which would all do the same.
+std::unique_ptr<Ranks> join_ranks();
+
+/// How many ranks this process was started with, as those who start them tell it.
+int started_ranks();
+
+/// Waits for the next message, for milliseconds at a time.
+Message wait_for_message(Ranks& ranks);
+
+}  // namespace vpm

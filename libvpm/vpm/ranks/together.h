@@ -1,0 +1,35 @@
+// A render by several processes: rank 0 joins the passes that all make, in the order of their numbers. So the picture,
+// the statistics, and where a render by passes or by error ends are those of one process, to the last bit, whatever the
+// number of ranks and of their threads. Passes beyond that end are dropped.
+//
+// Rank 0 hands out the next number to whoever is free, makes passes itself, and keeps what is finished; the others keep
+// nothing. What grows with the number of ranks is what rank 0 receives and sums, see papers/performance.md.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "vpm/job/render.h"
+#include "vpm/ranks/ranks.h"
+
+namespace vpm {
+
+/// Makes a pass of any number, and leaves early once it is told to stop.
+using MakerOfPasses = std::function<PassMaker(const std::atomic<bool>& stop)>;
+
+/// What rank 0 of several does: run_passes() over the passes of all. Returns once all other ranks have ended their
+/// work; where control.stop ended it, at once, as a rank may be gone: ranks are then to be aborted, after what is
+/// finished is written. Throws what run_passes() and the maker throw.
+RenderResult lead_passes(Ranks& ranks, const StopRule& until, const MakerOfPasses& maker, RenderResult result,
+                         const RunControl& control);
+
+/// What the others do, until rank 0 tells them that there is no more.
+void make_passes(Ranks& ranks, const MakerOfPasses& maker);
+
+/// The same of a scene. Throws SettingError where pixels have radii of their own, which follow from all passes before,
+/// and what render() throws.
+RenderResult lead_render(Ranks& ranks, const Scene& scene, const RenderSettings& settings, RenderResult result,
+                         const RunControl& control);
+void make_render(Ranks& ranks, const Scene& scene, const RenderSettings& settings);
+
+}  // namespace vpm
