@@ -6,6 +6,8 @@
 #include "support/scenes.h"
 #include "vpm/base/statistics.h"
 #include "vpm/image/metrics.h"
+#include "vpm/job/lost_light.h"
+#include "vpm/job/render.h"
 #include "vpm/render/combined_pass.h"
 
 namespace vpm {
@@ -102,6 +104,36 @@ TEST(KernelLight, IsToldWithTheNamesOfLights) {
   EXPECT_NE(text.find("no ray hits the lights 'sun', number 2"), std::string::npos) << text;
   EXPECT_EQ(text.find("light-tracing"), std::string::npos) << text;
   EXPECT_NE(text_of({{0.1, 0.01}, {0}, false}, {""}).find("\"light-tracing\" among them"), std::string::npos);
+}
+
+TEST(LostLight, IsToldOfPathsWhereLightsWithoutExtentShineOnGlass) {
+  const Scene scene = floor_under_glass(kLamp);
+  RenderSettings paths;
+  paths.integrator = Integrator::path;
+  const std::string text = text_of_lost_light(scene, paths, {"lamp"});
+  EXPECT_NE(text.find("what light 'lamp' may send by way of mirrors or glass"), std::string::npos) << text;
+  EXPECT_EQ(text_of_lost_light(scene, settings_of(Heuristic::balance), {"lamp"}), "");
+  EXPECT_EQ(text_of_lost_light(floor_under_glass(ConstantEnvironment{Rgb(1.0f)}), paths, {""}), "");
+  Scene bare;
+  add_shape(bare, quad_mesh(Vec3d(-1, 0, 1), Vec3d(2, 0, 0), Vec3d(0, 0, -2)), Lambertian{Rgb(0.5f)});
+  bare.lights.push_back(kLamp);
+  bare.geometry.commit();
+  finish(bare);
+  EXPECT_EQ(text_of_lost_light(bare, paths, {"lamp"}), "") << "no mirror, no glass";
+}
+
+/// That there is such light: photons find in the floor what paths do not.
+TEST(LostLight, IsWhatPhotonsFindAndPathsDoNot) {
+  const Scene scene = floor_under_glass(kLamp);
+  RenderSettings settings;
+  settings.until.passes = 8;
+  settings.photons_emitted = 20'000;
+  settings.surface.radius = 0.1f;
+  const auto mean = [&](Integrator integrator) {
+    settings.integrator = integrator;
+    return channel_means(render(scene, settings, nothing_rendered(scene.camera)).film.mean()).g;
+  };
+  EXPECT_LT(mean(Integrator::path), 0.7 * mean(Integrator::photon));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "vpm/estimate/pass_map.h"
 #include "vpm/input/grid_file.h"
 #include "vpm/input/scene_file.h"
+#include "vpm/job/lost_light.h"
 #include "vpm/job/render.h"
 #include "vpm/job/stage_lines.h"
 #include "vpm/render/combined_pass.h"
@@ -98,6 +99,8 @@ void print_effort(const RenderJob& job) {
   if (settings.integrator == Integrator::path) {
     fmt::print("renders {}, in each {} {} a pixel\n", until_text(settings.until), settings.samples_per_pixel,
                settings.samples_per_pixel == 1 ? "path" : "paths");
+    if (const std::string lost = text_of_lost_light(job.scene, settings, job.light_names); !lost.empty())
+      fmt::print("warning: {}\n", lost);
     return;
   }
   fmt::print("renders {}, in each {}\ngather radii of the first pass: {}\n", until_text(settings.until),

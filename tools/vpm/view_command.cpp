@@ -70,7 +70,7 @@ int view_command(const ViewOptions& options) {
   RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options));
   apply_run_options(options, job.settings);
   for (const std::string& note : made.notes) job.notes.push_back(note);
-  if (options.passes)
+  if (options.passes && job.settings.integrator == Integrator::photon)
     job.notes.push_back(fmt::format("{} as passes are counted: choosing would take longer than few", kFewPasses));
   const PixelRect rendered = job.scene.camera.rendered();
   check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height(), false, job);

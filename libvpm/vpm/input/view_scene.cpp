@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "vpm/base/error.h"
+#include "vpm/medium/density_grid_walk.h"
 
 namespace vpm {
 namespace {
@@ -28,45 +30,71 @@ std::string list_of(const std::vector<GridSummary>& grids) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-constexpr int kLattice = 128;  // points along an edge
+constexpr int kColumns = 128;  // along an edge
 
-/// What of a grid is dense, told by its densities on a lattice.
+/// What of a grid is dense.
 struct DensePart {
   Box box;             // m
   double depth = 0.0;  // the integral of the density across, 1/m of extinction at density 1 times m
 };
 
-/// The columns are those along `across`, an axis of the world. The depth is that below which nine tenths of the columns
-/// stay which meet something dense.
-DensePart dense_part(const DensityGrid& grid, int across) {
-  constexpr double kDense = 0.01;
+/// Calls visit(ray, length) for rays along an axis of the world through the middles of columns of a box.
+void visit_columns(const Box& box, int axis, const std::function<void(const Ray& ray, double length)>& visit) {
+  const Vec3d lo(box.lo), step = (Vec3d(box.hi) - lo) / double{kColumns};
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  for (int i = 0; i < kColumns; ++i)
+    for (int j = 0; j < kColumns; ++j) {
+      Vec3d origin = lo, direction(0.0);
+      origin[u] += (i + 0.5) * step[u];
+      origin[v] += (j + 0.5) * step[v];
+      direction[axis] = 1.0;
+      visit({Vec3(origin), Vec3(direction)}, kColumns * step[axis]);
+    }
+}
+
+/// The largest density at the ends of a piece and in its middle.
+double density_in(const DensityPiece& piece) {
+  const double length = piece.length();
+  return std::max({piece.c0, piece.density(0.5 * length), piece.density(length)});
+}
+
+/// What is told by columns along all axes of the world, with exact integrals; the depth by those along `across`: that
+/// below which nine tenths of the columns stay which meet something dense.
+DensePart dense_part(const DensityGrid& grid, const Box& box, int across) {
+  constexpr double kDense = 0.01;  // of the largest density
   constexpr double kShare = 0.9;
-  const Box bounds = grid.bounds();
-  const Vec3d step = (Vec3d(bounds.hi) - Vec3d(bounds.lo)) / double{kLattice};
-  std::vector<float> densities(size_t{kLattice} * kLattice * kLattice);
-  const auto at = [](const Vec3i& p) { return (static_cast<size_t>(p.z) * kLattice + p.y) * kLattice + p.x; };
-  const auto visit = [](auto&& each) {
-    for (int z = 0; z < kLattice; ++z)
-      for (int y = 0; y < kLattice; ++y)
-        for (int x = 0; x < kLattice; ++x) each(Vec3i(x, y, z));
+  double largest = 0.0;
+  const auto visit = [&](int axis, const auto& each) {
+    visit_columns(box, axis, [&](const Ray& ray, double length) {
+      each(ray, Interval{0.0f, static_cast<float>(length)});
+    });
   };
-  visit([&](const Vec3i& p) { densities[at(p)] = grid.density(Vec3(Vec3d(bounds.lo) + (Vec3d(p) + 0.5) * step)); });
-  const double dense = kDense * *std::max_element(densities.begin(), densities.end());
-  Vec3i lo(kLattice), hi(-1);
-  std::vector<double> columns(size_t{kLattice} * kLattice);
-  visit([&](const Vec3i& p) {
-    const double density = densities[at(p)];
-    if (density <= dense) return;
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-    columns[static_cast<size_t>(p[(across + 1) % 3] * kLattice + p[(across + 2) % 3])] += density * step[across];
-  });
-  std::erase(columns, 0.0);
-  if (columns.empty()) return {};
-  const auto high = columns.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(columns.size()));
-  std::nth_element(columns.begin(), high, columns.end());
+  for (int axis = 0; axis < 3; ++axis)
+    visit(axis, [&](const Ray& ray, const Interval& interval) {
+      grid.visit_pieces(ray, interval, [&](const DensityPiece& piece) {
+        largest = std::max(largest, density_in(piece));
+        return true;
+      });
+    });
+  const double dense = kDense * largest;
   DensePart part;
-  part.box = {Vec3(Vec3d(bounds.lo) + Vec3d(lo) * step), Vec3(Vec3d(bounds.lo) + Vec3d(hi + 1) * step)};
+  std::vector<double> depths;
+  for (int axis = 0; axis < 3; ++axis)
+    visit(axis, [&](const Ray& ray, const Interval& interval) {
+      double depth = 0.0;
+      bool meets_dense = false;
+      grid.visit_pieces(ray, interval, [&](const DensityPiece& piece) {
+        depth += piece.integral();
+        if (density_in(piece) <= dense) return true;
+        meets_dense = true;
+        for (const double t : {piece.t0, piece.t1}) part.box.add(ray.at(static_cast<float>(t)));
+        return true;
+      });
+      if (meets_dense && axis == across) depths.push_back(depth);
+    });
+  if (depths.empty()) return {};
+  const auto high = depths.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(depths.size()));
+  std::nth_element(depths.begin(), high, depths.end());
   part.depth = *high;
   return part;
 }
@@ -266,17 +294,18 @@ ViewScene make_view_scene(const std::string& path, const std::string& path_in_sc
                                        .from_level_set = level_set,
                                        .clamp_negative = negative,
                                        .has_bounding_shape = filled});
-  const DensePart part = dense_part(*loaded.grid, wishes.up == UpAxis::y ? 2 : 1);
+  const std::optional<Box> bounds = filled ? std::optional(summary.world_box) : std::nullopt;
+  const DensePart part =
+      dense_part(*loaded.grid, bounds.value_or(loaded.grid->bounds()), wishes.up == UpAxis::y ? 2 : 1);
   if (part.depth == 0.0)
     throw InputError(
         loaded.grid->max_density() > 0.0f
-            ? fmt::format("{}: what the grid '{}' holds is too little to be found at {} points along each edge of its "
-                          "box, by which the view would go: write a scene file for it",
-                          path, name, kLattice)
+            ? fmt::format("{}: what the grid '{}' holds is too little to be met by {} x {} columns across its box, by "
+                          "which the view would go: write a scene file for it",
+                          path, name, kColumns, kColumns)
             : fmt::format("{}: the grid '{}' is 0 everywhere", path, name));
   const double sigma_t = wishes.optical_depth / part.depth;
   ViewScene scene;
-  const std::optional<Box> bounds = filled ? std::optional(summary.world_box) : std::nullopt;
   scene.text =
       scene_text({path_in_scene, name, level_set, negative, bounds}, sigma_t, wishes, stage_for(part.box, wishes));
   scene.notes.push_back(

@@ -2,7 +2,6 @@
 #include "vpm/job/kernel_light.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +11,9 @@
 #include "vpm/base/progress.h"
 #include "vpm/base/statistics.h"
 #include "vpm/job/eye_blocks.h"
+#include "vpm/job/lost_light.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/rays_of_pass.h"
-#include "vpm/light/emission_density.h"
 #include "vpm/render/combined_pass.h"
 
 namespace vpm {
@@ -22,20 +21,6 @@ namespace {
 
 constexpr int kPasses = 4;
 constexpr uint64_t kLightPaths = 20'000;  // light sub-paths of a pass, at the most
-
-std::vector<size_t> unhittable_lights(const Scene& scene) {
-  std::vector<size_t> numbers;
-  for (size_t i = 0; i < scene.lights.size(); ++i)
-    if (!can_be_hit(scene.lights[i])) numbers.push_back(i);
-  return numbers;
-}
-
-/// Are there mirrors or glass?
-bool has_specular_surfaces(const Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
-    return !is_rough(material) && !is_boundary(material) && !is_diffuse(material);
-  });
-}
 
 /// The sum over rays all over the picture of what they find, a mean over channels, W/(m^2 sr), with the light that is
 /// traced to their pixels, if any is.
@@ -84,13 +69,10 @@ std::optional<KernelLight> kernel_light_of(const Scene& scene, const RenderSetti
 }
 
 std::string text_of(const KernelLight& found, const std::vector<std::string>& names) {
-  std::vector<std::string> lights;
-  for (const size_t i : found.lights)
-    lights.push_back(i < names.size() && !names[i].empty() ? "'" + names[i] + "'" : fmt::format("number {}", i));
   return fmt::format(
       "{:.2g} +- {:.1g} of the light is found by kernels alone, and has their bias with nothing to check it by: no ray "
-      "hits the light{} {}, and mirrors or glass stand wherever {}",
-      found.share.value, found.share.standard_error, lights.size() > 1 ? "s" : "", fmt::join(lights, ", "),
+      "hits the {}, and mirrors or glass stand wherever {}",
+      found.share.value, found.share.standard_error, text_of_lights(found.lights, names),
       found.traced
           ? "the rest of the path could be connected"
           : "the techniques in use could connect the rest of the path: \"light-tracing\" among them would also "

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "vpm/job/declare.h"
+#include "vpm/job/lost_light.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -89,7 +90,8 @@ std::string measured_text(const Estimated& estimated) {
   return fmt::format("{:.{}f} +- {:.{}f}", estimated.value, place, error, place);
 }
 
-std::string bias_text(const StatedError& stated, bool gathers) {
+std::string bias_text(const StatedError& stated, bool gathers, bool loses_light) {
+  if (loses_light) return "no bias but by light that paths do not find";
   if (!gathers) return "no bias";
   if (!stated.bias_seen) return fmt::format("bias: none seen, below {:.1g}", stated.highest_squared_bias);
   return fmt::format("of which bias {}, below {:.2g}", measured_text(stated.squared_bias), stated.highest_squared_bias);
@@ -109,6 +111,8 @@ bool finds_no_light(const Scene& scene, const Film& film) {
          std::all_of(mean.pixels.begin(), mean.pixels.end(), [](const Rgb& p) { return is_black(p); });
 }
 
+std::string lost_light_of(const RenderJob& job) { return text_of_lost_light(job.scene, job.settings, job.light_names); }
+
 /// The warnings about what is rendered, and about the picture of it.
 std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& job, const RenderResult& result) {
   std::vector<std::string> warnings = warnings_about(shown, job.settings, result.statistics);
@@ -117,6 +121,7 @@ std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& 
         fmt::format("{} pixels are negative in a channel, as weights of changing sign make them where photons are few; "
                     "the preview shows them as 0",
                     negative));
+  if (std::string lost = lost_light_of(job); !lost.empty()) warnings.push_back(std::move(lost));
   if (finds_no_light(job.scene, result.film))
     warnings.emplace_back(
         "the picture is black: no light was found, and no error tells what is missing; another render.integrator, or "
@@ -142,7 +147,7 @@ std::string error_text(const RenderJob& job, const RenderResult& result) {
   if (!stated) return "";
   const std::vector<std::string> unseen = maps_of_unseen_bias(job.scene, job.settings);
   return fmt::format("relative MSE {} ({}{})", measured_text(stated->total),
-                     bias_text(*stated, gathers(job.scene, job.settings)),
+                     bias_text(*stated, gathers(job.scene, job.settings), !lost_light_of(job).empty()),
                      unseen.empty() ? "" : fmt::format("; that of [{}] cannot be seen", fmt::join(unseen, "], [")));
 }
 
