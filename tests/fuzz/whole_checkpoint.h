@@ -14,7 +14,7 @@ inline const Identity kFuzzIdentity{{"scene", "fuzz"}};  // of the render
 
 inline std::string whole_checkpoint(std::string_view body) {
   std::string whole =
-      fmt::format("vpm checkpoint of a render\nformat {}\nidentity 1\nscene=fuzz\norigin {{}}\n", kCheckpointFormat);
+      fmt::format("vpm checkpoint of a render\nformat {}\nidentity 1\nscene=fuzz\norigin 0\n", kCheckpointFormat);
   whole.append(body);
   Fnv1a hash;
   hash.add(std::string_view(whole));

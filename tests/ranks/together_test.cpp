@@ -155,6 +155,17 @@ TEST(Together, WhatTheMakerThrowsComesOut) {
   EXPECT_THROW(together(3, {.passes = 50}, nothing(), {}, broken), std::domain_error);
 }
 
+TEST(Together, WhatTheMakerOfAnotherRankThrowsComesOutThere) {
+  Post post(2);
+  RankInMemory other(post, 1);
+  post.send(0, 1, "m0");
+  const MakerOfPasses broken = [](const std::atomic<bool>&) {
+    return PassMaker{[](int, const RenderResult&, const PassProgress&) -> Pass { throw std::domain_error("broken"); },
+                     1};
+  };
+  EXPECT_THROW(make_passes(other, broken), std::domain_error);
+}
+
 TEST(Together, RadiiOfPixelsAreRefused) {
   Post post(2);
   RankInMemory leader(post, 0);

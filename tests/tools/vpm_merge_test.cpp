@@ -26,7 +26,7 @@ class VpmMerge : public VpmRender {
   void expect_same_as_one_run(const Arguments& options) const {
     vpm_succeeds(render("one", {"--passes", "14", "--threads", "1"}, options));
     for (int i = 0; i < 7; ++i)
-      ASSERT_EQ(piece(std::to_string(i), fmt_range(2 * i, 2 * i + 2), options).status, 0) << "piece " << i;
+      ASSERT_EQ(piece(std::to_string(i), range_text(2 * i, 2 * i + 2), options).status, 0) << "piece " << i;
     vpm_succeeds({"merge", "4.checkpoint", "0.checkpoint", "6.checkpoint", "2.checkpoint", "1.checkpoint",
                   "5.checkpoint", "3.checkpoint", "-o", "all.exr"});
     EXPECT_TRUE(read("all.exr") == read("one.exr"));
@@ -39,7 +39,7 @@ class VpmMerge : public VpmRender {
       EXPECT_EQ(all["photons"][key], one["photons"][key]) << key;
   }
 
-  static std::string fmt_range(int first, int end) { return std::to_string(first) + ":" + std::to_string(end); }
+  static std::string range_text(int first, int end) { return std::to_string(first) + ":" + std::to_string(end); }
 };
 
 TEST_F(VpmMerge, SevenPiecesInAnyOrderAreOneRun) { expect_same_as_one_run({}); }
@@ -126,6 +126,20 @@ TEST_F(VpmMerge, TheSceneMustBeThatOfThePieces) {
   write("moved.toml", std::string(kScene).replace(std::string(kScene).find("power = 10"), 10, "power = 11"));
   vpm_refuses({"merge", "a.checkpoint", "-o", "all.exr", "--scene", "moved.toml"},
               {"its scene or this program is another now", "lights.lamp.power: 10 in the checkpoint, 11 now"});
+}
+
+TEST_F(VpmMerge, NamesOfFilesMayBeAnyBytes) {
+  const std::string name = "b\xff\\n\nc";
+  std::filesystem::rename(path("scene.toml"), path(name + ".toml"));
+  std::filesystem::rename(path("smoke.vdb"), path(name + ".vdb"));
+  const std::string grid = "media.smoke.path=" + name + ".vdb";
+  for (const char* range : {"0:1", "1:2"})
+    vpm_succeeds({"render", name + ".toml", "-o", std::string(1, *range) + ".exr", "--set", "media.smoke.sigma_t=20",
+                  "--set", grid, "--pass-range", range, "--checkpoint"});
+  vpm_succeeds({"merge", "0.checkpoint", "1.checkpoint", "-o", "all.exr"});
+  vpm_succeeds(
+      {"render", name + ".toml", "-o", "one.exr", "--set", "media.smoke.sigma_t=20", "--set", grid, "--passes", "2"});
+  EXPECT_TRUE(read("all.exr") == read("one.exr"));
 }
 
 TEST_F(VpmMerge, RangesThatCannotBeAreRefused) {

@@ -4,14 +4,13 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cassert>
-#include <charconv>
 #include <fstream>
 #include <sstream>
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
+#include "vpm/base/lines.h"
 #include "vpm/job/counted_fields.h"
 #include "vpm/render/plan.h"
 #include "vpm/render/view_layers.h"
@@ -26,6 +25,7 @@ inline constexpr std::string_view kFieldType<PixelDisc> = "disc";
 namespace {
 
 constexpr const char* kKind = "vpm checkpoint of a render";
+constexpr std::string_view kIdentity = "identity", kOrigin = "origin";
 constexpr size_t kChecksum = 16;  // characters at the end
 
 std::string checksum(std::string_view bytes) {
@@ -46,51 +46,11 @@ std::string content_of(const std::filesystem::path& path) {
   return std::move(text).str();
 }
 
-/// The next line, taken off the front; false where it has no end.
-bool take_line(std::string_view& bytes, std::string_view& line) {
-  const size_t end = bytes.find('\n');
-  if (end == std::string_view::npos) return false;
-  line = bytes.substr(0, end);
-  bytes.remove_prefix(end + 1);
-  return true;
-}
-
 struct Parts {
   Identity identity;
   Origin origin;
   std::string_view rest;  // fields and checksum
 };
-
-/// Takes the lines "identity N" and N times "name=value"; false where they are not that.
-bool take_identity(std::string_view& bytes, Identity& identity) {
-  constexpr std::string_view kTitle = "identity ";
-  std::string_view line;
-  if (!take_line(bytes, line) || !line.starts_with(kTitle)) return false;
-  const std::string_view number = line.substr(kTitle.size());
-  size_t count = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
-  if (error != std::errc() || end != number.data() + number.size()) return false;
-  for (size_t i = 0; i < count; ++i) {
-    if (!take_line(bytes, line)) return false;
-    const size_t equals = line.find('=');
-    if (equals == std::string_view::npos) return false;
-    identity.emplace_back(line.substr(0, equals), line.substr(equals + 1));
-  }
-  return true;
-}
-
-/// Takes the line "origin {...}"; false where it is not that.
-bool take_origin(std::string_view& bytes, Origin& origin) {
-  constexpr std::string_view kTitle = "origin ";
-  std::string_view line;
-  if (!take_line(bytes, line) || !line.starts_with(kTitle)) return false;
-  try {
-    origin = origin_of_line(std::string(line.substr(kTitle.size())));
-  } catch (const std::invalid_argument&) {
-    return false;
-  }
-  return true;
-}
 
 /// Checks kind and format.
 Parts parts_of(const std::filesystem::path& path, std::string_view bytes) {
@@ -102,11 +62,13 @@ Parts parts_of(const std::filesystem::path& path, std::string_view bytes) {
   if (number != std::to_string(kCheckpointFormat))
     refuse(path, fmt::format("it is written by another format of checkpoints, {}; this program reads {}; render again",
                              number, kCheckpointFormat));
-  Parts parts;
-  if (!take_identity(bytes, parts.identity) || !take_origin(bytes, parts.origin))
-    refuse(path, "it is damaged or not whole: it does not tell what it is of");
-  parts.rest = bytes;
-  return parts;
+  const std::optional<Identity> identity = take_lines(bytes, kIdentity), origin = take_lines(bytes, kOrigin);
+  if (!identity || !origin) refuse(path, "it is damaged or not whole: it does not tell what it is of");
+  try {
+    return {*identity, origin_from(*origin), bytes};
+  } catch (const std::invalid_argument&) {
+    refuse(path, "it is damaged: it does not tell where its scene is read from");
+  }
 }
 
 /// Of each block where its words start, how many there are of each sum, and these.
@@ -230,12 +192,8 @@ uint64_t checkpoint_bytes(const RenderJob& job) {
 
 void write_checkpoint(const std::filesystem::path& path, const Identity& identity, const Origin& origin,
                       const RenderResult& result) {
-  std::string bytes = fmt::format("{}\nformat {}\nidentity {}\n", kKind, kCheckpointFormat, identity.size());
-  for (const auto& [name, value] : identity) {
-    assert(name.find_first_of("=\n") == std::string::npos && value.find('\n') == std::string::npos);
-    bytes += fmt::format("{}={}\n", name, value);
-  }
-  bytes += fmt::format("origin {}\n", line_of(origin));
+  std::string bytes = fmt::format("{}\nformat {}\n", kKind, kCheckpointFormat) + lines_of(kIdentity, identity) +
+                      lines_of(kOrigin, fields_of(origin));
   append_field(bytes, "seconds", result.seconds);
   append_field(bytes, "discs", std::span<const PixelDisc>(result.discs));
   append_counters(bytes, result.statistics);

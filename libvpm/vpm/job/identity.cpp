@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <cassert>
+#include <charconv>
 #include <sstream>
 
+#include "vpm/base/lines.h"
 #include "vpm/base/version.h"
 #include "vpm/job/setting.h"
 
@@ -73,6 +76,33 @@ std::vector<Choice> choices_of(const Identity& identity) {
     choices.push_back({key, value ? *value : "", "as chosen when the render began"});
   }
   return choices;
+}
+
+std::string lines_of(std::string_view title, const Identity& identity) {
+  std::string lines = fmt::format("{} {}\n", title, identity.size());
+  for (const auto& [name, value] : identity) {
+    assert(name.find_first_of("=\n") == std::string::npos && value.find('\n') == std::string::npos);
+    lines += name + "=" + value + "\n";
+  }
+  return lines;
+}
+
+std::optional<Identity> take_lines(std::string_view& text, std::string_view title) {
+  std::string_view line;
+  if (!take_line(text, line) || !line.starts_with(title) || !line.substr(title.size()).starts_with(' '))
+    return std::nullopt;
+  const std::string_view number = line.substr(title.size() + 1);
+  size_t count = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+  if (error != std::errc() || end != number.data() + number.size()) return std::nullopt;
+  Identity identity;
+  for (size_t i = 0; i < count; ++i) {
+    if (!take_line(text, line)) return std::nullopt;
+    const size_t equals = line.find('=');
+    if (equals == std::string_view::npos) return std::nullopt;
+    identity.emplace_back(line.substr(0, equals), line.substr(equals + 1));
+  }
+  return identity;
 }
 
 std::string differences(const Identity& a, const Identity& b, const std::string& of_a, const std::string& of_b) {

@@ -1,7 +1,9 @@
 // What tells one render from another: passes of different renders do not add up.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,12 @@ Identity identity_of(const RenderJob& job);
 
 /// The settings that were chosen when the render of this identity began.
 std::vector<Choice> choices_of(const Identity& identity);
+
+/// A title with the number of fields, and a line "name=value" for each: any bytes but line feeds come back as they
+/// were.
+std::string lines_of(std::string_view title, const Identity& identity);
+/// Takes such lines off the front of a text; nothing where they are not that.
+std::optional<Identity> take_lines(std::string_view& text, std::string_view title);
 
 /// A line for each field in which two differ, which are called so: "render.seed: 1 in the checkpoint, 9 asked for".
 std::string differences(const Identity& a, const Identity& b, const std::string& of_a, const std::string& of_b);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vpm/job/identity.h"
 #include "vpm/job/render_job.h"
 
 namespace vpm {
@@ -20,8 +21,9 @@ struct Origin {
 
 Origin origin_of(const RenderJob& job);
 
-/// As one line of JSON, and back. Throws std::invalid_argument where a text is not that.
-std::string line_of(const Origin& origin);
-Origin origin_of_line(const std::string& line);
+/// As names and values without line feeds, and back, whatever bytes there are. Throws std::invalid_argument where
+/// fields are not those of an origin.
+Identity fields_of(const Origin& origin);
+Origin origin_from(const Identity& fields);
 
 }  // namespace vpm

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <cstdio>
 
 #include "vpm/base/error.h"
 #include "vpm/ranks/ranks.h"
@@ -64,7 +65,10 @@ class MpiRanks final : public Ranks {
     return message;
   }
 
-  void abort(int status) override { MPI_Abort(all_, status); }
+  void abort(int status) override {
+    std::fflush(nullptr);
+    MPI_Abort(all_, status);
+  }
 
  private:
   MPI_Comm all_ = MPI_COMM_NULL;

@@ -12,7 +12,6 @@ struct Message {
   std::string bytes;
 };
 
-/// For several threads at a time.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -20,12 +19,13 @@ class Ranks {
   virtual int size() const = 0;
   bool leads() const { return rank() == 0; }
 
-  /// Returns once the bytes are on their way, or once the other rank reads them.
+  /// Returns once the bytes are on their way, or once the other rank reads them. Any thread may send.
   virtual void send(int to, const std::string& bytes) = 0;
-  /// A message that has come; messages of one rank come in the order in which it sent them.
+  /// A message that has come; messages of one rank come in the order in which it sent them. One
+  /// thread at a time may ask, also while others send.
   virtual std::optional<Message> poll() = 0;
 
-  /// Ends all ranks with this exit status: it does not return.
+  /// Ends all ranks with this exit status, after what was printed: it does not return.
   virtual void abort(int status) = 0;
 };
 

@@ -1,12 +1,11 @@
 // Messages: a rank asks for a number, gets one or the word that there is no more, and sends a pass.
 #include "vpm/ranks/together.h"
 
-#include <fmt/format.h>
-#include <cassert>
 #include <charconv>
 #include <chrono>
 #include <limits>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "vpm/job/validate.h"
@@ -22,6 +21,8 @@ constexpr char kMake = 'm';   // the pass of this number
 constexpr char kPass = 'p';   // a number, a line feed, and its pass
 constexpr char kLeave = 'l';  // there is no more to make
 constexpr char kLeft = 'd';   // no more messages will come
+
+constexpr std::chrono::microseconds kBetweenPolls{500};
 
 int number_in(std::string_view text) {
   int number = -1;
@@ -70,7 +71,7 @@ class Leader {
       if (const std::optional<Message> message = ranks_.poll())
         take(*message);
       else
-        std::this_thread::sleep_for(std::chrono::microseconds(500));
+        std::this_thread::sleep_for(kBetweenPolls);
     }
   }
 
@@ -136,7 +137,10 @@ class Leader {
 class Orders {
  public:
   explicit Orders(Ranks& ranks) : ranks_(ranks), listening_([this] { listen(); }) {}
-  ~Orders() { listening_.join(); }
+  ~Orders() {
+    leave_ = true;  // also where a pass could not be made
+    listening_.join();
+  }
   Orders(const Orders&) = delete;
   Orders& operator=(const Orders&) = delete;
 
@@ -152,14 +156,21 @@ class Orders {
  private:
   void listen() {
     while (!leave_) {
-      const Message message = wait_for_message(ranks_);
-      const std::lock_guard lock(mutex_);
-      if (message.bytes[0] == kLeave)
-        leave_ = true;
+      const std::optional<Message> message = ranks_.poll();
+      if (message)
+        take(*message);
       else
-        number_ = number_in(std::string_view(message.bytes).substr(1));
-      told_.notify_one();
+        std::this_thread::sleep_for(kBetweenPolls);
     }
+  }
+
+  void take(const Message& message) {
+    const std::lock_guard lock(mutex_);
+    if (message.bytes[0] == kLeave)
+      leave_ = true;
+    else
+      number_ = number_in(std::string_view(message.bytes).substr(1));
+    told_.notify_one();
   }
 
   Ranks& ranks_;

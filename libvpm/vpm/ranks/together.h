@@ -23,7 +23,8 @@ using MakerOfPasses = std::function<PassMaker(const std::atomic<bool>& stop)>;
 RenderResult lead_passes(Ranks& ranks, const StopRule& until, const MakerOfPasses& maker, RenderResult result,
                          const RunControl& control);
 
-/// What the others do, until rank 0 tells them that there is no more.
+/// What the others do, until rank 0 tells them that there is no more. Throws what the maker throws; rank 0 waits for
+/// that pass then, so that ranks are to be aborted.
 void make_passes(Ranks& ranks, const MakerOfPasses& maker);
 
 /// The same of a scene. Throws SettingError where pixels have radii of their own, which follow from all passes before,
