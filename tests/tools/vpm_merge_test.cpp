@@ -57,9 +57,10 @@ TEST_F(VpmMerge, PiecesOfTechniquesCombinedAreOneRun) {
 TEST_F(VpmMerge, PiecesChooseAlike) {
   expect_same_as_one_run({"--auto", "--set", "volume.radius=auto", "--set", "render.integrator=photon"});
   write("scene.toml", std::string(kScene).replace(std::string(kScene).find("passes = 2"), 10, "seconds = 3"));
-  const Arguments automatic{"--set", "volume.radius=auto", "--set", "photons.emitted=auto", "--passes", "64"};
+  const Arguments automatic{"--set", "volume.radius=auto", "--set", "photons.emitted=auto", "--spp", "16"};
   EXPECT_EQ(piece("a", "0:1", automatic).status, 0);
   EXPECT_EQ(piece("b", "1:3", automatic).status, 0);
+  EXPECT_EQ(report("a.json")["chosen"], report("b.json")["chosen"]) << "with the costs that are told as reasons";
   vpm_succeeds({"merge", "b.checkpoint", "a.checkpoint", "-o", "ab.exr"});
 }
 
