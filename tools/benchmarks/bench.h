@@ -68,6 +68,7 @@ void measure_flights(Bench&, const Sizes&);
 void measure_transmittance(Bench&, const Sizes&);
 void measure_radius(Bench&, const Sizes&);
 void measure_nearest(Bench&, const Sizes&);
+void measure_many_nearest(Bench&, const Sizes&);
 void measure_build(Bench&, const Sizes&);
 void measure_beams(Bench&, const Sizes&);
 void measure_scaling(Bench&, const Sizes&);

@@ -18,6 +18,7 @@ constexpr Subject kSubjects[] = {
     {"transmittance", "transmittance estimators in that cloud", measure_transmittance},
     {"radius", "about 50 photons within a fixed radius", measure_radius},
     {"nearest", "the 50 nearest photons", measure_nearest},
+    {"many-nearest", "sums over the 10,000 nearest photons", measure_many_nearest},
     {"build", "building photon maps", measure_build},
     {"beams", "photon beams that rays pass, with building their map", measure_beams},
     {"scaling", "tracing, building and queries by the number of photons and of threads", measure_scaling},

@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
 #include "vpm/base/count.h"
 #include "vpm/estimate/photon_map.h"
+#include "vpm/photon/nearest_sums.h"
 
 namespace vpm {
 
@@ -130,9 +132,45 @@ KernelEstimate neighbour_sum(const Gathering<NearestMap>& map, const Neighbours&
   });
 }
 
+/// The `value` of photons whose powers alone count.
+struct PowerAlone {
+  Rgb operator()(const Vec3&, const Rgb& power) const { return power; }
+};
+
+/// Does it tell of whole nodes whether it takes the photons below (node_groups.h)?
+template <class Accept>
+concept JudgesNodes = requires(const Accept& accept, const NodeGroup& nodes, const Vec3& point, GroupView& view) {
+  accept.judge(nodes, point, view);
+};
+
+/// The sum of powers over many nearest photons by whole nodes, where the map is prepared for it. None where it is not,
+/// or where photons are equally far.
+template <int Dimension, JudgesNodes Accept>
+std::optional<KernelEstimate> power_by_nodes(const Gathering<NearestMap>& map, const Vec3& point,
+                                             const Accept& accept) {
+  const auto& [index, settings, work] = map;
+  if (!index.nodes() || settings.count < NearestMap::kMany || settings.kernel != KernelKind::epanechnikov) return {};
+  uint32_t visited = 0;
+  const NodeQuery<Accept> query{index.photons(), *index.nodes(), point, accept, visited};
+  const auto sums = nearest_sums(query, settings.count, settings.radius, work.neighbours.without_list());
+  count(work.counters.visited, visited);
+  if (!sums) return {};
+  count(work.counters.searches);
+  work.counters.used += sums->used;
+  // Profiles are linear in q: both weights are those at 0, and q times what they change by up to 1.
+  const KernelProfile<KernelKind::epanechnikov, Dimension> profile;
+  const KernelPair<float> middle = profile(0.0f), change = profile(1.0f) - middle;
+  const Rgbd q = sums->second / static_cast<double>(sums->radius2);
+  const auto weigh = [&](float at_0, float by_q) { return double{at_0} * sums->power + double{by_q} * q; };
+  return normed({weigh(middle.value, change.value), weigh(middle.correction, change.correction)},
+                kernel_norm<Dimension>(settings.kernel, std::sqrt(sums->radius2)));
+}
+
 /// The sum over the k nearest photons that `accept` takes.
 template <int Dimension, class Accept, class Value>
 KernelEstimate kernel_sum(const Gathering<NearestMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
+  if constexpr (std::is_same_v<std::decay_t<Value>, PowerAlone> && JudgesNodes<std::decay_t<Accept>>)
+    if (const std::optional<KernelEstimate> sum = power_by_nodes<Dimension>(map, point, accept)) return *sum;
   return neighbour_sum<Dimension>(map, nearest(map, point, accept), value);
 }
 

@@ -3,6 +3,13 @@
 
 namespace vpm {
 
+size_t PhotonMap::sum_by_nodes() {
+  auto* by_count = std::get_if<NearestMap>(&index);
+  if (!by_count || settings.count < NearestMap::kMany || settings.kernel != KernelKind::epanechnikov) return 0;
+  by_count->add_nodes();
+  return by_count->nodes()->memory_bytes();
+}
+
 size_t PhotonMap::size() const {
   return std::visit([](const auto& map) { return map.size(); }, index);
 }

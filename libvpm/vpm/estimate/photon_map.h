@@ -15,6 +15,10 @@ struct PhotonMap {
   GatherSettings settings;  // radius > 0, as it is in this pass
   std::variant<RadiusMap, NearestMap> index;
 
+  /// Prepares sums over many nearest photons of which the powers alone count, as on Lambertian surfaces, where the
+  /// settings ask for such: they are then made of whole nodes (nearest_sums.h). Returns how many bytes that takes.
+  size_t sum_by_nodes();
+
   size_t size() const;
   const Box& bounds() const;
   size_t memory_bytes() const;

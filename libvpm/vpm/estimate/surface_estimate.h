@@ -32,7 +32,34 @@ struct Arrives {
     const bool arrives = from_both_sides | (glm::dot(travel.on_octahedron(), normal) < 0.0f);
     return near_plane(offset) & arrives;
   }
+  /// Of which nodes are all photons taken, and of which may any be? Places are rounded as the photons' own are. Along
+  /// `normal` a direction reaches as far as along the node's own normal or its opposite, but for the distance between
+  /// the two normals: directions are no longer than 1.
+  void judge(const NodeGroup& nodes, const Vec3& point, GroupView& view) const;
 };
+
+inline void Arrives::judge(const NodeGroup& nodes, const Vec3& point, GroupView& view) const {
+  constexpr float kRounding = 1e-6f;  // of products of directions
+  const Vec3 n = normal, p = point;
+  const auto &x_low = (n.x > 0.0f ? nodes.lo : nodes.hi)[0], &x_high = (n.x > 0.0f ? nodes.hi : nodes.lo)[0];
+  const auto &y_low = (n.y > 0.0f ? nodes.lo : nodes.hi)[1], &y_high = (n.y > 0.0f ? nodes.hi : nodes.lo)[1];
+  const auto &z_low = (n.z > 0.0f ? nodes.lo : nodes.hi)[2], &z_high = (n.z > 0.0f ? nodes.hi : nodes.lo)[2];
+  const float always = from_both_sides ? kInfinity : 0.0f, flat = thickness;
+  for (uint32_t i = 0; i < kBlock; ++i) {
+    const float low = (x_low[i] - p.x) * n.x + (y_low[i] - p.y) * n.y + (z_low[i] - p.z) * n.z;
+    const float high = (x_high[i] - p.x) * n.x + (y_high[i] - p.y) * n.y + (z_high[i] - p.z) * n.z;
+    const bool all_near = std::max(-low, high) <= flat + kSlope * std::sqrt(view.nearest2[i]);
+    const bool any_near = std::max(low, -high) <= flat + kSlope * std::sqrt(view.farthest2[i]);
+    const float x = nodes.normal[0][i], y = nodes.normal[1][i], z = nodes.normal[2][i];
+    const float sign = std::copysign(1.0f, x * n.x + y * n.y + z * n.z);
+    const float dx = n.x - sign * x, dy = n.y - sign * y, dz = n.z - sign * z;
+    const float off = std::sqrt(dx * dx + dy * dy + dz * dz) + kRounding;
+    const float most = (sign > 0.0f ? nodes.most[i] : -nodes.least[i]) + off;
+    const float least = (sign > 0.0f ? nodes.least[i] : -nodes.most[i]) - off;
+    view.all[i] = (all_near & (most < always)) ? 1 : 0;
+    view.any[i] = (any_near & (least < always)) ? 1 : 0;
+  }
+}
 
 /// The sum of value(travel, power) K_r, K_r over discs, of the photons that arrive on the side of a surface that
 /// `normal` (unit) points to. `Photons` are a map or a view of one, or a plain list for the brute-force twin.
@@ -45,8 +72,7 @@ KernelEstimate surface_sum(const Vec3& point, const Vec3& normal, Value&& value,
 /// reflectance sends out reflectance/pi times it.
 template <class... Photons>
 KernelEstimate surface_irradiance(const Vec3& point, const Vec3& normal, const Photons&... photons) {
-  return surface_sum(
-      point, normal, [](const Vec3&, const Rgb& power) { return power; }, photons...);
+  return surface_sum(point, normal, PowerAlone(), photons...);
 }
 
 /// The same with the cosines to the shading normal of a hit: what a Lambertian surface there reflects. `normal` is the

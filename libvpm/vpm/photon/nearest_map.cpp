@@ -12,7 +12,8 @@ NearestMap::NearestMap(const std::vector<Photon>& photons, float scale) {
 }
 
 size_t NearestMap::memory_bytes() const {
-  return sizeof(*this) + splits_.capacity() * sizeof(Split) + photons_.memory_bytes();
+  const size_t nodes = nodes_ ? nodes_->memory_bytes() : 0;
+  return sizeof(*this) + splits_.capacity() * sizeof(Split) + photons_.memory_bytes() + nodes;
 }
 
 }  // namespace vpm

@@ -4,18 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "vpm/base/count.h"
 #include "vpm/base/vec.h"
 #include "vpm/photon/leaf_order.h"
 #include "vpm/photon/neighbours.h"
+#include "vpm/photon/node_groups.h"
 #include "vpm/photon/photon_table.h"
 
 namespace vpm {
 
 class NearestMap {
  public:
+  static constexpr uint32_t kMany = 512;  // neighbours, of which it pays to look at whole nodes first
+
   NearestMap() = default;
   /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
   NearestMap(const std::vector<Photon>& photons, float scale);
@@ -26,14 +30,18 @@ class NearestMap {
   template <class Accept>
   uint32_t find(const Vec3& point, uint32_t count, float max_radius, Neighbours& neighbours, Accept&& accept) const;
 
+  /// Prepares nearest_sums() for searches of kMany and more.
+  void add_nodes() { nodes_.emplace(photons_, leaves_); }
+  /// Null where they were not added.
+  const NodeGroups* nodes() const { return nodes_ ? &*nodes_ : nullptr; }
+
   const PhotonTable& photons() const { return photons_; }
   size_t size() const { return photons_.size(); }
   const Box& bounds() const { return bounds_; }
   size_t memory_bytes() const;
 
  private:
-  static constexpr size_t kLeaf = 16;     // photons of a leaf, at most
-  static constexpr uint32_t kMany = 512;  // neighbours
+  static constexpr size_t kLeaf = kBlock;  // photons of a leaf, at most
 
   /// The nearest of the first `of_leaf` photons of each leaf, as the neighbours were started.
   template <class Accept>
@@ -43,6 +51,7 @@ class NearestMap {
   std::vector<Split> splits_;  // numbered as LeafOrder says
   PhotonTable photons_;        // leaf by leaf
   Box bounds_;
+  std::optional<NodeGroups> nodes_;
 };
 
 template <class Accept>

@@ -9,6 +9,12 @@
 
 namespace vpm {
 
+/// What searches for the distance of the k-th alone (nearest_sums.h) keep between queries.
+struct NodeSearch {
+  float radius = 0.0f;            // that was found last, m; 0: none was
+  std::vector<float> distances2;  // m^2; room for a list
+};
+
 /// Keeps the k nearest of the photons that are added. They gather in a list of up to about twice as many, which is cut
 /// back to the nearest k when it is full: a constant cost for each photon, where a heap's grows with k. Reused between
 /// queries, so that none allocates.
@@ -33,6 +39,8 @@ class Neighbours {
   const uint32_t* photons() const { return photons_.data(); }     // their numbers in the map
   const float* distances2() const { return distances2_.data(); }  // m^2
 
+  NodeSearch& without_list() { return without_list_; }
+
  private:
   size_t most() const { return 2 * size_t{count_} + kBlock; }
   void keep_nearest();
@@ -42,6 +50,7 @@ class Neighbours {
   size_t size_ = 0;
   std::vector<float> distances2_;  // with room for two blocks behind most(): whole ones are read and written
   std::vector<uint32_t> photons_;
+  NodeSearch without_list_;
 };
 
 template <class Accept>

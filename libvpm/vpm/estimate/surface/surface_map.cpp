@@ -19,6 +19,7 @@ void SurfaceMap::build(RenderStatistics& statistics) {
   const GatherSettings gather =
       gather_in_pass(settings_.gather, first_radius(settings_.gather, scene_), 2, settings_.pass);
   map_ = make_map(hits_.photons, gather, hits_.emitted_count, settings_.pass, statistics);
+  statistics.photon_map_bytes += map_.sum_by_nodes();
   statistics.last_surface_radius = map_.settings.radius;
 }
 
