@@ -37,17 +37,24 @@ struct NodeQuery {
   uint32_t& visited;  // counts the photons whose distance was computed
 
   /// Calls visit(distances2, first, number) for the `number` photons of a leaf from number `first` on. The array has
-  /// kBlock entries, which are infinite for photons that are not taken, and behind the last.
+  /// kBlock entries, which are infinite for photons that are not taken, and behind the last. `all`: all are taken.
   template <class Visit>
-  void look_at(size_t leaf, Visit&& visit) const {
+  void look_at(size_t leaf, bool all, Visit&& visit) const {
     const auto [first, end] = nodes.photons_of(leaf);
     const auto number = static_cast<uint32_t>(end - first);
     const PackedDirection* travel = nodes.travel(first);
     float distances2[kBlock];
-    for (uint32_t i = 0; i < kBlock; ++i) {
-      const Vec3 offset = photons.position(first + i) - point;
-      const bool takes = accept(travel[i], offset) & (i < number);
-      distances2[i] = takes ? glm::dot(offset, offset) : kInfinity;
+    if (all) {
+      for (uint32_t i = 0; i < kBlock; ++i) {
+        const Vec3 offset = photons.position(first + i) - point;
+        distances2[i] = i < number ? glm::dot(offset, offset) : kInfinity;
+      }
+    } else {
+      for (uint32_t i = 0; i < kBlock; ++i) {
+        const Vec3 offset = photons.position(first + i) - point;
+        const bool takes = accept(travel[i], offset) & (i < number);
+        distances2[i] = takes ? glm::dot(offset, offset) : kInfinity;
+      }
     }
     count(visited, number);
     visit(distances2, first, number);
@@ -58,8 +65,8 @@ struct NodeQuery {
   std::pair<size_t, size_t> list(float inside, float outside, std::vector<float>& distances2) const {
     size_t whole = 0, listed = 0;
     const auto add_node = [&](size_t, const uint32_t*, uint32_t number) { whole += number; };
-    const auto add_leaf = [&](size_t leaf) {
-      look_at(leaf, [&](const float* some, size_t, uint32_t number) {
+    const auto add_leaf = [&](size_t leaf, bool all) {
+      look_at(leaf, all, [&](const float* some, size_t, uint32_t number) {
         if (distances2.size() < listed + kBlock) distances2.resize(2 * listed + kBlock);
         uint32_t unused[kBlock];
         listed += append_below(some, number, outside * outside, 0, &distances2[listed], unused);
@@ -77,8 +84,8 @@ struct NodeQuery {
       moments.add(nodes.group(group), nodes.moments(group), taken, point);
       sums.used += number;
     };
-    const auto add_leaf = [&](size_t leaf) {
-      look_at(leaf, [&](const float* distances2, size_t first, uint32_t) {
+    const auto add_leaf = [&](size_t leaf, bool all) {
+      look_at(leaf, all, [&](const float* distances2, size_t first, uint32_t) {
         sums.used += moments.add(nodes, first, distances2, radius2);
       });
     };

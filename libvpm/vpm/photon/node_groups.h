@@ -50,11 +50,11 @@ class NodeGroups {
   /// in each.
   NodeGroups(const PhotonTable& photons, size_t leaves);
 
-  /// Of the photons that accept(travel, offset) takes: calls whole(group, uint32_t taken[kBlock], photons) for groups
-  /// with nodes, marked by 1, that have all their photons nearer to `point` than the square root of `inside2`, and how
-  /// many these are; and leaf(number) for leaves that others nearer than the square root of `outside2` >= `inside2` may
-  /// be in. Each photon comes once, in an order that depends on the arguments alone. accept.judge(NodeGroup, point,
-  /// GroupView&) sets `all` and `any`.
+  /// Visits the photons near `point` that accept(travel, offset) takes. Calls whole(group, uint32_t taken[kBlock],
+  /// photons) for groups with nodes, marked by 1, that have all their photons nearer than the square root of `inside2`,
+  /// and how many these are; and leaf(number, all) for leaves that others nearer than the square root of `outside2` >=
+  /// `inside2` may be in, and whether all photons there are taken. Each photon comes once, in an order that depends on
+  /// the arguments alone. accept.judge(NodeGroup, point, GroupView&) sets `all` and `any`.
   template <class Accept, class Whole, class Leaf>
   void visit(const Vec3& point, float inside2, float outside2, const Accept& accept, Whole&& whole, Leaf&& leaf) const {
     const Query<Accept, Whole, Leaf> query{point, inside2, outside2, accept, whole, leaf};
@@ -138,7 +138,7 @@ void NodeGroups::look(int depth, size_t number, const Query<Accept, Whole, Leaf>
   const uint32_t below = append_below(passed, there, 0.5f, 0, unused, which);
   for (uint32_t i = 0; i < below; ++i) {
     if (depth == depth_)
-      query.leaf(first + which[i]);
+      query.leaf(first + which[i], view.all[which[i]] != 0);
     else
       look(depth + 1, first + which[i], query);
   }
