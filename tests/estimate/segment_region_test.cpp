@@ -93,7 +93,6 @@ double mean_chord(double b, double reach, double radius) {
 TEST(SegmentRegion, SharesInASphereAreThoseOfItsChords) {
   Scene scene = body_of_fog(SphereShape{Vec3(0.0f), 1.0f});
   finish_lit(scene);
-  Rng rng(1, 0, 0);
   for (const float b : {0.0f, 0.3f, 0.6f, 0.8f, 0.95f, 0.99f}) {
     const EyeSegment segment = segment_through(scene, {Vec3(b, 0.0f, 3.0f), Vec3(0.0f, 0.0f, -1.0f)});
     const SegmentRegion region(segment, kDiscs, Spread::discs);
@@ -106,7 +105,7 @@ TEST(SegmentRegion, SharesInASphereAreThoseOfItsChords) {
     constexpr int kShares = 2000;
     double correction = 0.0;
     for (int i = 0; i < kShares; ++i) {
-      const KernelEstimate share = region.share(kRadius, seen, rng);
+      const KernelEstimate share = region.share(kRadius, seen, Rng(1, 0, static_cast<uint64_t>(i)));
       EXPECT_NEAR(share.value.g, exact, 0.08 * exact) << b;  // by 16 lines
       correction += share.correction.g / kShares;
     }

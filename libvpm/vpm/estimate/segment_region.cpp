@@ -110,6 +110,12 @@ Vec3 near_side(const Hit& hit, const Vec3& direction) {
   return glm::dot(hit.normal, direction) > 0.0f ? -hit.normal : hit.normal;
 }
 
+/// Random numbers that are unrelated to those that are drawn next.
+Rng aside(Rng next) {
+  const uint64_t seed = next.bits(), stream = next.bits();
+  return {seed, stream, 0};
+}
+
 }  // namespace
 
 SeenAlong::SeenAlong(const Rgb& sigma_t, const Interval& interval, const DensityIntegralsAlong* integrals)
@@ -247,11 +253,12 @@ bool SegmentRegion::walk(Ray ray, float length, Inside& in, Visit&& visit) const
   return true;
 }
 
-KernelEstimate SegmentRegion::share(float radius, const SeenAlong& seen, Rng& rng) const {
+KernelEstimate SegmentRegion::share(float radius, const SeenAlong& seen, const Rng& rng) const {
   if (whole_) return Rgb(1.0f);
   const Rgb share = share_by_lines(radius, seen, 0.0f);
-  if (!(rng.uniform() < kCorrected)) return share;
-  const float turn = 2.0f * kPi * rng.uniform();
+  Rng beside = aside(rng);
+  if (!(beside.uniform() < kCorrected)) return share;
+  const float turn = 2.0f * kPi * beside.uniform();
   const Rgb rise = share_by_lines(kLess * radius, seen, turn) - share_by_lines(radius, seen, turn);
   return {share, rise * (0.5f / (1.0f - kLess) / kCorrected)};
 }

@@ -69,8 +69,10 @@ class SegmentRegion {
   bool whole() const { return whole_; }
   /// The light that kernels of a radius up to that of the region find, over that of the segment, where light is even.
   /// Its correction is -(r/2) d/dr of it, as that of light is: of the share as it is found, whose own error changes
-  /// with the radius, too. Some shares, drawn at random, stand for the corrections of all.
-  KernelEstimate share(float radius, const SeenAlong& seen, Rng& rng) const;
+  /// with the radius, too. Some shares, drawn at random, stand for the corrections of all. The draws are aside of those
+  /// of `rng`, and take nothing from it: only segments that have found light ask for their shares, and what else a path
+  /// draws must not depend on that.
+  KernelEstimate share(float radius, const SeenAlong& seen, const Rng& rng) const;
 
  private:
   /// What a place lies in.
