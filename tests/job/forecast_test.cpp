@@ -62,7 +62,8 @@ TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
     ADD_FAILURE() << "it fits";
   } catch (const InputError& error) {
     const std::string text = error.what();
-    for (const char* part : {"photons.emitted", "2e+08 photons", "13 GB", "8 GB", "000 photons.emitted would fit"})
+    for (const char* part : {"photons.emitted", "2e+08 photons", "13 GB", "8 GB", "000 photons.emitted would fit",
+                             "photons.block gathers as many"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
   settings.photons_stored = 50'000'000;  // tracing stops there
@@ -77,6 +78,25 @@ TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
   settings.integrator = Integrator::path;
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 1e6));
+}
+
+// Of 1e9 photons, memory holds a block at a time.
+TEST(Forecast, CountsTheBlockOfPhotonsThatMemoryHolds) {
+  const RenderJob job = fog();
+  RenderSettings settings;
+  settings.photons_emitted = 1'000'000'000;
+  EXPECT_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9), InputError);
+  settings.photons_block = 50'000'000;  // 1e8 stored, 6.4 GB
+  EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
+  try {
+    check_memory(job.scene, settings, PassOf::picture, 4e9);
+    ADD_FAILURE() << "it fits";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    for (const char* part :
+         {"photons.block: the maps of a block", "1e+08 photons", "4 GB", "000000 photons.block would"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
 }
 
 TEST(Forecast, LooksAheadOnlyWhereATimeIsAskedFor) {

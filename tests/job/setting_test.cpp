@@ -66,9 +66,9 @@ TEST(Setting, HasAKeyOfItsOwnOrOfNeedsThatExcludeEachOther) {
 /// A member that is added to the settings does not compile here until it is named, and counted: then it is declared.
 TEST(Setting, IsEveryMemberOfTheSettings) {
   const RenderSettings s;
-  const auto& [integrator, seed, until, samples, view, emitted, stored, sequence, in_cube, flights, planes, max_events,
-               guide, combined, distance, transmittance, volume, surface, caustics, aimed, radii, form, floor,
-               volume_direct, beam_length, plane_use, direct_samples, surface_direct, surface_samples, indirect,
+  const auto& [integrator, seed, until, samples, view, emitted, stored, block, sequence, in_cube, flights, planes,
+               max_events, guide, combined, distance, transmittance, volume, surface, caustics, aimed, radii, form,
+               floor, volume_direct, beam_length, plane_use, direct_samples, surface_direct, surface_samples, indirect,
                gather_rays, gather_by, irradiance, step] = s;
   [[maybe_unused]] const auto& [passes, first, seconds, error] = until;
   [[maybe_unused]] const auto& [importons, aim, split, scatter] = guide;
@@ -76,7 +76,7 @@ TEST(Setting, IsEveryMemberOfTheSettings) {
   [[maybe_unused]] const auto& [strategy, length, optical, majorant, extinction] = distance;
   [[maybe_unused]] const auto& [estimator, march, comb] = transmittance;
   [[maybe_unused]] const auto& [mode, radius, count, kernel, boundary, beam_count] = volume;
-  constexpr size_t kOwn = 34 - 8, kOfStopRule = 4, kOfGuide = 4, kOfCombined = 3, kOfDistance = 5, kOfTransmittance = 3,
+  constexpr size_t kOwn = 35 - 8, kOfStopRule = 4, kOfGuide = 4, kOfCombined = 3, kOfDistance = 5, kOfTransmittance = 3,
                    kOfGather = 6;
   constexpr size_t kUndeclared = 4;  // surface.beam_count, caustics.beam_count, and caustics.boundary, the surface's;
                                      // the first pass, which the maker of a piece tells

@@ -35,6 +35,16 @@ S& combine(S& s) {
   return s;
 }
 
+S& by_blocks(S& s) {
+  s.photons_block = 1000;
+  return s;
+}
+
+S& gather_finally(S& s) {
+  s.surface_indirect = IndirectLight::final_gather;
+  return s;
+}
+
 const Contradiction kContradictions[] = {
     {"photons.emitted", [](S& s) { s.photons_emitted = 0; }},
     {"photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
@@ -67,6 +77,20 @@ const Contradiction kContradictions[] = {
     {"distance.strategy", [](S& s) { s.distance.strategy = "woodcock"; }},
     {"transmittance.estimator",
      [](S& s) { s.transmittance.estimator = "ratio", s.surface_direct = DirectLight::photons; }},
+    {"photons.block", [](S& s) { combine(s).photons_block = 100; }},
+    {"photons.stored", [](S& s) { by_blocks(s).photons_stored = 100; }},
+    {"photons.stored", [](S& s) { by_blocks(s).photons_stored = 100, s.photons_emitted = 0; }},
+    {"photons.in_cube", [](S& s) { by_blocks(s).photons_in_cube = 4; }},
+    {"photons.flights", [](S& s) { by_blocks(s).volume.mode = GatherMode::photon_beams, s.flights = 100; }},
+    {"volume.gather", [](S& s) { by_blocks(s).volume.mode = GatherMode::nearest; }},
+    {"volume.gather", [](S& s) { by_blocks(s).volume.mode = GatherMode::photon_planes; }},
+    {"volume.gather", [](S& s) { by_blocks(s).volume.mode = GatherMode::beams_points; }},
+    {"volume.count", [](S& s) { by_blocks(s).volume.mode = GatherMode::beam, s.volume.beam_count = 20; }},
+    {"surface.gather", [](S& s) { by_blocks(s).surface.mode = GatherMode::nearest; }},
+    {"caustics.gather", [](S& s) { gather_finally(by_blocks(s)).caustics.mode = GatherMode::nearest; }},
+    {"caustics.emitted", [](S& s) { gather_finally(by_blocks(s)).caustics_emitted = 100; }},
+    {"surface.gather_by", [](S& s) { gather_finally(by_blocks(s)).gather_by = GatherBy::photons; }},
+    {"surface.irradiance", [](S& s) { gather_finally(by_blocks(s)).end_irradiance = EndIrradiance::precomputed; }},
     {"volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
     {"surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
     {"volume.count", [](S& s) { s.volume.count = 20; }},
@@ -165,6 +189,31 @@ TEST(Validate, PlanesCastShadowRays) {
   EXPECT_EQ(refused(s, {.scattering_media = true}), "transmittance.estimator");
   s.volume.mode = GatherMode::photon_planes;
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
+}
+
+// Where paths are traced, settings of photons may stand.
+TEST(Validate, BlocksGoWithSumsOverPhotons) {
+  for (const GatherMode mode : {GatherMode::radius, GatherMode::beam, GatherMode::photon_beams})
+    for (const BoundaryRule rule : {BoundaryRule::none, BoundaryRule::ends, BoundaryRule::corrected}) {
+      RenderSettings s;
+      by_blocks(s).volume.mode = mode;
+      s.volume.boundary = rule;
+      EXPECT_EQ(refused(s, kEverything), "");
+    }
+  for (const IndirectLight indirect : {IndirectLight::photons, IndirectLight::final_gather}) {
+    RenderSettings s;
+    by_blocks(s).surface.boundary = BoundaryRule::corrected;
+    s.surface_indirect = indirect;
+    s.guide.importons = 100;
+    EXPECT_EQ(refused(s, kEverything), "");
+  }
+  RenderSettings s;
+  by_blocks(s).radii = RadiusSchedule::per_pixel;
+  EXPECT_EQ(refused(s, kEverything), "");
+  s = {};
+  by_blocks(s).integrator = Integrator::path;
+  s.volume.mode = GatherMode::nearest;
+  EXPECT_EQ(refused(s, kEverything), "");
 }
 
 // The default of volume.boundary goes with everything; and beams know all its words.

@@ -206,6 +206,7 @@ def add_own(cases):
             ("cornell", f"{gather} surface.irradiance=precomputed"),
             ("fog_room", "importance.importons=5000 importance.scatter=true"),
             ("fog_room", "photons.emitted=10000 photons.in_cube=3"), ("fog_room", "volume.direct=equiangular"),
+            ("fog_room", "photons.emitted=10000 photons.block=3000"), ("smoke", "photons.block=4000"),
             ("fog_box", "volume.boundary=corrected surface.boundary=corrected")]
     guided = ("keyhole_fog", "milk_glass")
     scenes = [(scene, "importance.importons=5000" if scene in guided else "") for scene in scene_names()]

@@ -7,11 +7,15 @@
 
 namespace vpm {
 
+/// The boxes around photons, by medium, m.
+using MediaBounds = std::vector<Box>;
+
 /// What the maps of a pass depend on.
 struct PassOfMaps {
-  int number = 0;                // from 0
-  bool shrinks = true;           // do radii shrink from pass to pass?
-  uint32_t photons_in_cube = 0;  // > 0: control_density()
+  int number = 0;                       // from 0
+  bool shrinks = true;                  // do radii shrink from pass to pass?
+  uint32_t photons_in_cube = 0;         // > 0: control_density()
+  const MediaBounds* around = nullptr;  // all photons of the pass, of which the maps hold a block; null: they hold all
 };
 
 /// Default radii, as fractions of the diagonal of the medium's bounds (grids) or of the scene. kDefaultSearch is for

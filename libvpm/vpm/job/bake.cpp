@@ -2,6 +2,7 @@
 #include "vpm/job/bake.h"
 
 #include "vpm/job/validate.h"
+#include "vpm/render/photon_blocks.h"
 
 namespace vpm {
 
@@ -11,7 +12,7 @@ RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, 
   const auto make = [&](int pass, const RenderResult&, const PassProgress& shown) {
     return light_map_pass(scene, settings, layout, pass, control.stop, shown);
   };
-  return run_passes(settings.until, {make, light_map_work(layout)},
+  return run_passes(settings.until, {make, light_map_work(layout), block_count(settings)},
                     {Film(layout.resolution, layout.resolution), {}, 0.0, {}}, control);
 }
 

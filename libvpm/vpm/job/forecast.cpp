@@ -10,6 +10,7 @@
 #include "vpm/base/error.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/render/combined_pass.h"
+#include "vpm/render/photon_blocks.h"
 
 namespace vpm {
 namespace {
@@ -34,6 +35,12 @@ Room room_of(const PassCost& cost, const RenderSettings& settings, double photon
 std::string photons_text(double photons) {
   const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(photons)) - 1.0));
   return fmt::format("{:.0f}", std::floor(photons / unit) * unit);
+}
+
+/// What memory holds at a time: a block of a pass, if it has blocks.
+RenderSettings at_a_time(RenderSettings settings) {
+  settings.photons_emitted = photon_block(settings, 0).count;
+  return settings;
 }
 
 /// "about 210000 photons.emitted would fit": that share of the photons of a pass, and of those aimed for caustics.
@@ -82,21 +89,27 @@ void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of,
   if (settings.integrator == Integrator::path) return;
   if (settings.integrator == Integrator::combined) return check_memory_of_sub_paths(scene, settings, memory);
   const double each = settings.volume.gathers_flights() ? kFlightBytes + kBeamBytes : kMapBytes;
-  const auto asked =
-      static_cast<double>(std::max({settings.photons_emitted, settings.photons_stored, settings.caustics_emitted}));
+  const RenderSettings held = at_a_time(settings);
+  const auto asked = static_cast<double>(std::max({held.photons_emitted, held.photons_stored, held.caustics_emitted}));
   if (asked * each <= kMapBytes * static_cast<double>(kSafePhotons)) return;
-  const PassCost cost = time_photons(scene, settings, of, 0.1);
-  const double photons = photons_of_pass(settings, cost.stored_per_photon), stored = cost.stored(photons);
-  const Room room = room_of(cost, settings, photons);
+  const PassCost cost = time_photons(scene, held, of, 0.1);
+  const double photons = photons_of_pass(held, cost.stored_per_photon), stored = cost.stored(photons);
+  const Room room = room_of(cost, held, photons);
   const double fits = std::min(memory / room.bytes, kMostIndexed / room.numbers);
   if (fits >= 1.0) return;
   const double flights = photons * cost.flights_per_photon;
+  const bool by_blocks = settings.photons_block > 0;
+  const char* const key = by_blocks                             ? "photons.block"
+                          : cost.stored_caustics > 0.5 * stored ? "caustics.emitted"
+                                                                : "photons.emitted";
   throw InputError(fmt::format(
-      "{}: the maps of a pass would hold about {:.2g} photons{} and take {:.2g} GB of memory; this machine has {:.2g} "
-      "GB, where {}; more passes do what more photons would",
-      cost.stored_caustics > 0.5 * stored ? "caustics.emitted" : "photons.emitted", stored,
-      flights > 0.0 ? fmt::format(" and {:.2g} flights", flights) : "", room.bytes * 1e-9, memory * 1e-9,
-      fitting_text(photons, settings, 0.5 * fits)));
+      "{}: the maps of a {} would hold about {:.2g} photons{} and take {:.2g} GB of memory; this machine has {:.2g} "
+      "GB, where {}",
+      key, by_blocks ? "block" : "pass", stored, flights > 0.0 ? fmt::format(" and {:.2g} flights", flights) : "",
+      room.bytes * 1e-9, memory * 1e-9,
+      by_blocks ? fmt::format("about {} photons.block would fit", photons_text(0.5 * fits * photons))
+                : fitting_text(photons, settings, 0.5 * fits) +
+                      "; more passes do what more photons would, and photons.block gathers as many in blocks"));
 }
 
 double physical_memory() {

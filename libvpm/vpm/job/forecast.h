@@ -16,8 +16,8 @@ double longest_time(double seconds);
 /// What to say of a first pass that takes longer than the time that its render is asked for; "" where it does not.
 std::string too_long_text(const PassCost& cost, const RenderSettings& settings);
 
-/// Throws InputError where the photons that a pass stores take more than `memory` bytes. Only where they may be many
-/// does it trace some.
+/// Throws InputError where the photons that a pass, or a block of it, stores take more than `memory` bytes. Only where
+/// they may be many does it trace some.
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory);
 
 // Bytes while maps are made: of a stored photon (62 in scenes/street_lamp.toml); of a flight, while it is recorded; and

@@ -78,9 +78,9 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
           counted.seconds > 0.0 ? counted.of_photons / counted.seconds : 0.0};
 }
 
-/// What the eye pass takes where so many times as many photons are found.
-double with_more_photons(const EyeCost& eye, double times) {
-  return eye.seconds * (1.0 + eye.of_photons * (times - 1.0));
+/// What the eye pass takes where so many times as many photons are found, in so many blocks.
+double with_more_photons(const EyeCost& eye, double times, double blocks = 1.0) {
+  return eye.seconds * (1.0 + eye.of_photons * (times - 1.0) + (1.0 - eye.of_photons) * (blocks - 1.0));
 }
 
 /// Tracing and sorting, s.
@@ -215,7 +215,8 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
   const double photons = photons_of_pass(settings, cost.stored_per_photon);
   const double whole = cost.stored(photons) + photons * cost.flights_per_photon;
   const double guide = goes_by_clock(settings) ? s.guide_seconds : counted_seconds_of_guide(settings.guide.importons);
-  cost.eye = guide + with_more_photons(eye, std::max(1.0, whole / std::max(1.0, found)));
+  const auto blocks = static_cast<double>(block_count(settings));
+  cost.eye = blocks * guide + with_more_photons(eye, std::max(1.0, whole / std::max(1.0, found)), blocks);
   return cost;
 }
 

@@ -95,6 +95,12 @@ std::vector<Setting> declare_photons() {
        .automatic = true,
        .decided_by = {"photons.stored",
                       [](const S& s) -> SettingValue { return s.photons_stored > 0 ? 0 : S{}.photons_emitted; }}},
+      {.key = "photons.block",
+       .member = at<&S::photons_block>(),
+       .domain = Integers{0, kAnyInteger},
+       .meaning = "> 0: the photons of a pass are traced, gathered and dropped in blocks of at most so many, so that "
+                  "memory holds one block at a time; the picture is the same, and eye rays are followed again for each "
+                  "block, see below; 0: all at once"},
       {.key = "photons.sequence",
        .member = at<&S::photon_sequence>(),
        .domain = words_of<PhotonSequence>(),

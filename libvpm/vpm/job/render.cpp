@@ -147,7 +147,7 @@ PassMaker pass_maker(const Scene& scene, const RenderSettings& settings, const s
   const auto make = [&scene, whole](int pass, const RenderResult& so_far, const PassProgress& shown) {
     return cut(whole(pass, so_far, shown), scene.camera);
   };
-  return {make, tile_count(scene.camera)};
+  return {make, tile_count(scene.camera), block_count(settings)};
 }
 
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
@@ -160,13 +160,14 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
                         const RunControl& control) {
   const Stopwatch rendering;
   const double before = result.seconds;
-  // One pass shows its stages. Of several the whole is shown: as work of all passes, or as thousandths of the limit.
+  // One pass shows its stages. Of several, or of blocks, the whole is shown: as work of all passes, or as thousandths
+  // of the limit.
   const bool counted = until.counts_passes(), shown = progress_enabled(control.progress);
   const int missing = counted ? std::max(0, until.passes - result.film.passes()) : 0;
-  const bool single = counted && missing == 1;
-  // A pass begins with its photons: what is done before its end does not tell how long it takes.
-  Progress bar("render", counted ? passes.work * static_cast<uint64_t>(missing) : 1000, shown && !single,
-               counted ? passes.work : 1);
+  const bool single = counted && missing == 1 && passes.blocks == 1;
+  // A pass or a block begins with its photons: what is done before its end does not tell how long it takes.
+  Progress bar("render", counted ? passes.work * passes.blocks * static_cast<uint64_t>(missing) : 1000,
+               shown && !single, counted ? passes.work : 1);
   ProgressNote note(until);
   const PassProgress pass_progress{shown && single, counted ? &bar : nullptr};
   estimate_errors(until, result);  // of a render that goes on

@@ -47,11 +47,12 @@ struct RunControl {
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const RunControl& control = {});
 
-/// Pass number `number` of any kind, to be made after those in `so_far`. It tells its bar of `work` units in its
-/// course.
+/// Pass number `number` of any kind, to be made after those in `so_far`. In its course it tells its bar of `work` units
+/// for each block of its photons.
 struct PassMaker {
   std::function<Pass(int number, const RenderResult& so_far, const PassProgress& progress)> make;
   uint64_t work = 0;
+  uint64_t blocks = 1;  // of a pass, >= 1
 };
 /// The same loop over any passes of a film.
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result, const RunControl& control);

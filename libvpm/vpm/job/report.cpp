@@ -13,6 +13,7 @@
 #include "vpm/job/messages.h"
 #include "vpm/job/setting.h"
 #include "vpm/job/stage_lines.h"
+#include "vpm/render/photon_blocks.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -181,7 +182,8 @@ Json disc_radii(const RenderJob& job, const PixelDiscs& discs) {
   return {{"unit", "m"}, {"smallest", smallest}, {"mean", radii.mean()}, {"largest", largest}};
 }
 
-Json memory(const Scene& scene, const RenderResult& result) {
+Json memory(const RenderJob& job, const RenderResult& result) {
+  const Scene& scene = job.scene;
   const RenderStatistics& s = result.statistics;
   size_t grids = 0;
   for (const Medium& m : scene.media) grids += m.grid ? m.grid->memory_bytes() : 0;
@@ -189,7 +191,9 @@ Json memory(const Scene& scene, const RenderResult& result) {
   for (const auto& texture : scene.textures) textures += texture ? texture->memory_bytes() : 0;
   size_t lights = 0;
   for (const Light& light : scene.lights) lights += light_memory_bytes(light);
-  const double stored = static_cast<double>(stored_records(s)) / static_cast<double>(std::max<int64_t>(1, s.passes));
+  const double maps = static_cast<double>(std::max<int64_t>(1, s.passes)) *
+                      static_cast<double>(block_count(job.settings));  // one at a time
+  const double stored = static_cast<double>(stored_records(s)) / maps;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return {{"unit", "bytes"},
@@ -233,7 +237,7 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
           {"photons", section(counts["photons"], rates(s))},
           {"energy", section({{"unit", "W"}}, counts["energy"])},
           {"boundaries", {{"crossings", walk.crossings}, {"met_in_another_medium", walk.medium_mismatches}}},
-          {"memory", section(memory(job.scene, result), counts["memory"])}};
+          {"memory", section(memory(job, result), counts["memory"])}};
 }
 
 }  // namespace

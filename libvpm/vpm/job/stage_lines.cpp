@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "vpm/render/photon_blocks.h"
+
 namespace vpm {
 namespace {
 
@@ -60,7 +62,9 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   const bool photons = media || surfaces,
              gathers = surfaces && settings.surface_indirect == IndirectLight::final_gather;
   const auto corrected = [](const AskedGather& gather) { return gather.boundary == BoundaryRule::corrected; };
-  return {line(photons, "photon tracing", distances, "nothing stores photons"),
+  const uint64_t blocks = block_count(settings);
+  const std::string by_blocks = blocks > 1 ? fmt::format(", in {} blocks, each gathered by itself", blocks) : "";
+  return {line(photons, "photon tracing", distances + by_blocks, "nothing stores photons"),
           line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                photons ? "photons go where power does" : "nothing stores photons"),
           line(media && settings.volume.mode != GatherMode::beams_points, "volume photon map",

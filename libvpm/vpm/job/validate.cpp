@@ -39,6 +39,36 @@ void check_photons(const RenderSettings& s) {
             "write 0, or other radii");
 }
 
+/// Blocks of photons are each gathered as if they were all: sums over photons add up, and nothing else does.
+void check_blocks(const RenderSettings& s) {
+  if (s.photons_block == 0 || s.integrator != Integrator::photon) return;
+  const std::string blocks = "where 'block' of [photons] is above 0 ", or_all = ", or leave out 'block'";
+  refuse_if(s.photons_emitted == 0 || s.photons_stored > 0, "photons.stored",
+            blocks + "the number of photons of a pass is that of 'emitted'", "write 'emitted' instead" + or_all);
+  refuse_if(s.photons_in_cube > 0, "photons.in_cube", blocks + "photons of different blocks cannot be merged",
+            "leave out 'in_cube'" + or_all);
+  refuse_if(s.flights > 0, "photons.flights", blocks + "flights cannot be drawn from those of all blocks",
+            "leave out 'flights'" + or_all);
+  const std::string radii = blocks + "no radius can go by a count of photons of all blocks";
+  refuse_if(s.volume.goes_by_count(), s.volume.mode == GatherMode::beam ? "volume.count" : "volume.gather", radii,
+            "gather photons within a radius" + or_all);
+  refuse_if(s.surface.goes_by_count(), "surface.gather", radii, "write \"radius\"" + or_all);
+  refuse_if(s.caustics.goes_by_count(), "caustics.gather", radii, "write \"radius\"" + or_all);
+  refuse_if(s.volume.mode == GatherMode::photon_planes, "volume.gather",
+            blocks + "planes cannot be drawn from the flights of all blocks", "write \"photon-beams\"" + or_all);
+  refuse_if(s.volume.mode == GatherMode::beams_points, "volume.gather",
+            blocks + "eye rays do not know where the beams of all blocks lie, among which they would march",
+            "write \"photon-beams\"" + or_all);
+  refuse_if(s.gather_by == GatherBy::photons, "surface.gather_by",
+            blocks + "the photons of one block would guide its rays otherwise than those of another",
+            "write \"material\"" + or_all);
+  refuse_if(s.end_irradiance == EndIrradiance::precomputed, "surface.irradiance",
+            blocks + "irradiance would be computed at the places of one block's photons, from these alone",
+            "write \"estimate\"" + or_all);
+  refuse_if(s.caustics_emitted > 0, "caustics.emitted", blocks + "photons that are aimed have none of their own",
+            "leave out 'emitted' of [caustics]" + or_all);
+}
+
 /// Ways to use importance, where there is none.
 void check_importance(const RenderSettings& s) {
   if (s.guide.importons > 0) return;
@@ -177,6 +207,8 @@ void check_combined(const RenderSettings& s, const SceneFacts& facts) {
             "leave out [importance]");
   refuse_if(s.photons_emitted == 0 || s.photons_stored > 0, "photons.stored",
             combined + "the number of light sub-paths is that of 'emitted'", "write 'emitted' instead");
+  refuse_if(s.photons_block > 0, "photons.block", combined + "eye sub-paths have weights by all light sub-paths",
+            "leave out 'block'");
   refuse_if(s.photons_in_cube > 0, "photons.in_cube", combined + "each vertex has a weight of its own",
             "leave out 'in_cube'");
   refuse_if(s.radii == RadiusSchedule::per_pixel, "render.radii", combined + "all pixels share their radii",
@@ -220,6 +252,7 @@ SceneFacts facts_of(const Scene& scene) {
 void validate(const RenderSettings& settings, const SceneFacts& facts) {
   check_declared(settings);
   check_photons(settings);
+  check_blocks(settings);
   check_importance(settings);
   check_strategy(settings, facts);
   check_density_floor(settings);

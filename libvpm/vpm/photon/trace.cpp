@@ -290,7 +290,7 @@ Ledger trace_photons(const Scene& scene, const DistanceStrategy& strategy, const
   Tally traced(recorders.size());
   std::vector<Part> parts;
   while (!is_full(traced, settings) && !is_stopped(settings)) {
-    const uint64_t first = traced.emitted, last = first + next_wave(traced, settings);
+    const uint64_t first = settings.first + traced.emitted, last = first + next_wave(traced, settings);
     std::vector<Part> next(chunk_count(last - first, kPhotonChunk));
     // One thread joins the wave before, while the others trace this one.
     parallel_for_chunks(next.size() + 1, 1, [&](size_t task, size_t, size_t) {

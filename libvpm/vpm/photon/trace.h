@@ -18,6 +18,7 @@ namespace vpm {
 struct TraceSettings {
   uint64_t seed = 1;
   uint64_t pass = 0;
+  uint64_t first = 0;        // the number of the first photon
   uint64_t emitted = 0;      // photons to emit at the most; 0: no limit, `stored` decides
   uint64_t stored = 0;       // stop once a recorder has that many (PhotonRecorder::stored()); 0: no limit
   int max_events = 100'000;  // of one photon

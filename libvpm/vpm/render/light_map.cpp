@@ -57,6 +57,33 @@ KernelEstimate bake_texel(const TexelContext& context, size_t texel, TexelWork& 
   });
 }
 
+/// Traces and gathers the photons of a block.
+Pass bake_block(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, const PassRun& run) {
+  Pass result(layout.resolution, layout.resolution);
+  const Estimators estimators = plan_surface_estimators(scene, settings, run.pass);
+  prepare_pass(scene, settings, estimators, run, result.statistics);
+  const TexelContext context{scene, settings, layout, *estimators.surface, run.pass};
+  const Stopwatch baking;
+  const size_t chunks = chunk_count(layout.texels(), kTexelChunk);
+  std::vector<EyeCounters> counters(chunks);
+  Progress bar("texels", chunks, run.progress.stages);
+  parallel_for_chunks(layout.texels(), kTexelChunk, [&](size_t begin, size_t end, size_t chunk) {
+    if (run.stop) return;
+    TexelWork work{counters[chunk], {}, {}};
+    for (size_t texel = begin; texel < end; ++texel) {
+      const auto column = static_cast<int>(texel % layout.resolution),
+                 row = static_cast<int>(texel / layout.resolution);
+      result.set(column, row, bake_texel(context, texel, work));
+    }
+    bar.advance();
+    if (run.progress.tiles) run.progress.tiles->advance();
+  });
+  bar.finish();
+  for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
+  result.statistics.eye_seconds = baking.seconds();
+  return result;
+}
+
 }  // namespace
 
 UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution) {
@@ -70,29 +97,9 @@ UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution) {
 Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int pass,
                     const std::atomic<bool>& stop, const PassProgress& progress) {
   assert(settings.integrator == Integrator::photon && settings.radii != RadiusSchedule::per_pixel);
-  Pass result(layout.resolution, layout.resolution);
-  const Estimators estimators = plan_surface_estimators(scene, settings, pass);
-  prepare_pass(scene, settings, estimators, {pass, stop, progress}, result.statistics);
-  const TexelContext context{scene, settings, layout, *estimators.surface, pass};
-  const Stopwatch baking;
-  const size_t chunks = chunk_count(layout.texels(), kTexelChunk);
-  std::vector<EyeCounters> counters(chunks);
-  Progress bar("texels", chunks, progress.stages);
-  parallel_for_chunks(layout.texels(), kTexelChunk, [&](size_t begin, size_t end, size_t chunk) {
-    if (stop) return;
-    TexelWork work{counters[chunk], {}, {}};
-    for (size_t texel = begin; texel < end; ++texel) {
-      const auto column = static_cast<int>(texel % layout.resolution),
-                 row = static_cast<int>(texel / layout.resolution);
-      result.set(column, row, bake_texel(context, texel, work));
-    }
-    bar.advance();
-    if (progress.tiles) progress.tiles->advance();
+  return mean_of_blocks(settings, stop, [&](const PhotonBlock& block) {
+    return bake_block(scene, settings, layout, {pass, stop, progress, block});
   });
-  bar.finish();
-  for (const EyeCounters& c : counters) result.statistics.eye.merge(c);
-  result.statistics.eye_seconds = baking.seconds();
-  return result;
 }
 
 uint64_t light_map_work(const UvLayout& layout) { return chunk_count(layout.texels(), kTexelChunk); }

@@ -15,13 +15,14 @@ namespace vpm {
 /// material stores no photons.
 UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution);
 
-/// One pass with photon maps: a pure function of its arguments, on any number of threads. Texels have no radii of their
-/// own: `settings.radii` is another. Its image holds the mean irradiance, W/m^2, on the side of the outward normal,
-/// over what each texel shows of the surface, by samples_per_pixel points uniform over its area; black where that is
-/// nothing. Cosines are to the geometric normal: irradiance times area is the power that arrives.
+/// One pass with photon maps: a pure function of its arguments, on any number of threads; by blocks of photons where
+/// the settings say so (mean_of_blocks()). Texels have no radii of their own: `settings.radii` is another. Its image
+/// holds the mean irradiance, W/m^2, on the side of the outward normal, over what each texel shows of the surface, by
+/// samples_per_pixel points uniform over its area; black where that is nothing. Cosines are to the geometric normal:
+/// irradiance times area is the power that arrives.
 Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int pass,
                     const std::atomic<bool>& stop, const PassProgress& progress = {});
-/// The units of work of a pass, by which it advances PassProgress::tiles.
+/// The units of work of a pass, or of a block of it, by which it advances PassProgress::tiles.
 uint64_t light_map_work(const UvLayout& layout);
 
 }  // namespace vpm

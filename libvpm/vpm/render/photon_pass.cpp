@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "vpm/base/stopwatch.h"
+#include "vpm/photon/photon_table.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
 
@@ -26,11 +27,48 @@ TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run)
   trace.seed = settings.seed;
   trace.pass = static_cast<uint64_t>(run.pass);
   trace.sequence = sequence_of(settings);
-  trace.emitted = settings.photons_emitted;
+  const PhotonBlock block = run.block.value_or(PhotonBlock{0, settings.photons_emitted});
+  trace.first = block.first;
+  trace.emitted = block.count;
   trace.stored = settings.photons_stored;
   trace.max_events = settings.max_events;
   trace.stop = &run.stop;
   return trace;
+}
+
+/// Do eye rays march as far as photons of media lie?
+bool marches_among_photons(const Scene& scene, const RenderSettings& settings) {
+  return settings.volume.mode == GatherMode::radius && scattering_of(scene).media;
+}
+
+/// The boxes around the photons of all blocks. These are traced for that alone, and dropped.
+MediaBounds bounds_of_blocks(const Scene& scene, const RenderSettings& settings, const PassRun& run,
+                             RenderStatistics& statistics) {
+  MediaBounds around(scene.media.size());
+  for (uint64_t number = 0; number < block_count(settings) && !run.stop; ++number) {
+    Estimators estimators = plan_estimators(scene, settings, run.pass);
+    estimators.surface.reset();
+    RenderStatistics traced;
+    trace_pass(scene, settings, estimators, {run.pass, run.stop, run.progress, photon_block(settings, number)}, traced);
+    statistics.guide_seconds += traced.guide_seconds;
+    statistics.trace_seconds += traced.trace_seconds;
+    for (const MapInfo& map : estimators.maps())
+      for (size_t medium = 0; medium < around.size(); ++medium) around[medium].add(bounds_of((*map.media)[medium]));
+  }
+  return around;
+}
+
+/// Traces and gathers the photons of a block.
+Pass render_block(const Scene& scene, const RenderSettings& settings, const PassRun& run,
+                  const Estimators& estimators) {
+  RenderStatistics statistics;
+  prepare_pass(scene, settings, estimators, run, statistics);
+  const EyeContext context{scene, estimators, settings.max_events};
+  const RadianceOfRays radiance = [&](std::span<EyeRay> rays) { eye_radiance(context, rays); };
+  Pass result = render_image(scene, settings, run.pass, radiance, run.stop, run.progress);
+  if (estimators.surface) result.found = estimators.surface->take_found();
+  result.statistics.merge(statistics);
+  return result;
 }
 
 }  // namespace
@@ -53,7 +91,7 @@ void trace_pass(const Scene& scene, const RenderSettings& settings, const Estima
     statistics.guide_bytes = guide->memory_bytes();
   }
   const Stopwatch tracing;
-  Progress bar("photons", settings.photons_emitted, run.progress.stages);
+  Progress bar("photons", trace.emitted, run.progress.stages);
   statistics.ledger = trace_photons(scene, *strategy, trace, recorders, bar);
   bar.finish();
   statistics.trace_seconds = tracing.seconds();
@@ -76,15 +114,17 @@ Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int 
 
 Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const RenderSettings& settings,
                               const PassRun& run) {
-  RenderStatistics statistics;
-  const Estimators estimators = plan_estimators(scene, settings, run.pass, discs);
-  prepare_pass(scene, settings, estimators, run, statistics);
-  const EyeContext context{scene, estimators, settings.max_events};
-  const RadianceOfRays radiance = [&](std::span<EyeRay> rays) { eye_radiance(context, rays); };
-  Pass result = render_image(scene, settings, run.pass, radiance, run.stop, run.progress);
-  if (estimators.surface) result.found = estimators.surface->take_found();
-  result.statistics.merge(statistics);
-  return result;
+  RenderStatistics looking;
+  std::optional<MediaBounds> around;
+  if (block_count(settings) > 1 && marches_among_photons(scene, settings))
+    around = bounds_of_blocks(scene, settings, run, looking);
+  Pass pass = mean_of_blocks(settings, run.stop, [&](const PhotonBlock& block) {
+    return render_block(scene, settings, {run.pass, run.stop, run.progress, block},
+                        plan_estimators(scene, settings, run.pass, discs, around ? &*around : nullptr));
+  });
+  looking.merge(pass.statistics);
+  pass.statistics = looking;
+  return pass;
 }
 
 }  // namespace vpm

@@ -2,7 +2,10 @@
 // of their own, it also depends on these.
 #pragma once
 
+#include <optional>
+
 #include "vpm/render/image_pass.h"
+#include "vpm/render/photon_blocks.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -12,6 +15,7 @@ struct PassRun {
   int pass = 0;                   // from 0
   const std::atomic<bool>& stop;  // once set, the pass ends as soon as it can, and its results must not be used
   PassProgress progress = {};
+  std::optional<PhotonBlock> block = {};  // the photons of the pass that are traced; nothing: all of them
 };
 
 /// Traces the photons of the pass into the recorders of the estimators, if these have any. They start with random
@@ -23,7 +27,8 @@ void trace_pass(const Scene& scene, const RenderSettings& settings, const Estima
 void prepare_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                   RenderStatistics& statistics);
 
-/// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, and its image must not be used.
+/// Renders pass number `pass`, from 0, by blocks of photons where the settings say so (mean_of_blocks()). Once `stop`
+/// is set it returns as soon as it can, and its image must not be used.
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress = {});
 /// The same where pixels have radii of their own, after passes that have left `discs`. Without discs, there was no

@@ -23,7 +23,9 @@ namespace {
 using SharedTransmittance = std::shared_ptr<const TransmittanceEstimator>;
 
 PassOfMaps pass_of_maps(const RenderSettings& settings, int pass) {
-  return {pass, settings.radii != RadiusSchedule::constant, settings.photons_in_cube};
+  return {.number = pass,
+          .shrinks = settings.radii != RadiusSchedule::constant,
+          .photons_in_cube = settings.photons_in_cube};
 }
 
 /// The radii of the pixels' discs in a pass, m.
@@ -36,12 +38,13 @@ std::vector<float> radii_of_pixels(const Scene& scene, const RenderSettings& set
 }
 
 std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& scene, const RenderSettings& settings,
-                                                                int pass, const SharedTransmittance& transmittance) {
+                                                                const PassOfMaps& pass,
+                                                                const SharedTransmittance& transmittance) {
   const bool by_rays = settings.volume_direct != DirectLight::photons;
   // Photons that fly by another law than the medium's transmittance do not weigh 1/density where it is thin.
   const bool analog = strategy_info(settings.distance.strategy).analog;
   const VolumeMapSettings map{settings.volume, settings.volume_form, analog ? settings.density_floor : 0.0f, !by_rays,
-                              pass_of_maps(settings, pass)};
+                              pass};
   std::vector<std::unique_ptr<VolumeEstimator>> estimators;
   std::vector<std::unique_ptr<MarchedSource>> marched;
   const PhotonBeamSettings beams{map, settings.flights, settings.seed, settings.beam_length == BeamLength::long_beams};
@@ -68,9 +71,10 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
   return estimators;
 }
 
-std::unique_ptr<SurfaceEstimator> surface_estimator(const Scene& scene, const RenderSettings& settings, int pass,
-                                                    const PixelDiscs& discs, const SharedTransmittance& transmittance) {
-  const SurfaceMapSettings map{settings.surface, pass_of_maps(settings, pass)};
+std::unique_ptr<SurfaceEstimator> surface_estimator(const Scene& scene, const RenderSettings& settings,
+                                                    const PassOfMaps& pass, const PixelDiscs& discs,
+                                                    const SharedTransmittance& transmittance) {
+  const SurfaceMapSettings map{settings.surface, pass};
   std::optional<SurfaceShadowRays> direct;
   assert(settings.surface_direct != DirectLight::equiangular);
   if (settings.surface_direct == DirectLight::shadow_rays)
@@ -121,13 +125,16 @@ Scattering scattering_of(const Scene& scene) {
   return scattering;
 }
 
-Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs) {
+Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs,
+                           const MediaBounds* around) {
   if (settings.integrator != Integrator::photon) return {};
   const auto [media, surfaces] = scattering_of(scene);
   const SharedTransmittance transmittance = make_transmittance_estimator(settings.transmittance);
+  PassOfMaps maps = pass_of_maps(settings, pass);
+  maps.around = around;
   Estimators estimators;
-  if (media) estimators.volume = volume_estimators(scene, settings, pass, transmittance);
-  if (surfaces) estimators.surface = surface_estimator(scene, settings, pass, discs, transmittance);
+  if (media) estimators.volume = volume_estimators(scene, settings, maps, transmittance);
+  if (surfaces) estimators.surface = surface_estimator(scene, settings, maps, discs, transmittance);
   return estimators;
 }
 

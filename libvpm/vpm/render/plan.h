@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vpm/estimate/pass_map.h"
 #include "vpm/estimate/surface/estimator.h"
 #include "vpm/estimate/volume/estimator.h"
 #include "vpm/render/pixel_disc.h"
@@ -34,9 +35,11 @@ struct Scattering {
 Scattering scattering_of(const Scene& scene);
 
 /// Plans pass number `pass` of a render of photon maps. `discs` are those that earlier passes have left: none before
-/// the first pass, and where pixels have no radii of their own. Nothing is traced or built yet, so a plan also serves
-/// to ask what a render would do. Only a render of photon maps has estimators.
-Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs = {});
+/// the first pass, and where pixels have no radii of their own. `around`, which outlives the plan: see PassOfMaps.
+/// Nothing is traced or built yet, so a plan also serves to ask what a render would do. Only a render of photon maps
+/// has estimators.
+Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs = {},
+                           const MediaBounds* around = nullptr);
 /// The same for surfaces alone.
 Estimators plan_surface_estimators(const Scene& scene, const RenderSettings& settings, int pass);
 

@@ -74,6 +74,8 @@ struct RenderSettings {
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
   uint64_t photons_stored =
       0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
+  uint64_t photons_block = 0;  // > 0: the most photons of a pass that are traced and gathered at a time, see
+                               // mean_of_blocks(); 0: all
   PhotonSequence photon_sequence = PhotonSequence::sobol;  // where nothing asks for random ones, see trace_pass()
   uint32_t photons_in_cube = 0;  // > 0: the most photons that travel into one octant of directions, in a cube
                                  // whose edges are half a radius long, see control_density()

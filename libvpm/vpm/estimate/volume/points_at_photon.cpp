@@ -15,9 +15,9 @@ void PointsAtPhoton::build(uint64_t emitted, RenderStatistics& statistics) {
 
 KernelEstimate PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) const {
   if (!segment.medium()) return {};
-  const PhotonMap& map = maps_[segment.number];
-  if (map.size() == 0) return {};
-  const PointsOfSegment points(segment, map, maps_.settings().form);
+  const Box& around = maps_.around(segment.number);
+  if (around.empty()) return {};
+  const PointsOfSegment points(segment, maps_[segment.number], around, maps_.settings().form);
   const Rgb factor = segment.throughput * source_factor(*segment.medium());
   return points.over_share(factor * points.march_evenly(work), work);
 }

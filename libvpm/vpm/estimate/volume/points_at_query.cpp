@@ -13,9 +13,10 @@ void PointsAtQuery::build(uint64_t emitted, RenderStatistics& statistics) {
 }
 
 MarchedSource::Reach PointsAtQuery::reach(const EyeSegment& segment) const {
+  const Box& around = maps_.around(segment.number);
+  if (around.empty()) return {{0.0f, 0.0f}, kInfinity, std::nullopt};
   const PhotonMap& map = maps_[segment.number];
-  if (map.size() == 0) return {{0.0f, 0.0f}, kInfinity, std::nullopt};
-  Reach reach{{0.0f, 0.0f}, kInfinity, PointsOfSegment(segment, map, VolumeForm::density_at_query)};
+  Reach reach{{0.0f, 0.0f}, kInfinity, PointsOfSegment(segment, map, around, VolumeForm::density_at_query)};
   if (reach.points->seen_one_by_one()) return reach;
   reach.interval = reach.points->reach();
   reach.step = step_among(map.settings.radius, reach.interval);

@@ -25,7 +25,7 @@ Spread spread_of(const EyeSegment& segment, const GatherSettings& gather) {
 
 }  // namespace
 
-PointsOfSegment::PointsOfSegment(const EyeSegment& segment, const PhotonMap& map, VolumeForm form)
+PointsOfSegment::PointsOfSegment(const EyeSegment& segment, const PhotonMap& map, const Box& around, VolumeForm form)
     : segment_(segment),
       map_(map),
       form_(form),
@@ -34,7 +34,7 @@ PointsOfSegment::PointsOfSegment(const EyeSegment& segment, const PhotonMap& map
       reach_(region_.reach()) {
   const float radius = map.settings.radius;
   if (seen_one_by_one()) reach_ = {reach_.t0 - radius, reach_.t1 + radius};
-  reach_ = clip(segment.ray, reach_, map.bounds(), radius);
+  reach_ = clip(segment.ray, reach_, around, radius);
 }
 
 KernelEstimate PointsOfSegment::sum(const Vec3& point, EyeWork& work) const {

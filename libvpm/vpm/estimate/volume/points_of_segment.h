@@ -11,8 +11,8 @@ namespace vpm {
 /// Of the photons of the segment's medium.
 class PointsOfSegment {
  public:
-  /// The segment and the map outlive this.
-  PointsOfSegment(const EyeSegment& segment, const PhotonMap& map, VolumeForm form);
+  /// The segment and the map outlive this. Points lie where photons may be: `around`, the box around those of the pass.
+  PointsOfSegment(const EyeSegment& segment, const PhotonMap& map, const Box& around, VolumeForm form);
 
   /// The part of the ray at whose points photons are near, m. It goes past the segment's ends where photons there make
   /// up for what is missing before them.

@@ -42,6 +42,10 @@ class VolumeMaps {
   const VolumeMapSettings& settings() const { return settings_; }
   const Map& operator[](size_t medium) const { return by_medium_[medium]; }
   size_t size() const { return by_medium_.size(); }
+  /// The box around the photons of the pass in a medium, of which its map may hold a block.
+  const Box& around(size_t medium) const {
+    return settings_.pass.around ? (*settings_.pass.around)[medium] : by_medium_[medium].bounds();
+  }
 
   template <class Make>
   void build(uint64_t emitted, RenderStatistics& statistics, Make&& make) {
