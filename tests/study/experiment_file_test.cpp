@@ -41,14 +41,14 @@ TEST(ExperimentFile, ReadsEveryKey) {
   EXPECT_EQ(plan.budgets, (std::vector<double>{10.0, 1000.0}));
   EXPECT_EQ(plan.repetitions, 5);
   EXPECT_EQ(plan.seed, 9u);
-  EXPECT_EQ(plan.reference_error, static_cast<double>(1e-3f));
-  EXPECT_EQ(plan.reference_settings, std::vector<std::string>{"render.integrator=\"path\""});
   ASSERT_EQ(plan.scenes.size(), 2u);
+  EXPECT_EQ(plan.scenes[1].rendered.error, static_cast<double>(1e-3f));
+  EXPECT_EQ(plan.scenes[1].rendered.settings, std::vector<std::string>{"render.integrator=\"path\""});
   EXPECT_EQ(plan.scenes[1].source, ReferenceSource::rendered);
   EXPECT_EQ(plan.scenes[0].name, "fog");
   EXPECT_TRUE(plan.scenes[0].file.ends_with("/fog.toml"));
   EXPECT_EQ(plan.scenes[0].source, ReferenceSource::file);
-  EXPECT_TRUE(plan.scenes[0].reference.ends_with("/truth.exr"));
+  EXPECT_TRUE(plan.scenes[0].reference_file.ends_with("/truth.exr"));
   EXPECT_EQ(plan.scenes[0].settings, (std::vector<std::string>{"film.width=8", "camera.position=[0, 1.5, 2]"}));
   ASSERT_EQ(plan.methods.size(), 2u);
   EXPECT_EQ(plan.methods[0].name, "a");
@@ -90,7 +90,19 @@ TEST(ExperimentFile, TheProjectsOwnAreRight) {
 
 TEST(ExperimentFile, ReferencesMayBeMadeOfPhotons) {
   const ComparisonPlan plan = load(kHead + "[reference.set]\nphotons.emitted = 7\n" + kScene + kMethods);
-  EXPECT_EQ(plan.reference_settings, std::vector<std::string>{"photons.emitted=7"});
+  EXPECT_EQ(plan.scenes[0].rendered.settings, std::vector<std::string>{"photons.emitted=7"});
+}
+
+TEST(ExperimentFile, ScenesMaySayHowTheirReferencesAreRendered) {
+  const std::string other = "[[scenes]]\nname = \"mist\"\nfile = \"fog.toml\"\n";
+  const ComparisonPlan plan =
+      load(kHead + "[reference]\nerror = 0.5\nset = { photons.emitted = 7 }\n" + kScene +
+           "reference = { error = 0.25 }\n" + other + "[scenes.reference.set]\nphotons.emitted = 8\n" + kMethods);
+  EXPECT_EQ(plan.scenes[0].source, ReferenceSource::rendered);
+  EXPECT_EQ(plan.scenes[0].rendered.error, 0.25);
+  EXPECT_EQ(plan.scenes[0].rendered.settings, std::vector<std::string>{"photons.emitted=7"});
+  EXPECT_EQ(plan.scenes[1].rendered.error, 0.5);
+  EXPECT_EQ(plan.scenes[1].rendered.settings, std::vector<std::string>{"photons.emitted=8"});
 }
 
 TEST(ExperimentFile, OptionsChangeKeys) {
@@ -123,6 +135,8 @@ TEST(ExperimentFile, RefusesWhatIsWrong) {
       {kHead + "[[scenes]]\nname = \"x\"\nfile = \"none.toml\"\n" + kMethods, "there is no file"},
       {kHead + "[reference]\nerror = 1e-3\n" + kScene + "reference = \"exact\"\n" + kMethods,
        "no reference is rendered"},
+      {kHead + kScene + "reference = { error = 0 }\n" + kMethods, "must be > 0"},
+      {kHead + kScene + "reference = { errors = 1 }\n" + kMethods, "unknown key 'errors' in [scenes.reference]"},
       {kHead + kScene + kMethods + "[referees]\n", "unknown key 'referees'"}};
   for (const auto& [text, words] : cases) {
     const std::string found = message(text);

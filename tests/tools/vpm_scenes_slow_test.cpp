@@ -191,7 +191,7 @@ TEST_F(VpmScenes, OfAllExperimentsCanBeLoaded) {
       if (scene.source == ReferenceSource::exact) {
         EXPECT_NO_THROW(exact_picture(load_scene(scene.file, of_scene).scene)) << entry.path() << ", " << scene.name;
       }
-      load(plan.reference_settings);
+      load(scene.rendered.settings);
       for (const Method& method : plan.methods) load(method.settings);
     }
   }

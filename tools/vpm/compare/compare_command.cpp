@@ -122,13 +122,13 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
     } else if (scene.source == ReferenceSource::rendered) {
       const std::string seed = fmt::format("render.seed={}", reference_seed(plan));
       contest.reference_entrant =
-          make_entrant(scene, "reference", scene.place, joined(plan.reference_settings, {seed}),
-                       fmt::format("reference of relative MSE {}, {}", plan.reference_error, seed));
+          make_entrant(scene, "reference", scene.place, joined(scene.rendered.settings, {seed}),
+                       fmt::format("reference of relative MSE {}, {}", scene.rendered.error, seed));
       refuse_automatic(contest.reference_entrant->loaded, "the reference of vpm compare");
       const Camera& camera = contest.reference_entrant->loaded.scene.camera;
       contest.reference.mean = contest.reference.variance = Image(camera.width, camera.height);
     } else {
-      contest.reference = read_reference(scene.reference);
+      contest.reference = read_reference(scene.reference_file);
       if (contest.reference.part)
         throw InputError(fmt::format("{}: the reference of scene '{}' is a crop; whole pictures are compared",
                                      scene.place, scene.name));
@@ -140,14 +140,14 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
 }
 
 /// Finds the reference of a scene, or makes it. False where `stop` was set first.
-bool make_reference(Contest& contest, const ComparisonPlan& plan, const Store& store, const CompareOptions& options,
+bool make_reference(Contest& contest, const Store& store, const CompareOptions& options,
                     const std::atomic<bool>& stop) {
   if (!contest.reference_entrant) return true;
   if (std::optional<Reference> known = store.find_reference(contest.reference_entrant->identity)) {
     contest.reference = std::move(*known);
   } else {
     const RenderResult result =
-        run_reference(contest.reference_entrant->loaded, plan.reference_error, stop, options.progress);
+        run_reference(contest.reference_entrant->loaded, contest.compared->rendered.error, stop, options.progress);
     if (stop) return false;
     contest.reference = {result.film.mean(), result.film.variance_of_mean()};
     store.add_reference(contest.reference_entrant->identity, contest.reference);
@@ -218,7 +218,7 @@ BudgetSummary summarise(const Entrant& entrant, const Reference& reference, cons
 
 std::string reference_text(const Contest& contest, double error) {
   if (contest.compared->source == ReferenceSource::exact) return "the exact solution";
-  if (contest.compared->source == ReferenceSource::file) return contest.compared->reference;
+  if (contest.compared->source == ReferenceSource::file) return contest.compared->reference_file;
   const auto by = [&] {
     switch (contest.reference_entrant->loaded.settings.integrator) {
       case Integrator::path:
@@ -302,7 +302,7 @@ int compare_command(const CompareOptions& options) {
   const Store store(options.output);
   const std::atomic<bool>& stop = stop_on_signals();
   for (Contest& contest : contests)
-    if (!make_reference(contest, plan, store, options, stop)) break;
+    if (!make_reference(contest, store, options, stop)) break;
   if (!stop) make_runs(contests, plan, store, options, stop);
   if (stop) {
     fmt::print(stderr, "interrupted: finished runs are kept in {}; the same command goes on\n", options.output);

@@ -54,18 +54,30 @@ std::vector<std::string> read_settings(TableReader& reader, const std::string& k
   return options;
 }
 
-/// Where the reference comes from.
-void read_source(TableReader& table, ComparedScene& scene) {
-  if (!table.has("reference")) return;
-  if (table.string("reference") == "exact") {
+/// The table `reference`, of what it does not say as `otherwise` says.
+RenderedReference read_rendered(TableReader& root, const std::string& title, RenderedReference otherwise) {
+  std::optional<TableReader> table = root.table("reference", title);
+  if (!table) return otherwise;
+  otherwise.error = table->number("error", kPositive, static_cast<float>(otherwise.error));
+  if (table->has("set")) otherwise.settings = read_settings(*table, "set");
+  table->finish();
+  return otherwise;
+}
+
+/// Where the reference comes from: a word, a file, or a table that says how it is rendered.
+void read_source(TableReader& table, ComparedScene& scene, const RenderedReference& otherwise) {
+  const Node* node = table.find("reference");
+  if (!node || node->table()) {
+    scene.rendered = read_rendered(table, "[scenes.reference]", otherwise);
+  } else if (table.string("reference") == "exact") {
     scene.source = ReferenceSource::exact;
   } else {
     scene.source = ReferenceSource::file;
-    scene.reference = table.path("reference");
+    scene.reference_file = table.path("reference");
   }
 }
 
-std::vector<ComparedScene> read_scenes(TableReader& root) {
+std::vector<ComparedScene> read_scenes(TableReader& root, const RenderedReference& reference) {
   std::vector<ComparedScene> scenes;
   std::set<std::string> names;
   for (TableReader& table : root.tables("scenes", "[[scenes]]")) {
@@ -73,7 +85,7 @@ std::vector<ComparedScene> read_scenes(TableReader& root) {
     scene.name = table.string("name");
     if (!names.insert(scene.name).second) table.fail("name", "two scenes are named '" + scene.name + "'");
     scene.file = table.path("file");
-    read_source(table, scene);
+    read_source(table, scene, reference);
     scene.settings = read_settings(table, "set");
     scene.place = text_of(table.place());
     table.finish();
@@ -158,15 +170,11 @@ void read_budgets(TableReader& root, ComparisonPlan& plan) {
     if (!(plan.budgets[i] > plan.budgets[i - 1])) root.fail("budgets", "budgets must rise");
 }
 
-void read_reference(TableReader& root, ComparisonPlan& plan) {
-  std::optional<TableReader> table = root.table("reference", "[reference]");
-  if (!table) return;
+/// [reference] is for scenes without a file.
+void check_reference(TableReader& root, const std::vector<ComparedScene>& scenes) {
   const auto is_rendered = [](const ComparedScene& scene) { return scene.source == ReferenceSource::rendered; };
-  if (std::none_of(plan.scenes.begin(), plan.scenes.end(), is_rendered))
+  if (root.has("reference") && std::none_of(scenes.begin(), scenes.end(), is_rendered))
     root.fail("reference", "no reference is rendered: every scene names its own", "leave out [reference]");
-  plan.reference_error = table->number("error", kPositive, static_cast<float>(plan.reference_error));
-  if (table->has("set")) plan.reference_settings = read_settings(*table, "set");
-  table->finish();
 }
 
 }  // namespace
@@ -182,8 +190,8 @@ ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<s
   read_budgets(root, plan);
   plan.repetitions = static_cast<int>(root.integer("repetitions", 3, 10'000, 10));
   plan.seed = root.integer("seed", 0, uint64_t{1} << 62, 1);
-  plan.scenes = read_scenes(root);
-  read_reference(root, plan);
+  plan.scenes = read_scenes(root, read_rendered(root, "[reference]", {}));
+  check_reference(root, plan.scenes);
   plan.methods = read_methods(root);
   plan.baseline = read_baseline(root, plan.methods);
   root.finish();

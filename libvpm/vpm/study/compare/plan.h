@@ -28,13 +28,20 @@ struct Method {
 /// What a scene's pictures are compared with.
 enum class ReferenceSource { rendered, file, exact };
 
+/// How a reference is rendered.
+struct RenderedReference {
+  std::vector<std::string> settings{"render.integrator=\"path\""};  // key.path=value
+  double error = 1e-4;                                              // estimated relative MSE that it goes down to, > 0
+};
+
 struct ComparedScene {
   std::string name;
   std::string file;                   // a scene file
   std::vector<std::string> settings;  // key.path=value, of all methods and the reference
   ReferenceSource source = ReferenceSource::rendered;
-  std::string reference;  // the file
-  std::string place;      // in the experiment's file, for messages
+  std::string reference_file;
+  RenderedReference rendered;
+  std::string place;  // in the experiment's file, for messages
 };
 
 struct ComparisonPlan {
@@ -48,9 +55,6 @@ struct ComparisonPlan {
       budgets;           // in that unit, > 0, rising: a run goes on to the last and is looked at as it passes each
   int repetitions = 10;  // >= 3, with seeds of their own
   uint64_t seed = 1;     // of the first repetition
-  /// How references are rendered where scenes name none, and to what estimated relative MSE, > 0.
-  std::vector<std::string> reference_settings{"render.integrator=\"path\""};
-  double reference_error = 1e-4;
 };
 
 /// What a run had cost when it passed a budget, and what it had counted.
