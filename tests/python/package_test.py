@@ -5,6 +5,7 @@ import os
 import pickle
 import signal
 import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -12,59 +13,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import vpm
+from ball import BALL, BALL_FILE
 
 PROGRAM = Path(os.environ["VPM_BUILD"]) / "vpm"
-
-BALL = {
-    "camera": {"position": [0, 0, 3], "target": [0, 0, 0]},
-    "film": {"width": 24, "height": 16},
-    "media": {"fog": {"type": "homogeneous", "sigma_s": [0.5, 0.6, 0.7], "sigma_a": 0.1,
-                      "phase": {"type": "henyey-greenstein", "g": 0.3}}},
-    "materials": {"white": {"type": "lambertian", "reflectance": 0.5}},
-    "shapes": [
-        {"name": "ball", "type": "sphere", "material": {"type": "boundary"}, "center": [0, 0, 0], "radius": 1,
-         "inside": "fog"},
-        {"name": "floor", "type": "quad", "material": "white", "corner": [-2, -1.2, 2], "edge_u": [4, 0, 0],
-         "edge_v": [0, 0, -4]},
-    ],
-    "lights": [{"type": "directional", "direction": [0, -1, 0.2], "irradiance": 3}],
-    "photons": {"emitted": 2000},
-}
-
-# The same, as somebody would write it.
-BALL_FILE = """
-lights = [{ type = "directional", direction = [0, -1, 0.2], irradiance = 3 }]
-[camera]
-position = [0, 0, 3]
-target = [0, 0, 0]
-[film]
-width = 24
-height = 16
-[media.fog]
-type = "homogeneous"
-sigma_s = [0.5, 0.6, 0.7]
-sigma_a = 0.1
-phase = { type = "henyey-greenstein", g = 0.3 }
-[materials.white]
-type = "lambertian"
-reflectance = 0.5
-[[shapes]]
-name = "ball"
-type = "sphere"
-material = { type = "boundary" }
-center = [0, 0, 0]
-radius = 1
-inside = "fog"
-[[shapes]]
-name = "floor"
-type = "quad"
-material = "white"
-corner = [-2, -1.2, 2]
-edge_u = [4, 0, 0]
-edge_v = [0, 0, -4]
-[photons]
-emitted = 2000
-"""
 
 
 def changed(**parts):
@@ -163,7 +114,7 @@ def test_a_crop_is_an_array_of_its_pixels_wherever_it_comes_from(ball_file, tmp_
 
 def test_a_render_without_passes_has_no_layers():
     scene = vpm.Scene(BALL, ['render.layers=["depth"]'])
-    before = vpm.Result(vpm._vpm.begin(scene._job, 1, None, None, None))
+    before = vpm.Result(vpm._vpm.begin(scene._job, 1, None, None, None, False))
     assert before.passes == 0 and before.layers == {}
 
 
@@ -415,6 +366,23 @@ def test_a_render_goes_on():
     begun = vpm.render(scene, passes=2)
     assert np.array_equal(begun.resume(passes=5).radiance, vpm.render(scene, passes=5).radiance)
     assert begun.passes == 2 and begun.resume(passes=1).passes == 2
+
+
+def test_a_process_by_itself_is_together_with_nobody(tmp_path):
+    together = vpm.render(BALL, passes=2, together=True)
+    assert np.array_equal(together.radiance, vpm.render(BALL, passes=2).radiance)
+    together.write(tmp_path / "ball.exr")
+    assert np.array_equal(vpm.read_exr(tmp_path / "ball.exr").radiance, together.radiance)
+
+
+def test_several_processes_without_mpi_are_refused(monkeypatch):
+    if "VPM_MPI:BOOL=ON" in (PROGRAM.parent / "CMakeCache.txt").read_text().splitlines():
+        pytest.skip("vpm is built with MPI")
+    monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "2")
+    script = "import vpm; from ball import BALL; vpm.render(BALL, together=True)"
+    done = subprocess.run([sys.executable, "-c", script], cwd=Path(__file__).parent, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "this vpm knows no MPI" in done.stderr
 
 
 def test_stop_rules_end_a_render():

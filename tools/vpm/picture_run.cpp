@@ -9,7 +9,6 @@
 
 #include "error_log.h"
 #include "option_checks.h"
-#include "rank_run.h"
 #include "run_watch.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -19,6 +18,7 @@
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/report.h"
+#include "vpm/ranks/same_render.h"
 #include "vpm/ranks/together.h"
 
 namespace vpm::tools {

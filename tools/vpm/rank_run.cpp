@@ -5,14 +5,12 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "exit_status.h"
 #include "pass_run.h"
 #include "picture_run.h"
-#include "vpm/base/error.h"
+#include "vpm/ranks/same_render.h"
 #include "vpm/ranks/together.h"
 
 namespace vpm::tools {
@@ -21,23 +19,6 @@ namespace {
 /// Rank 0 alone hears signals, and ends the others.
 void leave_signals_to_leader() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_IGN);
-}
-
-constexpr std::string_view kToRender = "render";
-
-/// What rank 0 tells by tell_render(), once it does.
-Identity told_render(Ranks& ranks) {
-  const Message message = wait_for_message(ranks);
-  std::string_view text = message.bytes;
-  const std::optional<Identity> told = take_lines(text, kToRender);
-  if (!told) throw std::runtime_error("rank 0 is another program");
-  return *told;
-}
-
-void check_same(const Identity& led, const Identity& own) {
-  if (own == led) return;
-  throw InputError("this rank would render something else: its files, its program or its options differ" +
-                   differences(led, own, "of rank 0", "here"));
 }
 
 }  // namespace
@@ -55,11 +36,6 @@ int run_as_rank(Ranks& ranks, const std::function<int()>& run) {
   }
 }
 
-void tell_render(Ranks& ranks, const Identity& identity) {
-  const std::string text = lines_of(kToRender, identity);
-  for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, text);
-}
-
 int make_passes_for_leader(Ranks& ranks, const RenderOptions& options) {
   leave_signals_to_leader();
   // What is wrong with the scene, rank 0 tells: this rank only where rank 0 has found nothing.
@@ -72,8 +48,7 @@ int make_passes_for_leader(Ranks& ranks, const RenderOptions& options) {
   }
   const Identity led = told_render(ranks);
   if (wrong) std::rethrow_exception(wrong);
-  if (job.automatic.any()) choose_again(job, choices_of(led));
-  check_same(led, identity_of(job));
+  render_as_told(job, led);
   make_render(ranks, job.scene, job.settings);
   return 0;
 }

@@ -1,10 +1,9 @@
-// vpm render as one of several processes: what rank 0 tells the others, and what these do.
+// vpm render as one of several processes.
 #pragma once
 
 #include <functional>
 
 #include "commands.h"
-#include "vpm/job/identity.h"
 #include "vpm/ranks/ranks.h"
 
 namespace vpm::tools {
@@ -12,9 +11,6 @@ namespace vpm::tools {
 /// Calls run(), which is the whole work of a rank. What it throws is told once, and ends all ranks with the exit status
 /// of main(); of one process it is main() that tells.
 int run_as_rank(Ranks& ranks, const std::function<int()>& run);
-
-/// Tells all other ranks what is to be rendered, by rank 0.
-void tell_render(Ranks& ranks, const Identity& identity);
 
 /// Loads the scene, waits for what rank 0 tells, and makes passes for it. Throws InputError where this rank's scene or
 /// program is another.

@@ -149,6 +149,15 @@ std::vector<Film> take_layers(NamedFields& fields, const Film& whole) {
   return layers;
 }
 
+void append_result(std::string& bytes, const RenderResult& result) {
+  append_field(bytes, "seconds", result.seconds);
+  append_field(bytes, "discs", std::span<const PixelDisc>(result.discs));
+  append_counters(bytes, result.statistics);
+  append_film(bytes, "film", result.film);
+  append_field(bytes, "layers", static_cast<uint32_t>(result.layers.size()));
+  for (size_t i = 0; i < result.layers.size(); ++i) append_film(bytes, layer_name(i), result.layers[i]);
+}
+
 RenderResult take_result(NamedFields fields) {
   RenderResult result{
       take_film(fields, "film"), {}, fields.take<double>("seconds"), fields.take_all<PixelDisc>("discs")};
@@ -162,7 +171,7 @@ RenderResult take_result(NamedFields fields) {
 }
 
 /// What a checkpoint of these bytes holds, of which `rest` are fields and checksum.
-RenderResult result_of(const std::filesystem::path& path, std::string_view bytes, std::string_view rest) {
+RenderResult checked_result(const std::filesystem::path& path, std::string_view bytes, std::string_view rest) {
   const size_t sum_at = bytes.size() - std::min(rest.size(), kChecksum);
   if (checksum(bytes.substr(0, sum_at)) != bytes.substr(sum_at))
     refuse(path, "it is damaged or not whole: its checksum is wrong");
@@ -194,19 +203,22 @@ void write_checkpoint(const std::filesystem::path& path, const Identity& identit
                       const RenderResult& result) {
   std::string bytes = fmt::format("{}\nformat {}\n", kKind, kCheckpointFormat) + lines_of(kIdentity, identity) +
                       lines_of(kOrigin, fields_of(origin));
-  append_field(bytes, "seconds", result.seconds);
-  append_field(bytes, "discs", std::span<const PixelDisc>(result.discs));
-  append_counters(bytes, result.statistics);
-  append_film(bytes, "film", result.film);
-  append_field(bytes, "layers", static_cast<uint32_t>(result.layers.size()));
-  for (size_t i = 0; i < result.layers.size(); ++i) append_film(bytes, layer_name(i), result.layers[i]);
+  append_result(bytes, result);
   write_text(path, bytes + checksum(bytes));
 }
+
+std::string bytes_of(const RenderResult& result) {
+  std::string bytes;
+  append_result(bytes, result);
+  return bytes;
+}
+
+RenderResult result_of(std::string_view bytes) { return take_result(NamedFields(bytes)); }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
   const std::string bytes = content_of(path);
   Parts parts = parts_of(path, bytes);
-  return {std::move(parts.identity), std::move(parts.origin), result_of(path, bytes, parts.rest)};
+  return {std::move(parts.identity), std::move(parts.origin), checked_result(path, bytes, parts.rest)};
 }
 
 RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& identity) {
@@ -215,7 +227,7 @@ RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& 
   if (parts.identity != identity)
     refuse(path, "it is of another render; render on with the options that it began with" +
                      differences(parts.identity, identity, "in the checkpoint", "asked for"));
-  return result_of(path, bytes, parts.rest);
+  return checked_result(path, bytes, parts.rest);
 }
 
 }  // namespace vpm

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "vpm/job/identity.h"
 #include "vpm/job/origin.h"
@@ -32,6 +34,11 @@ Checkpoint read_checkpoint(const std::filesystem::path& path);
 /// What is rendered so far of the render of that identity. Throws InputError, too, where the checkpoint is of another,
 /// and tells in what that differs.
 RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& identity);
+
+/// What is rendered, as bytes for another process of the same program.
+std::string bytes_of(const RenderResult& result);
+/// Back to the last bit. Throws FieldError where the bytes are something else.
+RenderResult result_of(std::string_view bytes);
 
 /// The identity that a checkpoint was written with. Throws InputError where the file is missing, no checkpoint or of
 /// another format.

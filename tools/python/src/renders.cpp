@@ -15,6 +15,8 @@
 #include "vpm/job/picture.h"
 #include "vpm/job/render.h"
 #include "vpm/job/report.h"
+#include "vpm/ranks/same_render.h"
+#include "vpm/ranks/together.h"
 
 namespace vpm::python {
 namespace {
@@ -24,6 +26,7 @@ struct Passes {
   std::shared_ptr<SceneJob> scene;
   JobState state;
   RenderResult result;
+  Ranks* ranks = nullptr;  // that make them together; null: this process by itself
 
   /// Calls use(const RenderJob&) without the interpreter's lock.
   template <class Use>
@@ -42,25 +45,34 @@ StopRule stop_rule(std::optional<int> passes, std::optional<double> seconds, std
   return otherwise;
 }
 
+/// Is it this process that writes files, and tells the others?
+bool leads(const Ranks* ranks) { return !ranks || ranks->leads(); }
+
 /// Before the first pass: chooses what is "auto", and looks ahead as the command line does.
 std::shared_ptr<Passes> begin(const std::shared_ptr<SceneJob>& scene, std::optional<int> passes,
-                              std::optional<double> seconds, std::optional<double> error,
-                              std::optional<uint64_t> seed) {
-  auto begun = std::make_shared<Passes>(Passes{scene,
-                                               [&] {
-                                                 const py::gil_scoped_release others_run;
-                                                 const std::scoped_lock lock(scene->busy);
-                                                 return JobState(scene->job);
-                                               }(),
-                                               nothing_rendered(scene->job.scene.camera)});
+                              std::optional<double> seconds, std::optional<double> error, std::optional<uint64_t> seed,
+                              bool together) {
+  auto begun =
+      std::make_shared<Passes>(Passes{scene,
+                                      [&] {
+                                        const py::gil_scoped_release others_run;
+                                        const std::scoped_lock lock(scene->busy);
+                                        return JobState(scene->job);
+                                      }(),
+                                      nothing_rendered(scene->job.scene.camera), together ? &joined_ranks() : nullptr});
   RenderSettings& settings = begun->state.settings;
   settings.until = stop_rule(passes, seconds, error, settings.until);
   if (seed) settings.seed = *seed;
   std::atomic<bool> stop{false};
   auto raised = run_interruptibly(stop, [&] {
-    with_job(*scene, begun->state, [](RenderJob& job) {
-      choose(job);
-      foresee(job);
+    with_job(*scene, begun->state, [&](RenderJob& job) {
+      if (leads(begun->ranks)) {
+        choose(job);
+        foresee(job);
+        if (begun->ranks) tell_render(*begun->ranks, identity_of(job));
+      } else {
+        render_as_told(job, told_render(*begun->ranks));
+      }
       look_for_kernel_light(job);
     });
   });
@@ -77,6 +89,18 @@ std::shared_ptr<Passes> until(const Passes& before, std::optional<int> passes, s
   return after;
 }
 
+/// Renders until the stop rule is met. Of several processes all return what they have made together.
+RenderResult render_with(Ranks* ranks, const RenderJob& job, RenderResult begun, const RunControl& control) {
+  if (!ranks) return render(job.scene, job.settings, std::move(begun), control);
+  if (!ranks->leads()) {
+    make_render(*ranks, job.scene, job.settings);
+    return told_result(*ranks);
+  }
+  RenderResult result = lead_render(*ranks, job.scene, job.settings, std::move(begun), control);
+  if (!control.stop) tell_result(*ranks, result);  // else the others may be gone
+  return result;
+}
+
 /// Renders until the stop rule is met, or one pass; and what a signal's handler raised meanwhile, or None.
 std::pair<std::shared_ptr<Passes>, py::object> advance(const Passes& before, bool one_pass, bool progress) {
   auto after = std::make_shared<Passes>(before);
@@ -86,7 +110,7 @@ std::pair<std::shared_ptr<Passes>, py::object> advance(const Passes& before, boo
   const RunControl control{stop, progress ? ProgressMode::automatic : ProgressMode::never, finished};
   auto raised = run_interruptibly(stop, [&] {
     with_job(*after->scene, after->state, [&](RenderJob& job) {
-      after->result = render(job.scene, job.settings, std::move(after->result), control);
+      after->result = render_with(after->ranks, job, std::move(after->result), control);
     });
   });
   if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw *std::move(raised);
@@ -125,6 +149,7 @@ py::object error_picture(const py::object& self, Image FilmErrors::*picture) {
 }
 
 void write(const Passes& passes, const std::string& path, std::optional<float> exposure) {
+  if (!leads(passes.ranks)) return;
   const std::filesystem::path exr = path;
   if (exr.extension() != ".exr")
     throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", path));

@@ -135,7 +135,7 @@ class Result:
 
 def render(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
            passes: int | None = None, seconds: float | None = None, error: float | None = None,
-           seed: int | None = None, auto: bool = False, progress: bool = False) -> Result:
+           seed: int | None = None, auto: bool = False, progress: bool = False, together: bool = False) -> Result:
     """Renders a scene until its stop rule is met.
 
     scene: a `Scene`, or what makes one: a path or a dict, then with `overrides` and `auto`.
@@ -144,11 +144,14 @@ def render(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrid
     error: until the estimated relative MSE is no more than that. Without any of the three, the scene says.
     seed: of all random numbers; without one, the scene says.
     progress: show a bar on a terminal.
+    together: share the passes among the processes that `mpiexec -n 8 python3 -m mpi4py SCRIPT` starts, all of which call
+        this at once, with the same scene. All have the same result, of the same bits as that of one process, and go on
+        together with its resume(); its write() is left to rank 0. Takes a vpm that is built with MPI.
 
     Other threads of Python run meanwhile. Ctrl-C raises `Interrupted`, a KeyboardInterrupt whose `result` has the
     passes that were finished. Raises InputError for what the command line refuses.
     """
-    return _finish(_begin(scene, overrides, auto, _limits(passes, seconds, error), seed), progress)
+    return _finish(_begin(scene, overrides, auto, _limits(passes, seconds, error), seed, together), progress)
 
 
 def passes(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
@@ -163,12 +166,12 @@ def passes(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrid
 
 
 def _begin(scene: Any, overrides: Overrides, auto: bool, limits: tuple[Any, Any, Any],
-           seed: int | None) -> _vpm.Passes:
+           seed: int | None, together: bool = False) -> _vpm.Passes:
     if not isinstance(scene, Scene):
         scene = Scene(scene, overrides, auto=auto)
     elif overrides is not None or auto:
         raise InputError("a Scene is made already: give overrides and auto to Scene(...)")
-    return _vpm.begin(scene._job, *limits, _whole(seed, "seed", 0, 2**64 - 1))
+    return _vpm.begin(scene._job, *limits, _whole(seed, "seed", 0, 2**64 - 1), together)
 
 
 def _finish(begun: _vpm.Passes, progress: bool) -> Result:
