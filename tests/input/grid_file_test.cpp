@@ -244,13 +244,30 @@ TEST_F(GridFile, ABackgroundNeedsABoundingShape) {
   expect_same_as_sampler(*grid, r);
 }
 
+TEST_F(GridFile, ReadsTheFewVoxelsOfAWideBox) {
+  auto grid = random_grid<FloatGrid>(Coord(-13, -9, -20), Coord(5, 11, -2));
+  grid->tree().setValue(Coord(1'000'000'000, 5, -1'000'000'000), 3.0f);
+  grid->tree().addTile(1, Coord(800'000, 80, 80), 2.0f, true);
+  grid->tree().addTile(1, Coord(800'000, 8, 80), 4.0f, false);  // no voxel is active, but they have that value
+  write({grid});
+  const auto density = load_grid(request()).grid;
+  EXPECT_LT(density->memory_bytes(), 1u << 20);
+  EXPECT_EQ(density->max_density(), 4.0f);
+  EXPECT_EQ(density->density(Vec3(1e9f, 5.0f, -1e9f)), 3.0f);
+  EXPECT_EQ(density->density(Vec3(800'004.0f, 84.0f, 84.0f)), 2.0f);
+  EXPECT_EQ(density->density(Vec3(800'004.0f, 12.0f, 84.0f)), 4.0f);
+  EXPECT_EQ(density->density(Vec3(800'004.0f, 44.0f, 84.0f)), 0.0f);
+  for (const Coord& at : {Coord(-12, 3, -7), Coord(0), Coord(4, 10, -3)})
+    EXPECT_EQ(density->density(Vec3(at.x(), at.y(), at.z())), grid->tree().getValue(at));
+}
+
 TEST_F(GridFile, RefusesBoxesThatWouldNotFitInMemory) {
   auto grid = FloatGrid::create(0.0f);
   grid->setName("density");
-  grid->tree().setValue(Coord(0), 1.0f);
-  grid->tree().setValue(Coord(100000), 1.0f);
+  grid->sparseFill(openvdb::CoordBBox(Coord(0), Coord(5 * 4096 - 1)), 1.0f);
   write({grid});
   EXPECT_NE(refusal(request()).find("too large"), std::string::npos) << refusal(request());
+  grid->clear();
   grid->tree().setValue(Coord(1500000000), 1.0f);
   grid->tree().setValue(Coord(-1500000000), 1.0f);
   write({grid});

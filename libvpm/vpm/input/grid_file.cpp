@@ -317,6 +317,24 @@ class BrickFiller {
   float background_;
 };
 
+/// Boxes of voxels around all in the box whose value is not the background's: leaves and tiles.
+template <class Tree>
+std::vector<IndexBox> occupied_boxes(const Tree& tree, const CoordBBox& box) {
+  std::vector<IndexBox> occupied;
+  const auto add = [&](CoordBBox voxels) {
+    voxels.intersect(box);
+    if (!voxels.empty()) occupied.push_back({to_vec(voxels.min()), to_vec(voxels.max())});
+  };
+  auto tile = tree.cbeginValueAll();
+  tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
+  for (; tile; ++tile) {
+    CoordBBox voxels;
+    if (*tile != tree.background() && tile.getBoundingBox(voxels)) add(voxels);
+  }
+  for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) add(leaf->getNodeBoundingBox());
+  return occupied;
+}
+
 template <class Grid>
 LoadedGrid make_density(const DensitySource& source, Grid& grid) {
   if (source.request.from_level_set) convert_level_set(source, grid);
@@ -331,8 +349,10 @@ LoadedGrid make_density(const DensitySource& source, Grid& grid) {
   loaded.clamped_values += negative.count;
   const GridFrame frame{source.index_to_world, to_vec(box.min()), to_vec(box.max()), source.request.interpolation,
                         background};
+  std::vector<IndexBox> occupied;
+  if (!DensityGrid::fits_one_table(frame)) occupied = occupied_boxes(grid.tree(), box);
   try {
-    loaded.grid = std::make_shared<const DensityGrid>(frame, BrickFiller<Grid>(grid, box, background));
+    loaded.grid = std::make_shared<const DensityGrid>(frame, BrickFiller<Grid>(grid, box, background), occupied);
   } catch (const InputError& e) {
     source.refuse(fmt::format("is too large: {}", e.what()));
   }

@@ -60,7 +60,8 @@ struct LoadedGrid {
 /// that OpenVDB answers for it, active or not; outside, the background. Throws InputError, listing the grids of the
 /// file, for whatever cannot be a density: no such grid, a level set (unless asked for), other types, no active voxels,
 /// a transform that is not affine, a background other than 0 without a bounding shape, NaN, infinite or negative
-/// values, a damaged file, a box whose table of bricks would take over 256 MiB.
+/// values, a damaged file, so many occupied bricks that their table would take over 256 MiB, or 2^31 voxels from one to
+/// another.
 LoadedGrid load_grid(const GridRequest& request);
 
 }  // namespace vpm

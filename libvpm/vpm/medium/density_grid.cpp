@@ -16,8 +16,30 @@ namespace {
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
-/// The most bricks a table may hold: 256 MiB of them, which span 2200^3 voxels.
+/// The most bricks that tables may hold: 256 MiB of them, which span 2200^3 voxels.
 constexpr double kMaxBricks = double(1u << 28) / 12.0;
+
+/// The bricks whose densities a box of voxels decides: each reaches as far as its neighbours.
+IndexBox bricks_of(const IndexBox& voxels) {
+  IndexBox bricks;
+  for (int a = 0; a < 3; ++a) {
+    bricks.lo[a] = floor_div(voxels.lo[a] - 1, DensityGrid::kCells);
+    bricks.hi[a] = floor_div(voxels.hi[a], DensityGrid::kCells);
+  }
+  return bricks;
+}
+
+/// The boxes that bricks are stored in, in bricks from the lower corner of all.
+BrickBoxes boxes_of(const IndexBox& all, bool one_table, const std::vector<IndexBox>& occupied) {
+  if (one_table || occupied.empty()) return BrickBoxes(all.hi - all.lo + 1);
+  std::vector<IndexBox> bricks;
+  bricks.reserve(occupied.size());
+  for (const IndexBox& voxels : occupied) {
+    const IndexBox box = bricks_of(voxels);
+    bricks.push_back({box.lo - all.lo, box.hi - all.lo});
+  }
+  return BrickBoxes(std::move(bricks));
+}
 
 /// Bit by bit, for speed: zeros of opposite signs count as unequal, and its brick is found uniform by
 /// its extrema.
@@ -64,26 +86,34 @@ double owned_sum(const float* values) {
 
 }  // namespace
 
-DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill)
+bool DensityGrid::fits_one_table(const GridFrame& frame) {
+  const IndexBox bricks = bricks_of({frame.lo, frame.hi});
+  const Vec3d count = Vec3d(bricks.hi) - Vec3d(bricks.lo) + 1.0;
+  return count.x * count.y * count.z <= kMaxBricks;
+}
+
+DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied)
     : frame_(frame), world_to_index_(glm::inverse(frame.index_to_world)) {
   assert(glm::all(glm::lessThanEqual(frame.lo, frame.hi)) && frame.background >= 0.0f);
-  for (int a = 0; a < 3; ++a) {
-    brick_lo_[a] = floor_div(frame.lo[a] - 1, kCells);
-    brick_count_[a] = floor_div(frame.hi[a], kCells) - brick_lo_[a] + 1;
-  }
+  const IndexBox all = bricks_of({frame.lo, frame.hi});
+  brick_lo_ = all.lo;
+  brick_count_ = all.hi - all.lo + 1;
   lattice_lo_ = Vec3d(brick_lo_ * kCells) - lattice_shift();
-  lattice_size_ = Vec3d(brick_count_ * kCells);
-  const double count = double(brick_count_.x) * brick_count_.y * brick_count_.z;
+  lattice_size_ = Vec3d(brick_count_) * double{kCells};
+  if (glm::any(glm::greaterThanEqual(lattice_size_, Vec3d(std::numeric_limits<int>::max()))))
+    throw InputError("its voxels lie 2^31 or more apart");
+  boxes_ = boxes_of(all, fits_one_table(frame), occupied);
+  double count = 0.0;
+  for (const BrickBox& box : boxes_.all()) count += double(box.count.x) * box.count.y * box.count.z;
   if (count > kMaxBricks)
-    throw InputError(fmt::format(
-        "a grid of {} x {} x {} bricks of 8^3 voxels would take {:.1f} GiB for its table alone; the limit is 0.25 GiB",
-        brick_count_.x, brick_count_.y, brick_count_.z, count * sizeof(Brick) / double(1u << 30)));
+    throw InputError(
+        fmt::format("{:.3g} bricks of 8^3 voxels would take {:.3g} GiB for their table alone; the limit is 0.25 GiB",
+                    count, count * sizeof(Brick) / double(1u << 30)));
   bricks_.resize(static_cast<size_t>(count));
   const double sum = fill_bricks(fill);
   const Vec3d support = support_hi() - support_lo();
-  const Vec3d bricks_extent = Vec3d(brick_count_ * kCells);
-  const double surplus = bricks_extent.x * bricks_extent.y * bricks_extent.z - support.x * support.y * support.z;
-  mean_density_ = std::max(0.0, sum - surplus * frame.background) / (support.x * support.y * support.z);
+  const double cells = count * (kCells * kCells * kCells), volume = support.x * support.y * support.z;
+  mean_density_ = std::max(0.0, sum + (volume - cells) * frame.background) / volume;
   const Mat3d axes(frame.index_to_world);
   voxel_size_ =
       static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
@@ -152,12 +182,24 @@ bool DensityGrid::is_positive(const Box& world) const {
   const Vec3d last = Vec3d(brick_count_ - 1);
   const bool sticks_out = glm::any(glm::lessThan(from, Vec3d(0.0))) || glm::any(glm::greaterThan(to, last));
   if (sticks_out && !(frame_.background > 0.0f)) return false;
-  const Vec3i first(glm::max(from, Vec3d(0.0))), end(glm::min(to, last));
-  for (int z = first.z; z <= end.z; ++z)
-    for (int y = first.y; y <= end.y; ++y)
-      for (int x = first.x; x <= end.x; ++x)
-        if (!(brick({x, y, z}).min > 0.0f)) return false;
-  return true;
+  return bricks_are_positive({Vec3i(glm::max(from, Vec3d(0.0))), Vec3i(glm::min(to, last))});
+}
+
+bool DensityGrid::bricks_are_positive(const IndexBox& bricks) const {
+  const auto volume = [](const Vec3i& lo, const Vec3i& hi) {
+    const Vec3d extent = glm::max(Vec3d(hi) - Vec3d(lo) + 1.0, Vec3d(0.0));
+    return extent.x * extent.y * extent.z;
+  };
+  double stored = 0.0;
+  for (const BrickBox& box : boxes_.all()) {
+    const Vec3i lo = glm::max(bricks.lo, box.lo), hi = glm::min(bricks.hi, box.lo + box.count - 1);
+    stored += volume(lo, hi);
+    for (int z = lo.z; z <= hi.z; ++z)
+      for (int y = lo.y; y <= hi.y; ++y)
+        for (int x = lo.x; x <= hi.x; ++x)
+          if (!(bricks_[box.number({x, y, z})].min > 0.0f)) return false;
+  }
+  return frame_.background > 0.0f || stored == volume(bricks.lo, bricks.hi);
 }
 
 void DensityGrid::cell_piece(const float* v, const Vec3& local, const Vec3& step, DensityPiece& piece) const {
@@ -213,7 +255,7 @@ Box DensityGrid::bounds() const {
 
 size_t DensityGrid::memory_bytes() const {
   return sizeof(*this) + bricks_.capacity() * sizeof(Brick) + values_.capacity() * sizeof(float) +
-         blocks_.capacity() * sizeof(BrickBlocks);
+         blocks_.capacity() * sizeof(BrickBlocks) + boxes_.memory_bytes();
 }
 
 }  // namespace vpm

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "vpm/base/vec.h"
+#include "vpm/medium/brick_boxes.h"
 #include "vpm/medium/density_piece.h"
 #include "vpm/medium/density_stretch.h"
 
@@ -43,10 +44,13 @@ class DensityGrid {
   /// finite and >= 0. It is called from all threads, each of which has its own copy.
   using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
 
+  /// Is the frame's index box so small that one table may hold all bricks of it?
+  static bool fits_one_table(const GridFrame& frame);
   /// Builds, on all threads, the bricks that cover the frame's index box and the reach of its interpolation. A brick
-  /// with equal values stores one value only, and equal bricks store their values once. Throws InputError if the table
-  /// of bricks alone would take over 256 MiB.
-  DensityGrid(const GridFrame& frame, const FillBrick& fill);
+  /// with equal values stores one value only, and equal bricks store their values once. A grid that does not fit one
+  /// table has those bricks alone that hold the voxels in the boxes of `occupied`: all others have the background's
+  /// density. Throws InputError if the tables of bricks alone would take over 256 MiB.
+  DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied = {});
 
   /// A ray in units of cells, from the lower corner of all bricks; its parameter is still in metres of the world.
   struct LatticeRay {
@@ -117,8 +121,12 @@ class DensityGrid {
             Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0))};
   }
   double lattice_shift() const { return frame_.interpolation == Interpolation::nearest ? 0.5 : 0.0; }
-  const Brick& brick(const Vec3i& b) const {
-    return bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
+  /// A brick within the lattice; null where the density is that of the background, and no brick is stored.
+  const Brick* brick(const Vec3i& b) const {
+    if (boxes_.one()) [[likely]]
+      return &bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
+    const BrickBox* box = boxes_.find(b);
+    return box ? &bricks_[box->number(b)] : nullptr;
   }
   /// The place at which a look-up reads.
   struct Place {
@@ -130,12 +138,10 @@ class DensityGrid {
   double fill_bricks(const FillBrick& fill);
   /// The brick that has these values; `first` is not set yet.
   static Brick brick_of(const float* values);
+  /// Is the density positive in all of these bricks of the lattice?
+  bool bricks_are_positive(const IndexBox& bricks) const;
   /// The index coordinates of a brick's lower corner.
-  Vec3i origin_of(size_t number) const {
-    const auto n = static_cast<int64_t>(number), rows = n / brick_count_.x;
-    const Vec3i brick(n % brick_count_.x, rows % brick_count_.y, rows / brick_count_.y);
-    return (brick_lo_ + brick) * kCells;
-  }
+  Vec3i origin_of(size_t number) const { return (brick_lo_ + boxes_.of_number(number).brick(number)) * kCells; }
   /// For both, p is in units of cells, from the lower corner of all bricks.
   Place find(const Vec3d& p) const;
   float density_at(const Vec3d& p) const;
@@ -145,9 +151,9 @@ class DensityGrid {
   const float* values_of(const Brick& brick) const {
     return values_.data() + static_cast<size_t>(brick.first) * kBrickValues;
   }
-  /// Calls inside(walk, t0, t1) for the segment of the ray in each brick, at which `walk` stands. If the background is
-  /// not zero, calls outside(t0, t1) for the segments outside all bricks. Calls in order along the ray, until one
-  /// returns false.
+  /// Calls inside(walk, t0, t1) for the segment of the ray in each brick, at whose number `walk` stands. If the
+  /// background is not zero, calls outside(t0, t1) for the segments outside all bricks. Calls in order along the ray,
+  /// until one returns false.
   template <class Inside, class Outside>
   void visit_bricks(const LatticeRay& ray, const Interval& interval, Inside&& inside, Outside&& outside) const;
   template <class Visit>
@@ -161,6 +167,7 @@ class DensityGrid {
   Mat4d world_to_index_{1.0};
   Vec3i brick_lo_{0}, brick_count_{0};         // in bricks
   Vec3d lattice_lo_{0.0}, lattice_size_{0.0};  // of all bricks: corner in index coordinates, and extent in cells
+  BrickBoxes boxes_{Vec3i(0)};                 // of those that are stored, in bricks from the corner of the lattice
   std::vector<Brick> bricks_;
   std::vector<float> values_;
   std::vector<BrickBlocks> blocks_;  // of the same bricks

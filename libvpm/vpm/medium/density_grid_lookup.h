@@ -14,10 +14,11 @@ inline DensityGrid::Place DensityGrid::find(const Vec3d& p) const {
   if (!inside) return {frame_.background, nullptr, Vec3(0.0f)};
   // From the corner of the bricks on nothing is negative: cells and bricks are cut off, not rounded down.
   const Vec3i cell(p);
-  const Brick& b = brick(cell >> kCellBits);
+  const Brick* const b = brick(cell >> kCellBits);
+  if (!b) return {frame_.background, nullptr, Vec3(0.0f)};
   const Vec3i c = cell & (kCells - 1);
-  const float* values = b.uniform() ? nullptr : values_of(b) + (c.z * kValues + c.y) * kValues + c.x;
-  return {b.min, values, Vec3(p - Vec3d(cell))};
+  const float* values = b->uniform() ? nullptr : values_of(*b) + (c.z * kValues + c.y) * kValues + c.x;
+  return {b->min, values, Vec3(p - Vec3d(cell))};
 }
 
 inline float DensityGrid::density_at(const Vec3d& p) const {

@@ -19,10 +19,12 @@ namespace vpm {
 template <int spacing>
 class LatticeWalk {
  public:
-  /// The cell `lo` has number 0. From one cell to the next along an axis the number grows by that axis's `strides`.
+  /// The cell `lo` has number `first`. From one cell to the next along an axis the number grows by that axis's
+  /// `strides`.
   LatticeWalk(const Vec3d& origin, const Vec3d& direction, double t0, const Vec3i& lo, const Vec3i& hi,
-              const Vec3i& strides) {
+              const Vec3i& strides, size_t first = 0) {
     for (int a = 0; a < 3; ++a) axes_[a] = Axis(origin[a], direction[a], t0, lo[a], hi[a], strides[a]);
+    axes_[0].number += both(static_cast<int64_t>(first));
   }
   /// The number of the present cell.
   int64_t number() const { return (axes_[0].number + axes_[1].number + axes_[2].number)[0]; }
@@ -59,7 +61,7 @@ class LatticeWalk {
         origin = both(-std::numeric_limits<double>::infinity());
         inverse = both(1.0);
       }
-      plane = both(static_cast<double>((cell + up) * spacing));
+      plane = both(static_cast<double>(cell + up) * spacing);
       exit = (plane - origin) * inverse;
       plane += stride;
       next = (plane - origin) * inverse;
@@ -115,17 +117,33 @@ void DensityGrid::visit_bricks(const LatticeRay& ray, const Interval& interval, 
     beyond(interval.t0, interval.t1);
     return;
   }
-  if (!beyond(interval.t0, t0)) return;
-  const Vec3i strides(1, brick_count_.x, brick_count_.x * brick_count_.y);
-  LatticeWalk<kCells> walk(ray.origin, ray.direction, t0, Vec3i(0), brick_count_ - 1, strides);
-  for (double t = t0; t < t1; walk.advance()) {
-    const double end = std::min(walk.exit(), t1);
-    if (end > t) {
-      if (!inside(walk, t, end)) return;
-      t = end;
+  const auto walk_box = [&](const BrickBox& box, double from, double to) {
+    LatticeWalk<kCells> walk(ray.origin, ray.direction, from, box.lo, box.lo + box.count - 1, box.strides(), box.first);
+    for (double t = from; t < to; walk.advance()) {
+      const double end = std::min(walk.exit(), to);
+      if (end > t) {
+        if (!inside(walk, t, end)) return false;
+        t = end;
+      }
     }
+    return true;
+  };
+  if (boxes_.one()) [[likely]] {
+    if (beyond(interval.t0, t0) && walk_box(boxes_.all().front(), t0, t1)) beyond(t1, interval.t1);
+    return;
   }
-  beyond(t1, interval.t1);
+  double done = interval.t0;
+  const bool all =
+      boxes_.visit(ray.origin / double{kCells}, ray.direction / double{kCells}, t0, t1, [&](const BrickBox& box) {
+        double from = t0, to = t1;
+        clip_to_box(ray.origin, ray.direction, Vec3d(box.lo) * double{kCells},
+                    Vec3d(box.lo + box.count) * double{kCells}, from, to);
+        if (!(to > from)) return true;
+        if (!beyond(done, from)) return false;
+        done = to;
+        return walk_box(box, from, to);
+      });
+  if (all) beyond(done, interval.t1);
 }
 
 template <class Visit>

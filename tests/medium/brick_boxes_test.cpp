@@ -1,0 +1,130 @@
+// Boxes of bricks: they are disjoint, hold what is occupied, and are found by points and by rays in order.
+#include "vpm/medium/brick_boxes.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "vpm/base/rng.h"
+#include "vpm/base/warp.h"
+
+namespace vpm {
+namespace {
+
+/// A number from 0 to n - 1.
+int below(int n, Rng& rng) { return std::min(n - 1, static_cast<int>(rng.uniform() * static_cast<float>(n))); }
+
+/// Boxes of up to 4^3 bricks, some of which overlap, in clusters that lie far apart.
+std::vector<IndexBox> clusters(uint64_t seed) {
+  Rng rng(seed, rng_stream(RngUse::test, 0), 0);
+  std::vector<IndexBox> boxes;
+  for (int cluster = 0; cluster < 12; ++cluster) {
+    const Vec3i corner(below(1 << 26, rng), below(1 << 12, rng), below(1 << 20, rng));
+    for (int i = 0; i < 40; ++i) {
+      const Vec3i lo = corner + Vec3i(below(30, rng), below(30, rng), below(30, rng));
+      boxes.push_back({lo, lo + Vec3i(below(4, rng), below(4, rng), below(4, rng))});
+    }
+  }
+  return boxes;
+}
+
+TEST(BrickBoxes, HoldWhatIsOccupiedOnceAndLittleElse) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const std::vector<IndexBox> occupied = clusters(seed);
+    const BrickBoxes boxes(occupied);
+    std::set<size_t> numbers;
+    for (const IndexBox& box : occupied)
+      for (int z = box.lo.z; z <= box.hi.z; ++z)
+        for (int y = box.lo.y; y <= box.hi.y; ++y)
+          for (int x = box.lo.x; x <= box.hi.x; ++x) {
+            const Vec3i brick(x, y, z);
+            const BrickBox* found = boxes.find(brick);
+            ASSERT_NE(found, nullptr);
+            const size_t number = found->number(brick);
+            numbers.insert(number);
+            ASSERT_EQ(&boxes.of_number(number), found);
+            ASSERT_EQ(found->brick(number), brick);
+            ASSERT_LT(number, boxes.bricks());
+            int holders = 0;
+            for (const BrickBox& other : boxes.all()) holders += other.holds(brick);
+            ASSERT_EQ(holders, 1);
+          }
+    EXPECT_LE(boxes.bricks(), 20 * numbers.size());
+    EXPECT_EQ(boxes.find(Vec3i(-1, 0, 0)), nullptr);
+  }
+}
+
+/// Where a ray enters the box, and leaves it.
+std::pair<double, double> crossing(const BrickBox& box, const Vec3d& origin, const Vec3d& direction) {
+  double t0 = -1e30, t1 = 1e30;
+  for (int a = 0; a < 3; ++a) {
+    const double lo = box.lo[a] - origin[a], hi = box.lo[a] + box.count[a] - origin[a];
+    if (direction[a] == 0.0) {
+      if (lo > 0.0 || hi < 0.0) return {1.0, 0.0};
+      continue;
+    }
+    t0 = std::max(t0, std::min(lo / direction[a], hi / direction[a]));
+    t1 = std::min(t1, std::max(lo / direction[a], hi / direction[a]));
+  }
+  return {t0, t1};
+}
+
+TEST(BrickBoxes, AreMetByRaysInOrder) {
+  const BrickBoxes boxes(clusters(3));
+  ASSERT_GT(boxes.all().size(), 12u);
+  Rng rng(5, rng_stream(RngUse::test, 0), 0);
+  size_t met = 0;
+  for (int i = 0; i < 4000; ++i) {
+    // From near a box to near another, every fourth along an axis.
+    const auto point = [&] {
+      const BrickBox& box = boxes.all()[static_cast<size_t>(below(static_cast<int>(boxes.all().size()), rng))];
+      return Vec3d(box.lo) + Vec3d(box.count) * Vec3d(rng.uniform(), rng.uniform(), rng.uniform());
+    };
+    const Vec3d origin = point();
+    Vec3d direction = point() - origin;
+    if (i % 4 == 0) direction = Vec3d(i % 8 ? 1.0 : -1.0, 0.0, 0.0);
+    const double t0 = i % 3 ? -0.25 : -1e9, t1 = i % 3 ? 0.75 : 1e9;
+    std::vector<const BrickBox*> visited;
+    boxes.visit(origin, direction, t0, t1, [&](const BrickBox& box) {
+      visited.push_back(&box);
+      return true;
+    });
+    double reached = -1e30;
+    for (const BrickBox* box : visited) {
+      const auto [enter, leave] = crossing(*box, origin, direction);
+      if (!(leave > enter)) continue;
+      ASSERT_GE(enter, reached - 1e-9 * std::abs(reached));
+      reached = leave;
+    }
+    for (const BrickBox& box : boxes.all()) {
+      const auto [enter, leave] = crossing(box, origin, direction);
+      if (!(std::min(leave, t1) > std::max(enter, t0))) continue;
+      ++met;
+      ASSERT_NE(std::find(visited.begin(), visited.end(), &box), visited.end());
+    }
+  }
+  EXPECT_GT(met, 6000u);
+}
+
+TEST(BrickBoxes, ARayMayStop) {
+  const BrickBoxes boxes({{Vec3i(0), Vec3i(3)}, {Vec3i(100, 0, 0), Vec3i(103, 3, 3)}});
+  int visited = 0;
+  EXPECT_FALSE(boxes.visit(Vec3d(-1.0, 1.0, 1.0), Vec3d(1.0, 0.0, 0.0), 0.0, 1000.0,
+                           [&](const BrickBox&) { return ++visited < 1; }));
+  EXPECT_EQ(visited, 1);
+}
+
+TEST(BrickBoxes, ManyEvenlySpacedAreAFlatTree) {
+  // A tree as deep as its boxes would take millions of steps for each of these, and overflow the stack.
+  std::vector<IndexBox> occupied;
+  for (int i = 0; i < 20'000; ++i) occupied.push_back({Vec3i(5000 * i, 0, 0), Vec3i(5000 * i + 1, 1, 1)});
+  const BrickBoxes boxes(occupied);
+  EXPECT_EQ(boxes.all().size(), 20'000u);
+  int visited = 0;
+  EXPECT_TRUE(boxes.visit(Vec3d(-1.0, 0.5, 0.5), Vec3d(1.0, 0.0, 0.0), 0.0, 2e8,
+                          [&](const BrickBox& box) { return box.lo.x == 5000 * visited++; }));
+  EXPECT_EQ(visited, 20'000);
+}
+
+}  // namespace
+}  // namespace vpm
