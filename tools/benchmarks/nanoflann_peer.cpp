@@ -1,7 +1,7 @@
 // nanoflann's kd-tree.
 #include "benchmarks/point_peers.h"
 
-#if __has_include(<nanoflann.hpp>)
+#ifdef VPM_BENCH_NANOFLANN
 #include <nanoflann.hpp>
 
 namespace vpm::bench {

@@ -1,7 +1,7 @@
 // NanoVDB's look-ups, and free flights by its hierarchical DDA.
 #include "benchmarks/density_peers.h"
 
-#if __has_include(<nanovdb/util/GridBuilder.h>)
+#ifdef VPM_BENCH_NANOVDB
 #include <nanovdb/util/GridBuilder.h>
 #include <nanovdb/util/HDDA.h>
 #include <nanovdb/util/Ray.h>
@@ -10,7 +10,7 @@
 namespace vpm::bench {
 namespace {
 
-using Handle = nanovdb::GridHandle<>;
+using NanoHandle = nanovdb::GridHandle<>;
 
 /// The largest density in the cells of lower corners lo..hi.
 float largest(const Vec3i& lo, const Vec3i& hi) {
@@ -23,7 +23,7 @@ float largest(const Vec3i& lo, const Vec3i& hi) {
 
 /// A voxel is active where the cell above it holds anything, so that there is a leaf wherever there is density. A
 /// leaf's own maximum does not bound what is interpolated towards the next one: it is replaced by one that does.
-Handle make_grid() {
+NanoHandle make_nano_grid() {
   nanovdb::GridBuilder<float> builder(0.0f);
   auto accessor = builder.getAccessor();
   const Vec3i count = cloud().count;
@@ -31,7 +31,7 @@ Handle make_grid() {
     for (int y = -1; y < count.y; ++y)
       for (int x = -1; x < count.x; ++x)
         if (largest({x, y, z}, {x, y, z}) > 0.0f) accessor.setValue({x, y, z}, cloud().value({x, y, z}));
-  Handle handle = builder.getHandle();
+  NanoHandle handle = builder.getHandle();
   auto& tree = handle.grid<float>()->tree();
   auto* leaf = tree.getFirstLeaf();
   for (uint32_t i = 0; i < tree.nodeCount(0); ++i, ++leaf) {
@@ -42,14 +42,14 @@ Handle make_grid() {
   return handle;
 }
 
-const nanovdb::NanoGrid<float>& grid() {
-  static const Handle made = make_grid();
+const nanovdb::NanoGrid<float>& nano_grid() {
+  static const NanoHandle made = make_nano_grid();
   return *made.grid<float>();
 }
 
 /// The end of a flight through the part of the ray inside the grid, m; that of the ray where nothing stops it.
 template <class Accessor, class Sampler>
-double flight(const Ray& along, float length, float sigma_t, Accessor& accessor, Sampler& sampler, Rng& rng) {
+double hdda_flight(const Ray& along, float length, float sigma_t, Accessor& accessor, Sampler& sampler, Rng& rng) {
   const Vec3 &o = along.origin, &d = along.direction;
   nanovdb::Ray<float> ray({o.x, o.y, o.z}, {d.x, d.y, d.z}, 0.0f, length);
   if (!ray.clip(accessor.root().bbox())) return length;
@@ -79,26 +79,26 @@ double flight(const Ray& along, float length, float sigma_t, Accessor& accessor,
 }  // namespace
 
 SumDensities nanovdb_sampler() {
-  grid();
+  nano_grid();
   return [](std::span<const Vec3> points) {
-    const auto accessor = grid().getAccessor();
-    const nanovdb::SampleFromVoxels<decltype(grid().getAccessor()), 1, true> sampler(accessor);
+    const auto accessor = nano_grid().getAccessor();
+    const nanovdb::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
     double sum = 0.0;
-    for (const Vec3& p : points) sum += sampler(grid().worldToIndexF(nanovdb::Vec3f(p.x, p.y, p.z)));
+    for (const Vec3& p : points) sum += sampler(nano_grid().worldToIndexF(nanovdb::Vec3f(p.x, p.y, p.z)));
     return sum;
   };
 }
 
 SumCombs nanovdb_along_rays() {
-  grid();
+  nano_grid();
   return [](std::span<const Comb> combs) {
-    const auto accessor = grid().getAccessor();
-    const nanovdb::SampleFromVoxels<decltype(grid().getAccessor()), 1, true> sampler(accessor);
+    const auto accessor = nano_grid().getAccessor();
+    const nanovdb::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
     double sum = 0.0;
     for (const auto& [ray, first, count] : combs) {
       const Vec3 &o = ray.origin, &d = ray.direction;
-      const nanovdb::Vec3f origin = grid().worldToIndexF(nanovdb::Vec3f(o.x, o.y, o.z));
-      const nanovdb::Vec3f direction = grid().worldToIndexDirF(nanovdb::Vec3f(d.x, d.y, d.z));
+      const nanovdb::Vec3f origin = nano_grid().worldToIndexF(nanovdb::Vec3f(o.x, o.y, o.z));
+      const nanovdb::Vec3f direction = nano_grid().worldToIndexDirF(nanovdb::Vec3f(d.x, d.y, d.z));
       for (size_t i = 0; i < count; ++i) sum += sampler(origin + direction * (first + static_cast<float>(i)));
     }
     return sum;
@@ -106,14 +106,14 @@ SumCombs nanovdb_along_rays() {
 }
 
 SumFlights nanovdb_flights() {
-  grid();
+  nano_grid();
   return [](const CloudRays& rays, float sigma_t) {
-    const auto accessor = grid().getAccessor();
-    const nanovdb::SampleFromVoxels<decltype(grid().getAccessor()), 1, true> sampler(accessor);
+    const auto accessor = nano_grid().getAccessor();
+    const nanovdb::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
     double sum = 0.0;
     for (size_t i = 0; i < rays.rays.size(); ++i) {
       Rng rng(1, rng_stream(RngUse::photon, 0), i);
-      sum += flight(rays.rays[i], rays.length, sigma_t, accessor, sampler, rng);
+      sum += hdda_flight(rays.rays[i], rays.length, sigma_t, accessor, sampler, rng);
     }
     return sum;
   };

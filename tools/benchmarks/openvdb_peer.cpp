@@ -7,7 +7,7 @@
 namespace vpm::bench {
 namespace {
 
-openvdb::FloatGrid::Ptr make_grid() {
+openvdb::FloatGrid::Ptr make_vdb_grid() {
   openvdb::initialize();
   auto grid = openvdb::FloatGrid::create(0.0f);
   auto accessor = grid->getAccessor();
@@ -19,15 +19,15 @@ openvdb::FloatGrid::Ptr make_grid() {
   return grid;
 }
 
-openvdb::FloatGrid::ConstPtr grid() {
-  static const openvdb::FloatGrid::ConstPtr made = make_grid();
+openvdb::FloatGrid::ConstPtr vdb_grid() {
+  static const openvdb::FloatGrid::ConstPtr made = make_vdb_grid();
   return made;
 }
 
 }  // namespace
 
 SumDensities openvdb_accessor() {
-  return [grid = grid()](std::span<const Vec3> points) {
+  return [grid = vdb_grid()](std::span<const Vec3> points) {
     const auto accessor = grid->getConstAccessor();
     double sum = 0.0;
     for (const Vec3& p : points)
@@ -37,7 +37,7 @@ SumDensities openvdb_accessor() {
 }
 
 SumDensities openvdb_grid_sampler() {
-  return [grid = grid()](std::span<const Vec3> points) {
+  return [grid = vdb_grid()](std::span<const Vec3> points) {
     const openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> sampler(*grid);
     double sum = 0.0;
     for (const Vec3& p : points) sum += sampler.wsSample(openvdb::Vec3d(p.x, p.y, p.z));

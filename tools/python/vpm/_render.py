@@ -144,9 +144,9 @@ def render(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrid
     error: until the estimated relative MSE is no more than that. Without any of the three, the scene says.
     seed: of all random numbers; without one, the scene says.
     progress: show a bar on a terminal.
-    together: share the passes among the processes that `mpiexec -n 8 python3 -m mpi4py SCRIPT` starts, all of which call
-        this at once, with the same scene. All have the same result, of the same bits as that of one process, and go on
-        together with its resume(); its write() is left to rank 0. Takes a vpm that is built with MPI.
+    together: share the passes among the processes that `mpiexec -n 8 python3 -m mpi4py SCRIPT` starts, all of which
+        call this at once, with the same scene. All have the same result, of the same bits as that of one process, and
+        go on together with its resume(); its write() is left to rank 0. Takes a vpm that is built with MPI.
 
     Other threads of Python run meanwhile. Ctrl-C raises `Interrupted`, a KeyboardInterrupt whose `result` has the
     passes that were finished. Raises InputError for what the command line refuses.
