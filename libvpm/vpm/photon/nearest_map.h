@@ -93,13 +93,15 @@ uint32_t NearestMap::search(const Vec3& point, size_t of_leaf, Neighbours& neigh
     if (part.distance2 < neighbours.limit()) {
       while (part.node < leaves_) {
         const Split& split = splits_[part.node];
-        const float across = point[split.axis] - split.at;  // > 0: the point lies above
+        __builtin_prefetch(splits_.data() + std::min(8 * part.node, leaves_));  // three levels down: one cache line
+        const float across = point[split.axis] - split.at;                      // > 0: the point lies above
         const size_t near = 2 * part.node + (across > 0.0f ? 1 : 0);
         Part far{near ^ 1, part.gap, 0.0f};
         far.gap[split.axis] = across;
         far.distance2 = glm::dot(far.gap, far.gap);
         stack[top] = far;
         top += far.distance2 < neighbours.limit() ? 1 : 0;
+        if (far.node >= leaves_) photons_.prefetch(leaf_begin(size(), leaves_, far.node - leaves_));
         part.node = near;
       }
       const size_t leaf = part.node - leaves_, begin = leaf_begin(size(), leaves_, leaf);

@@ -40,6 +40,13 @@ class PhotonTable {
   template <class Visit>
   void for_each_block(size_t begin, size_t end, const Vec3& origin, const HalfSpaces& region, Visit&& visit) const;
 
+  /// Prefetches the positions of the block that begins with a photon.
+  void prefetch(size_t begin) const {
+    for (const std::vector<float>* along : {&x_, &y_, &z_}) {
+      __builtin_prefetch(along->data() + begin);
+      __builtin_prefetch(along->data() + begin + kBlock - 1);
+    }
+  }
   Vec3 position(size_t i) const { return {x_[i], y_[i], z_[i]}; }
   const Payload& payload(size_t i) const { return payload_[i]; }
   size_t size() const { return payload_.size(); }
