@@ -4,6 +4,7 @@ import math
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 
 
@@ -24,9 +25,10 @@ def cores_of(count, number):
 
 
 def start(command, core, folder):
-    """Starts a command on a core; what it says is kept in a folder."""
+    """Starts a command on a core, and a group of processes with it; what it says is kept in a folder."""
     with open(f"{folder}/errors", "w") as errors:
-        return subprocess.Popen(["taskset", "-c", str(core), *map(str, command)], stdout=subprocess.DEVNULL, stderr=errors)
+        return subprocess.Popen(["taskset", "-c", str(core), *map(str, command)], stdout=subprocess.DEVNULL, stderr=errors,
+                                start_new_session=True)
 
 
 def finish(process, folder):
@@ -51,7 +53,7 @@ def run_together(commands, folders, number):
     finally:
         for process in processes:
             if process.returncode is None:
-                process.kill()
+                os.killpg(process.pid, signal.SIGKILL)
                 process.wait()
 
 

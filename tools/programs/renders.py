@@ -1,7 +1,8 @@
 """Speed against error on whole scenes.
 
-Renders each scene with new seeds to a quarter, a half and all of --seconds, and prints the CPU seconds, the error
-against the scene's reference, and the efficiency, 1 / (error x seconds): medians over renders.
+Renders each scene with new seeds for about a quarter, a half and all of --seconds, and prints the CPU seconds, the
+error against the scene's reference, and the efficiency, 1 / (error x seconds): medians over renders. Passes are powers
+of two: the one that comes closest to --seconds by a trial before, at least 4, its half and its quarter.
 
 With --before, an older program renders the same at the same time, with the same seeds; each render has one thread and a
 core of its own, and cores change from pair to pair. Each pair gives a ratio, the time of BEFORE over that of this
@@ -19,6 +20,7 @@ Exit status: 0; 1 where the interval of the geometric mean lies below 1: this pr
 do not tell); 2 for wrong input, or where a render fails; 130 where it was interrupted.
 """
 import argparse
+import contextlib
 import datetime
 import hashlib
 import json
@@ -36,7 +38,7 @@ from programs import equal_error, pairs, suite
 from programs.other_renderers import read_renderer
 from programs.suite import InputError, ROOT
 
-PARTS = (4, 2, 1)  # of --seconds: the budgets
+LEAST_PASSES = 4  # of the longest render: the shortest makes one
 MOST_PAIRS = (suite.REFERENCE_SEED - 1) // 1000 * 1000
 MUCH = 0.2  # of an error: what a reference may be wrong by before it is told
 
@@ -79,22 +81,54 @@ def error_of(program, picture, reference):
     return told["relative_mse"]["value"] - (noise or 0), noise
 
 
-def render_pair(options, scene, number, reference):
-    """The renders of a pair, by all programs and budgets: dictionaries as the JSON file has them."""
+def commands_of(options, scene, passes, seed, folders):
+    """The renders of all programs at once, of a dictionary of passes."""
+    return [suite.render_command(program, scene, options.size, folder / "picture.exr", seed,
+                                 ["--threads", 1, "--passes", passes[name], "--progress", "never"], scene.sets)
+            for (name, program), folder in zip(options.programs.items(), folders)]
+
+
+@contextlib.contextmanager
+def folders_of(options):
+    """An empty folder for each program."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folders = [pathlib.Path(scratch, name) for name in options.programs]
+        for folder in folders:
+            folder.mkdir()
+        yield folders
+
+
+def choose_passes(options, scene):
+    """How many passes the longest render of each program makes: the power of two that takes closest to --seconds.
+
+    So programs that make the same pictures have errors at the same passes, though one be slower, and the load of the
+    machine does not decide what is rendered.
+    """
+    def seconds_of(passes):
+        with folders_of(options) as folders:
+            commands = commands_of(options, scene, dict.fromkeys(options.programs, passes), suite.REFERENCE_SEED, folders)
+            return pairs.run_together(commands, folders, 0)
+    passes, last, now = 1, [0.0] * len(options.programs), seconds_of(1)
+    while max(now) < options.seconds / 8:
+        passes, last, now = 4 * passes, now, seconds_of(4 * passes)
+    chosen = {}
+    for name, before, after in zip(options.programs, last, now):
+        of_pass = max(after - before, after / 4) / (passes - passes // 4)
+        wanted = passes + (options.seconds - after) / of_pass
+        chosen[name] = max(LEAST_PASSES, 2 ** round(math.log2(max(wanted, 1))))
+    return chosen
+
+
+def render_pair(options, scene, number, longest, reference):
+    """The renders of a pair, by all programs: dictionaries as the JSON file has them."""
     renders, seed = [], number + 1
-    for part in PARTS:
-        budget = options.seconds / part
-        with tempfile.TemporaryDirectory() as scratch:
-            folders = [pathlib.Path(scratch, name) for name in options.programs]
-            for folder in folders:
-                folder.mkdir()
-            commands = [suite.render_command(program, scene, options.size, folder / "picture.exr", seed,
-                                             ["--threads", 1, "--time", f"{budget:g}", "--progress", "never"], scene.sets)
-                        for program, folder in zip(options.programs.values(), folders)]
-            seconds = pairs.run_together(commands, folders, number)
+    for part in (4, 2, 1):
+        passes = {name: most // part for name, most in longest.items()}
+        with folders_of(options) as folders:
+            seconds = pairs.run_together(commands_of(options, scene, passes, seed, folders), folders, number)
             for name, folder, spent in zip(options.programs, folders, seconds):
                 error, _ = error_of(options.programs["after"], folder / "picture.exr", reference.file)
-                renders.append({"program": name, "pair": number, "seed": seed, "budget": budget, "seconds": spent, "error": error})
+                renders.append({"program": name, "pair": number, "seed": seed, "passes": passes[name], "seconds": spent, "error": error})
     return renders
 
 
@@ -111,14 +145,14 @@ def verdict(ratio, number_of_pairs):
 
 
 def table_of(renders, programs):
-    """A row for each program and budget."""
+    """A row for each program and number of passes."""
     rows = []
     for name in programs:
-        for budget in sorted({render["budget"] for render in renders}):
-            own = [render for render in renders if (render["program"], render["budget"]) == (name, budget)]
+        for passes in sorted({render["passes"] for render in renders if render["program"] == name}):
+            own = [render for render in renders if (render["program"], render["passes"]) == (name, passes)]
             seconds, errors = [render["seconds"] for render in own], [render["error"] for render in own]
             efficiency = statistics.median(1 / (t * e) if e > 0 else math.inf for t, e in zip(seconds, errors))
-            rows.append({"program": name, "budget": budget, "seconds": statistics.median(seconds), "error": bounds(errors),
+            rows.append({"program": name, "passes": passes, "seconds": statistics.median(seconds), "error": bounds(errors),
                          "efficiency": efficiency if math.isfinite(efficiency) else None})
     return rows
 
@@ -147,14 +181,13 @@ def other_row(row, options, reference, table):
 
 def measure(options, scene, others, progress):
     """All that is found out of a scene, as the JSON file has it."""
-    progress.clear()
     reference = suite.reference_of(options.programs["after"], scene, options.size, options.reference_error, options.references)
-    renders = []
+    progress.show(scene.name)
+    renders, longest = [], choose_passes(options, scene)
     for number in range(options.pairs):
         progress.show(scene.name)
-        renders += render_pair(options, scene, number, reference)
+        renders += render_pair(options, scene, number, longest, reference)
         progress.done += 1
-    progress.clear()
     table = table_of(renders, options.programs)
     _, noise = error_of(options.programs["after"], reference.file, reference.file)
     found = {"scene": scene.name, "file": str(scene.file), "sets": scene.sets,
@@ -176,13 +209,13 @@ def print_scene(found):
     print(f"{found['scene']}: the reference {noise}{told}")
     names = {"after": "vpm", "before": "before"}
     for row in found["table"]:
-        print(f"  {names[row['program']]:<24}{row['seconds']:>9.2f}{row['error']['median']:>12.3g}{row['efficiency'] or math.nan:>15.4g}")
+        print(f"  {names[row['program']]:<24}{row['passes']:>8}{row['seconds']:>9.2f}{row['error']['median']:>12.3g}{row['efficiency'] or math.nan:>15.4g}")
     for row in found["others"]:
-        print(f"  {row['renderer'][:23]:<24}{row['seconds']:>9.2f}{row['error']:>12.3g}{row['efficiency'] or math.nan:>15.4g}", end="")
+        print(f"  {row['renderer'][:31]:<32}{row['seconds']:>9.2f}{row['error']:>12.3g}{row['efficiency'] or math.nan:>15.4g}", end="")
         seconds = row["vpm_seconds_for_that_error"]
         print(f"  vpm: {seconds:.3g} s{', extrapolated' if row['outside'] else ''}" if seconds else "")
     if found["ratio"]:
-        print(f"  {'time at equal error, before / now':<46}{show_ratio(found['ratio'], len(found['ratios']))}"
+        print(f"  {'time at equal error, before / now':<54}{show_ratio(found['ratio'], len(found['ratios']))}"
               + (f"; {found['ratios_outside']} extrapolated" if found["ratios_outside"] else ""))
     warn_of_reference(found)
     sys.stdout.flush()
@@ -229,7 +262,7 @@ def write_json(options, found, skipped, mean, programs):
     told = {"layout": "vpm bench renders 1", "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
             "machine": {"processor": processor(), "cores": len(os.sched_getaffinity(0)), "system": platform.platform()},
             "programs": programs, "size": options.size, "pairs": options.pairs,
-            "budgets": [options.seconds / part for part in PARTS], "confidence": pairs.interval([0] * options.pairs)[3],
+            "seconds": options.seconds, "confidence": pairs.interval([0] * options.pairs)[3],
             "scenes": found, "skipped": skipped, "geometric_mean": mean}
     part = options.json.with_name(options.json.name + ".part")
     part.write_text(json.dumps(told, indent=1) + "\n")
@@ -259,8 +292,8 @@ def read_arguments():
     parser.add_argument("--before", metavar="PROGRAM", help="an older vpm to be compared with")
     parser.add_argument("--program", metavar="PROGRAM", help="the vpm that is measured; build/release/vpm, built anew, unless given")
     parser.add_argument("--pairs", type=whole(1, MOST_PAIRS), metavar="N",
-                        help="pairs of renders of each scene and budget, 6 or more for intervals of 95 %%; 25 unless given, without --before 5")
-    parser.add_argument("--seconds", type=above_zero, default=10.0, metavar="S", help="the longest budget; 10 unless given")
+                        help="pairs of renders of each scene and number of passes, 6 or more for intervals of 95 %%; 25 unless given, without --before 5")
+    parser.add_argument("--seconds", type=above_zero, default=10.0, metavar="S", help="CPU seconds of the longest renders, about; 10 unless given")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="write all that was measured")
     parser.add_argument("--renderer", type=pathlib.Path, action="append", default=[], metavar="PATH",
                         help="pictures by another renderer: a folder or a list, see above; may be repeated")
@@ -320,18 +353,23 @@ def run(options):
     if options.json is not None and not options.json.resolve().parent.is_dir():
         raise InputError(f"{options.json}: there is no folder {options.json.resolve().parent}")
     confidence = pairs.interval([0] * options.pairs)[3]
-    print(f"{options.size} x {options.size} pixels, {options.pairs} renders of each budget, medians"
+    print(f"{options.size} x {options.size} pixels, {options.pairs} renders of each row, medians"
           + (f"; intervals of {confidence:.1%}" if options.before else ""))
-    print(f"  {'':<24}{'CPU s':>9}{'error':>12}{'1/(error s)':>15}")
+    print(f"  {'':<24}{'passes':>8}{'CPU s':>9}{'error':>12}{'1/(error s)':>15}")
     found, mean, progress = [], None, Progress(options.pairs * len(scenes))
     for scene in scenes:
-        found.append(measure(options, scene, [row for row in rows if row.scene == scene.name], progress))
+        try:
+            found.append(measure(options, scene, [row for row in rows if row.scene == scene.name], progress))
+        except RuntimeError as error:
+            raise RuntimeError(f"{scene.name}: {error}") from error
+        finally:
+            progress.clear()
         print_scene(found[-1])
         lists = [of_scene["ratios"] for of_scene in found if of_scene["ratios"]]
         mean = bounds(equal_error.geometric_means(lists)) if lists else None
         write_json(options, found, skipped, mean, programs)
     if mean:
-        print(f"{'geometric mean over scenes':<48}{show_ratio(mean, options.pairs)}")
+        print(f"{'geometric mean over scenes':<56}{show_ratio(mean, options.pairs)}")
     return 1 if mean and verdict(mean, options.pairs) == "SLOWER" else 0
 
 
