@@ -20,7 +20,6 @@ Exit status: 0; 1 where the interval of the geometric mean lies below 1: this pr
 do not tell); 2 for wrong input, or where a render fails; 130 where it was interrupted.
 """
 import argparse
-import contextlib
 import datetime
 import hashlib
 import json
@@ -28,17 +27,15 @@ import math
 import os
 import pathlib
 import platform
-import statistics
 import subprocess
 import sys
-import tempfile
 import time
 
 from programs import equal_error, pairs, suite
+from programs.measure import bounds, difference_of, measure
 from programs.other_renderers import read_renderer
 from programs.suite import InputError, ROOT
 
-LEAST_PASSES = 4  # of the longest render: the shortest makes one
 MOST_PAIRS = (suite.REFERENCE_SEED - 1) // 1000 * 1000
 MUCH = 0.2  # of an error: what a reference may be wrong by before it is told
 
@@ -66,139 +63,11 @@ class Progress:
             sys.stderr.flush()
 
 
-def error_of(program, picture, reference):
-    """The error of a picture less the reference's noise, that noise or None where the reference does not tell it, and
-    the size. Throws RuntimeError with what the program says where they cannot be compared."""
-    done = subprocess.run([program, "error", "--json", str(picture), str(reference)], capture_output=True, text=True, errors="replace")
-    if done.returncode != 0:
-        raise RuntimeError(done.stderr.strip())
-    told = json.loads(done.stdout)
-    noise = told["relative_mse"]["noise_of_reference"]
-    if told["crop"] is not None:
-        raise RuntimeError(f"{picture} is only a part of the picture of {reference}, and all of it is measured")
-    if sum(told["non_finite_pixels"].values()) > 0:
-        raise RuntimeError(f"{picture} has pixels that are no finite numbers")
-    return told["relative_mse"]["value"] - (noise or 0), noise
-
-
-def commands_of(options, scene, passes, seed, folders):
-    """The renders of all programs at once, of a dictionary of passes."""
-    return [suite.render_command(program, scene, options.size, folder / "picture.exr", seed,
-                                 ["--threads", 1, "--passes", passes[name], "--progress", "never"], scene.sets)
-            for (name, program), folder in zip(options.programs.items(), folders)]
-
-
-@contextlib.contextmanager
-def folders_of(options):
-    """An empty folder for each program."""
-    with tempfile.TemporaryDirectory() as scratch:
-        folders = [pathlib.Path(scratch, name) for name in options.programs]
-        for folder in folders:
-            folder.mkdir()
-        yield folders
-
-
-def choose_passes(options, scene):
-    """How many passes the longest render of each program makes: the power of two that takes closest to --seconds.
-
-    So programs that make the same pictures have errors at the same passes, though one be slower, and the load of the
-    machine does not decide what is rendered.
-    """
-    def seconds_of(passes):
-        with folders_of(options) as folders:
-            commands = commands_of(options, scene, dict.fromkeys(options.programs, passes), suite.REFERENCE_SEED, folders)
-            return pairs.run_together(commands, folders, 0)
-    passes, last, now = 1, [0.0] * len(options.programs), seconds_of(1)
-    while max(now) < options.seconds / 8:
-        passes, last, now = 4 * passes, now, seconds_of(4 * passes)
-    chosen = {}
-    for name, before, after in zip(options.programs, last, now):
-        of_pass = max(after - before, after / 4) / (passes - passes // 4)
-        wanted = passes + (options.seconds - after) / of_pass
-        chosen[name] = max(LEAST_PASSES, 2 ** round(math.log2(max(wanted, 1))))
-    return chosen
-
-
-def render_pair(options, scene, number, longest, reference):
-    """The renders of a pair, by all programs: dictionaries as the JSON file has them."""
-    renders, seed = [], number + 1
-    for part in (4, 2, 1):
-        passes = {name: most // part for name, most in longest.items()}
-        with folders_of(options) as folders:
-            seconds = pairs.run_together(commands_of(options, scene, passes, seed, folders), folders, number)
-            for name, folder, spent in zip(options.programs, folders, seconds):
-                error, _ = error_of(options.programs["after"], folder / "picture.exr", reference.file)
-                renders.append({"program": name, "pair": number, "seed": seed, "passes": passes[name], "seconds": spent, "error": error})
-    return renders
-
-
-def bounds(values):
-    median, low, high, _ = pairs.interval(values)
-    return {"median": median, "low": low, "high": high}
-
-
 def verdict(ratio, number_of_pairs):
     """Whether a ratio tells that this program is slower or quicker; "" where it does not, as of fewer than 5 pairs."""
     if number_of_pairs < 5:
         return ""
     return "SLOWER" if ratio["high"] < 1 else "quicker" if ratio["low"] > 1 else ""
-
-
-def table_of(renders, programs):
-    """A row for each program and number of passes."""
-    rows = []
-    for name in programs:
-        for passes in sorted({render["passes"] for render in renders if render["program"] == name}):
-            own = [render for render in renders if (render["program"], render["passes"]) == (name, passes)]
-            seconds, errors = [render["seconds"] for render in own], [render["error"] for render in own]
-            efficiency = statistics.median(1 / (t * e) if e > 0 else math.inf for t, e in zip(seconds, errors))
-            rows.append({"program": name, "passes": passes, "seconds": statistics.median(seconds), "error": bounds(errors),
-                         "efficiency": efficiency if math.isfinite(efficiency) else None})
-    return rows
-
-
-def curve_of(renders, name, number):
-    return [(render["seconds"], render["error"]) for render in renders if (render["program"], render["pair"]) == (name, number)]
-
-
-def ratios_of(renders, number_of_pairs):
-    """The ratio of each pair, and how many of them lie outside of the times that were measured."""
-    found = [equal_error.ratio_of(curve_of(renders, "before", pair), curve_of(renders, "after", pair)) for pair in range(number_of_pairs)]
-    return [ratio for ratio, _ in found], sum(outside for _, outside in found)
-
-
-def other_row(row, options, reference, table):
-    """A picture by another renderer, and how long this program takes for the same error, by its medians."""
-    error, _ = error_of(options.programs["after"], row.file, reference.file)
-    curve = sorted((own["seconds"], own["error"]["median"]) for own in table if own["program"] == "after")
-    told = {"renderer": row.renderer, "file": str(row.file), "seconds": row.seconds, "error": error,
-            "efficiency": None, "vpm_seconds_for_that_error": None, "outside": None}
-    if error > 0 and all(e > 0 for _, e in curve):
-        seconds, outside = equal_error.time_of(curve, error)
-        told |= {"efficiency": 1 / (row.seconds * error), "vpm_seconds_for_that_error": seconds, "outside": outside}
-    return told
-
-
-def measure(options, scene, others, progress):
-    """All that is found out of a scene, as the JSON file has it."""
-    reference = suite.reference_of(options.programs["after"], scene, options.size, options.reference_error, options.references)
-    progress.show(scene.name)
-    renders, longest = [], choose_passes(options, scene)
-    for number in range(options.pairs):
-        progress.show(scene.name)
-        renders += render_pair(options, scene, number, longest, reference)
-        progress.done += 1
-    table = table_of(renders, options.programs)
-    _, noise = error_of(options.programs["after"], reference.file, reference.file)
-    found = {"scene": scene.name, "file": str(scene.file), "sets": scene.sets,
-             "reference": {"file": str(reference.file), "noise": noise, "stated": reference.stated},
-             "table": table, "ratio": None, "ratios": None, "ratios_outside": None,
-             "others": [other_row(row, options, reference, table) for row in others], "renders": renders}
-    usable = all(render["error"] > 0 for render in renders)
-    if "before" in options.programs and usable:
-        ratios, outside = ratios_of(renders, options.pairs)
-        found |= {"ratio": bounds(ratios), "ratios": ratios, "ratios_outside": outside}
-    return found
 
 
 def print_scene(found):
@@ -315,7 +184,7 @@ def read_arguments():
 
 def choose(options):
     """The scenes that can be rendered, those that are skipped, and the rows of other renderers."""
-    scenes = [suite.find_scene(text, options.grids.resolve()) for text in options.scene or suite.STANDARD]
+    scenes = [suite.find_scene(text, options.grids.resolve()) for text in dict.fromkeys(options.scene or suite.STANDARD)]
     skipped = [{"scene": scene.name, "why": suite.missing_grid(scene)} for scene in scenes if suite.missing_grid(scene)]
     for scene in skipped:
         if options.scene:
@@ -333,27 +202,33 @@ def choose(options):
 def check_sizes(options, rows):
     """Refuses pictures of another size, before hours are spent on what they stand beside."""
     for row in rows:
-        done = subprocess.run([options.programs["after"], "error", "--json", str(row.file), str(row.file)], capture_output=True, text=True,
-                              errors="replace")
-        if done.returncode != 0:
-            raise InputError(f"{row.where}: {done.stderr.strip()}")
-        told = json.loads(done.stdout)
+        try:
+            told = difference_of(options.programs["after"], row.file, row.file)
+        except RuntimeError as error:
+            raise InputError(f"{row.where}: {error}") from error
         if (told["width"], told["height"]) != (options.size, options.size):
             raise InputError(f"{row.where}: {row.file} has {told['width']} x {told['height']} pixels, and pictures here have "
                              f"{options.size} x {options.size}: render it at that size, or give --size")
 
 
+def check_json(file):
+    """Refuses a file that cannot be written, before there is something to write."""
+    if file is not None and file.is_dir():
+        raise InputError(f"{file}: it is a folder; --json takes a file")
+    if file is not None and not file.resolve().parent.is_dir():
+        raise InputError(f"{file}: there is no folder {file.resolve().parent}")
+
+
 def run(options):
     """Measures and prints all scenes; the exit status."""
     scenes, skipped, rows = choose(options)
+    check_json(options.json)
     if not options.program:
         subprocess.run([ROOT / "tools" / "build", "release", "vpm"], stdout=sys.stderr.fileno(), check=True)
     check_sizes(options, rows)
     programs = {name: describe_program(program) for name, program in options.programs.items()}
-    if options.json is not None and not options.json.resolve().parent.is_dir():
-        raise InputError(f"{options.json}: there is no folder {options.json.resolve().parent}")
     confidence = pairs.interval([0] * options.pairs)[3]
-    print(f"{options.size} x {options.size} pixels, {options.pairs} renders of each row, medians"
+    print(f"{options.size} x {options.size} pixels, renders for each row: {options.pairs}; medians"
           + (f"; intervals of {confidence:.1%}" if options.before else ""))
     print(f"  {'':<24}{'passes':>8}{'CPU s':>9}{'error':>12}{'1/(error s)':>15}")
     found, mean, progress = [], None, Progress(options.pairs * len(scenes))
