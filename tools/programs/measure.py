@@ -49,6 +49,14 @@ def folders_of(options):
         yield folders
 
 
+def passes_within(seconds, passes, of_quarter, of_all):
+    """The power of two of passes that takes closest to some seconds, by those of so many passes and of their quarter
+    (of 1 pass: of none)."""
+    of_pass = max(of_all - of_quarter, of_all / 4) / (passes - passes // 4)
+    wanted = passes + (seconds - of_all) / of_pass
+    return max(LEAST_PASSES, 2 ** round(math.log2(max(wanted, 1))))
+
+
 def choose_passes(options, scene):
     """How many passes the longest render of each program makes: the power of two that takes closest to --seconds.
 
@@ -62,12 +70,7 @@ def choose_passes(options, scene):
     passes, last, now = 1, [0.0] * len(options.programs), seconds_of(1)
     while max(now) < options.seconds / 8:
         passes, last, now = 4 * passes, now, seconds_of(4 * passes)
-    chosen = {}
-    for name, before, after in zip(options.programs, last, now):
-        of_pass = max(after - before, after / 4) / (passes - passes // 4)
-        wanted = passes + (options.seconds - after) / of_pass
-        chosen[name] = max(LEAST_PASSES, 2 ** round(math.log2(max(wanted, 1))))
-    return chosen
+    return {name: passes_within(options.seconds, passes, *spent) for name, *spent in zip(options.programs, last, now)}
 
 
 def render_pair(options, scene, number, longest, reference):

@@ -29,7 +29,7 @@ STANDARD = {name: (sets, reference_sets, aim) for name, sets, reference_sets, ai
     ("fog_room", [], ["volume.radius=0.07", "surface.radius=0.07"], 2e-5),
     ("glass_caustic", ["photons.emitted=200_000"], ["photons.emitted=400_000", "volume.radius=0.035", "surface.radius=0.02"], 1e-4),
     ("smoke", ["photons.emitted=200_000"], PATHS_IN_GRIDS, 2e-4),
-    ("cloud", ["photons.emitted=100_000"], PATHS_IN_GRIDS, 1e-4),
+    ("cloud", ["photons.emitted=100_000"], PATHS_IN_GRIDS, 2e-4),
     ("wdas_cloud", ["photons.emitted=100_000"], PATHS_IN_GRIDS, 1e-4),
     ("cornell", [], ["surface.radius=0.04"], 3e-4),
     ("plume_room", ["photons.emitted=200_000"], ["volume.radius=0.02", "surface.radius=0.035"], 1e-4),
