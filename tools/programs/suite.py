@@ -89,9 +89,14 @@ def identity(scene, size):
 
 
 def make_reference(program, scene, size, aim, picture):
-    """Renders until the picture states to be good enough, on all cores, on from what an interruption left."""
+    """Renders until the picture states to be good enough, on all cores, on from what this same program left."""
     own = [change for change in scene.sets if change.startswith("media.")]  # where grids are
-    kept = picture.with_suffix(".checkpoint").exists()
+    checkpoint, maker = picture.with_suffix(".checkpoint"), picture.with_suffix(".maker")
+    sha256 = hashlib.sha256(pathlib.Path(program).read_bytes()).hexdigest()
+    kept = checkpoint.exists() and maker.exists() and maker.read_text() == sha256
+    if not kept:
+        checkpoint.unlink(missing_ok=True)
+        maker.write_text(sha256)
     command = render_command(program, scene, size, picture, REFERENCE_SEED,
                              ["--error", aim, "--resume" if kept else "--checkpoint"], [*own, *scene.reference_sets])
     done = subprocess.run(list(map(str, command)), stdout=subprocess.DEVNULL)  # its progress is vpm's
