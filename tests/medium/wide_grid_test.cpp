@@ -140,6 +140,7 @@ TEST_P(WideGrid, KnowsItsMeanAndWhereItIsPositive) {
   EXPECT_TRUE(positive(Vec3(9e-6f), 12e-6f));
   EXPECT_EQ(positive(Vec3(30e-6f), 100e-6f), background_ > 0.0f);
   EXPECT_EQ(positive(Vec3(400.0f), 1.0f), background_ > 0.0f);
+  EXPECT_EQ(positive(Vec3(1e9f), 1.0f), background_ > 0.0f);  // 1e15 voxels away
 }
 
 TEST(WideGrids, ThatHoldTooMuchAreRefused) {

@@ -182,7 +182,9 @@ bool DensityGrid::is_positive(const Box& world) const {
   const Vec3d last = Vec3d(brick_count_ - 1);
   const bool sticks_out = glm::any(glm::lessThan(from, Vec3d(0.0))) || glm::any(glm::greaterThan(to, last));
   if (sticks_out && !(frame_.background > 0.0f)) return false;
-  return bricks_are_positive({Vec3i(glm::max(from, Vec3d(0.0))), Vec3i(glm::min(to, last))});
+  // What lies beyond the lattice is cut off: it may be further away than integers reach.
+  return bricks_are_positive(
+      {Vec3i(glm::clamp(from, Vec3d(0.0), last + 1.0)), Vec3i(glm::clamp(to, Vec3d(-1.0), last))});
 }
 
 bool DensityGrid::bricks_are_positive(const IndexBox& bricks) const {
