@@ -94,6 +94,19 @@ TEST_P(WideGrid, HasTheDensitiesOfACloudByItself) {
   EXPECT_EQ(wide_->density(Vec3(500.0f, 20.0f, 3.0f)), background_);
 }
 
+TEST_P(WideGrid, MayHoldOneCloudInACornerOfItsFrame) {
+  GridFrame frame = frame_of(clouds_, interpolation_, background_);
+  const DensityGrid one(frame,
+                        [&](const Vec3i&, float* values) { std::fill_n(values, DensityGrid::kBrickValues, 1.0f); },
+                        {cloud(Vec3i(8000, 16000, 24000))});
+  const Vec3 middle(8020e-6f, 16020e-6f, 24020e-6f);
+  EXPECT_EQ(one.density(middle), 1.0f);
+  EXPECT_EQ(one.density(Vec3(20e-6f)), background_);
+  EXPECT_EQ(one.density(Vec3(900.0f)), background_);
+  const Walked along = walk(one, {middle - Vec3(1e-3f, 0.0f, 0.0f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 500.0f});
+  EXPECT_NEAR(along.integral - background_ * along.length, 48e-6 * (1.0 - background_), 9e-6);
+}
+
 TEST_P(WideGrid, IsWalkedThroughLikeACloudByItself) {
   Rng rng(2, rng_stream(RngUse::test, 0), 0);
   for (int i = 0; i < 500; ++i) {

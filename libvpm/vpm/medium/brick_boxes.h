@@ -41,13 +41,14 @@ struct BrickBox {
 class BrickBoxes {
  public:
   /// All of the bricks 0 to count - 1.
-  explicit BrickBoxes(const Vec3i& count) : boxes_{{Vec3i(0), count, 0}}, root_(~0) {}
+  explicit BrickBoxes(const Vec3i& count) : boxes_{{Vec3i(0), count, 0}}, whole_(true), root_(~0) {}
   /// Disjoint boxes that hold these, which may overlap; there is at least one. They are cut where there are gaps, until
   /// what a box holds fills an eighth of it, or it has no more than 4^3 bricks.
   explicit BrickBoxes(std::vector<IndexBox> occupied);
 
   std::span<const BrickBox> all() const { return boxes_; }
-  bool one() const { return boxes_.size() == 1; }
+  /// Is it one box that holds all bricks there are? A single box of what is occupied may be a part of them.
+  bool whole() const { return whole_; }
   /// In all boxes.
   size_t bricks() const { return boxes_.back().first + boxes_.back().bricks(); }
   size_t memory_bytes() const { return boxes_.capacity() * sizeof(BrickBox) + nodes_.capacity() * sizeof(Node); }
@@ -89,6 +90,7 @@ class BrickBoxes {
 
   std::vector<BrickBox> boxes_;  // in the order of their numbers
   std::vector<Node> nodes_;
+  bool whole_ = false;
   int32_t root_ = 0;
 };
 

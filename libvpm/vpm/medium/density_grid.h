@@ -123,7 +123,7 @@ class DensityGrid {
   double lattice_shift() const { return frame_.interpolation == Interpolation::nearest ? 0.5 : 0.0; }
   /// A brick within the lattice; null where the density is that of the background, and no brick is stored.
   const Brick* brick(const Vec3i& b) const {
-    if (boxes_.one()) [[likely]]
+    if (boxes_.whole()) [[likely]]
       return &bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
     const BrickBox* box = boxes_.find(b);
     return box ? &bricks_[box->number(b)] : nullptr;

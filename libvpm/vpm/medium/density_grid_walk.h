@@ -128,7 +128,7 @@ void DensityGrid::visit_bricks(const LatticeRay& ray, const Interval& interval, 
     }
     return true;
   };
-  if (boxes_.one()) [[likely]] {
+  if (boxes_.whole()) [[likely]] {
     if (beyond(interval.t0, t0) && walk_box(boxes_.all().front(), t0, t1)) beyond(t1, interval.t1);
     return;
   }
