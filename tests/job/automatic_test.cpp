@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "job/pilot_scenes.h"
+#include "vpm/base/count.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/job/choice_rules.h"
+#include "vpm/job/counted_cost.h"
 #include "vpm/job/declare.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
@@ -209,6 +212,38 @@ TEST(Automatic, TheLeastErrorIsTheFirstsUnlessAnotherIsClearlyLess) {
   EXPECT_EQ(least_error(std::vector<double>{1.0, 0.85}), 1u);
   EXPECT_EQ(least_error(std::vector<double>{1.0, 0.85, 0.8}), 1u);
   EXPECT_EQ(least_error(std::vector<double>{1.0, 2.0}), 0u);
+}
+
+/// Rays march as far as the photons of all blocks lie, which a tracing of their own tells.
+TEST(Automatic, CountsTheTracingsOfAPassInBlocks) {
+  if (!kCounts) GTEST_SKIP() << "nothing is counted (VPM_COUNTERS=OFF)";
+  const Scene scene = cloud_over_floor(true);
+  RenderSettings settings;
+  settings.photons_emitted = 20'000;
+  for (const auto& [mode, tracings] : {std::pair{GatherMode::radius, 2}, {GatherMode::beam, 1}}) {
+    settings.volume.mode = mode;
+    settings.photons_block = 0;
+    const PassCost whole = time_pass(scene, settings);
+    settings.photons_block = 5000;
+    const PassCost blocks = time_pass(scene, settings);
+    EXPECT_DOUBLE_EQ(blocks.photon, tracings * whole.photon);
+    EXPECT_GT(blocks.eye, whole.eye);
+    EXPECT_LT(blocks.eye, 4.0 * whole.eye);
+    EXPECT_EQ(blocks.stored_per_photon, whole.stored_per_photon);
+  }
+}
+
+/// What is counted of sums by whole nodes is not what as many photons one by one would take.
+TEST(Automatic, CountsLessOfManyNearestPhotons) {
+  RenderSettings few, many;
+  few.surface.mode = many.surface.mode = GatherMode::nearest;
+  few.surface.count = NearestMap::kMany - 1;
+  many.surface.count = NearestMap::kMany;
+  EyeCounters used;
+  used.gather.used = 1'000'000;
+  EXPECT_LT(counted_work(many, used).seconds, 0.2 * counted_work(few, used).seconds);
+  used.used_in_media = 1'000'000;
+  EXPECT_EQ(counted_work(many, used).seconds, counted_work(few, used).seconds);
 }
 
 /// A timing in a hurry asks for fewer photons, and tells about the same of each; and paths have a pass to time, too.

@@ -49,9 +49,40 @@ TEST(BrickBoxes, HoldWhatIsOccupiedOnceAndLittleElse) {
             for (const BrickBox& other : boxes.all()) holders += other.holds(brick);
             ASSERT_EQ(holders, 1);
           }
-    EXPECT_LE(boxes.bricks(), 20 * numbers.size());
+    EXPECT_LE(boxes.bricks(), 8 * numbers.size());
     EXPECT_EQ(boxes.find(Vec3i(-1, 0, 0)), nullptr);
   }
+}
+
+/// The bricks of n^3 leaves, each of which is a brick and reaches into the next; there is one every `period` bricks.
+std::vector<IndexBox> leaves(const Vec3i& corner, int period, int n) {
+  std::vector<IndexBox> boxes;
+  for (int z = 0; z < n; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        const Vec3i lo = corner + period * Vec3i(x, y, z);
+        boxes.push_back({lo, lo + 1});  // the last voxels reach into the next brick
+      }
+  return boxes;
+}
+
+TEST(BrickBoxes, LeavesApartTakeTheirOwnBricks) {
+  EXPECT_EQ(BrickBoxes(leaves({}, 4, 12)).bricks(), 8u * 12 * 12 * 12);
+}
+
+TEST(BrickBoxes, LeavesThatAdjoinAreOneBox) {
+  const BrickBoxes boxes(leaves(Vec3i(7), 1, 20));
+  EXPECT_EQ(boxes.all().size(), 1u);
+  EXPECT_EQ(boxes.bricks(), 21u * 21 * 21);
+}
+
+TEST(BrickBoxes, SolidCloudsApartAreTwoBoxes) {
+  std::vector<IndexBox> occupied = leaves({}, 1, 20);
+  const std::vector<IndexBox> other = leaves(Vec3i(1200, 0, 0), 1, 20);
+  occupied.insert(occupied.end(), other.begin(), other.end());
+  const BrickBoxes boxes(occupied);
+  EXPECT_EQ(boxes.all().size(), 2u);
+  EXPECT_EQ(boxes.bricks(), 2u * 21 * 21 * 21);
 }
 
 /// Where a ray enters the box, and leaves it.

@@ -47,10 +47,11 @@ def test_all_ranks_have_the_result_of_one_process(tmp_path):
     done = run(3, SCRIPT, tmp_path)
     assert done.returncode == 0, done.stderr
     alone = vpm.render(BALL, passes=9, seed=3)
+    chosen = vpm.render({**BALL, "photons": {"emitted": "auto"}}, passes=2)
     for rank in range(3):
         assert np.array_equal(np.load(tmp_path / f"radiance{rank}.npy"), alone.radiance)
         assert np.array_equal(np.load(tmp_path / f"variance{rank}.npy"), alone.variance)
-        assert np.array_equal(np.load(tmp_path / f"chosen{rank}.npy"), np.load(tmp_path / "chosen0.npy"))
+        assert np.array_equal(np.load(tmp_path / f"chosen{rank}.npy"), chosen.radiance)
     assert np.array_equal(vpm.read_exr(tmp_path / "all.exr").radiance, alone.radiance)
 
 
@@ -59,6 +60,52 @@ def test_another_scene_on_another_rank_ends_all(tmp_path):
     assert done.returncode != 0
     assert "this rank would render something else" in done.stderr
     assert "render.seed: 3 of rank 0, 4 here" in done.stderr
+
+
+def test_a_rank_that_catches_what_a_render_raises_ends_all(tmp_path):
+    # Rank 0 is interrupted before it tells the others that the render is over, which they wait for.
+    done = run(2, """
+import _thread, threading
+import vpm
+from mpi4py import MPI
+from ball import BALL
+
+scene = vpm.Scene(BALL)
+assert vpm.render(scene, passes=1, together=True).passes == 1
+if MPI.COMM_WORLD.rank == 0:
+    threading.Timer(1.0, _thread.interrupt_main).start()
+try:
+    vpm.render(scene, passes=1_000_000, together=True)
+except vpm.Interrupted as stopped:
+    assert stopped.result.passes > 0
+    stopped.result.write("some.exr")
+    try:
+        vpm.render(scene, passes=1, together=True)
+    except vpm.InputError as error:
+        print("refused:", error)
+    print(vpm.render(scene, passes=1).passes, "by itself")
+""", tmp_path)
+    assert done.returncode == 1, done.stderr
+    assert "refused: an earlier render together ended with an exception" in done.stdout
+    assert "1 by itself" in done.stdout
+    assert vpm.read_exr(tmp_path / "some.exr").radiance.any()
+
+
+def test_two_threads_do_not_render_together_at_once(tmp_path):
+    done = run(1, """
+import threading
+import vpm
+from ball import BALL
+
+threading.Thread(target=lambda: vpm.render(BALL, seconds=3, together=True)).start()
+import time; time.sleep(1.0)
+try:
+    vpm.render(BALL, passes=1, together=True)
+except vpm.InputError as error:
+    print(error)
+""", tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "another thread renders together" in done.stdout
 
 
 def test_processes_that_are_not_together_render_for_themselves(tmp_path):

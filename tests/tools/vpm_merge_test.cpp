@@ -48,6 +48,24 @@ TEST_F(VpmMerge, PiecesWithLayersOfACropAreOneRun) {
   expect_same_as_one_run({"--layers", "depth,samples,transmittance", "--crop", "7,3,39,20", "--seed", "77"});
 }
 
+TEST_F(VpmMerge, PiecesOfPassesInBlocksAreOneRun) {
+  const Arguments layers{"--layers", "depth,samples", "--crop", "7,3,39,20"};
+  Arguments blocks = layers;
+  blocks.insert(blocks.end(), {"--set", "photons.block=1500"});
+  expect_same_as_one_run(blocks);
+  vpm_succeeds(render("whole", {"--passes", "14"}, layers));
+  const ExrChannels all = read_exr_channels(path("all.exr")), whole = read_exr_channels(path("whole.exr"));
+  EXPECT_EQ(all.held, whole.held);
+  size_t of_view = 0;
+  for (const auto& [name, plane] : whole.planes)
+    if (name.starts_with("depth") || name.starts_with("samples")) {
+      ++of_view;
+      EXPECT_EQ(all.planes.at(name), plane) << name;
+    }
+  EXPECT_GE(of_view, 2u);
+  EXPECT_NEAR(sum(read_exr(path("all.exr"))), sum(read_exr(path("whole.exr"))), 1e-4);
+}
+
 TEST_F(VpmMerge, PiecesOfTechniquesCombinedAreOneRun) {
   expect_same_as_one_run(
       {"--set", "render.integrator=combined", "--layers", "combined", "--set", "photons.emitted=1000"});

@@ -149,7 +149,7 @@ template <int Dimension, JudgesNodes Accept>
 std::optional<KernelEstimate> power_by_nodes(const Gathering<NearestMap>& map, const Vec3& point,
                                              const Accept& accept) {
   const auto& [index, settings, work] = map;
-  if (!index.nodes() || settings.count < NearestMap::kMany || settings.kernel != KernelKind::epanechnikov) return {};
+  if (!index.nodes() || !sums_by_nodes(settings)) return {};
   uint32_t visited = 0;
   const NodeQuery<Accept> query{index.photons(), *index.nodes(), point, accept, visited};
   const auto sums = nearest_sums(query, settings.count, settings.radius, work.neighbours.without_list());

@@ -3,11 +3,11 @@
 
 namespace vpm {
 
-size_t PhotonMap::sum_by_nodes() {
-  auto* by_count = std::get_if<NearestMap>(&index);
-  if (!by_count || settings.count < NearestMap::kMany || settings.kernel != KernelKind::epanechnikov) return 0;
-  by_count->add_nodes();
-  return by_count->nodes()->memory_bytes();
+size_t PhotonMap::prepare_sums_by_nodes() {
+  if (!sums_by_nodes(settings)) return 0;
+  auto& by_count = std::get<NearestMap>(index);
+  by_count.add_nodes();
+  return by_count.nodes()->memory_bytes();
 }
 
 size_t PhotonMap::size() const {

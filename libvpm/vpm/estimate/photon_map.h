@@ -10,14 +10,21 @@
 
 namespace vpm {
 
+/// Is a sum over so many nearest photons, of which the powers alone count, made of whole nodes (nearest_sums.h)? At
+/// borders the place of each counts, too.
+template <class Radius>
+bool sums_by_nodes(const GatherRule<Radius>& gather) {
+  return gather.mode == GatherMode::nearest && gather.count >= NearestMap::kMany &&
+         gather.kernel == KernelKind::epanechnikov && gather.boundary == BoundaryRule::none;
+}
+
 /// Photons sorted for the gathering of one pass, powers divided by the photons emitted.
 struct PhotonMap {
   GatherSettings settings;  // radius > 0, as it is in this pass
   std::variant<RadiusMap, NearestMap> index;
 
-  /// Prepares sums over many nearest photons of which the powers alone count, as on Lambertian surfaces, where the
-  /// settings ask for such: they are then made of whole nodes (nearest_sums.h). Returns how many bytes that takes.
-  size_t sum_by_nodes();
+  /// Prepares the sums of sums_by_nodes(), where the settings ask for such. Returns how many bytes that takes.
+  size_t prepare_sums_by_nodes();
 
   size_t size() const;
   const Box& bounds() const;

@@ -141,6 +141,14 @@ std::string elsewhere(const std::string& key) {
   return sections.empty() ? "" : "there is '" + key + "' in " + sections + "; ";
 }
 
+/// The pilot that chooses how many photons a pass has knows passes in one piece: a number for blocks, which are taken
+/// where memory ends, is the user's.
+void refuse_blocks_of_chosen_photons(const RenderSettings& s, const AutomaticSettings& automatic) {
+  if (s.photons_block > 0 && automatic.has("photons.emitted"))
+    throw SettingError("photons.block", "a pass whose number of photons is to be chosen is not made in blocks",
+                       "give 'emitted' a number, or leave out 'block'");
+}
+
 /// Tells the place of the key, or of the one that is given in its place.
 [[noreturn]] void fail_with(const SettingError& error, const TableReader& root, Sections& sections,
                             const AutomaticSettings& automatic) {
@@ -190,6 +198,7 @@ RenderSettings read_settings(TableReader& root, const SceneFacts& facts, Automat
     if (table) table->finish(elsewhere);
   try {
     validate(s, facts);
+    refuse_blocks_of_chosen_photons(s, automatic);
   } catch (const SettingError& error) {
     fail_with(error, root, sections, automatic);
   }

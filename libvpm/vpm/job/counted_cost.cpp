@@ -1,10 +1,14 @@
 // Linear in the counts. The coefficients are those of least relative squares, none negative.
 #include "vpm/job/counted_cost.h"
 
+#include "vpm/estimate/photon_map.h"
+
 namespace vpm {
 namespace {
 
 constexpr double kNanosecond = 1e-9;  // s
+
+double times(double each, uint64_t number) { return each * static_cast<double>(number) * kNanosecond; }
 
 /// What each of them takes, ns.
 struct EyeCosts {
@@ -28,6 +32,16 @@ const EyeCosts& costs_of(const RenderSettings& settings) {
   return at_points ? kMapsAtPoints : kMapsAlongRays;
 }
 
+/// What one of many nearest photons on a surface takes that are summed by whole nodes, ns.
+constexpr double kUsedByNodes = 1.6;
+
+/// What all photons take that count in estimates.
+double seconds_of_used(const RenderSettings& settings, const EyeCounters& eye, double each) {
+  const uint64_t in_media = eye.used_in_media, on_surfaces = eye.gather.used - in_media;
+  const bool by_nodes = settings.integrator == Integrator::photon && sums_by_nodes(settings.surface);
+  return times(each, in_media) + times(by_nodes ? kUsedByNodes : each, on_surfaces);
+}
+
 /// The same of photons and light sub-paths.
 struct PhotonCosts {
   double emitted, ray, collision, surface_hit, lookup, null_collision, stored_in_media, stored_on_surfaces, flight;
@@ -35,14 +49,12 @@ struct PhotonCosts {
 constexpr PhotonCosts kPhotons{0.0, 360.0, 0.0, 55.0, 86.0, 88.0, 115.0, 0.0, 310.0};
 constexpr PhotonCosts kSubPaths{84.0, 410.0, 0.0, 450.0, 31.0, 0.0, 420.0, 13.0, 720.0};
 
-double times(double each, uint64_t number) { return each * static_cast<double>(number) * kNanosecond; }
-
 }  // namespace
 
 CountedWork counted_work(const RenderSettings& settings, const EyeCounters& eye) {
   const EyeCosts& each = costs_of(settings);
   CountedWork work;
-  work.of_photons = times(each.visited, eye.gather.visited) + times(each.used, eye.gather.used);
+  work.of_photons = times(each.visited, eye.gather.visited) + seconds_of_used(settings, eye, each.used);
   work.seconds = work.of_photons + times(each.camera_ray, eye.rays) + times(each.ray, eye.walk.rays) +
                  times(each.lookup, eye.walk.lookups) + times(each.surface_query, eye.surface_queries) +
                  times(each.volume_query, eye.volume_queries) + times(each.shadow_ray, eye.shadow_rays);

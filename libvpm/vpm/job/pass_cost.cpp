@@ -216,7 +216,9 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
   const double whole = cost.stored(photons) + photons * cost.flights_per_photon;
   const double guide = goes_by_clock(settings) ? s.guide_seconds : counted_seconds_of_guide(settings.guide.importons);
   const auto blocks = static_cast<double>(block_count(settings));
-  cost.eye = blocks * guide + with_more_photons(eye, std::max(1.0, whole / std::max(1.0, found)), blocks);
+  const double tracings = tracings_of_pass(scene, settings);
+  cost.photon *= tracings;
+  cost.eye = tracings * blocks * guide + with_more_photons(eye, std::max(1.0, whole / std::max(1.0, found)), blocks);
   return cost;
 }
 

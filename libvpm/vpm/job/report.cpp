@@ -14,6 +14,7 @@
 #include "vpm/job/setting.h"
 #include "vpm/job/stage_lines.h"
 #include "vpm/render/photon_blocks.h"
+#include "vpm/render/photon_pass.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -91,12 +92,13 @@ uint64_t stored_photons(const RenderStatistics& s) {
 /// All that maps hold.
 uint64_t stored_records(const RenderStatistics& s) { return stored_photons(s) + s.beams + s.planes; }
 
-/// How fast photons are.
-Json rates(const RenderStatistics& s) {
-  const double emitted = per_second(s.ledger.emitted_count, s.trace_seconds);
+/// How fast photons are, which may be traced more than once.
+Json rates(const RenderStatistics& s, int tracings) {
+  const double trace_seconds = s.trace_seconds / tracings;
+  const double emitted = per_second(s.ledger.emitted_count, trace_seconds);
   return {{"emitted_per_second", emitted},
           {"emitted_per_second_and_thread", emitted / thread_count()},
-          {"stored_per_second", per_second(stored_photons(s), s.trace_seconds + s.caustic_seconds)}};
+          {"stored_per_second", per_second(stored_photons(s), trace_seconds + s.caustic_seconds)}};
 }
 
 /// What each light sends into the scene, exactly; `share`: of the power of all, and of the photons.
@@ -234,7 +236,7 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
           {"clamped_density_values", job.clamped_density_values},
           {"times", section({{"unit", "s, wall clock"}, {"total", result.seconds}}, counts["times"])},
           {"lights", lights(job)},
-          {"photons", section(counts["photons"], rates(s))},
+          {"photons", section(counts["photons"], rates(s, tracings_of_pass(job.scene, job.settings)))},
           {"energy", section({{"unit", "W"}}, counts["energy"])},
           {"boundaries", {{"crossings", walk.crossings}, {"met_in_another_medium", walk.medium_mismatches}}},
           {"memory", section(memory(job, result), counts["memory"])}};

@@ -14,6 +14,13 @@ double volume_of(const IndexBox& box) {
   return extent.x * extent.y * extent.z;
 }
 
+/// The bricks of a box that begin with voxels, not counting those that the voxels of their neighbours reach into: of
+/// adjoining boxes each is counted once.
+double filled_by(const IndexBox& box) {
+  const Vec3d extent = glm::max(Vec3d(box.hi) - Vec3d(box.lo), Vec3d(1.0));
+  return extent.x * extent.y * extent.z;
+}
+
 IndexBox bounds_of(const std::vector<IndexBox>& boxes) {
   IndexBox bounds = boxes.front();
   for (const IndexBox& box : boxes) bounds = {glm::min(bounds.lo, box.lo), glm::max(bounds.hi, box.hi)};
@@ -77,11 +84,11 @@ BrickBoxes::BrickBoxes(std::vector<IndexBox> occupied) {
 }
 
 int32_t BrickBoxes::build(std::vector<IndexBox> occupied) {
-  constexpr double kSmall = 4.0 * 4.0 * 4.0, kMostPerFilled = 8.0;
+  constexpr double kMostPerFilled = 8.0;
   const IndexBox bounds = bounds_of(occupied);
-  double filled = 0.0;  // those of several boxes are counted as often
-  for (const IndexBox& box : occupied) filled += volume_of(box);
-  if (volume_of(bounds) <= std::max(kSmall, kMostPerFilled * filled)) return add_box(bounds);
+  double filled = 0.0;
+  for (const IndexBox& box : occupied) filled += filled_by(box);
+  if (volume_of(bounds) <= kMostPerFilled * filled) return add_box(bounds);
   const Cut cut = widest_gap(occupied).value_or(middle_of(bounds));
   auto [below, above] = parts_of(occupied, cut);
   occupied = {};

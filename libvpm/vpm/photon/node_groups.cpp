@@ -10,8 +10,8 @@
 namespace vpm {
 namespace {
 
-constexpr size_t kNodeChunk = 1 << 8;     // nodes one thread takes at once
-constexpr size_t kPhotonChunk = 1 << 14;  // photons, likewise
+constexpr size_t kNodeChunk = 1 << 8;      // nodes one thread takes at once
+constexpr size_t kGroupedChunk = 1 << 14;  // photons, likewise
 
 /// The unit normal of the plane through three of the photons that lie far apart; 0 where all lie on a line.
 Vec3 plane_normal(const PhotonTable& photons, size_t begin, size_t end) {
@@ -88,7 +88,7 @@ NodeGroups::NodeGroups(const PhotonTable& photons, size_t leaves)
   moments_.resize(groups);
   travel_.resize(photons_ + kBlock);
   for (std::vector<float>& channel : power_) channel.resize(photons_ + kBlock);
-  parallel_for_chunks(photons_, kPhotonChunk, [&](size_t begin, size_t end, size_t) {
+  parallel_for_chunks(photons_, kGroupedChunk, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       const auto& [travel, power] = photons.payload(i);
       const Rgb unpacked = power.unpack();

@@ -36,11 +36,6 @@ TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run)
   return trace;
 }
 
-/// Do eye rays march as far as photons of media lie?
-bool marches_among_photons(const Scene& scene, const RenderSettings& settings) {
-  return settings.volume.mode == GatherMode::radius && scattering_of(scene).media;
-}
-
 /// The boxes around the photons of all blocks. These are traced for that alone, and dropped.
 MediaBounds bounds_of_blocks(const Scene& scene, const RenderSettings& settings, const PassRun& run,
                              RenderStatistics& statistics) {
@@ -107,6 +102,11 @@ void prepare_pass(const Scene& scene, const RenderSettings& settings, const Esti
   statistics.build_seconds = building.seconds();
 }
 
+int tracings_of_pass(const Scene& scene, const RenderSettings& settings) {
+  const bool marches = settings.volume.mode == GatherMode::radius && scattering_of(scene).media;
+  return marches && block_count(settings) > 1 ? 2 : 1;
+}
+
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
                         const PassProgress& progress) {
   return render_photon_pass_after({}, scene, settings, {pass, stop, progress});
@@ -116,8 +116,7 @@ Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const
                               const PassRun& run) {
   RenderStatistics looking;
   std::optional<MediaBounds> around;
-  if (block_count(settings) > 1 && marches_among_photons(scene, settings))
-    around = bounds_of_blocks(scene, settings, run, looking);
+  if (tracings_of_pass(scene, settings) > 1) around = bounds_of_blocks(scene, settings, run, looking);
   Pass pass = mean_of_blocks(settings, run.stop, [&](const PhotonBlock& block) {
     return render_block(scene, settings, {run.pass, run.stop, run.progress, block},
                         plan_estimators(scene, settings, run.pass, discs, around ? &*around : nullptr));

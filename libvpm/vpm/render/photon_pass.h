@@ -27,6 +27,10 @@ void trace_pass(const Scene& scene, const RenderSettings& settings, const Estima
 void prepare_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                   RenderStatistics& statistics);
 
+/// How often the photons of a pass are traced: twice where rays march among those of several blocks, as these must know
+/// beforehand where all of them lie.
+int tracings_of_pass(const Scene& scene, const RenderSettings& settings);
+
 /// Renders pass number `pass`, from 0, by blocks of photons where the settings say so (mean_of_blocks()). Once `stop`
 /// is set it returns as soon as it can, and its image must not be used.
 Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,

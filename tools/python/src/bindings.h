@@ -10,15 +10,10 @@
 #include <optional>
 
 #include "vpm/image/image.h"
-#include "vpm/ranks/ranks.h"
 
 namespace vpm::python {
 
 namespace py = pybind11;
-
-/// The processes that mpiexec started this one with, which are joined by the first call and left when Python ends.
-/// Throws InputError where they are several and vpm is built without MPI.
-Ranks& joined_ranks();
 
 // Each adds its part to the module.
 void bind_scenes(py::module_& module);

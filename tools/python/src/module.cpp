@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -34,26 +33,6 @@ Image image_of(const Floats& array) {
   Image image(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
   std::copy_n(array.data(), array.size(), reinterpret_cast<float*>(image.pixels.data()));
   return image;
-}
-
-namespace {
-
-std::unique_ptr<Ranks>& own_ranks() {
-  static std::unique_ptr<Ranks> ranks;
-  return ranks;
-}
-
-/// Before mpi4py, which may have begun MPI, ends it.
-void leave_ranks() { own_ranks().reset(); }
-
-}  // namespace
-
-Ranks& joined_ranks() {
-  if (!own_ranks()) {
-    own_ranks() = join_ranks();
-    py::module_::import("atexit").attr("register")(py::cpp_function(leave_ranks));
-  }
-  return *own_ranks();
 }
 
 std::optional<py::error_already_set> run_interruptibly(std::atomic<bool>& stop, const std::function<void()>& work) {

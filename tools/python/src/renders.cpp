@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "joined_ranks.h"
 #include "scene_job.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -26,7 +27,7 @@ struct Passes {
   std::shared_ptr<SceneJob> scene;
   JobState state;
   RenderResult result;
-  Ranks* ranks = nullptr;  // that make them together; null: this process by itself
+  JoinedRanks* together = nullptr;  // those that make them; null: this process by itself
 
   /// Calls use(const RenderJob&) without the interpreter's lock.
   template <class Use>
@@ -46,32 +47,42 @@ StopRule stop_rule(std::optional<int> passes, std::optional<double> seconds, std
 }
 
 /// Is it this process that writes files, and tells the others?
-bool leads(const Ranks* ranks) { return !ranks || ranks->leads(); }
+bool leads(JoinedRanks* together) { return !together || together->ranks().leads(); }
+
+/// run_interruptibly() of what processes do together, or of what this one does by itself.
+std::optional<py::error_already_set> run(JoinedRanks* together, std::atomic<bool>& stop,
+                                         const std::function<void()>& work) {
+  if (!together) return run_interruptibly(stop, work);
+  JoinedRanks::Turn turn(*together);
+  auto raised = run_interruptibly(stop, work);
+  if (!raised) turn.finish();
+  return raised;
+}
 
 /// Before the first pass: chooses what is "auto", and looks ahead as the command line does.
 std::shared_ptr<Passes> begin(const std::shared_ptr<SceneJob>& scene, std::optional<int> passes,
                               std::optional<double> seconds, std::optional<double> error, std::optional<uint64_t> seed,
                               bool together) {
-  auto begun =
-      std::make_shared<Passes>(Passes{scene,
-                                      [&] {
-                                        const py::gil_scoped_release others_run;
-                                        const std::scoped_lock lock(scene->busy);
-                                        return JobState(scene->job);
-                                      }(),
-                                      nothing_rendered(scene->job.scene.camera), together ? &joined_ranks() : nullptr});
+  auto begun = std::make_shared<Passes>(Passes{scene,
+                                               [&] {
+                                                 const py::gil_scoped_release others_run;
+                                                 const std::scoped_lock lock(scene->busy);
+                                                 return JobState(scene->job);
+                                               }(),
+                                               nothing_rendered(scene->job.scene.camera),
+                                               together ? &JoinedRanks::own() : nullptr});
   RenderSettings& settings = begun->state.settings;
   settings.until = stop_rule(passes, seconds, error, settings.until);
   if (seed) settings.seed = *seed;
   std::atomic<bool> stop{false};
-  auto raised = run_interruptibly(stop, [&] {
+  auto raised = run(begun->together, stop, [&] {
     with_job(*scene, begun->state, [&](RenderJob& job) {
-      if (leads(begun->ranks)) {
+      if (leads(begun->together)) {
         choose(job);
         foresee(job);
-        if (begun->ranks) tell_render(*begun->ranks, identity_of(job));
+        if (begun->together) tell_render(begun->together->ranks(), identity_of(job));
       } else {
-        render_as_told(job, told_render(*begun->ranks));
+        render_as_told(job, told_render(begun->together->ranks()));
       }
       look_for_kernel_light(job);
     });
@@ -90,14 +101,15 @@ std::shared_ptr<Passes> until(const Passes& before, std::optional<int> passes, s
 }
 
 /// Renders until the stop rule is met. Of several processes all return what they have made together.
-RenderResult render_with(Ranks* ranks, const RenderJob& job, RenderResult begun, const RunControl& control) {
-  if (!ranks) return render(job.scene, job.settings, std::move(begun), control);
-  if (!ranks->leads()) {
-    make_render(*ranks, job.scene, job.settings);
-    return told_result(*ranks);
+RenderResult render_with(JoinedRanks* together, const RenderJob& job, RenderResult begun, const RunControl& control) {
+  if (!together) return render(job.scene, job.settings, std::move(begun), control);
+  Ranks& ranks = together->ranks();
+  if (!ranks.leads()) {
+    make_render(ranks, job.scene, job.settings);
+    return told_result(ranks);
   }
-  RenderResult result = lead_render(*ranks, job.scene, job.settings, std::move(begun), control);
-  if (!control.stop) tell_result(*ranks, result);  // else the others may be gone
+  RenderResult result = lead_render(ranks, job.scene, job.settings, std::move(begun), control);
+  if (!control.stop) tell_result(ranks, result);  // else the others may be gone
   return result;
 }
 
@@ -108,9 +120,9 @@ std::pair<std::shared_ptr<Passes>, py::object> advance(const Passes& before, boo
   std::function<void(const RenderResult&)> finished;
   if (one_pass) finished = [&](const RenderResult&) { stop = true; };
   const RunControl control{stop, progress ? ProgressMode::automatic : ProgressMode::never, finished};
-  auto raised = run_interruptibly(stop, [&] {
+  auto raised = run(after->together, stop, [&] {
     with_job(*after->scene, after->state, [&](RenderJob& job) {
-      after->result = render_with(after->ranks, job, std::move(after->result), control);
+      after->result = render_with(after->together, job, std::move(after->result), control);
     });
   });
   if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw *std::move(raised);
@@ -149,7 +161,7 @@ py::object error_picture(const py::object& self, Image FilmErrors::*picture) {
 }
 
 void write(const Passes& passes, const std::string& path, std::optional<float> exposure) {
-  if (!leads(passes.ranks)) return;
+  if (!leads(passes.together)) return;
   const std::filesystem::path exr = path;
   if (exr.extension() != ".exr")
     throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", path));

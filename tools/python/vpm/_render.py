@@ -146,7 +146,9 @@ def render(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrid
     progress: show a bar on a terminal.
     together: share the passes among the processes that `mpiexec -n 8 python3 -m mpi4py SCRIPT` starts, all of which
         call this at once, with the same scene. All have the same result, of the same bits as that of one process, and
-        go on together with its resume(); its write() is left to rank 0. Takes a vpm that is built with MPI.
+        go on together with its resume(); its write() is left to rank 0. One thread at a time may do so. Once such a
+        call has raised, further ones do, too, and the end of this process ends all, with status 1: the others may wait
+        for it. Takes a vpm that is built with MPI.
 
     Other threads of Python run meanwhile. Ctrl-C raises `Interrupted`, a KeyboardInterrupt whose `result` has the
     passes that were finished. Raises InputError for what the command line refuses.

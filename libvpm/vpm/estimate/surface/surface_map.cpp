@@ -1,6 +1,8 @@
 // Building the surface map, and gathering from it.
 #include "vpm/estimate/surface/surface_map.h"
 
+#include <algorithm>
+
 #include "vpm/base/count.h"
 #include "vpm/estimate/surface_region.h"
 
@@ -14,12 +16,22 @@ KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const Surfa
   return scattered_radiance(view.material, view.hit, -view.travel, BoundedMap{map, region, work.gather()});
 }
 
+namespace {
+
+/// Are there surfaces for which the powers of photons alone count?
+bool has_diffuse(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& material) { return diffuse_reflectance(material) != nullptr; });
+}
+
+}  // namespace
+
 void SurfaceMap::build(RenderStatistics& statistics) {
   statistics.surface_photons = hits_.photons.size();
   const GatherSettings gather =
       gather_in_pass(settings_.gather, first_radius(settings_.gather, scene_), 2, settings_.pass);
   map_ = make_map(hits_.photons, gather, hits_.emitted_count, settings_.pass, statistics);
-  statistics.photon_map_bytes += map_.sum_by_nodes();
+  if (has_diffuse(scene_)) statistics.photon_map_bytes += map_.prepare_sums_by_nodes();
   statistics.last_surface_radius = map_.settings.radius;
 }
 
