@@ -1,6 +1,7 @@
 // Irradiance computed beforehand: its brute-force twin, and where there is none.
 #include <gtest/gtest.h>
 
+#include "support/hits.h"
 #include "support/recorders.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
@@ -11,14 +12,6 @@
 
 namespace vpm {
 namespace {
-
-Hit hit_at(const Vec3& position, const Vec3& normal, const Vec3& shading_normal) {
-  Hit hit;
-  hit.position = position;
-  hit.normal = normal;
-  hit.shading_normal = shading_normal;
-  return hit;
-}
 
 Hit hit_of(const CachePoint& point) {
   return hit_at(point.position, point.normal.unpack(), point.shading_normal.unpack());

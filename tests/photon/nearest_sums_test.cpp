@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/hits.h"
 #include "support/photon_layouts.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
@@ -194,14 +195,6 @@ TEST(NearestSums, AreTheSameBitForBitOnAnyNumberOfThreads) {
   EXPECT_EQ(one.second, three.second);
 }
 
-Hit hit_at(const Vec3& position, const Vec3& normal, const Vec3& shading_normal) {
-  Hit hit;
-  hit.position = position;
-  hit.normal = normal;
-  hit.shading_normal = shading_normal;
-  return hit;
-}
-
 // Estimates on surfaces: by nodes on Lambertian ones, and bit for bit as ever where more than powers counts, for other
 // kernels and for fewer photons.
 TEST(NearestSums, AreWhatLambertianSurfacesReflect) {
@@ -215,7 +208,7 @@ TEST(NearestSums, AreWhatLambertianSurfacesReflect) {
       const PhotonMap plain = make_photon_map(all, settings, 7);
       PhotonMap prepared = plain;
       const bool by_nodes = kernel.kind == KernelKind::epanechnikov && count >= 512;
-      EXPECT_EQ(prepared.sum_by_nodes() > 0, by_nodes);
+      EXPECT_EQ(prepared.prepare_sums_by_nodes() > 0, by_nodes);
       EXPECT_EQ(prepared.memory_bytes() > plain.memory_bytes(), by_nodes);
       for (const Material& material : {Material(Lambertian{Rgb(0.5f, 0.6f, 0.7f)}), Material(Phong{})})
         for (const Vec3& shading : {up, bent})
@@ -244,7 +237,7 @@ TEST(NearestSums, LeaveEquallyFarPhotonsToThePlainSearch) {
   for (const uint32_t count : {600u, 1'000u, 1'001u, 1'500u, 2'000u, 2'001u}) {
     const GatherSettings settings{GatherMode::nearest, 1.0f, count};
     PhotonMap map = make_photon_map(all, settings, 1);
-    map.sum_by_nodes();
+    map.prepare_sums_by_nodes();
     const KernelEstimate sum = surface_irradiance(Vec3(0.0f), up, map);
     const KernelEstimate twin = surface_irradiance(Vec3(0.0f), up, all, settings, uint64_t{1});
     EXPECT_NEAR(sum.value.g, twin.value.g, 1e-5f * twin.value.g) << count;

@@ -1,6 +1,7 @@
 // Photon maps against their brute-force twins, on spread, flat, clustered and coinciding photons.
 #include <gtest/gtest.h>
 
+#include "support/hits.h"
 #include "support/photon_layouts.h"
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
@@ -10,13 +11,6 @@
 
 namespace vpm {
 namespace {
-
-Hit hit_at(const Vec3& position, const Vec3& normal) {
-  Hit hit;
-  hit.position = position;
-  hit.normal = hit.shading_normal = normal;
-  return hit;
-}
 
 /// But for rounding: of sums, and of packed powers, in shares of the largest channel.
 void expect_near(const Rgb& a, const Rgb& b, const char* what) {
