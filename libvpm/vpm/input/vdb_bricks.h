@@ -8,7 +8,7 @@
 namespace vpm {
 
 /// The densities of a FloatGrid or DoubleGrid of OpenVDB's in the frame's box; negative values are read as 0. Throws
-/// Throws InputError where that takes more memory than a grid may.
+/// InputError where that takes more memory than a grid may.
 template <class Grid>
 std::shared_ptr<const DensityGrid> density_of(const Grid& grid, const GridFrame& frame);
 
