@@ -111,6 +111,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const st
                     count, count * sizeof(Brick) / double(1u << 30)));
   bricks_.resize(static_cast<size_t>(count));
   const double sum = fill_bricks(fill);
+  find_walked();
   const Vec3d support = support_hi() - support_lo();
   const double cells = count * (kCells * kCells * kCells), volume = support.x * support.y * support.z;
   mean_density_ = std::max(0.0, sum + (volume - cells) * frame.background) / volume;
@@ -148,6 +149,21 @@ double DensityGrid::fill_bricks(const FillBrick& fill) {
   for (const Brick& brick : bricks_)
     if (!brick.uniform()) blocks_[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
   return sum;
+}
+
+void DensityGrid::find_walked() {
+  walked_hi_ = lattice_size_;
+  if (frame_.background > 0.0f) return;
+  Vec3i lo = brick_count_, hi(0);
+  for (const BrickBox& box : boxes_.all())
+    for (size_t number = box.first; number < box.first + box.bricks(); ++number) {
+      if (bricks_[number].max == 0.0f) continue;
+      const Vec3i brick = box.brick(number);
+      lo = glm::min(lo, brick);
+      hi = glm::max(hi, brick + 1);
+    }
+  walked_lo_ = Vec3d(glm::min(lo, hi)) * double{kCells};
+  walked_hi_ = Vec3d(hi) * double{kCells};
 }
 
 DensityGrid::Brick DensityGrid::brick_of(const float* values) {

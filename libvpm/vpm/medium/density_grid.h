@@ -138,6 +138,8 @@ class DensityGrid {
   double fill_bricks(const FillBrick& fill);
   /// The brick that has these values; `first` is not set yet.
   static Brick brick_of(const float* values);
+  /// Sets walked_lo_ and walked_hi_.
+  void find_walked();
   /// Is the density positive in all of these bricks of the lattice?
   bool bricks_are_positive(const IndexBox& bricks) const;
   /// The index coordinates of a brick's lower corner.
@@ -167,7 +169,10 @@ class DensityGrid {
   Mat4d world_to_index_{1.0};
   Vec3i brick_lo_{0}, brick_count_{0};         // in bricks
   Vec3d lattice_lo_{0.0}, lattice_size_{0.0};  // of all bricks: corner in index coordinates, and extent in cells
-  BrickBoxes boxes_{Vec3i(0)};                 // of those that are stored, in bricks from the corner of the lattice
+  // What walks are cut down to, in cells from the corner of the lattice: the box around the bricks that hold anything.
+  // All of the lattice where there is a background, too.
+  Vec3d walked_lo_{0.0}, walked_hi_{0.0};
+  BrickBoxes boxes_{Vec3i(0)};  // of those that are stored, in bricks from the corner of the lattice
   std::vector<Brick> bricks_;
   std::vector<float> values_;
   std::vector<BrickBlocks> blocks_;  // of the same bricks

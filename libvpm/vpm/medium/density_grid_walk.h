@@ -24,10 +24,10 @@ class LatticeWalk {
   LatticeWalk(const Vec3d& origin, const Vec3d& direction, double t0, const Vec3i& lo, const Vec3i& hi,
               const Vec3i& strides, size_t first = 0) {
     for (int a = 0; a < 3; ++a) axes_[a] = Axis(origin[a], direction[a], t0, lo[a], hi[a], strides[a]);
-    axes_[0].number += both(static_cast<int64_t>(first));
+    number_ = axes_[0].number + axes_[1].number + axes_[2].number + both(static_cast<int64_t>(first));
   }
   /// The number of the present cell.
-  int64_t number() const { return (axes_[0].number + axes_[1].number + axes_[2].number)[0]; }
+  int64_t number() const { return number_[0]; }
   /// The lower corner of the present cell.
   Vec3d corner() const { return {axes_[0].corner(), axes_[1].corner(), axes_[2].corner()}; }
   /// The t at which the ray leaves the present cell.
@@ -35,7 +35,7 @@ class LatticeWalk {
   /// Goes on to the next cell. If the ray meets several planes at once, that is across an edge or a corner.
   void advance() {
     const Double at = nearest_exit();
-    for (Axis& axis : axes_) axis.cross_at(at);
+    number_ += axes_[0].cross_at(at) + axes_[1].cross_at(at) + axes_[2].cross_at(at);
   }
 
  private:
@@ -67,25 +67,26 @@ class LatticeWalk {
       next = (plane - origin) * inverse;
     }
     double corner() const { return plane[0] + to_corner; }
-    /// Goes on to the next cell if the ray leaves this one at `at`.
-    void cross_at(const Double& at) {
+    /// Goes on to the next cell if the ray leaves this one at `at`. Returns by how much the cell's number grows.
+    Integer cross_at(const Double& at) {
       const Integer crosses = exit == at;
       exit = Double((crosses & Integer(next)) | (~crosses & Integer(exit)));
       plane += Double(crosses & Integer(stride));
       next = (plane - origin) * inverse;
-      number += crosses & step;
+      return crosses & step;
     }
 
     Double exit{}, next{};  // t of the plane by which the ray leaves the cell, and of the one after it
     Double plane{};         // position of the one after it
     Double origin{}, inverse{}, stride{};
-    Integer number{}, step{};
-    double to_corner = 0.0;  // from `plane` to the cell's lower end
+    Integer number{}, step{};  // what the first cell's number owes to this axis, and what a step adds to it
+    double to_corner = 0.0;    // from `plane` to the cell's lower end
   };
 
   Double nearest_exit() const { return least(axes_[0].exit, least(axes_[1].exit, axes_[2].exit)); }
 
   Axis axes_[3];
+  Integer number_{};
 };
 
 /// Cuts [t0, t1] down to the part in which origin + t direction lies inside the box [lo, hi]; t0 >= t1 if there is
@@ -110,7 +111,7 @@ void DensityGrid::visit_bricks(const LatticeRay& ray, const Interval& interval, 
                                Outside&& outside) const {
   double t0 = interval.t0;
   double t1 = interval.t1;
-  clip_to_box(ray.origin, ray.direction, Vec3d(0.0), lattice_size_, t0, t1);
+  clip_to_box(ray.origin, ray.direction, walked_lo_, walked_hi_, t0, t1);
   const bool fills_outside = frame_.background > 0.0f;
   const auto beyond = [&](double a, double b) { return !fills_outside || !(b > a) || outside(a, b); };
   if (!(t1 > t0)) {
