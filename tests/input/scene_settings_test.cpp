@@ -136,7 +136,6 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(s.max_events, d.max_events);
   EXPECT_EQ(s.photons_emitted, d.photons_emitted);
   EXPECT_EQ(s.photons_stored, d.photons_stored);
-  EXPECT_EQ(s.distance.strategy, d.distance.strategy);
   EXPECT_EQ(s.transmittance.estimator, d.transmittance.estimator);
   EXPECT_EQ(s.transmittance.samples, d.transmittance.samples);
   EXPECT_EQ(s.volume.count, d.volume.count);
@@ -145,6 +144,16 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(s.gather_by, d.gather_by);
   EXPECT_EQ(s.end_irradiance, d.end_irradiance);
   EXPECT_EQ(load_with("[photons]\nstored = 10\n").settings.photons_emitted, 0u);  // until the maps are full
+}
+
+TEST(SceneFile, PhotonsFlyByNullCollisionsWhereNothingIsSaid) {
+  EXPECT_EQ(load_with("").settings.distance.strategy, "delta-local");
+  EXPECT_EQ(load_with("[distance]\nstep = 2\n[render]\nintegrator = \"photon\"\n").settings.distance.strategy,
+            "delta-local");
+  for (const char* integrator : {"path", "combined"})
+    EXPECT_EQ(load_with(fmt::format("[render]\nintegrator = \"{}\"\n", integrator)).settings.distance.strategy,
+              "regular");
+  EXPECT_EQ(load_with("[distance]\nstrategy = \"delta\"\n").settings.distance.strategy, "delta");
 }
 
 using Keys = decltype(AutomaticSettings::keys);

@@ -225,6 +225,19 @@ TEST(Tracking, EmptyBricksCostNothing) {
   }
 }
 
+TEST(Tracking, NothingIsNullWithoutAGrid) {
+  const auto local = make_distance_strategy({.strategy = "delta-local"}),
+             exact = make_distance_strategy({.strategy = "homogeneous"});
+  for (const Rgb& sigma_t : {Rgb(0.5f), Rgb(0.1f, 0.5f, 2.0f)}) {
+    const Medium medium = make_medium(nullptr, sigma_t);
+    for (uint64_t i = 0; i < 1000; ++i) {
+      const Flight flight = fly(*local, medium, i);
+      expect_same(flight, fly(*exact, medium, i));
+      EXPECT_TRUE(std::isfinite(flight.integral));
+    }
+  }
+}
+
 TEST(Tracking, AdaptiveMarchesTakeStepsOfAnOpticalThickness) {
   // One brick that varies along the ray, of largest density 2, 8 voxels of 1/4 m long, between empty ones.
   GridFrame frame;

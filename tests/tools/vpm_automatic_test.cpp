@@ -71,7 +71,7 @@ TEST_F(VpmAutomatic, TechniquesAreToldAsOptionsTakeThem) {
 }
 
 TEST_F(VpmAutomatic, WhatIsGivenIsRenderedAsEver) {
-  const std::vector<std::string> given{"--set", "distance.strategy=regular", "--set", "render.integrator=photon"};
+  const std::vector<std::string> given{"--set", "distance.strategy=delta-local", "--set", "render.integrator=photon"};
   vpm_succeeds({"render", "scene.toml", "-o", "given.exr"});
   std::vector<std::string> automatic{"render", "scene.toml", "-o", "auto.exr", "--auto"};
   automatic.insert(automatic.end(), given.begin(), given.end());

@@ -101,10 +101,6 @@ void refuse_beside_chosen_gather(const TableReader& table, const std::string& ke
 }
 
 void read_setting(TableReader& table, const Setting& setting, RenderSettings& s, AutomaticSettings& automatic) {
-  if (!table.has(setting.name())) {
-    if (setting.decided_by.value) setting.member.set(s, setting.decided_by.value(s));
-    return;
-  }
   if (another_serves(setting, s)) return;
   if (setting.section() == "combined" && automatic.has("render.integrator"))
     table.fail(setting.name(), "whether techniques are combined is to be chosen: 'integrator' of [render] is \"auto\"",
@@ -191,9 +187,13 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
 RenderSettings read_settings(TableReader& root, const SceneFacts& facts, AutomaticSettings& automatic) {
   RenderSettings s;
   Sections sections;
-  for (const Setting& setting : all_settings())
-    if (std::optional<TableReader>& table = section_of(setting, root, sections))
+  for (const Setting& setting : all_settings()) {
+    std::optional<TableReader>& table = section_of(setting, root, sections);
+    if (table && table->has(setting.name()))
       read_setting(*table, setting, s, automatic);
+    else if (setting.decided_by.value)
+      setting.member.set(s, setting.decided_by.value(s));
+  }
   for (const auto& [name, table] : sections)
     if (table) table->finish(elsewhere);
   try {

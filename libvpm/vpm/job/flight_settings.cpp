@@ -7,6 +7,12 @@ namespace {
 /// A step of a march, voxels: shorter ones would never come to an end.
 constexpr Range kVoxels{1e-3, kNoLimit, false, true};
 
+/// Photons are many and fly far: what a flight costs is most of their time, and null collisions cost less of it than
+/// cells. Of paths and techniques combined most of the time is elsewhere (papers/distance-sampling.md).
+SettingValue usual_strategy(const RenderSettings& s) {
+  return s.integrator == Integrator::photon ? "delta-local" : s.distance.strategy;
+}
+
 }  // namespace
 
 std::vector<Setting> flight_settings() {
@@ -20,7 +26,9 @@ std::vector<Setting> flight_settings() {
        .meaning = "how photons and paths fly; [papers/distance-strategies.md](../papers/distance-strategies.md) tells "
                   "what each is and how it fails. `\"homogeneous\"` is refused in grids, `\"weighted\"` for photons "
                   "(`integrator = \"path\"` alone)",
-       .automatic = true},
+       .default_text = "`\"delta-local\"` for `integrator = \"photon\"`, else `\"regular\"`",
+       .automatic = true,
+       .decided_by = {"", &usual_strategy}},
       {.key = "distance.step",
        .member = at<&S::distance, &D::step>(),
        .domain = Numbers{kVoxels},

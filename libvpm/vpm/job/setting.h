@@ -60,10 +60,10 @@ struct Need {
   std::string_view right = "";                            // what would be right
 };
 
-/// Another setting that decides where this one is left out.
+/// What decides where a setting is left out: others, which are read before it.
 struct DecidedBy {
-  std::string_view key = "";                               // given in a file: nothing is to be chosen here
-  SettingValue (*value)(const RenderSettings&) = nullptr;  // of this setting then
+  std::string_view key = "";  // one that leaves nothing to be chosen here where a file gives it; "": none does
+  SettingValue (*value)(const RenderSettings&) = nullptr;
 };
 
 /// Does a setting keep its default where kAuto is made of what a file leaves out?
