@@ -8,6 +8,7 @@
 #include "support/statistics.h"
 #include "vpm/base/progress.h"
 #include "vpm/base/tails.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/render/film.h"
 #include "vpm/render/path_tracer.h"
@@ -312,6 +313,24 @@ TEST(PhotonPass, SeveralShadowRaysBringTheSameLight) {
   settings.surface_direct_samples = 5;
   expect_same_means({one}, {pass_means(scene, settings, 300)}, 1e-6, "five rays");
   EXPECT_EQ(shadow_rays() * 6, rays * (5 * 5 + 1));
+}
+
+/// Sums by whole nodes of photons take memory, which only diffuse surfaces have a use for.
+TEST(PhotonPass, PreparesSumsByNodesForDiffuseSurfaces) {
+  const auto more_bytes_of_many = [](const Material& of_floor) {
+    Scene scene = lamp_and_floor(nullptr);
+    scene.materials[1] = of_floor;
+    const auto bytes = [&](uint32_t count) {
+      RenderSettings settings = settings_of(20'000, 0.5f);
+      settings.surface.mode = GatherMode::nearest;
+      settings.surface.count = count;
+      settings.surface_direct = DirectLight::photons;
+      return render_photon_pass(scene, settings, 0, kNeverStopped).statistics.photon_map_bytes;
+    };
+    return bytes(NearestMap::kMany) - bytes(NearestMap::kMany - 1);
+  };
+  EXPECT_GT(more_bytes_of_many(Lambertian{Rgb(0.5f)}), 0u);
+  EXPECT_EQ(more_bytes_of_many(Phong{}), 0u);
 }
 
 }  // namespace

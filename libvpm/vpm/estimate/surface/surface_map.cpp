@@ -18,10 +18,12 @@ KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const Surfa
 
 namespace {
 
-/// Are there surfaces for which the powers of photons alone count?
+/// Are there surfaces for which the powers of photons alone count? The bodies of lamps, which are black, are none.
 bool has_diffuse(const Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const Material& material) { return diffuse_reflectance(material) != nullptr; });
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+    const Rgb* reflectance = diffuse_reflectance(material);
+    return reflectance && max_channel(*reflectance) > 0.0f;
+  });
 }
 
 }  // namespace
