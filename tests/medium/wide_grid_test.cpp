@@ -149,6 +149,11 @@ TEST_P(WideGrid, KnowsItsMeanAndWhereItIsPositive) {
   const double expected =
       background_ + 3.0 * (sum - background_ * kSize * kSize * kSize) / (support * support * support);
   EXPECT_NEAR(wide_->mean_density(), expected, 1e-6 * expected);
+  EXPECT_EQ(alone_->mean_of_stored(), alone_->mean_density());
+  EXPECT_EQ(alone_->extent(), double{alone_->bounds().diagonal()});
+  EXPECT_LE(wide_->mean_of_stored(), alone_->mean_of_stored());  // its bricks reach beyond the support
+  EXPECT_GT(wide_->mean_of_stored(), 0.5 * alone_->mean_of_stored());
+  EXPECT_NEAR(wide_->extent(), alone_->extent(), 0.3 * alone_->extent());
   const auto positive = [&](const Vec3& from, float side) { return wide_->is_positive({from, from + side}); };
   EXPECT_TRUE(positive(Vec3(9e-6f), 12e-6f));
   EXPECT_EQ(positive(Vec3(30e-6f), 100e-6f), background_ > 0.0f);

@@ -111,6 +111,31 @@ TEST(Assemble, PutsABoxAroundAGridThatNoShapeBounds) {
   EXPECT_EQ(assemble(parts).scene.shapes.size(), 2u);
 }
 
+/// Where its faces are met too roughly, a box would leave out what lies at its ends, by up to some voxels.
+TEST(Assemble, TheBoxOfAWideGridHasAMargin) {
+  for (const int apart : {1000, 1'000'000, 10'000'000}) {
+    SceneParts parts = ball_on_floor();
+    parts.shapes.clear();
+    GridFrame frame = centred_frame(0, 0.0625);
+    frame.lo = Vec3i(0);
+    frame.hi = Vec3i(apart + 15, 15, 15);
+    const auto fill = [](const Vec3i&, float* values) { std::fill_n(values, DensityGrid::kBrickValues, 1.0f); };
+    const std::vector<IndexBox> ends{{Vec3i(0), Vec3i(15)}, {Vec3i(apart, 0, 0), frame.hi}};
+    parts.media = {
+        {make_medium(std::make_shared<const DensityGrid>(frame, fill, ends), Rgb(1)), GridBoundary::automatic, {}}};
+    const Scene scene = assemble(parts).scene;
+    const Box support = scene.media[0].grid->bounds(), box = scene.bounds;
+    const float margin = box.hi.x - support.hi.x, step = std::nextafter(support.hi.x, kInfinity) - support.hi.x;
+    EXPECT_LT(box.lo.x, support.lo.x + 1e-6f);
+    if (apart == 1000) {
+      EXPECT_LT(margin, 1e-4f);  // that of all bounds
+    } else {
+      EXPECT_GE(margin, 5.0f * step) << apart;
+    }
+    EXPECT_LT(margin, 1e-5f * support.hi.x) << apart;
+  }
+}
+
 TEST(Assemble, TakesTheCamerasMediumFromTheShapesUnlessTold) {
   SceneParts parts = ball_on_floor();
   parts.shapes.resize(1);

@@ -165,6 +165,7 @@ TEST_F(VpmMerge, RangesThatCannotBeAreRefused) {
   for (const char* range : {"4", "4:4", "5:4", "-1:4", "0:4:8", "a:b", ":", "0:99999999999"})
     vpm_refuses({"render", "scene.toml", std::string("--pass-range=") + range}, {"no range of passes such as 0:64"});
   vpm_refuses({"render", "scene.toml", "--pass-range", "0:4", "--time", "3"}, {"--time"});
+  vpm_refuses({"render", "scene.toml", "--pass-range", "0:4", "--passes", "3"}, {"there are 3 in all, 0:3"});
   vpm_refuses({"render", "scene.toml", "--pass-range", "1:4", "--set", "render.radii=per-pixel"},
               {"no piece begins with pass 1"});
 }
@@ -180,6 +181,7 @@ TEST_F(VpmMerge, TheExampleOfAJobArrayMakesOnePicture) {
   EXPECT_EQ(run({"merge", "out"}).status, 0);
   vpm_succeeds({"render", "scene.toml", "-o", "one.exr", "--passes", "7", "--seed", "4"});
   EXPECT_TRUE(read("out/picture.exr") == read("one.exr"));
+  EXPECT_EQ(run({"piece", "3", "3", "7", "out", "scene.toml"}).status, 2) << "0, 1 and 2 are all";
   const ProcessResult usage = run({});
   EXPECT_EQ(usage.status, 2);
   expect_words(usage.err, {"job_array piece NUMBER", "sbatch"});

@@ -162,6 +162,7 @@ TEST_F(VpmReport, TellsSettingsWithDefaultsAndReasons) {
   EXPECT_EQ(rows.at("render.integrator").at("is_usual"), false);
   EXPECT_TRUE(rows.at("render.integrator").at("reason").is_null());
   EXPECT_EQ(rows.at("surface.kernel").at("is_usual"), true);
+  EXPECT_EQ(rows.at("distance.strategy").at("is_usual"), true) << "that of the integrator";
   EXPECT_EQ(all.at("chosen").at(0).at("key"), "volume.radius");
   EXPECT_EQ(rows.at("volume.radius").at("reason"), all.at("chosen").at(0).at("reason"));
   EXPECT_FALSE(rows.at("volume.radius").at("meaning").get<std::string>().empty());

@@ -33,7 +33,7 @@ void measure_many_nearest(Bench& bench, const Sizes& sizes) {
   const GatherSettings gather{.mode = GatherMode::nearest, .radius = 1.0f, .count = kMany};
   const PhotonMap plain = make_photon_map(photons, gather, emitted);
   PhotonMap prepared = plain;
-  prepared.sum_by_nodes();
+  prepared.prepare_sums_by_nodes();
   const std::vector<Hit> hits = seen(scene);
 
   const auto sum = [&](const PhotonMap& map) {

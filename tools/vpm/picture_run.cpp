@@ -123,7 +123,15 @@ void apply_run_options(const RenderOptions& options, RenderSettings& settings) {
   if (!options.pass_range.empty()) until.seconds = until.error = 0.0;  // pieces choose alike, by counts
 }
 
+/// Refuses pieces beyond the passes that there are in all, where these are told.
+void check_range(const RenderOptions& options) {
+  if (options.pass_range.empty() || !options.passes || pass_range(options.pass_range).end <= *options.passes) return;
+  throw InputError(fmt::format("--pass-range {}: --passes says that there are {} in all, 0:{}", options.pass_range,
+                               *options.passes, *options.passes));
+}
+
 RenderJob load_for_render(const RenderOptions& options) {
+  check_range(options);
   RenderJob job =
       load_scene(options.scene, overrides_of(options), options.automatic ? LeftOut::automatic : LeftOut::usual);
   apply_run_options(options, job.settings);

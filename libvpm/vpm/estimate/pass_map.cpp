@@ -17,7 +17,7 @@ float first_radius(const AskedGather& gather, const Scene& scene) {
 
 float first_radius(const AskedGather& gather, const Scene& scene, const Medium& medium) {
   if (gather.radius.is_given() || !medium.grid) return first_radius(gather, scene);
-  return default_share(gather) * medium.grid->bounds().diagonal();
+  return default_share(gather) * static_cast<float>(medium.grid->extent());
 }
 
 bool shrinks(const AskedGather& gather, const PassOfMaps& pass) {

@@ -10,7 +10,7 @@ constexpr Range kVoxels{1e-3, kNoLimit, false, true};
 /// Photons are many and fly far: what a flight costs is most of their time, and null collisions cost less of it than
 /// cells. Of paths and techniques combined most of the time is elsewhere (papers/distance-sampling.md).
 SettingValue usual_strategy(const RenderSettings& s) {
-  return s.integrator == Integrator::photon ? "delta-local" : s.distance.strategy;
+  return s.integrator == Integrator::photon ? "delta-local" : RenderSettings{}.distance.strategy;
 }
 
 }  // namespace

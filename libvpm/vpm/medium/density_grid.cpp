@@ -115,6 +115,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const st
   const Vec3d support = support_hi() - support_lo();
   const double cells = count * (kCells * kCells * kCells), volume = support.x * support.y * support.z;
   mean_density_ = std::max(0.0, sum + (volume - cells) * frame.background) / volume;
+  mean_of_stored_ = boxes_.whole() ? mean_density_ : sum / cells;
   const Mat3d axes(frame.index_to_world);
   voxel_size_ =
       static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
@@ -174,6 +175,14 @@ DensityGrid::Brick DensityGrid::brick_of(const float* values) {
   const auto [min, max] = std::minmax_element(values, values + kBrickValues);
   assert(*min >= 0.0f && std::isfinite(*max));
   return {*min, *max, 0};
+}
+
+double DensityGrid::extent() const {
+  if (boxes_.whole()) return double{bounds().diagonal()};
+  double largest = 0.0;
+  for (const BrickBox& box : boxes_.all())
+    largest = std::max(largest, glm::length(Mat3d(frame_.index_to_world) * Vec3d(box.count * kCells)));
+  return largest;
 }
 
 Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {

@@ -101,6 +101,12 @@ class DensityGrid {
   /// support, empty voxels included.
   float max_density() const { return max_density_; }
   double mean_density() const { return mean_density_; }
+  /// The mean over the bricks that are stored, which of a grid far wider than what it holds tells more; of others the
+  /// same.
+  double mean_of_stored() const { return mean_of_stored_; }
+  /// How large what it holds is, m: the diagonal of its support, or of the largest box of bricks where there are
+  /// several.
+  double extent() const;
   /// Shortest distance between neighbouring voxels, m.
   float voxel_size() const { return voxel_size_; }
   size_t memory_bytes() const;
@@ -177,6 +183,7 @@ class DensityGrid {
   std::vector<float> values_;
   std::vector<BrickBlocks> blocks_;  // of the same bricks
   float max_density_ = 0.0f;
+  double mean_of_stored_ = 0.0;
   double mean_density_ = 0.0;
   float voxel_size_ = 0.0f;
 };

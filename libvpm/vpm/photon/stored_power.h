@@ -29,7 +29,7 @@ inline float relative_density(const Medium& medium, float density) { return dens
 /// are no more photons along flights than there would be collisions in an even medium, however much denser a few voxels
 /// are.
 inline float floor_in(const Medium& medium, float floor) {
-  return std::min(floor, relative_density(medium, static_cast<float>(medium.mean_density())));
+  return std::min(floor, relative_density(medium, static_cast<float>(medium.mean_of_stored())));
 }
 
 /// The factor that turns a sum of stored powers times phase function and kernel into the source of radiance, W/(m^3

@@ -45,11 +45,23 @@ bool check_grid(const SceneParts& parts, size_t number) {
   return boxed;
 }
 
-/// The box around a grid's support, as a boundary with the medium inside.
+/// By how many voxels the faces of a grid's box may be off, where rays meet them in single precision. 0 for boxes of
+/// which that is no more than a hundredth.
+double lost_voxels(const DensityGrid& grid) {
+  constexpr double kOff = 0x1p-19, kNegligible = 0.01;  // of the largest coordinate; voxels
+  const Box bounds = grid.bounds();
+  const Vec3d farthest = glm::max(glm::abs(Vec3d(bounds.lo)), glm::abs(Vec3d(bounds.hi)));
+  const double voxels = kOff * glm::length(farthest) / double{grid.voxel_size()};
+  return voxels > kNegligible ? voxels : 0.0;
+}
+
+/// The box around a grid's support, as a boundary with the medium inside. Around it there is no density, so that a wide
+/// box may be larger by what its faces are off: else clouds at its ends would lie outside.
 ShapePart box_of(const SceneParts& parts, MediumId id) {
   const MediumPart& medium = parts.media[static_cast<size_t>(id)];
   const DensityGrid& grid = *medium.medium.grid;
-  TriangleMesh mesh = box_mesh(grid.support_lo(), grid.support_hi());
+  const double margin = lost_voxels(grid);
+  TriangleMesh mesh = box_mesh(grid.support_lo() - margin, grid.support_hi() + margin);
   transform_mesh(grid.frame().index_to_world, mesh);
   ShapePart box;
   box.name = "box of " + medium.medium.name;

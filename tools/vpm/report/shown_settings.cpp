@@ -42,6 +42,11 @@ std::string options_again(const Json& report) {
   return options;
 }
 
+/// What a render has that says nothing of the setting.
+SettingValue usual_value(const Setting& setting, const RenderSettings& settings) {
+  return setting.decided_by.value ? setting.decided_by.value(settings) : setting.member.get({});
+}
+
 }  // namespace
 
 Json shown_settings(const RenderReport& report) {
@@ -52,7 +57,7 @@ Json shown_settings(const RenderReport& report) {
     rows.push_back({{"key", field.key},
                     {"value", text_of(field.value)},
                     {"usual", usual_of(*setting)},
-                    {"is_usual", field.value == setting->member.get({})},
+                    {"is_usual", field.value == usual_value(*setting, report.settings)},
                     {"meaning", setting->meaning},
                     {"values", values_of(*setting)},
                     {"reason", reason_of(report.json, field.key)}});
