@@ -179,6 +179,8 @@ TEST_F(VpmMerge, TheExampleOfAJobArrayMakesOnePicture) {
   for (const char* number : {"1", "0", "2", "1"})
     EXPECT_EQ(run({"piece", number, "3", "7", "out", "scene.toml", "--seed", "4"}).status, 0) << number;
   EXPECT_EQ(run({"merge", "out"}).status, 0);
+  std::filesystem::rename(path("out/2.checkpoint"), path("out/kept"));
+  EXPECT_EQ(run({"merge", "out"}).status, 2) << "the last piece is missing";
   vpm_succeeds({"render", "scene.toml", "-o", "one.exr", "--passes", "7", "--seed", "4"});
   EXPECT_TRUE(read("out/picture.exr") == read("one.exr"));
   EXPECT_EQ(run({"piece", "3", "3", "7", "out", "scene.toml"}).status, 2) << "0, 1 and 2 are all";

@@ -40,6 +40,8 @@ std::string checksum(std::string_view bytes) {
 
 std::string content_of(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
+  std::error_code unknown;
+  if (!stream && std::filesystem::exists(path, unknown)) refuse(path, "it may not be read");
   if (!stream) refuse(path, "there is no such file; render with --checkpoint to have one after each pass");
   std::ostringstream text;
   text << stream.rdbuf();
