@@ -261,6 +261,18 @@ TEST_F(GridFile, ReadsTheFewVoxelsOfAWideBox) {
     EXPECT_EQ(density->density(Vec3(at.x(), at.y(), at.z())), grid->tree().getValue(at));
 }
 
+/// One table could hold its bricks, of which rays would cross 125,000 to come from one end to the other.
+TEST_F(GridFile, StoresWhatASparseGridHoldsWhereATableWouldBeNearlyEmpty) {
+  auto grid = random_grid<FloatGrid>(Coord(-13, -9, -20), Coord(5, 11, -2));
+  grid->tree().setValue(Coord(1'000'000, 5, -7), 3.0f);
+  write({grid});
+  const auto density = load_grid(request()).grid;
+  EXPECT_LT(density->memory_bytes(), 1u << 20);
+  EXPECT_EQ(density->density(Vec3(1e6f, 5.0f, -7.0f)), 3.0f);
+  const Ray along{Vec3(-100.0f, 5.0f, -7.0f), Vec3(1.0f, 0.0f, 0.0f)};
+  EXPECT_LT(density->visit_majorants(along, {}, [](const DensityStretch&) { return true; }), 100u);
+}
+
 TEST_F(GridFile, RefusesBoxesThatWouldNotFitInMemory) {
   auto grid = FloatGrid::create(0.0f);
   grid->setName("density");

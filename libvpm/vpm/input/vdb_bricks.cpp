@@ -106,9 +106,8 @@ std::vector<IndexBox> occupied_boxes(const Tree& tree, const CoordBBox& box) {
 template <class Grid>
 std::shared_ptr<const DensityGrid> density_of(const Grid& grid, const GridFrame& frame) {
   const CoordBBox box(to_coord(frame.lo), to_coord(frame.hi));
-  std::vector<IndexBox> occupied;
-  if (!DensityGrid::fits_one_table(frame)) occupied = occupied_boxes(grid.tree(), box);
-  return std::make_shared<const DensityGrid>(frame, BrickFiller<Grid>(grid, box, frame.background), occupied);
+  return std::make_shared<const DensityGrid>(frame, BrickFiller<Grid>(grid, box, frame.background),
+                                             occupied_boxes(grid.tree(), box));
 }
 
 template std::shared_ptr<const DensityGrid> density_of(const openvdb::FloatGrid&, const GridFrame&);

@@ -29,15 +29,25 @@ IndexBox bricks_of(const IndexBox& voxels) {
   return bricks;
 }
 
-/// The boxes that bricks are stored in, in bricks from the lower corner of all.
-BrickBoxes boxes_of(const IndexBox& all, bool one_table, const std::vector<IndexBox>& occupied) {
-  if (one_table || occupied.empty()) return BrickBoxes(all.hi - all.lo + 1);
+double count_of(const IndexBox& bricks) {
+  const Vec3d count = Vec3d(bricks.hi) - Vec3d(bricks.lo) + 1.0;
+  return count.x * count.y * count.z;
+}
+
+/// The boxes that bricks are stored in, in bricks from the lower corner of all. One table of all is quicker, but to
+/// walk from brick to brick where there are none takes longer than to find the next box.
+BrickBoxes boxes_of(const IndexBox& all, const std::vector<IndexBox>& occupied) {
+  constexpr double kFewerThanAll = 64.0;  // times
   std::vector<IndexBox> bricks;
   bricks.reserve(occupied.size());
+  double filled = 0.0;  // those that several boxes reach into are counted as often
   for (const IndexBox& voxels : occupied) {
     const IndexBox box = bricks_of(voxels);
     bricks.push_back({box.lo - all.lo, box.hi - all.lo});
+    filled += count_of(box);
   }
+  const double table = count_of(all);
+  if (bricks.empty() || (table <= kMaxBricks && kFewerThanAll * filled > table)) return BrickBoxes(all.hi - all.lo + 1);
   return BrickBoxes(std::move(bricks));
 }
 
@@ -86,12 +96,6 @@ double owned_sum(const float* values) {
 
 }  // namespace
 
-bool DensityGrid::fits_one_table(const GridFrame& frame) {
-  const IndexBox bricks = bricks_of({frame.lo, frame.hi});
-  const Vec3d count = Vec3d(bricks.hi) - Vec3d(bricks.lo) + 1.0;
-  return count.x * count.y * count.z <= kMaxBricks;
-}
-
 DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied)
     : frame_(frame), world_to_index_(glm::inverse(frame.index_to_world)) {
   assert(glm::all(glm::lessThanEqual(frame.lo, frame.hi)) && frame.background >= 0.0f);
@@ -102,7 +106,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const st
   lattice_size_ = Vec3d(brick_count_) * double{kCells};
   if (glm::any(glm::greaterThanEqual(lattice_size_, Vec3d(std::numeric_limits<int>::max()))))
     throw InputError("its voxels lie 2^31 or more apart");
-  boxes_ = boxes_of(all, fits_one_table(frame), occupied);
+  boxes_ = boxes_of(all, occupied);
   double count = 0.0;
   for (const BrickBox& box : boxes_.all()) count += double(box.count.x) * box.count.y * box.count.z;
   if (count > kMaxBricks)

@@ -44,12 +44,10 @@ class DensityGrid {
   /// finite and >= 0. It is called from all threads, each of which has its own copy.
   using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
 
-  /// Is the frame's index box so small that one table may hold all bricks of it?
-  static bool fits_one_table(const GridFrame& frame);
   /// Builds, on all threads, the bricks that cover the frame's index box and the reach of its interpolation. A brick
-  /// with equal values stores one value only, and equal bricks store their values once. A grid that does not fit one
-  /// table has those bricks alone that hold the voxels in the boxes of `occupied`: all others have the background's
-  /// density. Throws InputError if the tables of bricks alone would take over 256 MiB.
+  /// with equal values stores one value only, and equal bricks store their values once. Where the voxels in the boxes
+  /// of `occupied` take far fewer bricks, or all are more than one table may hold, these alone are stored: all others
+  /// have the background's density. Throws InputError if the tables of bricks alone would take over 256 MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied = {});
 
   /// A ray in units of cells, from the lower corner of all bricks; its parameter is still in metres of the world.
