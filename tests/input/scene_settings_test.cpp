@@ -154,6 +154,10 @@ TEST(SceneFile, PhotonsFlyByNullCollisionsWhereNothingIsSaid) {
     EXPECT_EQ(load_with(fmt::format("[render]\nintegrator = \"{}\"\n", integrator)).settings.distance.strategy,
               "regular");
   EXPECT_EQ(load_with("[distance]\nstrategy = \"delta\"\n").settings.distance.strategy, "delta");
+  // Where the integrator is chosen so is the strategy, unless it is given.
+  EXPECT_TRUE(load_with("[render]\nintegrator = \"auto\"\n").automatic.has("distance.strategy"));
+  EXPECT_FALSE(load_with("[render]\nintegrator = \"auto\"\n[distance]\nstrategy = \"delta\"\n")
+                   .automatic.has("distance.strategy"));
 }
 
 using Keys = decltype(AutomaticSettings::keys);

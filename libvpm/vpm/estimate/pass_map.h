@@ -18,7 +18,7 @@ struct PassOfMaps {
   const MediaBounds* around = nullptr;  // all photons of the pass, of which the maps hold a block; null: they hold all
 };
 
-/// Default radii, as fractions of the diagonal of the medium's bounds (grids) or of the scene. kDefaultSearch is for
+/// Default radii, as fractions of the medium's extent (grids) or of the scene's diagonal. kDefaultSearch is for
 /// gathers by count, where the radius is only the largest allowed.
 inline constexpr float kDefaultRadius = 0.01f, kDefaultSearch = 0.1f;
 /// The radius of a map in the first pass, m: the one that is given, or the default fraction of the diagonal.

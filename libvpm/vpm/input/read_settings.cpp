@@ -145,6 +145,12 @@ void refuse_blocks_of_chosen_photons(const RenderSettings& s, const AutomaticSet
                        "give 'emitted' a number, or leave out 'block'");
 }
 
+/// The usual strategy goes by the integrator: where that is to be chosen, so is the strategy, unless it is given.
+void choose_strategy_with_integrator(std::optional<TableReader>& distance, AutomaticSettings& automatic) {
+  if (automatic.has("render.integrator") && !(distance && distance->has("strategy")))
+    automatic.keys.insert("distance.strategy");
+}
+
 /// Tells the place of the key, or of the one that is given in its place.
 [[noreturn]] void fail_with(const SettingError& error, const TableReader& root, Sections& sections,
                             const AutomaticSettings& automatic) {
@@ -194,6 +200,7 @@ RenderSettings read_settings(TableReader& root, const SceneFacts& facts, Automat
     else if (setting.decided_by.value)
       setting.member.set(s, setting.decided_by.value(s));
   }
+  choose_strategy_with_integrator(sections["distance"], automatic);
   for (const auto& [name, table] : sections)
     if (table) table->finish(elsewhere);
   try {

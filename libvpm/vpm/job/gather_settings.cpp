@@ -40,7 +40,7 @@ std::vector<Setting> declare_gather(const std::string& section, bool in_media) {
        .domain = Numbers{{1e-10, 1e9, false, false}},
        .meaning = "of the first pass, or the largest where gathers go by `count`",
        .unit = "m",
-       .default_text = "1 % (by `count`: 10 %) of the diagonal of the grid or the scene",
+       .default_text = "1 % (by `count`: 10 %) of the diagonal of what the grid holds, or of the scene",
        .automatic = true},
       {.key = section + ".count",
        .member = at<Gather, &G::count>(),

@@ -217,7 +217,7 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
   const double guide = goes_by_clock(settings) ? s.guide_seconds : counted_seconds_of_guide(settings.guide.importons);
   const auto blocks = static_cast<double>(block_count(settings));
   const double tracings = tracings_of_pass(scene, settings);
-  cost.photon *= tracings;
+  cost.photon *= tracings;  // at the most: what is sorted and stored is so once
   cost.eye = tracings * blocks * guide + with_more_photons(eye, std::max(1.0, whole / std::max(1.0, found)), blocks);
   return cost;
 }

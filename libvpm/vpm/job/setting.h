@@ -74,7 +74,7 @@ struct LeftOutStays {
 
 struct Setting {
   std::string key;                             // of scene files: "volume.radius"
-  Member member;                               // its default is that of RenderSettings
+  Member member;                               // its default is that of RenderSettings, or decided_by
   Domain domain;                               // besides the default, which is always allowed
   std::string meaning;                         // one line of Markdown for scenes/README.md
   std::string_view unit = "";                  // "": none

@@ -42,9 +42,9 @@ class BrickBoxes {
  public:
   /// All of the bricks 0 to count - 1.
   explicit BrickBoxes(const Vec3i& count) : boxes_{{Vec3i(0), count, 0}}, whole_(true), root_(~0) {}
-  /// Disjoint boxes that hold these, each of which holds voxels up to the first brick of the next; there is at least
-  /// one. They are cut where there are gaps, until the bricks that begin with voxels fill an eighth of each: as many as
-  /// those of a single brick's voxels have, which reach into its neighbours.
+  /// Disjoint boxes that hold all bricks of `occupied`, of which there is at least one. Each of these is taken to hold
+  /// voxels but in its last bricks, into which those reach. Boxes are cut, at gaps first, until bricks with voxels fill
+  /// an eighth of each, as the one that a single brick of voxels takes is filled.
   explicit BrickBoxes(std::vector<IndexBox> occupied);
 
   std::span<const BrickBox> all() const { return boxes_; }

@@ -183,10 +183,10 @@ DensityGrid::Brick DensityGrid::brick_of(const float* values) {
 
 double DensityGrid::extent() const {
   if (boxes_.whole()) return double{bounds().diagonal()};
-  double largest = 0.0;
-  for (const BrickBox& box : boxes_.all())
-    largest = std::max(largest, glm::length(Mat3d(frame_.index_to_world) * Vec3d(box.count * kCells)));
-  return largest;
+  constexpr double kCellsOfBrick = double{kCells} * kCells * kCells;
+  const double volume = static_cast<double>(bricks_.size()) * kCellsOfBrick *
+                        std::abs(glm::determinant(Mat3d(frame_.index_to_world)));  // m^3
+  return std::sqrt(3.0) * std::cbrt(volume);
 }
 
 Interval DensityGrid::clip(const Ray& ray, const Interval& interval) const {

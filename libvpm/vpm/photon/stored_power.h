@@ -25,9 +25,9 @@ inline Rgb stored_power(const Rgb& flux, VolumeForm form, float density, float f
 /// A density relative to the medium's largest: the factor in the estimate with the density at the query.
 inline float relative_density(const Medium& medium, float density) { return density / medium.max_density(); }
 
-/// The floor of relative densities that is used where `floor` is asked for: no more than the medium's mean. So there
-/// are no more photons along flights than there would be collisions in an even medium, however much denser a few voxels
-/// are.
+/// The floor of relative densities that is used where `floor` is asked for: no more than the mean of what the medium
+/// holds. So there are no more photons along flights than there would be collisions in an even medium, however much
+/// denser a few voxels are.
 inline float floor_in(const Medium& medium, float floor) {
   return std::min(floor, relative_density(medium, static_cast<float>(medium.mean_of_stored())));
 }

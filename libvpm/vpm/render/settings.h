@@ -1,4 +1,5 @@
-// Everything a render can be told besides the scene. Plain values; the defaults here are the defaults of scene files.
+// Everything a render can be told besides the scene. Plain values; the defaults here are those of scene files, except
+// where a setting goes by others (Setting::decided_by).
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,7 @@ bool check_grid(const SceneParts& parts, size_t number) {
 /// By how many voxels the faces of a grid's box may be off, where rays meet them in single precision. 0 for boxes of
 /// which that is no more than a hundredth.
 double lost_voxels(const DensityGrid& grid) {
-  constexpr double kOff = 0x1p-19, kNegligible = 0.01;  // of the largest coordinate; voxels
+  constexpr double kOff = 0x1p-19, kNegligible = 0.01;  // of the farthest corner's distance; voxels
   const Box bounds = grid.bounds();
   const Vec3d farthest = glm::max(glm::abs(Vec3d(bounds.lo)), glm::abs(Vec3d(bounds.hi)));
   const double voxels = kOff * glm::length(farthest) / double{grid.voxel_size()};

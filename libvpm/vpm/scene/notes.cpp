@@ -33,9 +33,8 @@ void note_unresolved_media(const Scene& scene, std::vector<std::string>& notes) 
     if (medium.scatters() && extinction * resolved > 1.0)
       notes.push_back(fmt::format(
           "medium '{}': its free paths, down to {:.2g} m, are shorter than positions of this scene resolve, "
-          "{:.2g} m: light that enters it stays there. Where it is a grid far wider than what it holds, bound that by "
-          "a "
-          "shape near the origin",
+          "{:.2g} m: light that enters it stays there. A grid far wider than what it holds is to be bounded by a shape "
+          "around that, near the origin",
           medium.name, 1.0 / extinction, resolved));
   }
 }

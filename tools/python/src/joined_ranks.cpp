@@ -14,6 +14,18 @@ std::unique_ptr<JoinedRanks>& joined() {
   return ranks;
 }
 
+/// What was printed by Python is not lost. A stream may be closed.
+void flush_streams() {
+  const py::module_ sys = py::module_::import("sys");
+  for (const char* stream : {"stdout", "stderr"}) {
+    try {
+      sys.attr(stream).attr("flush")();
+    } catch (const py::error_already_set&) {
+      continue;
+    }
+  }
+}
+
 }  // namespace
 
 JoinedRanks& JoinedRanks::own() {
@@ -24,14 +36,14 @@ JoinedRanks& JoinedRanks::own() {
     const py::gil_scoped_acquire lock;
     py::module_::import("atexit").attr("register")(py::cpp_function(&JoinedRanks::leave));
   });
+  if (!joined()) throw InputError("Python ends, and the other processes are left");
   return *joined();
 }
 
 /// Before mpi4py, which may have begun MPI, ends it. Where the others may wait for this process they are ended.
 void JoinedRanks::leave() {
-  if (joined()->broken_) {
-    const py::module_ sys = py::module_::import("sys");
-    for (const char* stream : {"stdout", "stderr"}) sys.attr(stream).attr("flush")();
+  if (joined()->broken_ || joined()->busy_) {
+    flush_streams();
     joined()->ranks().abort(1);
   }
   joined().reset();
@@ -48,7 +60,7 @@ JoinedRanks::Turn::Turn(JoinedRanks& joined) : joined_(joined) {
 
 JoinedRanks::Turn::~Turn() {
   joined_.busy_ = false;
-  joined_.broken_ = !finished_;
+  joined_.broken_ = !finished_ && joined_.ranks_->size() > 1;
 }
 
 }  // namespace vpm::python
