@@ -156,7 +156,8 @@ name = "given"
   vpm_succeeds({"compare", "chosen.toml", "-o", "out"});
   const nlohmann::json results = nlohmann::json::parse(read("out/results.json"));
   const nlohmann::json& methods = results.at("scenes").at(0).at("methods");
-  expect_words(methods.at(0).at("settings").get<std::string>(), {"; chosen: render.integrator="});
+  expect_words(methods.at(0).at("settings").get<std::string>(),
+               {"; chosen: distance.strategy=", " render.integrator="});
   EXPECT_EQ(methods.at(1).at("settings").get<std::string>().find("chosen"), std::string::npos);
 }
 
