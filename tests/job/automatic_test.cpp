@@ -241,9 +241,19 @@ TEST(Automatic, CountsLessOfManyNearestPhotons) {
   many.surface.count = NearestMap::kMany;
   EyeCounters used;
   used.gather.used = 1'000'000;
-  EXPECT_LT(counted_work(many, used).seconds, 0.2 * counted_work(few, used).seconds);
+  Scene diffuse, glossy;
+  diffuse.materials = {Lambertian{}, Mirror{}, Boundary{}};
+  glossy.materials = {Lambertian{}, Phong{}};
+  const auto share = [&](const Scene& scene) {
+    return counted_work(scene, many, used).seconds / counted_work(scene, few, used).seconds;
+  };
+  EXPECT_LT(share(diffuse), 0.2);
+  EXPECT_EQ(share(glossy), 1.0);
+  few.caustics_emitted = many.caustics_emitted = 1000;
+  EXPECT_EQ(share(diffuse), 1.0);
+  few.caustics_emitted = many.caustics_emitted = 0;
   used.used_in_media = 1'000'000;
-  EXPECT_EQ(counted_work(many, used).seconds, counted_work(few, used).seconds);
+  EXPECT_EQ(share(diffuse), 1.0);
 }
 
 /// A timing in a hurry asks for fewer photons, and tells about the same of each; and paths have a pass to time, too.

@@ -133,6 +133,11 @@ TEST(Assemble, TheBoxOfAWideGridHasAMargin) {
       EXPECT_GE(margin, 5.0f * step) << apart;
     }
     EXPECT_LT(margin, 1e-5f * support.hi.x) << apart;
+    // A ray from beyond the end is in the medium where its cloud begins.
+    const Ray ray{Vec3(support.hi.x + 40.0f, 0.5f, 0.5f), Vec3(-1.0f, 0.0f, 0.0f)};
+    const std::optional<Hit> face = scene.geometry.intersect(ray);
+    ASSERT_TRUE(face);
+    EXPECT_GE(face->position.x, support.hi.x) << apart;
   }
 }
 

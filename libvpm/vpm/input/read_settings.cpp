@@ -145,10 +145,11 @@ void refuse_blocks_of_chosen_photons(const RenderSettings& s, const AutomaticSet
                        "give 'emitted' a number, or leave out 'block'");
 }
 
-/// The usual strategy goes by the integrator: where that is to be chosen, so is the strategy, unless it is given.
-void choose_strategy_with_integrator(std::optional<TableReader>& distance, AutomaticSettings& automatic) {
-  if (automatic.has("render.integrator") && !(distance && distance->has("strategy")))
-    automatic.keys.insert("distance.strategy");
+/// What is decided by others where the file says nothing of it.
+void decide(const Setting& setting, RenderSettings& s, AutomaticSettings& automatic) {
+  const DecidedBy& rule = setting.decided_by;
+  if (rule.value) setting.member.set(s, rule.value(s));
+  if (automatic.has(rule.chosen_with)) automatic.keys.insert(setting.key);
 }
 
 /// Tells the place of the key, or of the one that is given in its place.
@@ -197,10 +198,9 @@ RenderSettings read_settings(TableReader& root, const SceneFacts& facts, Automat
     std::optional<TableReader>& table = section_of(setting, root, sections);
     if (table && table->has(setting.name()))
       read_setting(*table, setting, s, automatic);
-    else if (setting.decided_by.value)
-      setting.member.set(s, setting.decided_by.value(s));
+    else
+      decide(setting, s, automatic);
   }
-  choose_strategy_with_integrator(sections["distance"], automatic);
   for (const auto& [name, table] : sections)
     if (table) table->finish(elsewhere);
   try {

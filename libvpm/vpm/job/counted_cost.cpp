@@ -1,6 +1,8 @@
 // Linear in the counts. The coefficients are those of least relative squares, none negative.
 #include "vpm/job/counted_cost.h"
 
+#include <algorithm>
+
 #include "vpm/estimate/photon_map.h"
 
 namespace vpm {
@@ -35,11 +37,20 @@ const EyeCosts& costs_of(const RenderSettings& settings) {
 /// What one of many nearest photons on a surface takes that are summed by whole nodes, ns.
 constexpr double kUsedByNodes = 1.6;
 
+/// Are all estimates on surfaces such sums? Those on glossy surfaces and those of caustics are none.
+bool surfaces_sum_by_nodes(const Scene& scene, const RenderSettings& settings) {
+  const auto sums_or_gathers_nothing = [](const Material& material) {
+    return !is_rough(material) || is_diffuse(material);
+  };
+  return settings.integrator == Integrator::photon && sums_by_nodes(settings.surface) &&
+         settings.caustics_emitted == 0 &&
+         std::all_of(scene.materials.begin(), scene.materials.end(), sums_or_gathers_nothing);
+}
+
 /// What all photons take that count in estimates.
-double seconds_of_used(const RenderSettings& settings, const EyeCounters& eye, double each) {
+double seconds_of_used(const Scene& scene, const RenderSettings& settings, const EyeCounters& eye, double each) {
   const uint64_t in_media = eye.used_in_media, on_surfaces = eye.gather.used - in_media;
-  const bool by_nodes = settings.integrator == Integrator::photon && sums_by_nodes(settings.surface);
-  return times(each, in_media) + times(by_nodes ? kUsedByNodes : each, on_surfaces);
+  return times(each, in_media) + times(surfaces_sum_by_nodes(scene, settings) ? kUsedByNodes : each, on_surfaces);
 }
 
 /// The same of photons and light sub-paths.
@@ -51,10 +62,10 @@ constexpr PhotonCosts kSubPaths{84.0, 410.0, 0.0, 450.0, 31.0, 0.0, 420.0, 13.0,
 
 }  // namespace
 
-CountedWork counted_work(const RenderSettings& settings, const EyeCounters& eye) {
+CountedWork counted_work(const Scene& scene, const RenderSettings& settings, const EyeCounters& eye) {
   const EyeCosts& each = costs_of(settings);
   CountedWork work;
-  work.of_photons = times(each.visited, eye.gather.visited) + seconds_of_used(settings, eye, each.used);
+  work.of_photons = times(each.visited, eye.gather.visited) + seconds_of_used(scene, settings, eye, each.used);
   work.seconds = work.of_photons + times(each.camera_ray, eye.rays) + times(each.ray, eye.walk.rays) +
                  times(each.lookup, eye.walk.lookups) + times(each.surface_query, eye.surface_queries) +
                  times(each.volume_query, eye.volume_queries) + times(each.shadow_ray, eye.shadow_rays);

@@ -3,6 +3,7 @@
 
 #include "vpm/estimate/statistics.h"
 #include "vpm/render/settings.h"
+#include "vpm/scene/scene.h"
 
 namespace vpm {
 
@@ -14,7 +15,7 @@ struct CountedWork {
 
 /// Of rays from the eye, by the settings' integrator. Fitted to the times of 14 scenes, of which most are told to a
 /// tenth; of pools of water and glasses of milk, where shares at borders are not counted, half (papers/performance.md).
-CountedWork counted_work(const RenderSettings& settings, const EyeCounters& eye);
+CountedWork counted_work(const Scene& scene, const RenderSettings& settings, const EyeCounters& eye);
 
 /// Of tracing and sorting the photons or light sub-paths of a pass, s; without those that are aimed for caustics.
 double counted_seconds_of_photons(const RenderSettings& settings, const RenderStatistics& pass);

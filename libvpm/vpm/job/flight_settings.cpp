@@ -28,7 +28,7 @@ std::vector<Setting> flight_settings() {
                   "(`integrator = \"path\"` alone)",
        .default_text = "`\"delta-local\"` for `integrator = \"photon\"`, else `\"regular\"`",
        .automatic = true,
-       .decided_by = {"", &usual_strategy}},
+       .decided_by = {.value = &usual_strategy, .chosen_with = "render.integrator"}},
       {.key = "distance.step",
        .member = at<&S::distance, &D::step>(),
        .domain = Numbers{kVoxels},

@@ -34,7 +34,7 @@ RenderedBlock render_block(const Scene& scene, const RenderSettings& settings, c
   EyeScratch scratch;
   const Stopwatch rendering;
   const auto taken = [&] {
-    return goes_by_clock(settings) ? rendering.seconds() : counted_work(settings, counters).seconds;
+    return goes_by_clock(settings) ? rendering.seconds() : counted_work(scene, settings, counters).seconds;
   };
   for (size_t i = 0; i < kRaysOfBlock && (i == 0 || taken() < seconds);) {
     rendered.together |= i == 1 && kRaysOfBlock * taken() < seconds;
@@ -68,7 +68,7 @@ EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const 
     sum.merge(block.counters);
     together += block.together ? 1 : 0;
   }
-  const CountedWork counted = counted_work(settings, sum);
+  const CountedWork counted = counted_work(scene, settings, sum);
   const double all = double(scene.camera.width) * scene.camera.height * settings.samples_per_pixel;
   double taken = counted.seconds;  // of one thread
   const bool alone_as_quick = settings.integrator == Integrator::path;

@@ -64,6 +64,7 @@ struct Need {
 struct DecidedBy {
   std::string_view key = "";  // one that leaves nothing to be chosen here where a file gives it; "": none does
   SettingValue (*value)(const RenderSettings&) = nullptr;
+  std::string_view chosen_with = "";  // one with which this is chosen, too, where it is kAuto; "": with none
 };
 
 /// Does a setting keep its default where kAuto is made of what a file leaves out?

@@ -51,6 +51,7 @@ struct Medium {
   DensityAlong density_along(const Ray& ray) const { return {grid.get(), ray}; }
   /// The mean density over the grid's support, empty voxels included.
   double mean_density() const { return grid ? grid->mean_density() : 1.0; }
+  /// The same where the grid holds anything.
   double mean_of_stored() const { return grid ? grid->mean_of_stored() : 1.0; }
   float max_density() const { return grid ? grid->max_density() : 1.0f; }
   /// The largest extinction coefficient anywhere, 1/m.

@@ -25,17 +25,19 @@ void note_unresolved_place(const Box& bounds, std::vector<std::string>& notes) {
 /// Tells of media whose free paths are shorter than floats resolve positions: what enters these does not come out
 /// again.
 void note_unresolved_media(const Scene& scene, std::vector<std::string>& notes) {
+  constexpr double kSparse = 0.1;  // of a grid's diagonal
   const Box& bounds = scene.bounds;
   const double resolved =
       0x1p-20 * (glm::length(bounds.centre()) + 0.5 * bounds.diagonal());  // m: a few units in the last place
   for (const Medium& medium : scene.media) {
     const double extinction = double(max_channel(medium.sigma_t)) * medium.max_density();  // 1/m
-    if (medium.scatters() && extinction * resolved > 1.0)
-      notes.push_back(fmt::format(
-          "medium '{}': its free paths, down to {:.2g} m, are shorter than positions of this scene resolve, "
-          "{:.2g} m: light that enters it stays there. A grid far wider than what it holds is to be bounded by a shape "
-          "around that, near the origin",
-          medium.name, 1.0 / extinction, resolved));
+    if (!medium.scatters() || !(extinction * resolved > 1.0)) continue;
+    const bool sparse = medium.grid && medium.grid->extent() < kSparse * medium.grid->bounds().diagonal();
+    notes.push_back(fmt::format(
+        "medium '{}': its free paths, down to {:.2g} m, are shorter than positions of this scene resolve, {:.2g} m: "
+        "light that enters it stays there{}",
+        medium.name, 1.0 / extinction, resolved,
+        sparse ? "; its grid is far wider than what it holds: bound that by a shape, near the origin" : ""));
   }
 }
 

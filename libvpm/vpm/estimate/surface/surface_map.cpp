@@ -20,10 +20,8 @@ namespace {
 
 /// Are there surfaces for which the powers of photons alone count? The bodies of lamps, which are black, are none.
 bool has_diffuse(const Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
-    const Rgb* reflectance = diffuse_reflectance(material);
-    return reflectance && max_channel(*reflectance) > 0.0f;
-  });
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& material) { return is_diffuse(material) && is_rough(material); });
 }
 
 }  // namespace
