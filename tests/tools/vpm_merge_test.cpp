@@ -90,6 +90,15 @@ TEST_F(VpmMerge, OnePieceIsThePictureOfItsPasses) {
   EXPECT_FALSE(same_pixels(read_exr(path("a.exr")), read_exr(path("first.exr"))));
 }
 
+TEST_F(VpmMerge, APieceOfASceneThatEndsByTimeTellsThatItDoesNot) {
+  for (const std::string rule : {"seconds=0.001", "error=100"}) {
+    const ProcessResult made = piece("a", "0:2", {"--set", "render." + rule, "--overwrite"});
+    ASSERT_EQ(made.status, 0);
+    EXPECT_NE(made.err.find("the scene's '" + rule.substr(0, rule.find('='))), std::string::npos) << made.err;
+    EXPECT_EQ(report("a.json")["pass_ranges"], Json::parse("[[0, 2]]"));
+  }
+}
+
 TEST_F(VpmMerge, PiecesThatAreKilledGoOn) {
   ASSERT_EQ(piece("a", "2:3").status, 0);
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--pass-range", "2:6", "--resume"});

@@ -115,12 +115,15 @@ void print_summary(const Outputs& outputs, const RenderJob& job, const RenderRes
              result.seconds, error.empty() ? "" : "; ", error, outputs.png.string(), outputs.json.string());
 }
 
-void apply_run_options(const RenderOptions& options, RenderSettings& settings) {
-  apply_options(options, settings);
-  StopRule& until = settings.until;
+void apply_run_options(const RenderOptions& options, RenderJob& job) {
+  apply_options(options, job.settings);
+  StopRule& until = job.settings.until;
   if (options.seconds) until.seconds = *options.seconds;
   if (options.error) until.error = *options.error;
-  if (!options.pass_range.empty()) until.seconds = until.error = 0.0;  // pieces choose alike, by counts
+  if (options.pass_range.empty() || (until.seconds == 0.0 && until.error == 0.0)) return;
+  job.notes.push_back(fmt::format("a piece has the passes of --pass-range: the scene's '{}' does not end it",
+                                  until.seconds > 0.0 ? "seconds" : "error"));
+  until.seconds = until.error = 0.0;  // pieces choose alike, by counts
 }
 
 /// Refuses pieces beyond the passes that there are in all, where these are told.
@@ -134,7 +137,7 @@ RenderJob load_for_render(const RenderOptions& options) {
   check_range(options);
   RenderJob job =
       load_scene(options.scene, overrides_of(options), options.automatic ? LeftOut::automatic : LeftOut::usual);
-  apply_run_options(options, job.settings);
+  apply_run_options(options, job);
   return job;
 }
 

@@ -30,8 +30,8 @@ std::unique_ptr<FileLock> lock_checkpoint(const std::filesystem::path& checkpoin
 /// A line of what is rendered, and where it is.
 void print_summary(const Outputs& outputs, const RenderJob& job, const RenderResult& result);
 
-/// The seed, and when the render ends.
-void apply_run_options(const RenderOptions& options, RenderSettings& settings);
+/// The seed, and when the render ends; the job notes what of the scene does not decide that.
+void apply_run_options(const RenderOptions& options, RenderJob& job);
 
 /// The job of a scene file with these options.
 RenderJob load_for_render(const RenderOptions& options);

@@ -68,7 +68,7 @@ int view_command(const ViewOptions& options) {
   const std::string name = scene_name(options);
   const ViewScene made = make_scene(options);
   RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options));
-  apply_run_options(options, job.settings);
+  apply_run_options(options, job);
   for (const std::string& note : made.notes) job.notes.push_back(note);
   if (options.passes && job.settings.integrator == Integrator::photon)
     job.notes.push_back(fmt::format("{} as passes are counted: choosing would take longer than few", kFewPasses));

@@ -62,7 +62,7 @@ bool all_equal(const float* values) {
 /// file of a few kB could fill all memory with them.
 class DistinctBricks {
  public:
-  explicit DistinctBricks(std::vector<float>& values) : values_(values) {}
+  explicit DistinctBricks(LargeTable<float>& values) : values_(values) {}
 
   /// The number of a brick of these values, in units of kBrickValues.
   uint32_t add(const float* values) {
@@ -80,7 +80,7 @@ class DistinctBricks {
   }
 
  private:
-  std::vector<float>& values_;
+  LargeTable<float>& values_;
   std::unordered_map<size_t, uint32_t> numbers_;  // by hash; of two bricks with one hash, the first
 };
 

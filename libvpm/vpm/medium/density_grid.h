@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "vpm/base/huge_pages.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/brick_boxes.h"
 #include "vpm/medium/density_piece.h"
@@ -177,9 +178,9 @@ class DensityGrid {
   // All of the lattice where there is a background, too.
   Vec3d walked_lo_{0.0}, walked_hi_{0.0};
   BrickBoxes boxes_{Vec3i(0)};  // of those that are stored, in bricks from the corner of the lattice
-  std::vector<Brick> bricks_;
-  std::vector<float> values_;
-  std::vector<BrickBlocks> blocks_;  // of the same bricks
+  LargeTable<Brick> bricks_;
+  LargeTable<float> values_;
+  LargeTable<BrickBlocks> blocks_;  // of the same bricks
   float max_density_ = 0.0f;
   double mean_of_stored_ = 0.0;
   double mean_density_ = 0.0;

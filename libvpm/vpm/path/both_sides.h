@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "vpm/base/rng.h"
+#include "vpm/surface/geometry.h"
 #include "vpm/surface/material.h"
 
 namespace vpm {
