@@ -126,11 +126,10 @@ class DensityGrid {
             Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0))};
   }
   double lattice_shift() const { return frame_.interpolation == Interpolation::nearest ? 0.5 : 0.0; }
-  /// A brick within the lattice; null where the density is that of the background, and no brick is stored. `whole` is
-  /// boxes_.whole(), which callers of many look up once.
-  template <bool whole>
+  /// A brick within the lattice; null where the density is that of the background, and no brick is stored.
   const Brick* brick(const Vec3i& b) const {
-    if constexpr (whole) return &bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
+    if (boxes_.whole()) [[likely]]
+      return &bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
     const BrickBox* box = boxes_.find(b);
     return box ? &bricks_[box->number(b)] : nullptr;
   }
@@ -150,12 +149,9 @@ class DensityGrid {
   bool bricks_are_positive(const IndexBox& bricks) const;
   /// The index coordinates of a brick's lower corner.
   Vec3i origin_of(size_t number) const { return (brick_lo_ + boxes_.of_number(number).brick(number)) * kCells; }
-  /// For these, p is in units of cells, from the lower corner of all bricks.
-  template <bool whole>
+  /// For both, p is in units of cells, from the lower corner of all bricks.
   Place find(const Vec3d& p) const;
   float density_at(const Vec3d& p) const;
-  template <bool whole>
-  void densities_of(const LatticeRay& ray, double t, double step, std::span<float> densities) const;
   /// The density at a place whose `values` are not null.
   float read(const Place& place) const;
   void cell_piece(const float* v, const Vec3& local, const Vec3& step, DensityPiece& piece) const;

@@ -8,14 +8,13 @@
 
 namespace vpm {
 
-template <bool whole>
-DensityGrid::Place DensityGrid::find(const Vec3d& p) const {
+inline DensityGrid::Place DensityGrid::find(const Vec3d& p) const {
   const bool inside = (p.x >= 0.0) & (p.y >= 0.0) & (p.z >= 0.0) & (p.x < lattice_size_.x) & (p.y < lattice_size_.y) &
                       (p.z < lattice_size_.z);
   if (!inside) return {frame_.background, nullptr, Vec3(0.0f)};
   // From the corner of the bricks on nothing is negative: cells and bricks are cut off, not rounded down.
   const Vec3i cell(p);
-  const Brick* const b = brick<whole>(cell >> kCellBits);
+  const Brick* const b = brick(cell >> kCellBits);
   if (!b) return {frame_.background, nullptr, Vec3(0.0f)};
   const Vec3i c = cell & (kCells - 1);
   const float* values = b->uniform() ? nullptr : values_of(*b) + (c.z * kValues + c.y) * kValues + c.x;
@@ -23,7 +22,7 @@ DensityGrid::Place DensityGrid::find(const Vec3d& p) const {
 }
 
 inline float DensityGrid::density_at(const Vec3d& p) const {
-  const Place place = boxes_.whole() ? find<true>(p) : find<false>(p);
+  const Place place = find(p);
   return place.values ? read(place) : place.density;
 }
 
@@ -34,15 +33,10 @@ inline float DensityGrid::read(const Place& place) const {
 
 inline void DensityGrid::densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const {
   assert(densities.size() <= kAtOnce);
-  boxes_.whole() ? densities_of<true>(ray, t, step, densities) : densities_of<false>(ray, t, step, densities);
-}
-
-template <bool whole>
-void DensityGrid::densities_of(const LatticeRay& ray, double t, double step, std::span<float> densities) const {
   Place varying[kAtOnce];
   size_t numbers[kAtOnce], count = 0;
   for (size_t i = 0; i < densities.size(); ++i) {
-    const Place& place = varying[count] = find<whole>(ray.origin + (t + static_cast<double>(i) * step) * ray.direction);
+    const Place& place = varying[count] = find(ray.origin + (t + static_cast<double>(i) * step) * ray.direction);
     densities[i] = place.density;
     numbers[count] = i;
     if (!place.values) continue;
