@@ -31,7 +31,7 @@ std::string flags_of(const void* address) {
 TEST(HugePages, AreAskedForByLargeTablesAlone) {
   std::ifstream known("/sys/kernel/mm/transparent_hugepage/enabled");
   if (!known) GTEST_SKIP() << "this system has none";
-  const LargeTable<float> large(16 * kMega), small(kMega / 8);
+  const LargeTable<float> large(kMega), small(kMega - 1);  // 4 MiB, and less
   EXPECT_EQ(reinterpret_cast<uintptr_t>(large.data()) % (2 * kMega), 0u);
   EXPECT_NE(flags_of(large.data()).find(" hg "), std::string::npos);
   EXPECT_NE(flags_of(large.data() + large.size() - 1).find(" hg "), std::string::npos);

@@ -90,11 +90,18 @@ TEST_F(VpmMerge, OnePieceIsThePictureOfItsPasses) {
   EXPECT_FALSE(same_pixels(read_exr(path("a.exr")), read_exr(path("first.exr"))));
 }
 
-TEST_F(VpmMerge, APieceOfASceneThatEndsByTimeTellsThatItDoesNot) {
-  for (const std::string rule : {"seconds=0.001", "error=100"}) {
-    const ProcessResult made = piece("a", "0:2", {"--set", "render." + rule, "--overwrite"});
+TEST_F(VpmMerge, APieceTellsThatTimeAndErrorDoNotCount) {
+  const Arguments seconds{"--set", "render.seconds=0.001"}, error{"--set", "render.error=100"};
+  Arguments both = seconds;
+  both.insert(both.end(), error.begin(), error.end());
+  for (const Arguments& rules : {Arguments{}, seconds, error, both}) {
+    Arguments options = rules;
+    options.push_back("--overwrite");
+    const ProcessResult made = piece("a", "0:2", options);
     ASSERT_EQ(made.status, 0);
-    EXPECT_NE(made.err.find("the scene's '" + rule.substr(0, rule.find('='))), std::string::npos) << made.err;
+    const auto told = [&](const char* key) { return made.err.find(key) != std::string::npos; };
+    EXPECT_EQ(told("'seconds' of [render] does not count"), rules == seconds || rules == both) << made.err;
+    EXPECT_EQ(told("'error' of [render] does not count"), rules == error || rules == both) << made.err;
     EXPECT_EQ(report("a.json")["pass_ranges"], Json::parse("[[0, 2]]"));
   }
 }

@@ -286,6 +286,16 @@ TEST_F(VpmRender, AFullDiskIsRefusedBeforeRendering) {
   EXPECT_TRUE(std::filesystem::is_empty(path("disk")));
 }
 
+TEST_F(VpmRender, FilesThatMayNotBecomeSoLargeAreRefused) {
+  write("a.exr", "kept");
+  Process process({"/bin/sh", "-c", "ulimit -f 4; exec " VPM_BINARY " render scene.toml --passes 1 -o a.exr"},
+                  {60.0, 0, folder_.string()});  // 2 KiB
+  const ProcessResult result = process.wait();
+  EXPECT_EQ(result.status, 2);
+  expect_words(result.err, {"a.exr", "File too large"});
+  EXPECT_EQ(read("a.exr"), "kept");
+}
+
 TEST_F(VpmRender, BadCommandLinesAreRefused) {
   vpm_refuses({"render", "missing.toml"}, {"missing.toml"});
   vpm_refuses({"render", "scene.toml", "--set", "render.passes"}, {"render.passes", "="});

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "error_log.h"
 #include "option_checks.h"
@@ -120,10 +121,13 @@ void apply_run_options(const RenderOptions& options, RenderJob& job) {
   StopRule& until = job.settings.until;
   if (options.seconds) until.seconds = *options.seconds;
   if (options.error) until.error = *options.error;
-  if (options.pass_range.empty() || (until.seconds == 0.0 && until.error == 0.0)) return;
-  job.notes.push_back(fmt::format("a piece has the passes of --pass-range: the scene's '{}' does not end it",
-                                  until.seconds > 0.0 ? "seconds" : "error"));
-  until.seconds = until.error = 0.0;  // pieces choose alike, by counts
+  if (options.pass_range.empty()) return;
+  for (const auto& [key, value] : {std::pair{"seconds", until.seconds}, std::pair{"error", until.error}})
+    if (value > 0.0)
+      job.notes.push_back(fmt::format(
+          "'{}' of [render] does not count for a piece: it has the passes of --pass-range, and chooses by counts",
+          key));
+  until.seconds = until.error = 0.0;  // so that pieces choose alike
 }
 
 /// Refuses pieces beyond the passes that there are in all, where these are told.
