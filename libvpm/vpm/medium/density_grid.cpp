@@ -216,6 +216,16 @@ bool DensityGrid::is_positive(const Box& world) const {
       {Vec3i(glm::clamp(from, Vec3d(0.0), last + 1.0)), Vec3i(glm::clamp(to, Vec3d(-1.0), last))});
 }
 
+float DensityGrid::density_in_boxes(const Vec3d& p) const {
+  const bool inside = glm::all(glm::greaterThanEqual(p, Vec3d(0.0))) && glm::all(glm::lessThan(p, lattice_size_));
+  if (!inside) return frame_.background;
+  const Vec3i cell(p), at = cell >> kCellBits;
+  const BrickBox* const box = boxes_.find(at);
+  if (!box) return frame_.background;
+  const Place place = place_in(bricks_[box->number(at)], p, cell);
+  return place.values ? read(place) : place.density;
+}
+
 bool DensityGrid::bricks_are_positive(const IndexBox& bricks) const {
   const auto volume = [](const Vec3i& lo, const Vec3i& hi) {
     const Vec3d extent = glm::max(Vec3d(hi) - Vec3d(lo) + 1.0, Vec3d(0.0));

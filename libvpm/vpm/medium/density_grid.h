@@ -126,13 +126,6 @@ class DensityGrid {
             Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0))};
   }
   double lattice_shift() const { return frame_.interpolation == Interpolation::nearest ? 0.5 : 0.0; }
-  /// A brick within the lattice; null where the density is that of the background, and no brick is stored.
-  const Brick* brick(const Vec3i& b) const {
-    if (boxes_.whole()) [[likely]]
-      return &bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x];
-    const BrickBox* box = boxes_.find(b);
-    return box ? &bricks_[box->number(b)] : nullptr;
-  }
   /// The place at which a look-up reads.
   struct Place {
     float density;        // the result if `values` is null
@@ -149,9 +142,13 @@ class DensityGrid {
   bool bricks_are_positive(const IndexBox& bricks) const;
   /// The index coordinates of a brick's lower corner.
   Vec3i origin_of(size_t number) const { return (brick_lo_ + boxes_.of_number(number).brick(number)) * kCells; }
-  /// For both, p is in units of cells, from the lower corner of all bricks.
+  /// For these, p is in units of cells, from the lower corner of all bricks. find() is for grids whose boxes are
+  /// whole(), the others for all. What they do in other boxes is out of line: a call in their loops would take their
+  /// registers.
   Place find(const Vec3d& p) const;
   float density_at(const Vec3d& p) const;
+  float density_in_boxes(const Vec3d& p) const;
+  Place place_in(const Brick& brick, const Vec3d& p, const Vec3i& cell) const;
   /// The density at a place whose `values` are not null.
   float read(const Place& place) const;
   void cell_piece(const float* v, const Vec3& local, const Vec3& step, DensityPiece& piece) const;

@@ -14,14 +14,19 @@ inline DensityGrid::Place DensityGrid::find(const Vec3d& p) const {
   if (!inside) return {frame_.background, nullptr, Vec3(0.0f)};
   // From the corner of the bricks on nothing is negative: cells and bricks are cut off, not rounded down.
   const Vec3i cell(p);
-  const Brick* const b = brick(cell >> kCellBits);
-  if (!b) return {frame_.background, nullptr, Vec3(0.0f)};
+  const Vec3i b = cell >> kCellBits;
+  return place_in(bricks_[(static_cast<size_t>(b.z) * brick_count_.y + b.y) * brick_count_.x + b.x], p, cell);
+}
+
+inline DensityGrid::Place DensityGrid::place_in(const Brick& brick, const Vec3d& p, const Vec3i& cell) const {
   const Vec3i c = cell & (kCells - 1);
-  const float* values = b->uniform() ? nullptr : values_of(*b) + (c.z * kValues + c.y) * kValues + c.x;
-  return {b->min, values, Vec3(p - Vec3d(cell))};
+  const float* values = brick.uniform() ? nullptr : values_of(brick) + (c.z * kValues + c.y) * kValues + c.x;
+  return {brick.min, values, Vec3(p - Vec3d(cell))};
 }
 
 inline float DensityGrid::density_at(const Vec3d& p) const {
+  if (!boxes_.whole()) [[unlikely]]
+    return density_in_boxes(p);
   const Place place = find(p);
   return place.values ? read(place) : place.density;
 }
@@ -33,6 +38,11 @@ inline float DensityGrid::read(const Place& place) const {
 
 inline void DensityGrid::densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const {
   assert(densities.size() <= kAtOnce);
+  if (!boxes_.whole()) [[unlikely]] {
+    for (size_t i = 0; i < densities.size(); ++i)
+      densities[i] = density_in_boxes(ray.origin + (t + static_cast<double>(i) * step) * ray.direction);
+    return;
+  }
   Place varying[kAtOnce];
   size_t numbers[kAtOnce], count = 0;
   for (size_t i = 0; i < densities.size(); ++i) {
