@@ -62,7 +62,7 @@ class DensityGrid {
   /// Density at a point of a ray.
   float density(const LatticeRay& ray, double t) const { return density_at(ray.origin + t * ray.direction); }
   /// Densities at up to kAtOnce points of a ray: at t, t + step, ... (m). All the memory that they need is prefetched
-  /// before any of it is read.
+  /// before any of it is read, except where bricks lie in several boxes: there they are looked up one by one.
   void densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const;
   static constexpr size_t kAtOnce = 16;
   /// Density at a point of the world.
@@ -142,12 +142,13 @@ class DensityGrid {
   bool bricks_are_positive(const IndexBox& bricks) const;
   /// The index coordinates of a brick's lower corner.
   Vec3i origin_of(size_t number) const { return (brick_lo_ + boxes_.of_number(number).brick(number)) * kCells; }
-  /// For these, p is in units of cells, from the lower corner of all bricks. find() is for grids whose boxes are
-  /// whole(), the others for all. What they do in other boxes is out of line: a call in their loops would take their
-  /// registers.
-  Place find(const Vec3d& p) const;
+  /// The density at p, which for this and the following is in units of cells, from the lower corner of all bricks.
   float density_at(const Vec3d& p) const;
+  /// The place of p, where boxes_ is whole().
+  Place find(const Vec3d& p) const;
+  /// The density at p where it is not. Not inline: loops of look-ups are quicker without a call to BrickBoxes::find().
   float density_in_boxes(const Vec3d& p) const;
+  /// The place of p in the brick that holds it, with the cell that does.
   Place place_in(const Brick& brick, const Vec3d& p, const Vec3i& cell) const;
   /// The density at a place whose `values` are not null.
   float read(const Place& place) const;
