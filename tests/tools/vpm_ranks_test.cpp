@@ -52,6 +52,20 @@ TEST_F(VpmRanks, AnyNumberOfRanksAndThreadsGivesTheSameBits) {
   }
 }
 
+TEST_F(VpmRanks, OneOfAMachineReadsTheGrids) {
+  // The second rank has a scene of its own, whose grid it would refuse: it finds but that the render is another.
+  std::filesystem::create_directory(path("other"));
+  write("other/scene.toml", kScene);
+  write("other/smoke.vdb", "no grid");
+  Arguments arguments = ranks(1, {"render", "scene.toml", "-o", "a.exr"});
+  const Arguments other = ranks(1, {"render", "other/scene.toml", "-o", "a.exr"});
+  arguments.emplace_back(":");
+  arguments.insert(arguments.end(), std::find(other.begin(), other.end(), "-n"), other.end());
+  const ProcessResult result = Process(arguments, {120.0, 0, folder_.string()}).wait();
+  EXPECT_EQ(result.status, 2);
+  expect_words(result.err, {"rank 1: this rank would render something else", "smoke.vdb"});
+}
+
 TEST_F(VpmRanks, RanksUseWhatTheFirstChooses) {
   const Arguments chosen{"--auto", "--set",     "volume.radius=auto", "--set", "render.integrator=photon",
                          "--crop", "3,2,30,20", "--layers",           "depth", "--passes",

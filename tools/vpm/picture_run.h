@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "pass_run.h"
 #include "vpm/base/file_lock.h"
+#include "vpm/input/grid_file.h"
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
 #include "vpm/ranks/ranks.h"
@@ -33,8 +34,8 @@ void print_summary(const Outputs& outputs, const RenderJob& job, const RenderRes
 /// The seed, and when the render ends; the job notes what of the scene does not decide that.
 void apply_run_options(const RenderOptions& options, RenderJob& job);
 
-/// The job of a scene file with these options.
-RenderJob load_for_render(const RenderOptions& options);
+/// The job of a scene file with these options; its grids are loaded by `load`, as load_scene() does.
+RenderJob load_for_render(const RenderOptions& options, const GridLoader& load = {});
 
 /// Renders a job as the options say, which have changed its scene already, with the other ranks. Returns the exit
 /// status.

@@ -1,15 +1,20 @@
-// Ranks of one render: all load the scene by themselves, and make what rank 0 has chosen of it.
+// Ranks of one render: all load the scene by themselves, but for grids, and make what rank 0 has chosen of it.
 #include "rank_run.h"
 
 #include <fmt/format.h>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
+#include <system_error>
 
 #include "exit_status.h"
 #include "pass_run.h"
 #include "picture_run.h"
+#include "vpm/base/error.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/ranks/machine_grids.h"
 #include "vpm/ranks/same_render.h"
 #include "vpm/ranks/together.h"
 
@@ -21,7 +26,49 @@ void leave_signals_to_leader() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_IGN);
 }
 
+/// What loads grids for a rank that does not lead its machine: it finds those that are shared. What was clamped, and a
+/// picture's report tells, is known to who reads files.
+GridLoader loader_of_shared(const GridsOfMedia& grids) {
+  return [&grids](const std::string& medium, const GridRequest&) {
+    const auto found = grids.find(medium);
+    if (found == grids.end()) throw InputError("the rank that reads the grids of this machine has no such medium");
+    return LoadedGrid{found->second};
+  };
+}
+
+/// It can go on without.
+void say_not_shared(const Ranks& ranks, const RenderOptions& options, const std::system_error& why) {
+  if (options.quiet) return;
+  fmt::print(stderr, "note: rank {} shares no grids with others of its machine, and holds its own: {}\n", ranks.rank(),
+             why.what());
+}
+
+/// Those that the first rank of this machine shares; nothing where there are none to be had.
+std::optional<GridsOfMedia> find_grids(const Ranks& ranks, Machine& machine, const RenderOptions& options) {
+  try {
+    return shared_grids(machine);
+  } catch (const std::system_error& why) {
+    say_not_shared(ranks, options, why);
+    return std::nullopt;
+  }
+}
+
 }  // namespace
+
+RenderJob load_as_rank(Ranks& ranks, const RenderOptions& options) {
+  Machine* const machine = ranks.machine();
+  if (machine && !machine->leads()) {
+    const std::optional<GridsOfMedia> grids = find_grids(ranks, *machine, options);
+    return load_for_render(options, grids ? loader_of_shared(*grids) : GridLoader());
+  }
+  RenderJob job = load_for_render(options);
+  try {
+    if (machine) share_grids(*machine, job.scene);
+  } catch (const std::system_error& why) {
+    say_not_shared(ranks, options, why);
+  }
+  return job;
+}
 
 int run_as_rank(Ranks& ranks, const std::function<int()>& run) {
   if (ranks.size() == 1) return run();
@@ -42,7 +89,7 @@ int make_passes_for_leader(Ranks& ranks, const RenderOptions& options) {
   RenderJob job;
   std::exception_ptr wrong;
   try {
-    job = load_for_render(options);
+    job = load_as_rank(ranks, options);
   } catch (...) {
     wrong = std::current_exception();
   }

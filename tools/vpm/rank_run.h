@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "commands.h"
+#include "vpm/job/render_job.h"
 #include "vpm/ranks/ranks.h"
 
 namespace vpm::tools {
@@ -11,6 +12,10 @@ namespace vpm::tools {
 /// Calls run(), which is the whole work of a rank. What it throws is told once, and ends all ranks with the exit status
 /// of main(); of one process it is main() that tells.
 int run_as_rank(Ranks& ranks, const std::function<int()>& run);
+
+/// The job of a scene file with these options, by each rank. Of the ranks of one machine one reads the grids and shares
+/// them with the others, before which these do not begin.
+RenderJob load_as_rank(Ranks& ranks, const RenderOptions& options);
 
 /// Loads the scene, waits for what rank 0 tells, and makes passes for it. Throws InputError where this rank's scene or
 /// program is another.

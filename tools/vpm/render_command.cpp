@@ -14,7 +14,7 @@ int render_command(const RenderOptions& options) {
   return run_as_rank(*ranks, [&] {
     if (!ranks->leads()) return make_passes_for_leader(*ranks, options);
     const Outputs outputs = output_paths(options.output, std::filesystem::path(options.scene).stem().string());
-    return render_picture(options, outputs, load_for_render(options), *ranks);
+    return render_picture(options, outputs, load_as_rank(*ranks, options), *ranks);
   });
 }
 

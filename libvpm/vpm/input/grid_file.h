@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,5 +64,8 @@ struct LoadedGrid {
 /// values, a damaged file, so many occupied bricks that their table would take over 256 MiB, or 2^31 voxels from one to
 /// another.
 LoadedGrid load_grid(const GridRequest& request);
+
+/// What loads the grid of a medium, which has this name.
+using GridLoader = std::function<LoadedGrid(const std::string& medium, const GridRequest& request)>;
 
 }  // namespace vpm

@@ -150,9 +150,10 @@ SceneParts parts_of(ScenePlan& plan) {
   root.fail_here(error.wrong(), error.right());
 }
 
-void load_medium_grid(const MediumPlan& plan, const GridRequest& request, Medium& medium, RenderJob& job) {
+void load_medium_grid(const MediumPlan& plan, const GridRequest& request, const GridLoader& load, Medium& medium,
+                      RenderJob& job) {
   try {
-    LoadedGrid grid = plan.given ? density_of(*plan.given, request) : load_grid(request);
+    LoadedGrid grid = plan.given ? density_of(*plan.given, request) : load(medium.name, request);
     medium.grid = std::move(grid.grid);
     job.clamped_density_values += grid.clamped_values;
     if (grid.clamped_values > 0)
@@ -164,20 +165,20 @@ void load_medium_grid(const MediumPlan& plan, const GridRequest& request, Medium
 }
 
 /// Reads the grids of media into their parts.
-void load_grids(const ScenePlan& plan, SceneParts& parts, RenderJob& job) {
+void load_grids(const ScenePlan& plan, const GridLoader& load, SceneParts& parts, RenderJob& job) {
   for (size_t i = 0; i < plan.media.size(); ++i) {
     if (!plan.media[i].grid) continue;
     GridRequest request = *plan.media[i].grid;
     request.has_bounding_shape = !is_boxed(parts, static_cast<MediumId>(i));
-    load_medium_grid(plan.media[i], request, parts.media[i].medium, job);
+    load_medium_grid(plan.media[i], request, load, parts.media[i].medium, job);
   }
 }
 
 /// Reads what the plan names and puts all together.
-void assemble_plan(ScenePlan& plan, RenderJob& job) {
+void assemble_plan(ScenePlan& plan, const GridLoader& load, RenderJob& job) {
   SceneParts parts = parts_of(plan);
   check_parts(parts);  // before the grids are read, which takes long
-  load_grids(plan, parts, job);
+  load_grids(plan, load, parts, job);
   AssembledScene assembled = assemble(std::move(parts));
   job.scene = std::move(assembled.scene);
   job.light_names = std::move(assembled.light_names);
@@ -207,12 +208,12 @@ std::vector<std::pair<std::string, std::string>> hashes_of(const GivenParts& giv
 }
 
 /// A scene file with its options applied becomes a job.
-RenderJob job_of(const Document& document, const GivenParts& given) {
+RenderJob job_of(const Document& document, const GivenParts& given, const GridLoader& load) {
   RenderJob job;
   TableReader root(document.root, "the scene file", job.files);
   ScenePlan plan = read_plan(root, given, job);
   try {
-    assemble_plan(plan, job);
+    assemble_plan(plan, load, job);
   } catch (const PartError& error) {
     fail_at_part(error, root, plan);
   }
@@ -224,30 +225,33 @@ RenderJob job_of(const Document& document, const GivenParts& given) {
 
 /// The same of one without its options.
 RenderJob job_with(Document document, const std::vector<std::string>& options, LeftOut left_out,
-                   const GivenParts& given) {
+                   const GivenParts& given, const GridLoader& load) {
   for (const std::string& option : options) apply_override(document, option);
   if (left_out == LeftOut::automatic)
     for (const std::string& option : left_to_choose(document)) apply_override(document, option);
-  RenderJob job = job_of(document, given);
+  RenderJob job = job_of(document, given, load);
   job.source = document.sources.front()->name;
   job.overrides = options;
   job.left_out_is_automatic = left_out == LeftOut::automatic;
   return job;
 }
 
+LoadedGrid load_from_file(const std::string&, const GridRequest& request) { return load_grid(request); }
+
 }  // namespace
 
-RenderJob load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out) {
+RenderJob load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out,
+                     const GridLoader& load) {
   if (std::filesystem::path(path).extension() == ".vdb")
     throw InputError(fmt::format(
         "{}: this is a grid, not a scene: a scene file (.toml) names it in a medium, as scenes/smoke.toml does; "
         "vpm info {} tells what it holds",
         path, path));
-  return job_with(read_toml(path), options, left_out, {});
+  return job_with(read_toml(path), options, left_out, {}, load ? load : load_from_file);
 }
 
 RenderJob load_scene(const SceneText& scene, const std::vector<std::string>& options, LeftOut left_out) {
-  return job_with(parse_toml(scene.name, scene.text), options, left_out, scene.given);
+  return job_with(parse_toml(scene.name, scene.text), options, left_out, scene.given, load_from_file);
 }
 
 }  // namespace vpm

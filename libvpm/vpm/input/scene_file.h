@@ -16,9 +16,10 @@ enum class LeftOut { usual, automatic };
 /// Reads a scene file and the files it names. `overrides` are `key.path=value` options that change keys of the file
 /// before it is read; an element of an array of tables is addressed by its number (from 0) or its name:
 /// shapes.0.radius=2, shapes.ball.radius=2. Paths in the file are relative to its folder, paths in an option to the
-/// current one. Throws InputError for anything that is not right, telling file:line:column, or the option.
+/// current one. `load` is called for each grid; empty: load_grid(). Throws InputError for anything that is not right,
+/// telling file:line:column, or the option.
 RenderJob load_scene(const std::string& path, const std::vector<std::string>& overrides = {},
-                     LeftOut left_out = LeftOut::usual);
+                     LeftOut left_out = LeftOut::usual, const GridLoader& load = {});
 
 /// A scene file that is in memory, and parts of it that no text holds.
 struct SceneText {

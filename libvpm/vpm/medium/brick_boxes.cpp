@@ -83,6 +83,22 @@ BrickBoxes::BrickBoxes(std::vector<IndexBox> occupied) {
   root_ = build(std::move(occupied));
 }
 
+BrickBoxes::BrickBoxes(TableUnpacker& packed) {
+  const std::span<const BrickBox> boxes = packed.take<BrickBox>();
+  const std::span<const Node> nodes = packed.take<Node>();
+  boxes_.assign(boxes.begin(), boxes.end());
+  nodes_.assign(nodes.begin(), nodes.end());
+  whole_ = packed.take_one<bool>();
+  root_ = packed.take_one<int32_t>();
+}
+
+void BrickBoxes::pack(TablePacker& packer) const {
+  packer.add(std::span(boxes_));
+  packer.add(std::span(nodes_));
+  packer.add_one(whole_);
+  packer.add_one(root_);
+}
+
 int32_t BrickBoxes::build(std::vector<IndexBox> occupied) {
   constexpr double kMostPerFilled = 8.0;
   const IndexBox bounds = bounds_of(occupied);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "vpm/base/packed_tables.h"
 #include "vpm/base/vec.h"
 
 namespace vpm {
@@ -46,6 +47,9 @@ class BrickBoxes {
   /// voxels but in its last bricks, into which those reach. Boxes are cut, at gaps first, until bricks with voxels fill
   /// an eighth of each, as the one that a single brick of voxels takes is filled.
   explicit BrickBoxes(std::vector<IndexBox> occupied);
+  /// A copy of what pack() has packed.
+  explicit BrickBoxes(TableUnpacker& packed);
+  void pack(TablePacker& packer) const;
 
   std::span<const BrickBox> all() const { return boxes_; }
   /// Is it one box that holds all bricks there are? A single box of what is occupied may be a part of them.

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
@@ -96,63 +97,96 @@ double owned_sum(const float* values) {
 
 }  // namespace
 
-DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied)
-    : frame_(frame), world_to_index_(glm::inverse(frame.index_to_world)) {
+DensityGrid::DensityGrid(const GridFrame& frame) : frame_(frame), world_to_index_(glm::inverse(frame.index_to_world)) {
   assert(glm::all(glm::lessThanEqual(frame.lo, frame.hi)) && frame.background >= 0.0f);
   const IndexBox all = bricks_of({frame.lo, frame.hi});
   brick_lo_ = all.lo;
   brick_count_ = all.hi - all.lo + 1;
   lattice_lo_ = Vec3d(brick_lo_ * kCells) - lattice_shift();
   lattice_size_ = Vec3d(brick_count_) * double{kCells};
+  const Mat3d axes(frame.index_to_world);
+  voxel_size_ =
+      static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
+}
+
+DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied)
+    : DensityGrid(frame) {
   if (glm::any(glm::greaterThanEqual(lattice_size_, Vec3d(std::numeric_limits<int>::max()))))
     throw InputError("its voxels lie 2^31 or more apart");
-  boxes_ = boxes_of(all, occupied);
+  boxes_ = boxes_of({brick_lo_, brick_lo_ + brick_count_ - 1}, occupied);
   double count = 0.0;
   for (const BrickBox& box : boxes_.all()) count += double(box.count.x) * box.count.y * box.count.z;
   if (count > kMaxBricks)
     throw InputError(
         fmt::format("{:.3g} bricks of 8^3 voxels would take {:.3g} GiB for their table alone; the limit is 0.25 GiB",
                     count, count * sizeof(Brick) / double(1u << 30)));
-  bricks_.resize(static_cast<size_t>(count));
   const double sum = fill_bricks(fill);
   find_walked();
   const Vec3d support = support_hi() - support_lo();
   const double cells = count * (kCells * kCells * kCells), volume = support.x * support.y * support.z;
   mean_density_ = std::max(0.0, sum + (volume - cells) * frame.background) / volume;
   mean_of_stored_ = boxes_.whole() ? mean_density_ : sum / cells;
-  const Mat3d axes(frame.index_to_world);
-  voxel_size_ =
-      static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
+}
+
+DensityGrid::DensityGrid(TableUnpacker& packed, std::shared_ptr<const void> memory)
+    : DensityGrid(packed.take_one<GridFrame>()) {
+  boxes_ = BrickBoxes(packed);
+  bricks_ = packed.take<Brick>();
+  values_ = packed.take<float>();
+  blocks_ = packed.take<BrickBlocks>();
+  max_density_ = packed.take_one<float>();
+  mean_density_ = packed.take_one<double>();
+  mean_of_stored_ = packed.take_one<double>();
+  memory_ = std::move(memory);
+  find_walked();
+}
+
+void DensityGrid::pack(TablePacker& packer) const {
+  packer.add_one(frame_);
+  boxes_.pack(packer);
+  packer.add(bricks_);
+  packer.add(values_);
+  packer.add(blocks_);
+  packer.add_one(max_density_);
+  packer.add_one(mean_density_);
+  packer.add_one(mean_of_stored_);
 }
 
 double DensityGrid::fill_bricks(const FillBrick& fill) {
   constexpr size_t kWave = 4096, kChunk = 64;  // bricks: of 12 MB, and what one thread takes at once
-  DistinctBricks distinct(values_);
-  std::vector<float> values(std::min(kWave, bricks_.size()) * kBrickValues);
+  const auto tables = std::make_shared<Tables>();
+  LargeTable<Brick>& bricks = tables->bricks;
+  bricks.resize(boxes_.bricks());
+  DistinctBricks distinct(tables->values);
+  std::vector<float> values(std::min(kWave, bricks.size()) * kBrickValues);
   std::vector<double> sums(kWave);
   double sum = 0.0;
-  for (size_t wave = 0; wave < bricks_.size(); wave += kWave) {
-    const size_t count = std::min(kWave, bricks_.size() - wave);
+  for (size_t wave = 0; wave < bricks.size(); wave += kWave) {
+    const size_t count = std::min(kWave, bricks.size() - wave);
     parallel_for_chunks(count, kChunk, [&](size_t begin, size_t end, size_t) {
       const FillBrick own = fill;
       for (size_t i = begin; i < end; ++i) {
         float* const of_brick = &values[i * kBrickValues];
         own(origin_of(wave + i), of_brick);
-        bricks_[wave + i] = brick_of(of_brick);
-        sums[i] = bricks_[wave + i].uniform() ? double{of_brick[0]} * (kCells * kCells * kCells) : owned_sum(of_brick);
+        const Brick& brick = bricks[wave + i] = brick_of(of_brick);
+        sums[i] = brick.uniform() ? double{of_brick[0]} * (kCells * kCells * kCells) : owned_sum(of_brick);
       }
     });
     for (size_t i = 0; i < count; ++i) {
-      Brick& brick = bricks_[wave + i];
+      Brick& brick = bricks[wave + i];
       if (!brick.uniform()) brick.first = distinct.add(&values[i * kBrickValues]);
       max_density_ = std::max(max_density_, brick.max);
       sum += sums[i];
     }
   }
-  values_.shrink_to_fit();
-  blocks_.resize(values_.size() / kBrickValues);
+  tables->values.shrink_to_fit();
+  bricks_ = bricks;
+  values_ = tables->values;
+  tables->blocks.resize(values_.size() / kBrickValues);
   for (const Brick& brick : bricks_)
-    if (!brick.uniform()) blocks_[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
+    if (!brick.uniform()) tables->blocks[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
+  blocks_ = tables->blocks;
+  memory_ = tables;
   return sum;
 }
 
@@ -295,8 +329,7 @@ Box DensityGrid::bounds() const {
 }
 
 size_t DensityGrid::memory_bytes() const {
-  return sizeof(*this) + bricks_.capacity() * sizeof(Brick) + values_.capacity() * sizeof(float) +
-         blocks_.capacity() * sizeof(BrickBlocks) + boxes_.memory_bytes();
+  return sizeof(*this) + bricks_.size_bytes() + values_.size_bytes() + blocks_.size_bytes() + boxes_.memory_bytes();
 }
 
 }  // namespace vpm

@@ -10,10 +10,12 @@
 #include <cassert>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "vpm/base/huge_pages.h"
+#include "vpm/base/packed_tables.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/brick_boxes.h"
 #include "vpm/medium/density_piece.h"
@@ -50,6 +52,10 @@ class DensityGrid {
   /// of `occupied` take far fewer bricks, or all are more than one table may hold, these alone are stored: all others
   /// have the background's density. Throws InputError if the tables of bricks alone would take over 256 MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied = {});
+  /// The same grid as the one that was packed there by pack(). It reads its tables where they lie, in that memory,
+  /// which it keeps.
+  DensityGrid(TableUnpacker& packed, std::shared_ptr<const void> memory);
+  void pack(TablePacker& packer) const;
 
   /// A ray in units of cells, from the lower corner of all bricks; its parameter is still in metres of the world.
   struct LatticeRay {
@@ -117,6 +123,13 @@ class DensityGrid {
     bool uniform() const { return min == max; }
   };
 
+  /// What takes memory.
+  struct Tables {
+    LargeTable<Brick> bricks;
+    LargeTable<float> values;
+    LargeTable<BrickBlocks> blocks;
+  };
+
   /// A ray in index coordinates; its parameter is still in metres of the world.
   struct IndexRay {
     Vec3d origin, direction;
@@ -125,6 +138,8 @@ class DensityGrid {
     return {Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.origin), 1.0)),
             Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0))};
   }
+  /// A grid without bricks.
+  explicit DensityGrid(const GridFrame& frame);
   double lattice_shift() const { return frame_.interpolation == Interpolation::nearest ? 0.5 : 0.0; }
   /// The place at which a look-up reads.
   struct Place {
@@ -132,7 +147,7 @@ class DensityGrid {
     const float* values;  // of the voxels, from the cell's lower corner on; null: `density` is known
     Vec3 fraction;        // position within the cell, along each axis
   };
-  /// Fills all bricks and returns the sum of the voxels' densities. The result is the same on any number of threads.
+  /// Makes all bricks and returns the sum of the voxels' densities. The result is the same on any number of threads.
   double fill_bricks(const FillBrick& fill);
   /// The brick that has these values; `first` is not set yet.
   static Brick brick_of(const float* values);
@@ -176,9 +191,10 @@ class DensityGrid {
   // All of the lattice where there is a background, too.
   Vec3d walked_lo_{0.0}, walked_hi_{0.0};
   BrickBoxes boxes_{Vec3i(0)};  // of those that are stored, in bricks from the corner of the lattice
-  LargeTable<Brick> bricks_;
-  LargeTable<float> values_;
-  LargeTable<BrickBlocks> blocks_;  // of the same bricks
+  std::span<const Brick> bricks_;
+  std::span<const float> values_;
+  std::span<const BrickBlocks> blocks_;  // of the same bricks
+  std::shared_ptr<const void> memory_;   // in which these lie
   float max_density_ = 0.0f;
   double mean_of_stored_ = 0.0;
   double mean_density_ = 0.0;
