@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "support/grids.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
@@ -87,11 +89,13 @@ TEST_P(DensityGridTest, LookUpsAtOnceAreThoseOneByOne) {
     const Vec3 origin = bounds.lo + bounds.extent() * Vec3(rng.uniform(), rng.uniform(), rng.uniform());
     const auto ray = grid->lattice_ray({origin, uniform_sphere(rng.uniform2())});
     const double begin = -rng.uniform() * bounds.diagonal(), step = rng.uniform() * bounds.diagonal() / 8.0;
-    float at_once[DensityGrid::kAtOnce];
+    std::array<float, DensityGrid::kAtOnce> at_once;
+    at_once.fill(-1.0f);
     const size_t count = i % (DensityGrid::kAtOnce + 1);
-    grid->densities(ray, begin, step, {at_once, count});
+    grid->densities(ray, begin, step, {at_once.data(), count});
     for (size_t k = 0; k < count; ++k)
       EXPECT_EQ(at_once[k], grid->density(ray, begin + static_cast<double>(k) * step)) << "ray " << i << ", " << k;
+    for (size_t k = count; k < at_once.size(); ++k) EXPECT_EQ(at_once[k], -1.0f) << "ray " << i << ", " << k;
   }
 }
 

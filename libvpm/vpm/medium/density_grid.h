@@ -67,8 +67,8 @@ class DensityGrid {
   }
   /// Density at a point of a ray.
   float density(const LatticeRay& ray, double t) const { return density_at(ray.origin + t * ray.direction); }
-  /// Densities at up to kAtOnce points of a ray: at t, t + step, ... (m). All the memory that they need is prefetched
-  /// before any of it is read, except where bricks lie in several boxes: there they are looked up one by one.
+  /// Densities at up to kAtOnce points of a ray: at t, t + step, ... (m). This is quicker than one by one, except where
+  /// bricks lie in several boxes.
   void densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const;
   static constexpr size_t kAtOnce = 16;
   /// Density at a point of the world.
@@ -163,6 +163,8 @@ class DensityGrid {
   Place find(const Vec3d& p) const;
   /// The density at p where it is not. Not inline: loops of look-ups are quicker without a call to BrickBoxes::find().
   float density_in_boxes(const Vec3d& p) const;
+  /// densities() where boxes_ is whole().
+  void densities_in_box(const LatticeRay& ray, double t, double step, std::span<float> densities) const;
   /// The place of p in the brick that holds it, with the cell that does.
   Place place_in(const Brick& brick, const Vec3d& p, const Vec3i& cell) const;
   /// The density at a place whose `values` are not null.

@@ -36,24 +36,4 @@ inline float DensityGrid::read(const Place& place) const {
   return std::max(0.0f, trilinear(place.values, kValues, kValues * kValues, place.fraction));
 }
 
-inline void DensityGrid::densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const {
-  assert(densities.size() <= kAtOnce);
-  if (!boxes_.whole()) [[unlikely]] {
-    for (size_t i = 0; i < densities.size(); ++i)
-      densities[i] = density_in_boxes(ray.origin + (t + static_cast<double>(i) * step) * ray.direction);
-    return;
-  }
-  Place varying[kAtOnce];
-  size_t numbers[kAtOnce], count = 0;
-  for (size_t i = 0; i < densities.size(); ++i) {
-    const Place& place = varying[count] = find(ray.origin + (t + static_cast<double>(i) * step) * ray.direction);
-    densities[i] = place.density;
-    numbers[count] = i;
-    if (!place.values) continue;
-    DensityStretch::prefetch_cell(place.values);
-    ++count;
-  }
-  for (size_t i = 0; i < count; ++i) densities[numbers[i]] = read(varying[i]);
-}
-
 }  // namespace vpm
