@@ -5,10 +5,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstring>
+#include <exception>
 #include <filesystem>
-#include <limits>
+#include <iterator>
+#include <memory>
+#include <string>
 #include <system_error>
+#include <utility>
 
 namespace vpm {
 namespace {
@@ -32,8 +37,11 @@ TEST(SharedMemory, IsThatOfAnotherProcess) {
   own.data()[7] = std::byte{42};
   const pid_t child = fork();
   if (child == 0) {
-    const SharedMemory found(address);
-    _exit(std::to_integer<int>(found.bytes()[7]));
+    try {
+      _exit(std::to_integer<int>(SharedMemory(address).bytes()[7]));
+    } catch (const std::exception&) {
+      _exit(1);
+    }
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
@@ -51,7 +59,28 @@ TEST(SharedMemory, StaysForWhoFoundItAndIsGoneForOthers) {
   EXPECT_THROW(SharedMemory{address}, std::system_error);
 }
 
-TEST(SharedMemory, IsRefusedWhereThereIsNoRoom) {
+TEST(SharedMemory, OfAnotherMakerIsNotTakenForIt) {
+  const SharedMemory own(64), other(64);
+  const std::string address = own.address(), there = other.address();
+  const std::string mixed = there.substr(0, there.find('#')) + address.substr(address.find('#'));
+  EXPECT_THROW(SharedMemory{mixed}, std::system_error);
+  EXPECT_THROW(SharedMemory{there.substr(0, there.find('#'))}, std::system_error);
+  EXPECT_THROW(SharedMemory{"/proc/self/cmdline#1"}, std::system_error);
+}
+
+TEST(SharedMemory, LiesOnWholeHugePagesAndKeepsWhatIsInItOnceItIsFinished) {
+  constexpr size_t kMega = size_t{1} << 20;
+  SharedMemory own(5 * kMega);
+  for (size_t i = 0; i < own.bytes().size(); ++i) own.data()[i] = static_cast<std::byte>(i % 251);
+  own.finish();
+  const SharedMemory found(own.address());
+  for (const SharedMemory* memory : {&std::as_const(own), &found}) {
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(memory->bytes().data()) % (2 * kMega), 0u);
+    for (size_t i = 0; i < memory->bytes().size(); ++i) ASSERT_EQ(memory->bytes()[i], static_cast<std::byte>(i % 251));
+  }
+}
+
+TEST(SharedMemory, IsRefusedWhereTheSystemRefusesIt) {
   const auto count = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
   };

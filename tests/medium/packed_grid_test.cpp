@@ -1,6 +1,7 @@
 // Grids whose tables lie in memory of somebody else's: they are the grids that were packed there.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 
 #include "support/aligned_bytes.h"
@@ -104,6 +105,12 @@ TEST_P(PackedGrid, IsWalkedAndLookedUpAlikeOnceTheOtherIsGone) {
     const Ray ray{from + far, uniform_sphere(Vec2(rng.uniform(), rng.uniform()))};
     EXPECT_EQ(same.density(ray.origin), grid_->density(ray.origin));
     EXPECT_EQ(second.density(ray.origin), grid_->density(ray.origin));
+    const Box box{ray.origin - 0.3f, ray.origin + 0.1f};
+    EXPECT_EQ(same.is_positive(box), grid_->is_positive(box));
+    std::array<float, DensityGrid::kAtOnce> at_once{}, expected{};
+    same.densities(same.lattice_ray(ray), -1.0, 0.2, at_once);
+    grid_->densities(grid_->lattice_ray(ray), -1.0, 0.2, expected);
+    EXPECT_EQ(at_once, expected);
     const Walked walked = walk(same, ray, {0.0f, 6.0f});
     EXPECT_EQ(walked, walk(*grid_, ray, {0.0f, 6.0f}));
     varying += walked.integral > 0.0;
@@ -115,9 +122,23 @@ TEST_P(PackedGrid, KeepsNoTablesOfItsOwn) {
   const auto packed = packed_bytes(*grid_);
   TableUnpacker unpacker(packed->bytes());
   const DensityGrid same(unpacker, packed);
+  const std::byte* const begin = packed->bytes().data();
+  const auto lies_there = [&](const void* address) {
+    return address >= begin && address < begin + packed->bytes().size();
+  };
+  int stretches = 0;
+  same.visit_majorants({Vec3(-3.0f, 0.01f, 0.02f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 6.0f},
+                       [&](const DensityStretch& stretch) {
+                         if (!stretch.values) return true;
+                         ++stretches;
+                         EXPECT_TRUE(lies_there(stretch.values));
+                         EXPECT_TRUE(lies_there(stretch.blocks));
+                         return true;
+                       });
+  EXPECT_GE(stretches, 4);
   const Vec3 middle(0.03f, 0.04f, 0.05f);
   ASSERT_GT(same.density(middle), 0.0f);
-  packed->wipe();
+  packed->wipe();  // its bricks, too
   EXPECT_NE(same.density(middle), grid_->density(middle));
 }
 

@@ -6,11 +6,14 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <fstream>
 #include <future>
+#include <sstream>
 #include <system_error>
 
-#include "ranks/machine_in_memory.h"
+#include "ranks/ranks_in_memory.h"
+#include "vpm/base/error.h"
 #include "vpm/medium/make_grid.h"
 
 namespace vpm {
@@ -26,29 +29,35 @@ Scene scene_of_two_clouds() {
     return medium;
   };
   Scene scene;
-  scene.media = {cloud("mist", 0.5f), make_medium(nullptr, Rgb(2.0f)), cloud("fog", 3.0f)};
+  scene.media = {cloud("mist", 0.5f), make_medium(nullptr, Rgb(2.0f)), cloud("", 3.0f)};
   scene.media[1].name = "even";
   return scene;
 }
 
 constexpr Vec3 kPlace(0.31f, -0.22f, 0.17f);
 
-/// How many mappings this process has of memory that is shared.
-int mappings() {
+/// How many bytes of shared memory this process has mapped. The system may split a mapping.
+uint64_t mapped() {
   std::ifstream maps("/proc/self/maps");
-  int count = 0;
-  for (std::string line; std::getline(maps, line);) count += line.find("memfd:vpm") != std::string::npos;
-  return count;
+  uint64_t bytes = 0;
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find("memfd:vpm") == std::string::npos) continue;
+    uint64_t from = 0, to = 0;
+    char dash = 0;
+    std::istringstream(line) >> std::hex >> from >> dash >> to;
+    bytes += to - from;
+  }
+  return bytes;
 }
 
 TEST(MachineGrids, AreThoseOfTheFirstRank) {
   Post post(3);
-  MachineInMemory first(post, 0), second(post, 1), third(post, 2);
+  RankInMemory first(post, 0), second(post, 1), third(post, 2);
   const Scene own = scene_of_two_clouds();
   Scene scene = scene_of_two_clouds();
-  share_grids(first, scene);
+  EXPECT_FALSE(share_grids(first, scene));  // no error
   EXPECT_FALSE(scene.media[1].grid);
-  for (MachineInMemory* other : {&second, &third}) {
+  for (RankInMemory* other : {&second, &third}) {
     const std::optional<GridsOfMedia> grids = shared_grids(*other);
     ASSERT_TRUE(grids);
     ASSERT_EQ(grids->size(), 2u);
@@ -63,37 +72,44 @@ TEST(MachineGrids, AreThoseOfTheFirstRank) {
 
 TEST(MachineGrids, AreNowhereElseAndStayAsLongAsOneIsLeft) {
   Post post(2);
-  MachineInMemory first(post, 0), second(post, 1);
+  RankInMemory first(post, 0), second(post, 1);
   Scene scene = scene_of_two_clouds();
   const std::weak_ptr<const DensityGrid> own = scene.media[0].grid;
   share_grids(first, scene);
   EXPECT_TRUE(own.expired());
+  const uint64_t once = mapped();
+  EXPECT_GE(once, scene.media[0].grid->memory_bytes() - sizeof(DensityGrid));
   std::optional<GridsOfMedia> grids = shared_grids(second);
-  EXPECT_EQ(mappings(), 2);
+  EXPECT_EQ(mapped(), 2 * once);
   const float density = scene.media[2].density(kPlace);
   scene = {};
-  EXPECT_EQ(mappings(), 1);
-  const std::shared_ptr<const DensityGrid> last = grids->at("fog");
+  EXPECT_EQ(mapped(), once);
+  const std::shared_ptr<const DensityGrid> last = grids->at("");
   grids.reset();
   EXPECT_EQ(last->density(kPlace), density);
-  EXPECT_EQ(mappings(), 1);
+  EXPECT_EQ(mapped(), once);
 }
 
 TEST(MachineGrids, OthersWaitForThem) {
   Post post(2);
-  MachineInMemory first(post, 0), second(post, 1);
+  RankInMemory first(post, 0), second(post, 1);
   auto waiting = std::async(std::launch::async, [&] { return shared_grids(second); });
   EXPECT_EQ(waiting.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
   Scene scene = scene_of_two_clouds();
   share_grids(first, scene);
-  EXPECT_EQ(waiting.get()->at("fog")->density(kPlace), scene.media[2].density(kPlace));
+  EXPECT_EQ(waiting.get()->at("")->density(kPlace), scene.media[2].density(kPlace));
 }
 
-TEST(MachineGrids, AreNoneForAnotherProgramAndRefusedWhereTheyAreGone) {
+TEST(MachineGrids, OfAnotherProgramAreRefused) {
   Post post(2);
-  MachineInMemory first(post, 0), second(post, 1);
-  first.tell("another program\n/proc/self/fd/0");
-  EXPECT_FALSE(shared_grids(second));
+  RankInMemory first(post, 0), second(post, 1);
+  first.send(1, "another vpm\n/proc/self/fd/0#1");
+  EXPECT_THROW(shared_grids(second), InputError);
+}
+
+TEST(MachineGrids, ThatAreGoneAreRefused) {
+  Post post(2);
+  RankInMemory first(post, 0), second(post, 1);
   {
     Scene scene = scene_of_two_clouds();
     share_grids(first, scene);
@@ -101,9 +117,9 @@ TEST(MachineGrids, AreNoneForAnotherProgramAndRefusedWhereTheyAreGone) {
   EXPECT_THROW(shared_grids(second), std::system_error);
 }
 
-TEST(MachineGrids, StayWhereTheyAreWhereThereIsNoRoom) {
+TEST(MachineGrids, StayWhereTheyAreWhereTheSystemRefusesTheMemory) {
   Post post(2);
-  MachineInMemory first(post, 0), second(post, 1);
+  RankInMemory first(post, 0), second(post, 1);
   Scene scene = scene_of_two_clouds();
   const std::shared_ptr<const DensityGrid> mist = scene.media[0].grid, fog = scene.media[2].grid;
   rlimit usual{};
@@ -111,9 +127,10 @@ TEST(MachineGrids, StayWhereTheyAreWhereThereIsNoRoom) {
   const auto before = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit little{1000, usual.rlim_max};
   setrlimit(RLIMIT_FSIZE, &little);
-  EXPECT_THROW(share_grids(first, scene), std::system_error);
+  const std::error_code why = share_grids(first, scene);
   setrlimit(RLIMIT_FSIZE, &usual);
   std::signal(SIGXFSZ, before);
+  EXPECT_EQ(why, std::errc::file_too_large);
   EXPECT_EQ(scene.media[0].grid, mist);
   EXPECT_EQ(scene.media[2].grid, fog);
   EXPECT_FALSE(shared_grids(second));
@@ -121,7 +138,7 @@ TEST(MachineGrids, StayWhereTheyAreWhereThereIsNoRoom) {
 
 TEST(MachineGrids, MayBeOfASceneWithoutAny) {
   Post post(2);
-  MachineInMemory first(post, 0), second(post, 1);
+  RankInMemory first(post, 0), second(post, 1);
   Scene scene;
   scene.media = {make_medium(nullptr, Rgb(2.0f))};
   share_grids(first, scene);

@@ -47,7 +47,7 @@ class RankInMemory final : public Ranks {
   int size() const override { return post_.ranks(); }
   void send(int to, const std::string& bytes) override { post_.send(rank_, to, bytes); }
   std::optional<Message> poll() override { return post_.poll(rank_); }
-  Machine* machine() override { return nullptr; }
+  Ranks* machine() override { return nullptr; }
   void abort(int) override { throw std::logic_error("a test aborts no ranks"); }
 
  private:

@@ -1,6 +1,7 @@
 // vpm render as several processes: by mpiexec where it is built with MPI, and refused where it is not.
 #include <fmt/format.h>
 #include <signal.h>
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -87,6 +88,15 @@ TEST_F(VpmRanks, WhatIsWrongIsToldOnce) {
   const size_t first = result.err.find("film.width");
   EXPECT_NE(first, std::string::npos) << result.err;
   EXPECT_EQ(result.err.find("film.width", first + 20), std::string::npos) << result.err;
+  write("smoke.vdb", "no grid");
+  const ProcessResult grid = run(3, {"render", "scene.toml", "-o", "a.exr"});
+  EXPECT_EQ(grid.status, 2);
+  const size_t told = grid.err.find("smoke.vdb: ");
+  EXPECT_NE(told, std::string::npos) << grid.err;
+  EXPECT_EQ(grid.err.find("smoke.vdb: ", told + 1), std::string::npos) << grid.err;
+}
+
+TEST_F(VpmRanks, RadiiOfPixelsAreRefused) {
   const ProcessResult radii = run(2, {"render", "scene.toml", "-o", "a.exr", "--set", "render.radii=per-pixel"});
   EXPECT_EQ(radii.status, 2);
   expect_words(radii.err, {"no other rank can make the next pass"});

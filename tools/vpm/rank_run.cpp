@@ -26,47 +26,59 @@ void leave_signals_to_leader() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_IGN);
 }
 
-/// What loads grids for a rank that does not lead its machine: it finds those that are shared. What was clamped, and a
-/// picture's report tells, is known to who reads files.
-GridLoader loader_of_shared(const GridsOfMedia& grids) {
-  return [&grids](const std::string& medium, const GridRequest&) {
-    const auto found = grids.find(medium);
-    if (found == grids.end()) throw InputError("the rank that reads the grids of this machine has no such medium");
-    return LoadedGrid{found->second};
-  };
-}
-
-/// It can go on without.
-void say_not_shared(const Ranks& ranks, const RenderOptions& options, const std::system_error& why) {
+void say_not_shared(const Ranks& ranks, const RenderOptions& options, const std::string& why) {
   if (options.quiet) return;
   fmt::print(stderr, "note: rank {} shares no grids with others of its machine, and holds its own: {}\n", ranks.rank(),
-             why.what());
+             why);
 }
 
-/// Those that the first rank of this machine shares; nothing where there are none to be had.
-std::optional<GridsOfMedia> find_grids(const Ranks& ranks, Machine& machine, const RenderOptions& options) {
-  try {
-    return shared_grids(machine);
-  } catch (const std::system_error& why) {
-    say_not_shared(ranks, options, why);
-    return std::nullopt;
+/// The grids of a rank that is not the first of its machine. It waits for the first once it needs one.
+class GridsOfFirst {
+ public:
+  GridsOfFirst(const Ranks& ranks, Ranks& machine, const RenderOptions& options)
+      : ranks_(ranks), machine_(machine), options_(options) {}
+
+  /// As GridLoader does. How many values were clamped is not known here: the first rank tells it in its report.
+  LoadedGrid load(const std::string& medium, const GridRequest& request) {
+    wait();
+    if (!grids_) return load_grid(request);
+    const auto found = grids_->find(medium);
+    if (found == grids_->end()) throw InputError("the first rank of this machine has no such medium");
+    return LoadedGrid{found->second};
   }
-}
+  /// Takes what the first has to tell, also where nothing was loaded.
+  void wait() {
+    if (heard_) return;
+    heard_ = true;
+    try {
+      grids_ = shared_grids(machine_);
+    } catch (const std::system_error& not_there) {
+      say_not_shared(ranks_, options_, not_there.what());
+    }
+  }
+
+ private:
+  const Ranks& ranks_;
+  Ranks& machine_;
+  const RenderOptions& options_;
+  bool heard_ = false;
+  std::optional<GridsOfMedia> grids_;
+};
 
 }  // namespace
 
 RenderJob load_as_rank(Ranks& ranks, const RenderOptions& options) {
-  Machine* const machine = ranks.machine();
-  if (machine && !machine->leads()) {
-    const std::optional<GridsOfMedia> grids = find_grids(ranks, *machine, options);
-    return load_for_render(options, grids ? loader_of_shared(*grids) : GridLoader());
+  Ranks* const machine = ranks.machine();
+  if (!machine) return load_for_render(options);
+  if (machine->leads()) {
+    RenderJob job = load_for_render(options);
+    if (const std::error_code why = share_grids(*machine, job.scene)) say_not_shared(ranks, options, why.message());
+    return job;
   }
-  RenderJob job = load_for_render(options);
-  try {
-    if (machine) share_grids(*machine, job.scene);
-  } catch (const std::system_error& why) {
-    say_not_shared(ranks, options, why);
-  }
+  GridsOfFirst grids(ranks, *machine, options);
+  RenderJob job = load_for_render(
+      options, [&](const std::string& medium, const GridRequest& request) { return grids.load(medium, request); });
+  grids.wait();
   return job;
 }
 

@@ -13,8 +13,8 @@ namespace vpm::tools {
 /// of main(); of one process it is main() that tells.
 int run_as_rank(Ranks& ranks, const std::function<int()>& run);
 
-/// The job of a scene file with these options, by each rank. Of the ranks of one machine one reads the grids and shares
-/// them with the others, before which these do not begin.
+/// The job of a scene file with these options, by each rank. Of the ranks of one machine the first reads the grids, and
+/// the others look them up in the memory where it has put them.
 RenderJob load_as_rank(Ranks& ranks, const RenderOptions& options);
 
 /// Loads the scene, waits for what rank 0 tells, and makes passes for it. Throws InputError where this rank's scene or

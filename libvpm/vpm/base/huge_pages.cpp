@@ -3,7 +3,6 @@
 
 #include <sys/mman.h>
 
-#include <cstdint>
 #include <new>
 
 namespace vpm {
@@ -21,13 +20,8 @@ std::align_val_t alignment_of(size_t bytes, size_t alignment) {
 
 void* allocate_table(size_t bytes, size_t alignment) {
   void* const table = ::operator new(bytes, alignment_of(bytes, alignment));
-  if (is_large(bytes)) ask_for_huge_pages(table, bytes);
+  if (is_large(bytes)) madvise(table, bytes, MADV_HUGEPAGE);  // if it is refused, pages are the usual ones
   return table;
-}
-
-void ask_for_huge_pages(void* memory, size_t bytes) {
-  const auto place = reinterpret_cast<uintptr_t>(memory), first = (place + kPage - 1) / kPage * kPage;
-  if (first < place + bytes) madvise(reinterpret_cast<void*>(first), place + bytes - first, MADV_HUGEPAGE);
 }
 
 void free_table(void* table, size_t bytes, size_t alignment) {

@@ -14,9 +14,6 @@ void* allocate_table(size_t bytes, size_t alignment);
 /// Gives it back, by the same numbers.
 void free_table(void* table, size_t bytes, size_t alignment);
 
-/// Asks for such pages for memory that is there already; without effect where they are not to be had.
-void ask_for_huge_pages(void* memory, size_t bytes);
-
 /// The allocator of such memory.
 template <class T>
 struct HugePages {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -10,20 +9,26 @@ namespace vpm {
 
 class SharedMemory {
  public:
-  /// So many bytes, one at least, all 0, on whole pages. Throws std::system_error where there is no room for them.
+  /// So many bytes, one at least, all 0, from a multiple of 2 MiB on. Pages are taken from the system as they are
+  /// written to: where it has none left then, it ends the process. Throws std::system_error where it refuses so many in
+  /// advance, because of limits of this process's files, say.
   explicit SharedMemory(size_t bytes);
-  /// What another process, or this one, has made and still holds; it can be read only. Throws std::system_error where
-  /// that is gone, or belongs to another user.
+  /// What a process of the same user has made and still holds, which may be this one. Throws std::system_error where
+  /// nothing of that address is to be had.
   explicit SharedMemory(const std::string& address);
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  /// By which other processes of this machine find it while this process holds it.
+  /// By which other processes of this machine find it.
   std::string address() const;
-  /// Where its maker writes.
-  std::byte* data() { return memory_; }
   std::span<const std::byte> bytes() const { return {memory_, bytes_}; }
+
+  /// Where its maker writes, until it has finished.
+  std::byte* data() { return memory_; }
+  /// From now on nobody can write to it. It moves to pages of 2 MiB where the system knows how (Linux 6.1): see
+  /// base/huge_pages.h.
+  void finish();
 
  private:
   void map(int access);

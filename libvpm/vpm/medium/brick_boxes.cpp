@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "vpm/base/packed_tables.h"
+
 namespace vpm {
 namespace {
 

@@ -8,10 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "vpm/base/packed_tables.h"
 #include "vpm/base/vec.h"
 
 namespace vpm {
+
+class TablePacker;
+class TableUnpacker;
 
 /// A box of integer coordinates, both ends included; empty where lo > hi.
 struct IndexBox {
@@ -47,8 +49,9 @@ class BrickBoxes {
   /// voxels but in its last bricks, into which those reach. Boxes are cut, at gaps first, until bricks with voxels fill
   /// an eighth of each, as the one that a single brick of voxels takes is filled.
   explicit BrickBoxes(std::vector<IndexBox> occupied);
-  /// A copy of what pack() has packed.
+  /// A copy of those that pack() has packed, which must come next.
   explicit BrickBoxes(TableUnpacker& packed);
+  /// Adds all that they are.
   void pack(TablePacker& packer) const;
 
   std::span<const BrickBox> all() const { return boxes_; }

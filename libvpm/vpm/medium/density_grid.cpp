@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "vpm/base/error.h"
+#include "vpm/base/huge_pages.h"
+#include "vpm/base/packed_tables.h"
 #include "vpm/base/parallel.h"
 
 namespace vpm {
@@ -96,6 +98,12 @@ double owned_sum(const float* values) {
 }
 
 }  // namespace
+
+struct DensityGrid::Tables {
+  LargeTable<Brick> bricks;
+  LargeTable<float> values;
+  LargeTable<BrickBlocks> blocks;
+};
 
 DensityGrid::DensityGrid(const GridFrame& frame) : frame_(frame), world_to_index_(glm::inverse(frame.index_to_world)) {
   assert(glm::all(glm::lessThanEqual(frame.lo, frame.hi)) && frame.background >= 0.0f);

@@ -14,8 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "vpm/base/huge_pages.h"
-#include "vpm/base/packed_tables.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/brick_boxes.h"
 #include "vpm/medium/density_piece.h"
@@ -52,9 +50,10 @@ class DensityGrid {
   /// of `occupied` take far fewer bricks, or all are more than one table may hold, these alone are stored: all others
   /// have the background's density. Throws InputError if the tables of bricks alone would take over 256 MiB.
   DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied = {});
-  /// The same grid as the one that was packed there by pack(). It reads its tables where they lie, in that memory,
-  /// which it keeps.
+  /// The same grid as the one that pack() has packed, which must come next. It reads its tables where they lie, in that
+  /// memory, which it keeps.
   DensityGrid(TableUnpacker& packed, std::shared_ptr<const void> memory);
+  /// Adds all that it is.
   void pack(TablePacker& packer) const;
 
   /// A ray in units of cells, from the lower corner of all bricks; its parameter is still in metres of the world.
@@ -123,12 +122,8 @@ class DensityGrid {
     bool uniform() const { return min == max; }
   };
 
-  /// What takes memory.
-  struct Tables {
-    LargeTable<Brick> bricks;
-    LargeTable<float> values;
-    LargeTable<BrickBlocks> blocks;
-  };
+  /// Tables of a grid's own.
+  struct Tables;
 
   /// A ray in index coordinates; its parameter is still in metres of the world.
   struct IndexRay {

@@ -14,7 +14,7 @@ class Alone final : public Ranks {
   int size() const override { return 1; }
   void send(int, const std::string&) override { assert(false); }  // there is nobody
   std::optional<Message> poll() override { return std::nullopt; }
-  Machine* machine() override { return nullptr; }
+  Ranks* machine() override { return nullptr; }
   void abort(int status) override { std::exit(status); }
 };
 

@@ -1,21 +1,20 @@
-// What is shared: the name of each medium that has a grid, and its grid; an empty name ends them. What is told: the
-// program, whose tables others could not read, a line feed, and where the memory is found; nowhere for no grids.
+// The shared memory holds the number of media that have a grid, and of each its name and its grid. The message holds
+// the version of vpm, since another one could not read that; a line feed; and the address of the memory. There is no
+// address where the scene has no grids, and the message is empty where memory was refused.
 #include "vpm/ranks/machine_grids.h"
 
+#include <cstdint>
 #include <span>
-#include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "vpm/base/error.h"
 #include "vpm/base/packed_tables.h"
 #include "vpm/base/shared_memory.h"
 #include "vpm/base/version.h"
 
 namespace vpm {
 namespace {
-
-const std::string kNothing;
 
 std::vector<Medium*> media_with_grids(Scene& scene) {
   std::vector<Medium*> media;
@@ -24,62 +23,67 @@ std::vector<Medium*> media_with_grids(Scene& scene) {
   return media;
 }
 
-std::span<const char> name_of(const Medium& medium) { return {medium.name.data(), medium.name.size()}; }
+void tell_others(Ranks& machine, const std::string& bytes) {
+  for (int rank = 1; rank < machine.size(); ++rank) machine.send(rank, bytes);
+}
+
+/// packed(Medium&) is called for each medium once it is packed.
+template <class IsPacked>
+void pack(const std::vector<Medium*>& media, TablePacker& packer, IsPacked&& packed) {
+  packer.add_one(uint64_t{media.size()});
+  for (Medium* medium : media) {
+    packer.add(std::span<const char>(medium->name));
+    medium->grid->pack(packer);
+    packed(*medium);
+  }
+}
 
 size_t packed_bytes(const std::vector<Medium*>& media) {
   TablePacker counter(nullptr);
-  for (const Medium* medium : media) {
-    counter.add(name_of(*medium));
-    medium->grid->pack(counter);
-  }
-  counter.add(std::span<const char>());
+  pack(media, counter, [](const Medium&) {});
   return counter.bytes();
-}
-
-/// Each grid is let go of once it is packed, so that no more than one is there twice.
-void move_grids(const std::vector<Medium*>& media, std::byte* memory) {
-  TablePacker packer(memory);
-  for (Medium* medium : media) {
-    packer.add(name_of(*medium));
-    medium->grid->pack(packer);
-    medium->grid = nullptr;
-  }
-  packer.add(std::span<const char>());
 }
 
 GridsOfMedia grids_in(const std::shared_ptr<const SharedMemory>& memory) {
   TableUnpacker packed(memory->bytes());
   GridsOfMedia grids;
-  for (;;) {
+  for (auto left = packed.take_one<uint64_t>(); left > 0; --left) {
     const std::span<const char> name = packed.take<char>();
-    if (name.empty()) return grids;
     grids.emplace(std::string(name.begin(), name.end()), std::make_shared<const DensityGrid>(packed, memory));
   }
+  return grids;
 }
 
 std::string program() { return std::string(version()) + "\n"; }
 
 }  // namespace
 
-void share_grids(Machine& machine, Scene& scene) {
+std::error_code share_grids(Ranks& machine, Scene& scene) {
   const std::vector<Medium*> media = media_with_grids(scene);
-  if (media.empty()) return machine.tell(program());
+  if (media.empty()) {
+    tell_others(machine, program());
+    return {};
+  }
   std::shared_ptr<SharedMemory> memory;
   try {
     memory = std::make_shared<SharedMemory>(packed_bytes(media));
-  } catch (const std::system_error&) {
-    machine.tell(kNothing);
-    throw;
+  } catch (const std::system_error& refused) {
+    tell_others(machine, {});
+    return refused.code();
   }
-  move_grids(media, memory->data());
+  TablePacker packer(memory->data());
+  pack(media, packer, [](Medium& medium) { medium.grid = nullptr; });  // so that only one at a time is there twice
+  memory->finish();
   const GridsOfMedia grids = grids_in(memory);
   for (Medium* medium : media) medium->grid = grids.at(medium->name);
-  machine.tell(program() + memory->address());
+  tell_others(machine, program() + memory->address());
+  return {};
 }
 
-std::optional<GridsOfMedia> shared_grids(Machine& machine) {
-  const std::string told = machine.hear();
-  if (!told.starts_with(program())) return std::nullopt;
+std::optional<GridsOfMedia> shared_grids(Ranks& machine) {
+  const std::string told = wait_for_message(machine).bytes;
+  if (told.empty()) return std::nullopt;
+  if (!told.starts_with(program())) throw InputError("the first rank of this machine is another vpm");
   const std::string address = told.substr(program().size());
   if (address.empty()) return GridsOfMedia{};
   return grids_in(std::make_shared<const SharedMemory>(address));

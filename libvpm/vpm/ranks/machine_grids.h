@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "vpm/medium/density_grid.h"
 #include "vpm/ranks/ranks.h"
@@ -16,13 +17,13 @@ namespace vpm {
 /// Grids of media, by their names.
 using GridsOfMedia = std::map<std::string, std::shared_ptr<const DensityGrid>>;
 
-/// By the rank that leads the machine, once it has read the scene: moves the scene's grids into memory that all of its
-/// ranks share, and tells the others. Where there is no room for them, the scene keeps its own, the others are told,
-/// too, and it throws std::system_error.
-void share_grids(Machine& machine, Scene& scene);
+/// By rank 0 of a machine, once it has read the scene: moves the scene's grids into memory that all of the machine's
+/// ranks share, and tells the others. Where the system refuses such memory, it returns why; the scene then keeps its
+/// own grids, and the others are told so.
+std::error_code share_grids(Ranks& machine, Scene& scene);
 
-/// By the others, before they read the scene: the grids that are shared. Nothing where the first shares none, so that
-/// each rank is to read its own. Throws std::system_error where what is shared cannot be had.
-std::optional<GridsOfMedia> shared_grids(Machine& machine);
+/// By the others: waits for the grids that are shared. Nothing where rank 0 shares none, so that each is to read its
+/// own. Throws std::system_error where what is shared cannot be had, and InputError where rank 0 is another vpm.
+std::optional<GridsOfMedia> shared_grids(Ranks& machine);
 
 }  // namespace vpm

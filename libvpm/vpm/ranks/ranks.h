@@ -7,18 +7,6 @@
 
 namespace vpm {
 
-/// What the ranks of one machine tell each other beside the messages of all: the first of them tells, the others hear.
-class Machine {
- public:
-  virtual ~Machine() = default;
-  /// Is this rank the first?
-  virtual bool leads() const = 0;
-  /// To all others, by the first; it does not wait for them.
-  virtual void tell(const std::string& bytes) = 0;
-  /// The next that is told, by one of the others. It waits for it, and leaves the cores to others meanwhile.
-  virtual std::string hear() = 0;
-};
-
 struct Message {
   int from = 0;  // a rank
   std::string bytes;
@@ -37,8 +25,9 @@ class Ranks {
   /// thread at a time may ask, also while others send.
   virtual std::optional<Message> poll() = 0;
 
-  /// This rank and others of its machine; null where it is the only one there.
-  virtual Machine* machine() = 0;
+  /// The ranks of this one's machine, in the same order, with numbers and messages of their own; null where it is the
+  /// only one there. All ranks must ask for it if one does. It lives as long as this.
+  virtual Ranks* machine() = 0;
 
   /// Ends all ranks with this exit status, after what was printed: it does not return.
   virtual void abort(int status) = 0;
