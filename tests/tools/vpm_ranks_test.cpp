@@ -96,6 +96,13 @@ TEST_F(VpmRanks, WhatIsWrongIsToldOnce) {
   EXPECT_EQ(grid.err.find("smoke.vdb: ", told + 1), std::string::npos) << grid.err;
 }
 
+TEST_F(VpmRanks, WhatRank0RefusesIsNoFaultOfSharing) {
+  const ProcessResult result = run(3, {"render", "scene.toml", "-o", "nowhere/a.exr"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("nowhere"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("note: "), std::string::npos) << result.err;
+}
+
 TEST_F(VpmRanks, RadiiOfPixelsAreRefused) {
   const ProcessResult radii = run(2, {"render", "scene.toml", "-o", "a.exr", "--set", "render.radii=per-pixel"});
   EXPECT_EQ(radii.status, 2);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "exit_status.h"
 #include "pass_run.h"
@@ -26,24 +27,19 @@ void leave_signals_to_leader() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_IGN);
 }
 
-void say_not_shared(const Ranks& ranks, const RenderOptions& options, const std::string& why) {
-  if (options.quiet) return;
-  fmt::print(stderr, "note: rank {} shares no grids with others of its machine, and holds its own: {}\n", ranks.rank(),
-             why);
-}
-
 /// The grids of a rank that is not the first of its machine. It waits for the first once it needs one.
 class GridsOfFirst {
  public:
-  GridsOfFirst(const Ranks& ranks, Ranks& machine, const RenderOptions& options)
-      : ranks_(ranks), machine_(machine), options_(options) {}
+  explicit GridsOfFirst(Ranks& machine) : machine_(machine) {}
 
   /// As GridLoader does. How many values were clamped is not known here: the first rank tells it in its report.
   LoadedGrid load(const std::string& medium, const GridRequest& request) {
     wait();
     if (!grids_) return load_grid(request);
     const auto found = grids_->find(medium);
-    if (found == grids_->end()) throw InputError("the first rank of this machine has no such medium");
+    if (found == grids_->end())
+      throw InputError(
+          fmt::format("the first rank of this machine reads another scene: without a grid of '{}'", medium));
     return LoadedGrid{found->second};
   }
   /// Takes what the first has to tell, also where nothing was loaded.
@@ -53,33 +49,40 @@ class GridsOfFirst {
     try {
       grids_ = shared_grids(machine_);
     } catch (const std::system_error& not_there) {
-      say_not_shared(ranks_, options_, not_there.what());
+      not_there_ = not_there.what();
     }
   }
+  /// Why what the first shares cannot be had; "" where it can, or where it shares nothing, which it tells.
+  const std::string& not_there() const { return not_there_; }
 
  private:
-  const Ranks& ranks_;
   Ranks& machine_;
-  const RenderOptions& options_;
   bool heard_ = false;
   std::optional<GridsOfMedia> grids_;
+  std::string not_there_;
 };
 
 }  // namespace
 
-RenderJob load_as_rank(Ranks& ranks, const RenderOptions& options) {
+JobOfRank load_as_rank(Ranks& ranks, const RenderOptions& options) {
   Ranks* const machine = ranks.machine();
-  if (!machine) return load_for_render(options);
+  if (!machine) return {load_for_render(options)};
   if (machine->leads()) {
     RenderJob job = load_for_render(options);
-    if (const std::error_code why = share_grids(*machine, job.scene)) say_not_shared(ranks, options, why.message());
-    return job;
+    const std::error_code refused = share_grids(*machine, job.scene);
+    return {std::move(job), refused ? refused.message() : ""};
   }
-  GridsOfFirst grids(ranks, *machine, options);
+  GridsOfFirst grids(*machine);
   RenderJob job = load_for_render(
       options, [&](const std::string& medium, const GridRequest& request) { return grids.load(medium, request); });
   grids.wait();
-  return job;
+  return {std::move(job), grids.not_there()};
+}
+
+void say_not_shared(const Ranks& ranks, const RenderOptions& options, const std::string& why) {
+  if (why.empty() || options.quiet) return;
+  fmt::print(stderr, "note: rank {} shares no grids with others of its machine, and holds its own: {}\n", ranks.rank(),
+             why);
 }
 
 int run_as_rank(Ranks& ranks, const std::function<int()>& run) {
@@ -98,17 +101,18 @@ int run_as_rank(Ranks& ranks, const std::function<int()>& run) {
 int make_passes_for_leader(Ranks& ranks, const RenderOptions& options) {
   leave_signals_to_leader();
   // What is wrong with the scene, rank 0 tells: this rank only where rank 0 has found nothing.
-  RenderJob job;
+  JobOfRank loaded;
   std::exception_ptr wrong;
   try {
-    job = load_as_rank(ranks, options);
+    loaded = load_as_rank(ranks, options);
   } catch (...) {
     wrong = std::current_exception();
   }
   const Identity led = told_render(ranks);
   if (wrong) std::rethrow_exception(wrong);
-  render_as_told(job, led);
-  make_render(ranks, job.scene, job.settings);
+  say_not_shared(ranks, options, loaded.not_shared);  // only now: where rank 0 has ended, its memory is gone, too
+  render_as_told(loaded.job, led);
+  make_render(ranks, loaded.job.scene, loaded.job.settings);
   return 0;
 }
 

@@ -1,5 +1,6 @@
 // vpm render: scene file in, picture and report out.
 #include <filesystem>
+#include <utility>
 
 #include "commands.h"
 #include "picture_run.h"
@@ -14,7 +15,9 @@ int render_command(const RenderOptions& options) {
   return run_as_rank(*ranks, [&] {
     if (!ranks->leads()) return make_passes_for_leader(*ranks, options);
     const Outputs outputs = output_paths(options.output, std::filesystem::path(options.scene).stem().string());
-    return render_picture(options, outputs, load_as_rank(*ranks, options), *ranks);
+    JobOfRank loaded = load_as_rank(*ranks, options);
+    say_not_shared(*ranks, options, loaded.not_shared);
+    return render_picture(options, outputs, std::move(loaded.job), *ranks);
   });
 }
 

@@ -45,10 +45,11 @@ SharedMemory::SharedMemory(size_t bytes) : file_(memfd_create("vpm", MFD_CLOEXEC
 SharedMemory::SharedMemory(const std::string& address) {
   const size_t path_ends = address.rfind(kBeforeNumber);
   // Without O_NONBLOCK it could wait for what somebody else has there under this number.
-  file_ = open(address.substr(0, path_ends).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file_ < 0) fail(errno, file_, address);
+  const std::string path = address.substr(0, path_ends);
+  file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file_ < 0) fail(errno, file_, path);
   if (path_ends == std::string::npos || std::to_string(number_of(file_)) != address.substr(path_ends + 1))
-    fail(ENOENT, file_, address);
+    fail(ENOENT, file_, path);
   bytes_ = static_cast<size_t>(lseek(file_, 0, SEEK_END));
   map(PROT_READ);
 }

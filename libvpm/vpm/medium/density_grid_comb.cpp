@@ -128,7 +128,7 @@ void DensityGrid::densities_in_box(const LatticeRay& ray, double t, double step,
   const __m512 background = _mm512_set1_ps(frame_.background);
   const __m512 min = _mm512_mask_i32gather_ps(background, places.inside, brick, &bricks_.data()->min, 4);
   const __m512 max = _mm512_mask_i32gather_ps(background, places.inside, brick, &bricks_.data()->max, 4);
-  const __mmask16 varying = _mm512_cmp_ps_mask(min, max, _CMP_NEQ_UQ);
+  const __mmask16 varying = _mm512_mask_cmp_ps_mask(places.inside, min, max, _CMP_NEQ_UQ);
   __m512 result = min;
   if (varying != 0) {
     const __m512i first =
