@@ -44,8 +44,8 @@ SharedMemory::SharedMemory(size_t bytes) : file_(memfd_create("vpm", MFD_CLOEXEC
 
 SharedMemory::SharedMemory(const std::string& address) {
   const size_t path_ends = address.rfind(kBeforeNumber);
-  // Without O_NONBLOCK it could wait for what somebody else has there under this number.
   const std::string path = address.substr(0, path_ends);
+  // Without O_NONBLOCK it could wait for what somebody else has there under this number.
   file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file_ < 0) fail(errno, file_, path);
   if (path_ends == std::string::npos || std::to_string(number_of(file_)) != address.substr(path_ends + 1))
