@@ -1,4 +1,4 @@
-# The libraries vpm stands on, all packages of Debian 12; tools/setup installs them.
+# The libraries vpm stands on, all packages of Debian; tools/setup installs them.
 
 # Those that the library is linked with. Their list is written for find_package(vpm), and read here in its name.
 set(CMAKE_FIND_PACKAGE_NAME vpm)
@@ -18,7 +18,10 @@ find_package(CLI11 CONFIG REQUIRED)
 if(VPM_MPI)
   find_package(MPI REQUIRED COMPONENTS CXX)
 endif()
-find_package(Eigen3 3.4 CONFIG REQUIRED)
+find_package(Eigen3 CONFIG REQUIRED)  # 3.4 or 5: who asks for 3.4 is refused 5
+if(Eigen3_VERSION VERSION_LESS 3.4)
+  message(FATAL_ERROR "Eigen ${Eigen3_VERSION} is older than 3.4")
+endif()
 
 # Chart.js draws the plots of the page that `vpm compare` writes, which has the library in it.
 find_file(VPM_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js DOC "Chart.js 3, minified" NO_DEFAULT_PATH)

@@ -1,10 +1,10 @@
 // Photon beams in Embree: as geometry of the user's, called for each beam whose box a ray meets, or as Embree's curves,
 // whose hits are looked at and refused one by one. Round curves are met twice each, and flat ones, which face the ray,
 // once.
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include "benchmarks/beam_peers.h"
+#include "vpm/surface/embree.h"
 
 namespace vpm::bench {
 namespace {
@@ -19,15 +19,14 @@ struct Beams {
 /// Rays as callbacks meet them, with the axes across each and along it, and what they have found.
 template <unsigned N>
 struct Asked {
-  RTCIntersectContext context;  // the first member: callbacks get its address
-  Vec3 origin;                  // of all, m
+  EmbreeContext context;  // the first member: callbacks get its address
+  Vec3 origin;            // of all, m
   float right[3][N], up[3][N], along[3][N], t1[N];
   uint32_t count[N];
   double sum[N];
 
   explicit Asked(const EyeRay* rays) : origin(rays[0].ray.origin), count{}, sum{} {
-    rtcInitIntersectContext(&context);
-    if (N > 1) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    init_context(context);
     for (unsigned i = 0; i < N; ++i) {
       Vec3 s, t;
       make_frame(rays[i].ray.direction, s, t);
@@ -149,7 +148,7 @@ class EmbreeBeamIndex final : public BeamIndex {
   Crossings single(const EyeRay& eye) const {
     Asked<1> asked(&eye);
     RTCRay ray = embree_ray(eye);
-    rtcOccluded1(scene_, &asked.context, &ray);
+    embree_occluded(scene_, asked.context, ray);
     return asked.found();
   }
   Crossings packet(const EyeRay* eyes) const {
@@ -169,7 +168,7 @@ class EmbreeBeamIndex final : public BeamIndex {
       rays.mask[i] = ~0u;
       rays.id[i] = rays.flags[i] = 0;
     }
-    rtcOccluded16(valid, scene_, &asked.context, &rays);
+    embree_occluded(scene_, asked.context, valid, rays);
     return asked.found();
   }
 

@@ -1,7 +1,6 @@
 // Embree's point queries.
-#include <embree3/rtcore.h>
-
 #include "benchmarks/point_peers.h"
+#include "vpm/surface/embree.h"
 
 namespace vpm::bench {
 namespace {

@@ -1,5 +1,6 @@
 // bench: what vpm's parts cost, side by side with those of other libraries.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Reading the key=value pairs of vpm exact.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>

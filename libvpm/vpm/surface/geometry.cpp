@@ -1,8 +1,6 @@
 // Shapes in Embree: triangle meshes as they are, spheres and discs as user geometry with our own intersection.
 #include "vpm/surface/geometry.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cassert>
@@ -14,6 +12,7 @@
 #include "vpm/surface/check_shapes.h"
 #include "vpm/surface/disc.h"
 #include "vpm/surface/distance.h"
+#include "vpm/surface/embree.h"
 #include "vpm/surface/locate.h"
 #include "vpm/surface/mesh.h"
 #include "vpm/surface/sphere.h"
@@ -46,7 +45,7 @@ void own_bounds(const RTCBoundsFunctionArguments* args) {
 
 /// What Embree hands to callbacks: the shapes that a query leaves out stand behind the context.
 struct Query {
-  RTCIntersectContext context;
+  EmbreeContext context;
   const Encounter& without;
 
   bool leaves_out(unsigned shape) const {
@@ -71,7 +70,7 @@ template <class S>
 void own_intersect(const RTCIntersectFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
-  if (args->context->filter && reinterpret_cast<const Query*>(args->context)->leaves_out(args->geomID)) return;
+  if (reinterpret_cast<const Query*>(args->context)->leaves_out(args->geomID)) return;
   auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   const auto& s = *static_cast<const S*>(args->geometryUserPtr);
   RTCRay& r = ray_hit.ray;
@@ -129,7 +128,7 @@ struct Geometry::Impl {
     rtcSetDeviceErrorFunction(device, on_error, this);
     rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
     scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kEmbreeFilters));
     check();
   }
   ~Impl() {
@@ -314,9 +313,8 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t lay
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   if (!(found.ray.tfar >= kMinT)) return std::nullopt;
   Query query{{}, without};
-  rtcInitIntersectContext(&query.context);
-  if (without) query.context.filter = leave_out;
-  rtcIntersect1(impl_->scene, &query.context, &found);
+  init_context(query.context);
+  embree_intersect(impl_->scene, query.context, without ? leave_out : nullptr, found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   Hit hit;
   hit.t = found.ray.tfar;
