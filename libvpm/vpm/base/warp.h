@@ -16,9 +16,13 @@ inline Vec3 uniform_sphere(const Vec2& u) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
+/// The angle of the point (x, y) in turns, in [-1/2, 1/2]. In double, as C libraries of different years round float's
+/// atan2, asin, log1p and expm1 differently.
+inline float turns_of(float y, float x) { return static_cast<float>(std::atan2(double{y}, double{x}) / (2.0 * kPiD)); }
+
 /// The `u` of which uniform_sphere() makes that direction (unit), in [0, 1]^2.
 inline Vec2 uniform_sphere_numbers(const Vec3& direction) {
-  const float turns = std::atan2(direction.y, direction.x) / (2.0f * kPi);
+  const float turns = turns_of(direction.y, direction.x);
   return {std::clamp(0.5f * (1.0f - direction.z), 0.0f, 1.0f), turns < 0.0f ? turns + 1.0f : turns};
 }
 

@@ -19,13 +19,13 @@ inline constexpr RTCSceneFlags kEmbreeFilters = RTC_SCENE_FLAG_FILTER_FUNCTION_I
 
 inline void init_context(EmbreeContext& context) { rtcInitRayQueryContext(&context); }
 
-/// The nearest hit of a ray. `filter`, where it is not null, may refuse hits of triangles.
+/// Looks along a ray. `filter` sees the hits of triangles, may refuse them, and says how far to look from then on.
 inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCFilterFunctionN filter, RTCRayHit& ray_hit) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &context;
   arguments.filter = filter;
-  if (filter) arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+  arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
   rtcIntersect1(scene, &ray_hit, &arguments);
 }
 

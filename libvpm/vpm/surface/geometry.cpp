@@ -7,6 +7,7 @@
 #include <deque>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <variant>
 
 #include "vpm/surface/check_shapes.h"
@@ -28,8 +29,10 @@ constexpr uint32_t bit(Layer layer) { return static_cast<uint32_t>(layer); }
 constexpr uint32_t kAllLayers = ~0u, kOpaque = bit(Layer::surface) | bit(Layer::dividing_surface);
 using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
 
-double first_meeting(const SphereShape& s, const Ray& ray, float t_min) { return intersect_sphere(s, ray, t_min); }
-double first_meeting(const DiscShape& d, const Ray& ray, float t_min) { return intersect_disc(d, ray, t_min); }
+/// How much further than a distance Embree is to look, so that its own rounding leaves nothing out: of the distance,
+/// and of the extent of the largest shape.
+constexpr float kBeyond = 0x1p-16f;
+
 Box bounds_of(const SphereShape& s) { return {s.centre - s.radius, s.centre + s.radius}; }
 Box bounds_of(const DiscShape& d) { return disc_bounds(d); }
 
@@ -43,20 +46,62 @@ void own_bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
 }
 
-/// What Embree hands to callbacks: the shapes that a query leaves out stand behind the context.
+/// A ray's search for the nearest hit. Embree brings what the ray may meet, and its own distances only say how far it
+/// looks: which hit is the nearest is decided here, so that it is the same on any processor. Of hits at one distance it
+/// is that of the shape added first.
 struct Query {
-  EmbreeContext context;
+  EmbreeContext context;  // the first member: callbacks get its address
+  const std::deque<ShapeData>& shapes;
+  const Ray& ray;
+  float t_max;  // m
+  float limit;  // m: how far Embree looks for it
   const Encounter& without;
+  Crossing nearest{};
+  unsigned shape = 0, triangle = 0;  // of the nearest
+  float others = kInfinity;          // m: no other shape is met before
 
-  bool leaves_out(unsigned shape) const {
+  bool leaves_out(unsigned candidate) const {
     return std::any_of(without.hits.begin(), without.hits.begin() + without.count,
-                       [&](const Hit& h) { return h.shape == shape; });
+                       [&](const Hit& h) { return h.shape == candidate; });
   }
+  /// Takes a crossing if it is nearer than all before.
+  bool take(const Crossing& met, unsigned of_shape, unsigned of_triangle) {
+    if (!(met.t >= kMinT && met.t < t_max)) return false;
+    const bool nearer = std::tie(met.t, of_shape, of_triangle) < std::tie(nearest.t, shape, triangle);
+    if (of_shape != shape) others = std::min(others, nearer ? nearest.t : met.t);
+    if (!nearer) return false;
+    nearest = met, shape = of_shape, triangle = of_triangle;
+    others = std::min(others, reach());
+    return true;
+  }
+  /// How far Embree is to look from then on, m: as far as others may coincide with the nearest.
+  float reach() const { return std::min(limit, nearest.t + nearest.rounding); }
 };
 
-void leave_out(const RTCFilterFunctionNArguments* args) {
+/// Embree's callback for a triangle that it found.
+void meet_triangle(const RTCFilterFunctionNArguments* args) {
   assert(args->N == 1);
-  if (reinterpret_cast<const Query*>(args->context)->leaves_out(RTCHitN_geomID(args->hit, 1, 0))) args->valid[0] = 0;
+  auto& query = *reinterpret_cast<Query*>(args->context);
+  const unsigned shape = RTCHitN_geomID(args->hit, 1, 0), triangle = RTCHitN_primID(args->hit, 1, 0);
+  if (!query.leaves_out(shape) &&
+      query.take(crossing(std::get<MeshShape>(query.shapes[shape]), triangle, query.ray), shape, triangle)) {
+    RTCRayN_tfar(args->ray, 1, 0) = query.reach();
+  } else {
+    args->valid[0] = 0;
+  }
+}
+
+template <class S>
+void own_intersect(const RTCIntersectFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (args->valid[0] == 0) return;
+  auto& query = *reinterpret_cast<Query*>(args->context);
+  if (query.leaves_out(args->geomID)) return;
+  if (!query.take(crossing(*static_cast<const S*>(args->geometryUserPtr), query.ray), args->geomID, 0)) return;
+  auto& found = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  found.ray.tfar = query.reach();
+  found.hit.geomID = args->geomID;
+  found.hit.primID = args->primID;
 }
 
 /// How far along the ray others may coincide with a hit, m: as far as leave_surface() takes the ray past it, and the
@@ -64,23 +109,6 @@ void leave_out(const RTCFilterFunctionNArguments* args) {
 float coincidence(const Hit& hit, const Vec3& direction) {
   const float skipped = glm::distance(leave_surface(hit, direction), hit.position);
   return skipped / std::max(1e-6f, std::abs(glm::dot(hit.normal, direction))) + 0x1p-20f * hit.t;
-}
-
-template <class S>
-void own_intersect(const RTCIntersectFunctionNArguments* args) {
-  assert(args->N == 1);
-  if (args->valid[0] == 0) return;
-  if (reinterpret_cast<const Query*>(args->context)->leaves_out(args->geomID)) return;
-  auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto& s = *static_cast<const S*>(args->geometryUserPtr);
-  RTCRay& r = ray_hit.ray;
-  const auto t = static_cast<float>(
-      first_meeting(s, Ray{Vec3(r.org_x, r.org_y, r.org_z), Vec3(r.dir_x, r.dir_y, r.dir_z)}, r.tnear));
-  if (!(t <= r.tfar) || std::isinf(t)) return;
-  r.tfar = t;
-  ray_hit.hit.geomID = args->geomID;
-  ray_hit.hit.primID = args->primID;
-  ray_hit.hit.instID[0] = args->context->instID[0];
 }
 
 /// A search for a shape near a point, as Embree hands it to is_within_reach().
@@ -117,7 +145,8 @@ struct Geometry::Impl {
   std::vector<double> areas;     // m^2
   std::vector<Box> bounds;
   std::vector<Layer> layers;
-  float largest_boundary = 0.0f;  // diagonal of its box, m
+  float largest = 0.0f;           // diagonal of the largest shape's box, m
+  float largest_boundary = 0.0f;  // the same of boundaries
   float largest_opaque = 0.0f;    // the same of what light does not pass
   bool committed = false;
   std::atomic<int64_t> bytes{0};
@@ -156,6 +185,7 @@ struct Geometry::Impl {
   uint32_t attach(RTCGeometry geometry, double area, const Box& box, Layer layer) {
     const auto number = static_cast<uint32_t>(areas.size());
     layers.push_back(layer);
+    largest = std::max(largest, box.diagonal());
     if (layer == Layer::boundary) largest_boundary = std::max(largest_boundary, box.diagonal());
     if ((bit(layer) & kOpaque) != 0) largest_opaque = std::max(largest_opaque, box.diagonal());
     rtcSetGeometryMask(geometry, static_cast<uint32_t>(layer));
@@ -228,11 +258,11 @@ void Geometry::commit() {
 }
 
 std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max) const {
-  return intersect(ray, t_max, kAllLayers, {});
+  return first(ray, t_max, kAllLayers, {}).hit;
 }
 
 std::optional<Hit> Geometry::intersect_surface(const Ray& ray, float t_max) const {
-  return intersect(ray, t_max, kAllLayers & ~bit(Layer::boundary), {});
+  return first(ray, t_max, kAllLayers & ~bit(Layer::boundary), {}).hit;
 }
 
 bool Geometry::is_near(const Vec3& point, float radius) const {
@@ -247,34 +277,36 @@ bool Geometry::is_near(const Vec3& point, float radius) const {
 
 Encounter Geometry::encounter(const Ray& ray, float t_max) const {
   Encounter found;
-  std::optional<Hit> hit = intersect(ray, t_max);
   // A large boundary may be found behind a small one by its own rounding: the search reaches further than the hits so
   // far do.
   const float margin = 0x1p-18f * impl_->largest_boundary;
-  for (float beyond = kInfinity; hit; hit = intersect(ray, std::min(t_max, beyond + margin), kAllLayers, found)) {
-    if (found.count > 0 && hit->t - coincidence(*hit, ray.direction) > beyond) break;
-    found.hits[found.count++] = *hit;
-    if (impl_->layers[hit->shape] != Layer::boundary) {
-      if (const std::optional<Hit> behind = in_contact(ray, t_max, *hit)) found.hits[found.count - 1] = *behind;
+  float beyond = kInfinity;
+  for (First next = first(ray, t_max, kAllLayers, {}); next.hit;
+       next = first(ray, std::min(t_max, beyond + margin), kAllLayers, found)) {
+    const Hit& hit = *next.hit;
+    const float around = coincidence(hit, ray.direction);
+    if (found.count > 0 && hit.t - around > beyond) break;
+    found.hits[found.count++] = hit;
+    if (impl_->layers[hit.shape] != Layer::boundary) {
+      if (const std::optional<Hit> behind = in_contact(ray, t_max, next)) found.hits[found.count - 1] = *behind;
       found.surface = true;
-      found.hits[found.count - 1].t = found.hits[0].t;  // rounding may have put it behind the boundaries
       std::swap(found.hits[0], found.hits[found.count - 1]);
       break;
     }
-    if (found.count == Encounter::kMost) break;
-    const float reach = hit->t + coincidence(*hit, ray.direction);
-    beyond = found.count == 1 ? reach : std::max(beyond, reach);
+    beyond = found.count == 1 ? hit.t + around : std::max(beyond, hit.t + around);
+    if (found.count == Encounter::kMost || next.others > beyond + margin) break;
   }
   return found;
 }
 
 /// The opaque surface that coincides with a dielectric; nothing where there is none, or where the hit is of another
 /// kind.
-std::optional<Hit> Geometry::in_contact(const Ray& ray, float t_max, const Hit& dielectric) const {
-  if ((bit(impl_->layers[dielectric.shape]) & kOpaque) != 0) return std::nullopt;
-  const float reach = dielectric.t + coincidence(dielectric, ray.direction);
+std::optional<Hit> Geometry::in_contact(const Ray& ray, float t_max, const First& dielectric) const {
+  if ((bit(impl_->layers[dielectric.hit->shape]) & kOpaque) != 0) return std::nullopt;
+  const float reach = dielectric.hit->t + coincidence(*dielectric.hit, ray.direction);
   const float margin = 0x1p-18f * impl_->largest_opaque;
-  const std::optional<Hit> hit = intersect(ray, std::min(t_max, reach + margin), kOpaque, {});
+  if (dielectric.others > reach + margin) return std::nullopt;
+  const std::optional<Hit> hit = first(ray, std::min(t_max, reach + margin), kOpaque, {}).hit;
   return hit && hit->t - coincidence(*hit, ray.direction) <= reach ? hit : std::nullopt;
 }
 
@@ -288,18 +320,21 @@ Encounter Geometry::faces(const Ray& ray) const { return faces(ray, kAllLayers);
 Encounter Geometry::faces(const Ray& ray, uint32_t layers) const {
   Encounter found;
   float beyond = kInfinity;
-  while (const std::optional<Hit> hit = intersect(ray, beyond, layers, found)) {
-    const float reach = hit->t + coincidence(*hit, ray.direction);
+  while (found.count < Encounter::kMost) {
+    const First next = first(ray, beyond, layers, found);
+    if (!next.hit) break;
+    const float reach = next.hit->t + coincidence(*next.hit, ray.direction);
     beyond = found ? std::max(beyond, reach) : reach;
-    found.hits[found.count++] = *hit;
-    if (found.count == Encounter::kMost) break;
+    found.hits[found.count++] = *next.hit;
+    if (next.others > beyond) break;
   }
   return found;
 }
 
-std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const {
+Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const {
   assert(impl_->committed);
   assert(is_finite(ray.origin) && is_finite(ray.direction));
+  if (!(t_max > kMinT)) return {};
   RTCRayHit found{};
   found.ray.org_x = ray.origin.x;
   found.ray.org_y = ray.origin.y;
@@ -308,23 +343,21 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, float t_max, uint32_t lay
   found.ray.dir_y = ray.direction.y;
   found.ray.dir_z = ray.direction.z;
   found.ray.tnear = kMinT;
-  found.ray.tfar = std::isinf(t_max) ? t_max : std::nextafter(t_max, 0.0f);
+  found.ray.tfar = t_max + kBeyond * (t_max + impl_->largest);
   found.ray.mask = layers;
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  if (!(found.ray.tfar >= kMinT)) return std::nullopt;
-  Query query{{}, without};
+  Query query{{}, impl_->shapes, ray, t_max, found.ray.tfar, without};
   init_context(query.context);
-  embree_intersect(impl_->scene, query.context, without ? leave_out : nullptr, found);
-  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  embree_intersect(impl_->scene, query.context, meet_triangle, found);
+  if (std::isinf(query.nearest.t)) return {};
   Hit hit;
-  hit.t = found.ray.tfar;
-  hit.shape = found.hit.geomID;
+  hit.t = query.nearest.t;
+  hit.shape = query.shape;
   const ShapeData& shape = impl_->shapes[hit.shape];
-  if (const auto* mesh = std::get_if<MeshShape>(&shape))
-    locate(*mesh, found.hit.primID, {found.hit.u, found.hit.v}, hit);
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) locate(*mesh, query.triangle, ray, hit);
   if (const auto* sphere = std::get_if<SphereShape>(&shape)) locate(*sphere, ray, hit);
   if (const auto* disc = std::get_if<DiscShape>(&shape)) locate(*disc, ray, hit);
-  return hit;
+  return {hit, query.others};
 }
 
 Box Geometry::bounds() const {

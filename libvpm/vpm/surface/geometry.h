@@ -117,8 +117,14 @@ class Geometry {
 
  private:
   struct Impl;
-  std::optional<Hit> intersect(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const;
-  std::optional<Hit> in_contact(const Ray& ray, float t_max, const Hit& dielectric) const;
+  /// What a ray meets first, and how far it meets no other shape (m). That distance is at most what was looked at: as
+  /// far as others may coincide with the hit, as a rule.
+  struct First {
+    std::optional<Hit> hit;
+    float others = 0.0f;
+  };
+  First first(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const;
+  std::optional<Hit> in_contact(const Ray& ray, float t_max, const First& dielectric) const;
   Encounter faces(const Ray& ray, uint32_t layers) const;
 
   std::unique_ptr<Impl> impl_;

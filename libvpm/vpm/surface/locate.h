@@ -1,4 +1,5 @@
-// The point where a ray met a shape, computed again more exactly than by the intersection that found it.
+// Where a ray meets a shape that Embree found. Embree's own distances and barycentric coordinates come from approximate
+// reciprocals, which differ from processor to processor: what becomes of a ray must not depend on them.
 #pragma once
 
 #include "vpm/surface/geometry.h"
@@ -17,18 +18,31 @@ struct MeshShape {
   std::vector<Vec2> uvs;
 };
 
-/// The value at the point of a triangle that has these barycentric coordinates, as Embree defines them.
+/// The value at the point of a triangle that has these barycentric coordinates: the weights of its second and third
+/// vertex.
 template <class T>
 T interpolated(const std::vector<T>& values, const glm::uvec3& v, const Vec2& barycentric) {
   return (1.0f - barycentric.x - barycentric.y) * values[v.x] + barycentric.x * values[v.y] +
          barycentric.y * values[v.z];
 }
 
-/// These fill in the members of a hit from `position` on. For a triangle they follow from Embree's barycentric
-/// coordinates: the point lies in its plane, wherever the ray came from. For a sphere and a disc they follow from the
-/// ray; for a sphere the point is projected onto it.
-void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit);
+/// Where a ray meets a shape.
+struct Crossing {
+  float t = kInfinity;    // m; infinite or NaN where the ray meets nothing ahead
+  float rounding = 0.0f;  // m: how far from t float's arithmetic may find it, or what coincides with it
+};
+
+/// In double. That a ray meets the triangle, and not its plane alone, is for Embree to say.
+Crossing crossing(const MeshShape& mesh, uint32_t triangle, const Ray& ray);
+Crossing crossing(const SphereShape& sphere, const Ray& ray);
+Crossing crossing(const DiscShape& disc, const Ray& ray);
+
+/// These fill in the members of a hit from `position` on. A triangle is met where Cramer's rule says [Moeller1997]; a
+/// ray that passes it by a rounding error meets its edge. For a sphere the point is projected onto it.
+void locate(const MeshShape& mesh, uint32_t triangle, const Ray& ray, Hit& hit);
 void locate(const SphereShape& sphere, const Ray& ray, Hit& hit);
 void locate(const DiscShape& disc, const Ray& ray, Hit& hit);
+/// The same of a given point of a triangle: it lies in the plane.
+void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit);
 
 }  // namespace vpm

@@ -22,7 +22,7 @@ Scatter sample(const Phong& m, const Vec3& normal, const Vec3& travel, float u_c
   Vec3 direction;
   if (u_choice < glossy_choice(m)) {
     // The cosine to the axis is u^(1 / (exponent + 1)).
-    const float away = -std::expm1(std::log1p(-u.x) / (m.exponent + 1.0f));
+    const auto away = static_cast<float>(-std::expm1(std::log1p(-double{u.x}) / (m.exponent + 1.0)));
     direction = direction_about(mirrored(in, travel), away, 2.0f * kPi * u.y);
   } else {
     direction = cosine_hemisphere(in.normal, u);
@@ -40,7 +40,8 @@ ScatterValue value(const Phong& m, const Vec3& normal, const Vec3& travel, const
   if (!(cosine > 0.0f)) return {};
   const Vec3 apart = direction - mirrored(in, travel);
   const float away = 0.5f * glm::dot(apart, apart);  // 1 - cosine to the axis, exact in narrow lobes
-  const float lobe = away < 1.0f ? std::exp(m.exponent * std::log1p(-away)) / (2.0f * kPi) : 0.0f;
+  const double power = away < 1.0f ? std::exp(m.exponent * std::log1p(-double{away})) : 0.0;
+  const auto lobe = static_cast<float>(power / (2.0 * kPiD));
   const float glossy = glossy_choice(m);
   return {(m.diffuse / kPi + m.glossy * ((m.exponent + 2.0f) * lobe)) * cosine,
           (1.0f - glossy) * cosine / kPi + glossy * (m.exponent + 1.0f) * lobe};

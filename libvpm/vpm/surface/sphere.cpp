@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "vpm/base/warp.h"
+
 namespace vpm {
 
 double intersect_sphere(const SphereShape& sphere, const Ray& ray, float t_min) {
@@ -36,8 +38,9 @@ Vec3d sphere_normal(const SphereShape& sphere, const Ray& ray, double t) {
 }
 
 Vec2 sphere_uv(const Vec3& normal) {
-  const float turn = std::atan2(normal.x, normal.z) / (2.0f * kPi);
-  return {turn < 0.0f ? turn + 1.0f : turn, 0.5f + std::asin(std::clamp(normal.y, -1.0f, 1.0f)) / kPi};
+  const float turn = turns_of(normal.x, normal.z);
+  const double rise = std::asin(std::clamp(double{normal.y}, -1.0, 1.0)) / kPiD;
+  return {turn < 0.0f ? turn + 1.0f : turn, static_cast<float>(0.5 + rise)};
 }
 
 }  // namespace vpm

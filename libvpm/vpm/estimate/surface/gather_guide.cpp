@@ -66,7 +66,7 @@ int GatherGuide::cell_of(const Vec3& direction) const {
   Vec3 s, t;
   make_frame(normals_[side], s, t);
   const Vec2 disc(glm::dot(direction, s), glm::dot(direction, t));  // as cosine_hemisphere() maps it
-  const float turns = std::atan2(disc.y, disc.x) / (2.0f * kPi);
+  const float turns = turns_of(disc.y, disc.x);
   const int ring = std::min(kRings - 1, static_cast<int>(glm::dot(disc, disc) * kRings));
   const int sector = std::min(kSectors - 1, static_cast<int>((turns - std::floor(turns)) * kSectors));
   return (side * kRings + ring) * kSectors + sector;
