@@ -21,9 +21,12 @@ struct Points {
 
 /// What a gather needs of a radius query: a sum, and no list.
 struct SumWithin {
+  using DistanceType = float;  // nanoflann asks for these since 1.5
+  using IndexType = uint32_t;
   float radius2;
   double sum = 0.0;
 
+  void sort() {}
   bool full() const { return true; }
   bool addPoint(float distance2, uint32_t) {
     sum += radius2 - distance2;

@@ -2,15 +2,36 @@
 #include "benchmarks/density_peers.h"
 
 #ifdef VPM_BENCH_NANOVDB
+#if __has_include(<nanovdb/tools/GridBuilder.h>)  // since OpenVDB 11.1
+#include <nanovdb/GridHandle.h>
+#include <nanovdb/math/HDDA.h>
+#include <nanovdb/math/Ray.h>
+#include <nanovdb/math/SampleFromVoxels.h>
+#include <nanovdb/tools/CreateNanoGrid.h>
+#include <nanovdb/tools/GridBuilder.h>
+namespace nanovdb_math = nanovdb::math;
+using NanoBuilder = nanovdb::tools::build::Grid<float>;
+#else
 #include <nanovdb/util/GridBuilder.h>
 #include <nanovdb/util/HDDA.h>
 #include <nanovdb/util/Ray.h>
 #include <nanovdb/util/SampleFromVoxels.h>
+namespace nanovdb_math = nanovdb;
+using NanoBuilder = nanovdb::GridBuilder<float>;
+#endif
 
 namespace vpm::bench {
 namespace {
 
 using NanoHandle = nanovdb::GridHandle<>;
+
+NanoHandle finished(NanoBuilder& builder) {
+#if __has_include(<nanovdb/tools/GridBuilder.h>)
+  return nanovdb::tools::createNanoGrid(builder);
+#else
+  return builder.getHandle();
+#endif
+}
 
 /// The largest density in the cells of lower corners lo..hi.
 float largest(const Vec3i& lo, const Vec3i& hi) {
@@ -24,14 +45,14 @@ float largest(const Vec3i& lo, const Vec3i& hi) {
 /// A voxel is active where the cell above it holds anything, so that there is a leaf wherever there is density. A
 /// leaf's own maximum does not bound what is interpolated towards the next one: it is replaced by one that does.
 NanoHandle make_nano_grid() {
-  nanovdb::GridBuilder<float> builder(0.0f);
+  NanoBuilder builder(0.0f);
   auto accessor = builder.getAccessor();
   const Vec3i count = cloud().count;
   for (int z = -1; z < count.z; ++z)
     for (int y = -1; y < count.y; ++y)
       for (int x = -1; x < count.x; ++x)
         if (largest({x, y, z}, {x, y, z}) > 0.0f) accessor.setValue({x, y, z}, cloud().value({x, y, z}));
-  NanoHandle handle = builder.getHandle();
+  NanoHandle handle = finished(builder);
   auto& tree = handle.grid<float>()->tree();
   auto* leaf = tree.getFirstLeaf();
   for (uint32_t i = 0; i < tree.nodeCount(0); ++i, ++leaf) {
@@ -51,11 +72,11 @@ const nanovdb::NanoGrid<float>& nano_grid() {
 template <class Accessor, class Sampler>
 double hdda_flight(const Ray& along, float length, float sigma_t, Accessor& accessor, Sampler& sampler, Rng& rng) {
   const Vec3 &o = along.origin, &d = along.direction;
-  nanovdb::Ray<float> ray({o.x, o.y, o.z}, {d.x, d.y, d.z}, 0.0f, length);
+  nanovdb_math::Ray<float> ray({o.x, o.y, o.z}, {d.x, d.y, d.z}, 0.0f, length);
   if (!ray.clip(accessor.root().bbox())) return length;
-  const auto voxel_at = [&](float t) { return nanovdb::RoundDown<nanovdb::Coord>(ray(t)); };
+  const auto voxel_at = [&](float t) { return nanovdb_math::RoundDown<nanovdb::Coord>(ray(t)); };
   double left = -std::log1p(-rng.uniform_double());
-  nanovdb::HDDA<nanovdb::Ray<float>> hdda(ray, accessor.getDim(voxel_at(ray.t0()), ray));
+  nanovdb_math::HDDA<nanovdb_math::Ray<float>> hdda(ray, accessor.getDim(voxel_at(ray.t0()), ray));
   do {
     const float end = hdda.next();
     const nanovdb::Coord middle = voxel_at(0.5f * (hdda.time() + end));
@@ -82,7 +103,7 @@ SumDensities nanovdb_sampler() {
   nano_grid();
   return [](std::span<const Vec3> points) {
     const auto accessor = nano_grid().getAccessor();
-    const nanovdb::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
+    const nanovdb_math::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
     double sum = 0.0;
     for (const Vec3& p : points) sum += sampler(nano_grid().worldToIndexF(nanovdb::Vec3f(p.x, p.y, p.z)));
     return sum;
@@ -93,7 +114,7 @@ SumCombs nanovdb_along_rays() {
   nano_grid();
   return [](std::span<const Comb> combs) {
     const auto accessor = nano_grid().getAccessor();
-    const nanovdb::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
+    const nanovdb_math::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
     double sum = 0.0;
     for (const auto& [ray, first, count] : combs) {
       const Vec3 &o = ray.origin, &d = ray.direction;
@@ -109,7 +130,7 @@ SumFlights nanovdb_flights() {
   nano_grid();
   return [](const CloudRays& rays, float sigma_t) {
     const auto accessor = nano_grid().getAccessor();
-    const nanovdb::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
+    const nanovdb_math::SampleFromVoxels<decltype(nano_grid().getAccessor()), 1, true> sampler(accessor);
     double sum = 0.0;
     for (size_t i = 0; i < rays.rays.size(); ++i) {
       Rng rng(1, rng_stream(RngUse::photon, 0), i);
