@@ -73,7 +73,7 @@ TEST_F(VpmRender, TheImageTellsWhereItIsFrom) {
     EXPECT_EQ(exr.planes.count(channel), 1u) << channel;
   EXPECT_EQ(exr.metadata.at("vpm.passes"), "2");
   EXPECT_EQ(exr.metadata.at("vpm.seed"), "1");
-  EXPECT_EQ(exr.metadata.at("vpm.sceneHash"), report("a.json")["scene_hash"]);
+  EXPECT_EQ(exr.metadata.at("vpm.sceneHash"), report("a.json")["scene_hash"].get<std::string>());
 }
 
 TEST_F(VpmRender, WritesTheLayersThatAreAskedFor) {

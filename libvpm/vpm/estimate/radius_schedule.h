@@ -6,10 +6,11 @@
 namespace vpm {
 
 /// The measure (length, area or volume) of the kernel in pass number `pass` (from 0) over that in the first:
-/// measure_{i+1} / measure_i = (i + A) / (i + 1), i = 1, 2, ... [Knaus2011, sec. 4; Jarosz2011b]. The product of the
-/// factors up to i = pass is Gamma(pass + 1 + A) / (Gamma(1 + A) Gamma(pass + 2)).
+/// measure_{i+1} / measure_i = (i + A) / (i + 1), i = 1, 2, ... [Knaus2011, sec. 4; Jarosz2011b].
 inline double measure_of_pass(double a, int pass) {
-  return std::exp(std::lgamma(pass + 1.0 + a) - std::lgamma(1.0 + a) - std::lgamma(pass + 2.0));
+  double measure = 1.0;
+  for (int i = 1; i <= pass; ++i) measure *= (i + a) / (i + 1.0);
+  return measure;
 }
 
 /// A for a kernel of that dimension d whose bias goes with the power `order` of the radius: variance and squared bias

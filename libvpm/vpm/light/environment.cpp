@@ -84,7 +84,8 @@ ImageEnvironment::ImageEnvironment(int width, int height, std::vector<Rgb> texel
     throw InputError("environment: the picture is all black, some pixel must emit light");
 }
 
-size_t ImageEnvironment::texel_at(const Vec3& d) const {
+size_t ImageEnvironment::texel_at(const Vec3& direction) const {
+  const Vec3d d(direction);
   const double azimuth = std::atan2(d.x, d.z);
   const double turn = (azimuth < 0.0 ? azimuth + 2.0 * kPiD : azimuth) / (2.0 * kPiD);
   const double fall = std::atan2(std::hypot(d.x, d.z), d.y) / kPiD;  // 0 up, 1 down; exact at the poles, unlike acos

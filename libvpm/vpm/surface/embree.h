@@ -2,6 +2,9 @@
 // CMake says it (VPM_EMBREE_MAJOR).
 #pragma once
 
+#ifndef VPM_EMBREE_MAJOR
+#error "the build says which Embree there is: VPM_EMBREE_MAJOR"
+#endif
 #if VPM_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else

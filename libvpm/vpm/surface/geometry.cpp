@@ -29,9 +29,9 @@ constexpr uint32_t bit(Layer layer) { return static_cast<uint32_t>(layer); }
 constexpr uint32_t kAllLayers = ~0u, kOpaque = bit(Layer::surface) | bit(Layer::dividing_surface);
 using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
 
-/// How much further than a distance Embree is to look, so that its own rounding leaves nothing out: of the distance,
-/// and of the extent of the largest shape.
-constexpr float kBeyond = 0x1p-16f;
+/// How much further than a distance Embree is to look, relative to it and to the scene's size, so that the rounding of
+/// its own distances leaves nothing out: 64 times the spacing of floats in [1, 2).
+constexpr float kBeyond = 0x1p-17f;
 
 Box bounds_of(const SphereShape& s) { return {s.centre - s.radius, s.centre + s.radius}; }
 Box bounds_of(const DiscShape& d) { return disc_bounds(d); }
@@ -49,59 +49,65 @@ void own_bounds(const RTCBoundsFunctionArguments* args) {
 /// A ray's search for the nearest hit. Embree brings what the ray may meet, and its own distances only say how far it
 /// looks: which hit is the nearest is decided here, so that it is the same on any processor. Of hits at one distance it
 /// is that of the shape added first.
-struct Query {
-  EmbreeContext context;  // the first member: callbacks get its address
-  const std::deque<ShapeData>& shapes;
+struct Query : EmbreeContext {
   const Ray& ray;
   float t_max;  // m
-  float limit;  // m: how far Embree looks for it
+  float size;   // m: of the scene and the ray's origin
   const Encounter& without;
+  float limit;  // m: how far Embree is to look, never more than before
   Crossing nearest{};
-  unsigned shape = 0, triangle = 0;  // of the nearest
-  float others = kInfinity;          // m: no other shape is met before
+  unsigned shape = RTC_INVALID_GEOMETRY_ID, triangle = 0;  // of the nearest
+  float others = kInfinity;                                // m: no other shape is met before
+
+  Query(const Ray& a_ray, float a_t_max, float scene_size, const Encounter& left_out)
+      : EmbreeContext{},
+        ray(a_ray),
+        t_max(a_t_max),
+        size(scene_size + std::abs(a_ray.origin.x) + std::abs(a_ray.origin.y) + std::abs(a_ray.origin.z)),
+        without(left_out),
+        limit(t_max + kBeyond * (t_max + size)) {
+    init_context(*this);
+  }
 
   bool leaves_out(unsigned candidate) const {
-    return std::any_of(without.hits.begin(), without.hits.begin() + without.count,
-                       [&](const Hit& h) { return h.shape == candidate; });
+    for (int i = 0; i < without.count; ++i)
+      if (without.hits[i].shape == candidate) return true;
+    return false;
   }
   /// Takes a crossing if it is nearer than all before.
   bool take(const Crossing& met, unsigned of_shape, unsigned of_triangle) {
-    if (!(met.t >= kMinT && met.t < t_max)) return false;
-    const bool nearer = std::tie(met.t, of_shape, of_triangle) < std::tie(nearest.t, shape, triangle);
+    if (!(met.t >= kMinT)) return false;
+    const bool nearer = met.t < t_max && std::tie(met.t, of_shape, of_triangle) < std::tie(nearest.t, shape, triangle);
     if (of_shape != shape) others = std::min(others, nearer ? nearest.t : met.t);
     if (!nearer) return false;
     nearest = met, shape = of_shape, triangle = of_triangle;
-    others = std::min(others, reach());
+    // As far as what coincides with it may seem to be.
+    limit = std::min(limit, met.t + kBeyond * (met.t + size) * met.inverse_cosine);
     return true;
   }
-  /// How far Embree is to look from then on, m: as far as others may coincide with the nearest.
-  float reach() const { return std::min(limit, nearest.t + nearest.rounding); }
 };
 
-/// Embree's callback for a triangle that it found.
+/// Embree's callback for a triangle that it found. Its distance becomes the limit, which is no further than Embree was
+/// looking already.
 void meet_triangle(const RTCFilterFunctionNArguments* args) {
   assert(args->N == 1);
-  auto& query = *reinterpret_cast<Query*>(args->context);
+  auto& query = *static_cast<Query*>(args->context);
   const unsigned shape = RTCHitN_geomID(args->hit, 1, 0), triangle = RTCHitN_primID(args->hit, 1, 0);
-  if (!query.leaves_out(shape) &&
-      query.take(crossing(std::get<MeshShape>(query.shapes[shape]), triangle, query.ray), shape, triangle)) {
-    RTCRayN_tfar(args->ray, 1, 0) = query.reach();
-  } else {
+  const auto& mesh = *static_cast<const MeshShape*>(args->geometryUserPtr);
+  if (!query.leaves_out(shape) && query.take(crossing(mesh, triangle, query.ray), shape, triangle))
+    RTCRayN_tfar(args->ray, 1, 0) = query.limit;
+  else
     args->valid[0] = 0;
-  }
 }
 
 template <class S>
 void own_intersect(const RTCIntersectFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
-  auto& query = *reinterpret_cast<Query*>(args->context);
+  auto& query = *static_cast<Query*>(args->context);
   if (query.leaves_out(args->geomID)) return;
-  if (!query.take(crossing(*static_cast<const S*>(args->geometryUserPtr), query.ray), args->geomID, 0)) return;
-  auto& found = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  found.ray.tfar = query.reach();
-  found.hit.geomID = args->geomID;
-  found.hit.primID = args->primID;
+  if (query.take(crossing(*static_cast<const S*>(args->geometryUserPtr), query.ray), args->geomID, 0))
+    reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = query.limit;
 }
 
 /// How far along the ray others may coincide with a hit, m: as far as leave_surface() takes the ray past it, and the
@@ -145,9 +151,7 @@ struct Geometry::Impl {
   std::vector<double> areas;     // m^2
   std::vector<Box> bounds;
   std::vector<Layer> layers;
-  float largest = 0.0f;           // diagonal of the largest shape's box, m
-  float largest_boundary = 0.0f;  // the same of boundaries
-  float largest_opaque = 0.0f;    // the same of what light does not pass
+  float size = 0.0f;  // m: of the box around all shapes, and its distance from the origin
   bool committed = false;
   std::atomic<int64_t> bytes{0};
   std::string error;
@@ -180,14 +184,15 @@ struct Geometry::Impl {
     if (!error.empty()) throw std::runtime_error(error);
   }
 
+  /// How far beyond a hit one that coincides with it is looked for, m.
+  float margin() const { return 0x1p-18f * size; }
+
   template <class S>
   uint32_t add_own(const S& shape, double area, Layer layer);
   uint32_t attach(RTCGeometry geometry, double area, const Box& box, Layer layer) {
     const auto number = static_cast<uint32_t>(areas.size());
     layers.push_back(layer);
-    largest = std::max(largest, box.diagonal());
-    if (layer == Layer::boundary) largest_boundary = std::max(largest_boundary, box.diagonal());
-    if ((bit(layer) & kOpaque) != 0) largest_opaque = std::max(largest_opaque, box.diagonal());
+    size = std::max(size, glm::length(box.lo) + glm::length(box.hi));
     rtcSetGeometryMask(geometry, static_cast<uint32_t>(layer));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, number);
@@ -217,14 +222,17 @@ uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
   std::copy(proper.begin(), proper.end(), triangles);
   double area = 0.0;
   Box box;
+  MeshShape shape{positions, triangles, {}, mesh.normals, mesh.uvs};
+  shape.planes.reserve(proper.size());
   for (const glm::uvec3& v : proper) {
-    area += 0.5 * glm::length(area_vector(positions[v.x], positions[v.y], positions[v.z]));
+    area += 0.5 * shape.planes.emplace_back(positions[v.x], positions[v.y], positions[v.z]).twice_area;
     for (int corner = 0; corner < 3; ++corner) box.add(positions[v[corner]]);
   }
-  MeshShape shape{positions, triangles, proper.size(), mesh.normals, mesh.uvs};
   for (Vec3& normal : shape.normals) normal = Vec3(glm::normalize(Vec3d(normal)));
-  impl_->bytes += static_cast<int64_t>(shape.normals.size() * sizeof(Vec3) + shape.uvs.size() * sizeof(Vec2));
+  impl_->bytes += static_cast<int64_t>(shape.planes.size() * sizeof(TrianglePlane) +
+                                       shape.normals.size() * sizeof(Vec3) + shape.uvs.size() * sizeof(Vec2));
   impl_->shapes.emplace_back(std::move(shape));
+  rtcSetGeometryUserData(geometry, &std::get<MeshShape>(impl_->shapes.back()));
   return impl_->attach(geometry, area, box, layer);
 }
 
@@ -277,15 +285,13 @@ bool Geometry::is_near(const Vec3& point, float radius) const {
 
 Encounter Geometry::encounter(const Ray& ray, float t_max) const {
   Encounter found;
-  // A large boundary may be found behind a small one by its own rounding: the search reaches further than the hits so
-  // far do.
-  const float margin = 0x1p-18f * impl_->largest_boundary;
+  // Another shape may be found behind by its own rounding: the search reaches further than the hits so far do.
+  const float margin = impl_->margin();
   float beyond = kInfinity;
   for (First next = first(ray, t_max, kAllLayers, {}); next.hit;
        next = first(ray, std::min(t_max, beyond + margin), kAllLayers, found)) {
     const Hit& hit = *next.hit;
-    const float around = coincidence(hit, ray.direction);
-    if (found.count > 0 && hit.t - around > beyond) break;
+    if (found.count > 0 && hit.t - coincidence(hit, ray.direction) > beyond) break;
     found.hits[found.count++] = hit;
     if (impl_->layers[hit.shape] != Layer::boundary) {
       if (const std::optional<Hit> behind = in_contact(ray, t_max, next)) found.hits[found.count - 1] = *behind;
@@ -293,7 +299,8 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
       std::swap(found.hits[0], found.hits[found.count - 1]);
       break;
     }
-    beyond = found.count == 1 ? hit.t + around : std::max(beyond, hit.t + around);
+    const float reach = hit.t + coincidence(hit, ray.direction);
+    beyond = found.count == 1 ? reach : std::max(beyond, reach);
     if (found.count == Encounter::kMost || next.others > beyond + margin) break;
   }
   return found;
@@ -304,7 +311,7 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
 std::optional<Hit> Geometry::in_contact(const Ray& ray, float t_max, const First& dielectric) const {
   if ((bit(impl_->layers[dielectric.hit->shape]) & kOpaque) != 0) return std::nullopt;
   const float reach = dielectric.hit->t + coincidence(*dielectric.hit, ray.direction);
-  const float margin = 0x1p-18f * impl_->largest_opaque;
+  const float margin = impl_->margin();
   if (dielectric.others > reach + margin) return std::nullopt;
   const std::optional<Hit> hit = first(ray, std::min(t_max, reach + margin), kOpaque, {}).hit;
   return hit && hit->t - coincidence(*hit, ray.direction) <= reach ? hit : std::nullopt;
@@ -343,12 +350,11 @@ Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, co
   found.ray.dir_y = ray.direction.y;
   found.ray.dir_z = ray.direction.z;
   found.ray.tnear = kMinT;
-  found.ray.tfar = t_max + kBeyond * (t_max + impl_->largest);
   found.ray.mask = layers;
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  Query query{{}, impl_->shapes, ray, t_max, found.ray.tfar, without};
-  init_context(query.context);
-  embree_intersect(impl_->scene, query.context, meet_triangle, found);
+  Query query(ray, t_max, impl_->size, without);
+  found.ray.tfar = query.limit;
+  embree_intersect(impl_->scene, query, meet_triangle, found);
   if (std::isinf(query.nearest.t)) return {};
   Hit hit;
   hit.t = query.nearest.t;
@@ -357,7 +363,7 @@ Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, co
   if (const auto* mesh = std::get_if<MeshShape>(&shape)) locate(*mesh, query.triangle, ray, hit);
   if (const auto* sphere = std::get_if<SphereShape>(&shape)) locate(*sphere, ray, hit);
   if (const auto* disc = std::get_if<DiscShape>(&shape)) locate(*disc, ray, hit);
-  return {hit, query.others};
+  return {hit, std::min(query.others, query.limit)};
 }
 
 Box Geometry::bounds() const {
@@ -386,7 +392,7 @@ std::optional<SphereShape> Geometry::sphere(uint32_t shape) const {
 
 size_t Geometry::triangle_count(uint32_t shape) const {
   const auto* mesh = std::get_if<MeshShape>(&impl_->shapes[shape]);
-  return mesh ? mesh->count : 0;
+  return mesh ? mesh->planes.size() : 0;
 }
 
 Hit Geometry::point_of_triangle(uint32_t shape, uint32_t triangle, const Vec2& barycentric) const {

@@ -50,7 +50,7 @@ struct Hit {
 enum class Layer : uint32_t { surface = 1, dividing_surface = 2, boundary = 4, pane = 8, interface = 16 };
 
 /// The hits of a ray at one place; none if the ray meets nothing. Boundaries are in the order of distance. A surface
-/// that coincides with them comes first.
+/// that coincides with them comes first, though rounding may put it behind them.
 struct Encounter {
   static constexpr int kMost = 4;
   std::array<Hit, kMost> hits;
@@ -112,16 +112,15 @@ class Geometry {
   Hit point_of_triangle(uint32_t shape, uint32_t triangle, const Vec2& barycentric) const;
   /// The area of a shape, m^2.
   double area(uint32_t shape) const;
-  /// The memory that Embree holds, its copy of the shapes included, and that of normals and uvs.
+  /// The memory that Embree holds, its copy of the shapes included, and that of planes, normals and uvs.
   size_t memory_bytes() const;
 
  private:
   struct Impl;
-  /// What a ray meets first, and how far it meets no other shape (m). That distance is at most what was looked at: as
-  /// far as others may coincide with the hit, as a rule.
+  /// What a ray meets first. It meets no other shape nearer than `others`, as far as was looked.
   struct First {
     std::optional<Hit> hit;
-    float others = 0.0f;
+    float others = 0.0f;  // m
   };
   First first(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const;
   std::optional<Hit> in_contact(const Ray& ray, float t_max, const First& dielectric) const;

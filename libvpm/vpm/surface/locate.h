@@ -9,11 +9,20 @@ namespace vpm {
 /// Every hit has t > kMinT, m. It is the smallest normal float, so that t > 0 in every rounding mode.
 inline constexpr float kMinT = std::numeric_limits<float>::min();
 
+/// What a triangle's corners say of its plane, once for all rays.
+struct TrianglePlane {
+  Vec3d normal;       // unit, outward
+  double offset;      // m: dot(normal, p) of its points p
+  double twice_area;  // m^2
+
+  TrianglePlane(const Vec3& a, const Vec3& b, const Vec3& c);
+};
+
 /// A mesh: positions and triangles in Embree's own buffers, and the data that Embree does not need.
 struct MeshShape {
   const Vec3* positions = nullptr;
   const glm::uvec3* triangles = nullptr;
-  size_t count = 0;  // of triangles
+  std::vector<TrianglePlane> planes;  // of the triangles
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
 };
@@ -26,10 +35,10 @@ T interpolated(const std::vector<T>& values, const glm::uvec3& v, const Vec2& ba
          barycentric.y * values[v.z];
 }
 
-/// Where a ray meets a shape.
+/// Where a ray crosses a shape.
 struct Crossing {
-  float t = kInfinity;    // m; infinite or NaN where the ray meets nothing ahead
-  float rounding = 0.0f;  // m: how far from t float's arithmetic may find it, or what coincides with it
+  float t = kInfinity;          // m; infinite or NaN where the ray meets nothing ahead
+  float inverse_cosine = 1.0f;  // 1/|cos| of the angle to the normal; 1 for spheres, whose t is exact
 };
 
 /// In double. That a ray meets the triangle, and not its plane alone, is for Embree to say.
@@ -37,8 +46,9 @@ Crossing crossing(const MeshShape& mesh, uint32_t triangle, const Ray& ray);
 Crossing crossing(const SphereShape& sphere, const Ray& ray);
 Crossing crossing(const DiscShape& disc, const Ray& ray);
 
-/// These fill in the members of a hit from `position` on. A triangle is met where Cramer's rule says [Moeller1997]; a
-/// ray that passes it by a rounding error meets its edge. For a sphere the point is projected onto it.
+/// These fill in the members of a hit from `position` on. A triangle is met where Cramer's rule says [Moeller1997],
+/// which may be a rounding error beside it; its barycentric coordinates are those of the edge then. For a sphere the
+/// point is projected onto it.
 void locate(const MeshShape& mesh, uint32_t triangle, const Ray& ray, Hit& hit);
 void locate(const SphereShape& sphere, const Ray& ray, Hit& hit);
 void locate(const DiscShape& disc, const Ray& ray, Hit& hit);
