@@ -10,4 +10,6 @@ install(EXPORT vpmTargets NAMESPACE vpm:: DESTINATION ${package_folder})
 
 set(version_file ${PROJECT_BINARY_DIR}/vpmConfigVersion.cmake)
 write_basic_package_version_file(${version_file} COMPATIBILITY SameMinorVersion)
-install(FILES ${version_file} cmake/vpmConfig.cmake cmake/vpmDependencies.cmake DESTINATION ${package_folder})
+set(config_file ${PROJECT_BINARY_DIR}/vpmConfig.cmake)
+configure_file(cmake/vpmConfig.cmake.in ${config_file} @ONLY)
+install(FILES ${version_file} ${config_file} cmake/vpmDependencies.cmake DESTINATION ${package_folder})

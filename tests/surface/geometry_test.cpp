@@ -6,6 +6,7 @@
 
 #include "surface/random_shapes.h"
 #include "vpm/base/error.h"
+#include "vpm/surface/mesh.h"
 
 namespace vpm {
 namespace {
@@ -227,10 +228,33 @@ TEST(Geometry, FindsPointsOfTrianglesAsRaysDo) {
     if (!met) continue;  // edge on
     const Hit found = geometry.point_of_triangle(1, met->triangle, met->barycentric);
     EXPECT_EQ(found.shape, met->shape);
-    EXPECT_EQ(found.position, met->position);
+    EXPECT_LT(glm::distance(found.position, met->position), 4e-7f);  // barycentric coordinates are rounded
     EXPECT_EQ(found.normal, met->normal);
     EXPECT_EQ(found.shading_normal, met->shading_normal);
-    EXPECT_EQ(found.slack, met->slack);
+    EXPECT_NEAR(found.slack, met->slack, 1e-5f * met->slack);
+  }
+}
+
+// Three faces of very different sizes in one plane, as a tile in a floor in a plain: a ray meets all of them, and
+// whichever is nearest by rounding hides none.
+TEST(Geometry, FindsAllFacesThatCoincide) {
+  Rng rng(12, rng_stream(RngUse::test, 54), 0);
+  for (int k = 0; k < 100; ++k) {
+    Vec3 s, t;
+    const Vec3 normal = uniform_sphere(rng.uniform2());
+    make_frame(normal, s, t);
+    Geometry geometry;
+    for (const double size : {1.0, 40.0, 1000.0})
+      geometry.add(quad_mesh(-size * Vec3d(s) - 1.5 * size * Vec3d(t), 3.0 * size * Vec3d(s), 3.0 * size * Vec3d(t)),
+                   Layer::boundary);
+    geometry.commit();
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 aim = 0.9f * (rng.uniform() * s + rng.uniform() * t);
+      const Vec3 from = aim + 3.0f * (rng.uniform() + 0.1f) * normal + in_cube(rng).x * s;
+      const Encounter met = geometry.faces({from, glm::normalize(aim - from)});
+      ASSERT_EQ(met.count, 3) << "plane " << k << ", ray " << i;
+      for (int j = 1; j < 3; ++j) ASSERT_LE(met.hits[j - 1].t, met.hits[j].t);
+    }
   }
 }
 

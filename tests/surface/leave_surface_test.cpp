@@ -157,5 +157,27 @@ TEST(LeaveSurface, MovesByUnitsInTheLastPlaceOnly) {
   EXPECT_LT(leave_surface(*ball, {0, 1, 0}).y, 6.00001f);
 }
 
+// Rays from within boxes between media, aimed at their corners and edges, where a hit may be just beside each face.
+TEST(LeaveSurface, PassesCornersOfBoxesInAFewSteps) {
+  Rng rng(11, rng_stream(RngUse::test, 53), 0);
+  for (int k = 0; k < 40; ++k) {
+    const Vec3d half = 0.05 + 0.5 * (1.0 + Vec3d(in_cube(rng))), centre(in_cube(rng));
+    Geometry geometry;
+    geometry.add(box_mesh(centre - half, centre + half), Layer::boundary);
+    geometry.commit();
+    for (int i = 0; i < 1000; ++i) {
+      Vec3d aim(glm::sign(in_cube(rng)));
+      if (i % 2 == 1) aim.z = 2.0 * rng.uniform_double() - 1.0;
+      const Vec3 origin(centre + 0.99 * half * Vec3d(in_cube(rng)));
+      Ray ray{origin, glm::normalize(Vec3(centre + half * aim) - origin)};
+      int steps = 0;
+      while (const Encounter met = geometry.encounter(ray)) {
+        ASSERT_LT(++steps, 20) << "box " << k << ", ray " << i;
+        ray.origin = leave_surfaces(met, ray.direction);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vpm

@@ -108,7 +108,7 @@ class Geometry {
   std::optional<SphereShape> sphere(uint32_t shape) const;
   /// How many triangles a shape has, counted as in Hit::triangle; 0 where it is no mesh.
   size_t triangle_count(uint32_t shape) const;
-  /// The point of a mesh with these barycentric coordinates, as a ray finds it; `t` is 0.
+  /// The point of a mesh with these barycentric coordinates, as a ray finds it up to rounding; `t` is 0.
   Hit point_of_triangle(uint32_t shape, uint32_t triangle, const Vec2& barycentric) const;
   /// The area of a shape, m^2.
   double area(uint32_t shape) const;

@@ -20,19 +20,19 @@ Vec3 shading_normal(const MeshShape& mesh, const glm::uvec3& v, const Hit& hit) 
   return glm::dot(normal, hit.normal) < 0.0f ? -normal : normal;
 }
 
-/// The point of a triangle's plane with these barycentric coordinates, and all but the shading normal of its hit.
-void locate_in(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit) {
+/// All that follows from the point of a triangle, and its barycentric coordinates.
+void fill_in(const MeshShape& mesh, uint32_t triangle, const Vec3d& position, const Vec2& barycentric, Hit& hit) {
   const glm::uvec3& v = mesh.triangles[triangle];
   const Vec3 &a = mesh.positions[v.x], &b = mesh.positions[v.y], &c = mesh.positions[v.z];
-  const double u = barycentric.x, w = barycentric.y;
-  hit.position = Vec3((1.0 - u - w) * Vec3d(a) + u * Vec3d(b) + w * Vec3d(c));
   const TrianglePlane& plane = mesh.planes[triangle];
+  hit.position = Vec3(position);
   hit.normal = Vec3(plane.normal);
   const Vec3& p = hit.position;
   const Vec3 reach = glm::max(glm::max(glm::abs(a - p), glm::abs(b - p)), glm::abs(c - p));
   hit.slack = flat_slack(hit.normal, reach, plane.twice_area);
   hit.triangle = triangle;
   hit.barycentric = barycentric;
+  hit.shading_normal = shading_normal(mesh, v, hit);
 }
 
 }  // namespace
@@ -63,20 +63,22 @@ void locate(const MeshShape& mesh, uint32_t triangle, const Ray& ray, Hit& hit) 
   const glm::uvec3& v = mesh.triangles[triangle];
   const TrianglePlane& plane = mesh.planes[triangle];
   const Vec3d a(mesh.positions[v.x]), ab = Vec3d(mesh.positions[v.y]) - a, ac = Vec3d(mesh.positions[v.z]) - a;
-  const Vec3d d(ray.direction), across = glm::cross(Vec3d(ray.origin) - a, d);
-  const double scale = 1.0 / (plane.twice_area * glm::dot(plane.normal, d));
-  const Vec2 barycentric(-scale * glm::dot(ac, across), scale * glm::dot(ab, across));
-  locate_in(mesh, triangle, barycentric, hit);
-  // What is interpolated stays within the triangle, and the point on the ray: put back on the edge, it could leave a
-  // neighbouring face again and again.
-  hit.barycentric.x = std::clamp(barycentric.x, 0.0f, 1.0f);
-  hit.barycentric.y = std::clamp(barycentric.y, 0.0f, 1.0f - hit.barycentric.x);
-  hit.shading_normal = shading_normal(mesh, mesh.triangles[triangle], hit);
+  const Vec3d d(ray.direction), from_a = Vec3d(ray.origin) - a, across = glm::cross(from_a, d);
+  const double inverse = 1.0 / glm::dot(plane.normal, d), scale = inverse / plane.twice_area;
+  const double u = std::clamp(-scale * glm::dot(ac, across), 0.0, 1.0);
+  const double w = std::clamp(scale * glm::dot(ab, across), 0.0, 1.0 - u);
+  // The point is that of the ray, put onto the plane once more, and not that of the coordinates: on the edge, or
+  // rounded as they are, it could lie before a neighbouring face, and a ray would leave both in turn for ever.
+  const double t = (plane.offset - glm::dot(plane.normal, Vec3d(ray.origin))) * inverse;
+  const Vec3d met = Vec3d(ray.origin) + t * d;
+  fill_in(mesh, triangle, met + (plane.offset - glm::dot(plane.normal, met)) * plane.normal, Vec2(u, w), hit);
 }
 
 void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit) {
-  locate_in(mesh, triangle, barycentric, hit);
-  hit.shading_normal = shading_normal(mesh, mesh.triangles[triangle], hit);
+  const glm::uvec3& v = mesh.triangles[triangle];
+  const double u = barycentric.x, w = barycentric.y;
+  const Vec3d a(mesh.positions[v.x]), b(mesh.positions[v.y]), c(mesh.positions[v.z]);
+  fill_in(mesh, triangle, (1.0 - u - w) * a + u * b + w * c, barycentric, hit);
 }
 
 void locate(const SphereShape& sphere, const Ray& ray, Hit& hit) {
