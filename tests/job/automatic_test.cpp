@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "job/pilot_scenes.h"
 #include "vpm/base/count.h"
 #include "vpm/base/parallel.h"
@@ -161,8 +163,10 @@ TEST(Automatic, TimesNoPhotonsWhereThereIsNoMap) {
   EXPECT_GT(cost.eye, 0.0);
 }
 
-/// Where other work comes and goes, a pass takes now longer, now shorter than the pilot's: one try of three is to do.
+/// A measurement of time, which depends on the machine and on what else it does: run where it is asked for. Where other
+/// work comes and goes, a pass takes now longer, now shorter than the pilot's: one try of three is to do.
 TEST(SlowAutomatic, BeamsLeaveTimeForPasses) {
+  if (!std::getenv("VPM_MEASURE_TIME")) GTEST_SKIP() << "VPM_MEASURE_TIME=1 runs this measurement of time";
   constexpr double kSeconds = 4.0;
   bool fits = false;
   for (int attempt = 0; attempt < 3 && !fits; ++attempt) {
