@@ -43,6 +43,12 @@ class ViewerPort {
   }
 
   void listen(int waiting = 4) const { EXPECT_EQ(::listen(socket_, waiting), 0); }
+  /// The same with little room for what no one reads: the system takes but a part of the first picture.
+  void listen_with_little_room() const {
+    const int bytes = 4096;
+    EXPECT_EQ(setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof(bytes)), 0);
+    listen();
+  }
   /// The next connection; there must be one within 20 s.
   int accept() const {
     pollfd waiting{socket_, POLLIN, 0};

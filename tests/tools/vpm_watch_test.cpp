@@ -143,7 +143,7 @@ TEST_F(VpmWatch, AViewerThatLeavesIsSaidOnceAndChangesNothing) {
 TEST_F(SlowVpmWatch, AViewerThatDoesNotReadHoldsUpTheRenderForTwoSecondsAtMost) {
   write_quick_scene(300, 200);
   const ViewerPort port;
-  port.listen();
+  port.listen_with_little_room();
   renders_the_same(30, port, {"note: the viewer shows no more than ", "timed out"});
   const Json times = report("watched.json")["times"];
   const double between_passes = times["total"].get<double>() - times["eye_pass"].get<double>();
