@@ -7,6 +7,9 @@ include(${CMAKE_CURRENT_LIST_DIR}/vpmDependencies.cmake)
 unset(CMAKE_FIND_PACKAGE_NAME)
 unset(vpm_FIND_REQUIRED)
 
+if(POLICY CMP0167)
+  cmake_policy(SET CMP0167 NEW)  # by its own package, as in vpmDependencies.cmake
+endif()
 find_package(Boost 1.74 REQUIRED)  # only headers, those of Boost.Math
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)  # only its headers
 find_package(tomlplusplus CONFIG REQUIRED)  # only its headers: input/toml_reader.cpp says why

@@ -33,5 +33,8 @@ find_dependency(fmt 9 CONFIG)
 # OpenVDB ships a find module only, in a folder that also shadows the good FindTBB: it is on the path for this one call,
 # and after TBB, whose targets it would otherwise make by halves.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
+# It looks for Boost, by Boost's own package: CMake's module for it is going, and warns of that since 3.30.
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
 vpm_find_silently(OpenVDB 10 MODULE COMPONENTS openvdb)
+unset(CMAKE_POLICY_DEFAULT_CMP0167)
 list(POP_BACK CMAKE_MODULE_PATH)
