@@ -37,7 +37,7 @@ T interpolated(const std::vector<T>& values, const glm::uvec3& v, const Vec2& ba
 
 /// Where a ray crosses a shape.
 struct Crossing {
-  float t = kInfinity;          // m; infinite or NaN where the ray meets nothing ahead
+  float t = kInfinity;          // m; negative behind the origin, infinite or NaN where nothing is met
   float inverse_cosine = 1.0f;  // 1/|cos| of the angle to the normal; 1 for spheres, whose t is exact
 };
 
