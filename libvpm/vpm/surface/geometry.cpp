@@ -5,17 +5,17 @@
 #include <atomic>
 #include <cassert>
 #include <deque>
+#include <span>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <variant>
 
 #include "vpm/surface/check_shapes.h"
 #include "vpm/surface/disc.h"
 #include "vpm/surface/distance.h"
-#include "vpm/surface/embree.h"
 #include "vpm/surface/locate.h"
 #include "vpm/surface/mesh.h"
+#include "vpm/surface/query.h"
 #include "vpm/surface/sphere.h"
 
 namespace vpm {
@@ -29,10 +29,6 @@ constexpr uint32_t bit(Layer layer) { return static_cast<uint32_t>(layer); }
 constexpr uint32_t kAllLayers = ~0u, kOpaque = bit(Layer::surface) | bit(Layer::dividing_surface);
 using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
 
-/// How much further than a distance Embree is to look, relative to it and to the scene's size, so that the rounding of
-/// its own distances leaves nothing out: 64 times the spacing of floats in [1, 2).
-constexpr float kBeyond = 0x1p-17f;
-
 Box bounds_of(const SphereShape& s) { return {s.centre - s.radius, s.centre + s.radius}; }
 Box bounds_of(const DiscShape& d) { return disc_bounds(d); }
 
@@ -45,47 +41,6 @@ void own_bounds(const RTCBoundsFunctionArguments* args) {
   const Vec3 lo = box.lo - margin, hi = box.hi + margin;
   *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
 }
-
-/// A ray's search for the nearest hit. Embree brings what the ray may meet, and its own distances only say how far it
-/// looks: which hit is the nearest is decided here, so that it is the same on any processor. Of hits at one distance it
-/// is that of the shape added first.
-struct Query : EmbreeContext {
-  const Ray& ray;
-  float t_max;  // m
-  float size;   // m: of the scene and the ray's origin
-  const Encounter& without;
-  float limit;  // m: how far Embree is to look, never more than before
-  Crossing nearest{};
-  unsigned shape = RTC_INVALID_GEOMETRY_ID, triangle = 0;  // of the nearest
-  float others = kInfinity;                                // m: no other shape is met before
-
-  Query(const Ray& a_ray, float a_t_max, float scene_size, const Encounter& left_out)
-      : EmbreeContext{},
-        ray(a_ray),
-        t_max(a_t_max),
-        size(scene_size + std::abs(a_ray.origin.x) + std::abs(a_ray.origin.y) + std::abs(a_ray.origin.z)),
-        without(left_out),
-        limit(t_max + kBeyond * (t_max + size)) {
-    init_context(*this);
-  }
-
-  bool leaves_out(unsigned candidate) const {
-    for (int i = 0; i < without.count; ++i)
-      if (without.hits[i].shape == candidate) return true;
-    return false;
-  }
-  /// Takes a crossing if it is nearer than all before.
-  bool take(const Crossing& met, unsigned of_shape, unsigned of_triangle) {
-    if (!(met.t >= kMinT)) return false;
-    const bool nearer = met.t < t_max && std::tie(met.t, of_shape, of_triangle) < std::tie(nearest.t, shape, triangle);
-    if (of_shape != shape) others = std::min(others, nearer ? nearest.t : met.t);
-    if (!nearer) return false;
-    nearest = met, shape = of_shape, triangle = of_triangle;
-    // As far as what coincides with it may seem to be.
-    limit = std::min(limit, met.t + kBeyond * (met.t + size) * met.inverse_cosine);
-    return true;
-  }
-};
 
 /// Embree's callback for a triangle that it found. Its distance becomes the limit, which is no further than Embree was
 /// looking already.
@@ -109,6 +64,8 @@ void own_intersect(const RTCIntersectFunctionNArguments* args) {
   if (query.take(crossing(*static_cast<const S*>(args->geometryUserPtr), query.ray), args->geomID, 0))
     reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = query.limit;
 }
+
+std::span<const Hit> hits_of(const Encounter& met) { return {met.hits.data(), static_cast<size_t>(met.count)}; }
 
 /// How far along the ray others may coincide with a hit, m: as far as leave_surface() takes the ray past it, and the
 /// rounding of distances.
@@ -225,7 +182,11 @@ uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
   MeshShape shape{positions, triangles, {}, mesh.normals, mesh.uvs};
   shape.planes.reserve(proper.size());
   for (const glm::uvec3& v : proper) {
-    area += 0.5 * shape.planes.emplace_back(positions[v.x], positions[v.y], positions[v.z]).twice_area;
+    const Vec3d across = area_vector(positions[v.x], positions[v.y], positions[v.z]);
+    const double twice_area = glm::length(across);
+    const Vec3d normal = across / twice_area;
+    shape.planes.push_back({normal, glm::dot(normal, Vec3d(positions[v.x]))});
+    area += 0.5 * twice_area;
     for (int corner = 0; corner < 3; ++corner) box.add(positions[v[corner]]);
   }
   for (Vec3& normal : shape.normals) normal = Vec3(glm::normalize(Vec3d(normal)));
@@ -289,7 +250,7 @@ Encounter Geometry::encounter(const Ray& ray, float t_max) const {
   const float margin = impl_->margin();
   float beyond = kInfinity;
   for (First next = first(ray, t_max, kAllLayers, {}); next.hit;
-       next = first(ray, std::min(t_max, beyond + margin), kAllLayers, found)) {
+       next = first(ray, std::min(t_max, beyond + margin), kAllLayers, hits_of(found))) {
     const Hit& hit = *next.hit;
     if (found.count > 0 && hit.t - coincidence(hit, ray.direction) > beyond) break;
     found.hits[found.count++] = hit;
@@ -328,7 +289,7 @@ Encounter Geometry::faces(const Ray& ray, uint32_t layers) const {
   Encounter found;
   float beyond = kInfinity;
   while (found.count < Encounter::kMost) {
-    const First next = first(ray, beyond, layers, found);
+    const First next = first(ray, beyond, layers, hits_of(found));
     if (!next.hit) break;
     const float reach = next.hit->t + coincidence(*next.hit, ray.direction);
     beyond = found ? std::max(beyond, reach) : reach;
@@ -338,7 +299,7 @@ Encounter Geometry::faces(const Ray& ray, uint32_t layers) const {
   return found;
 }
 
-Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const {
+Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, std::span<const Hit> without) const {
   assert(impl_->committed);
   assert(is_finite(ray.origin) && is_finite(ray.direction));
   if (!(t_max > kMinT)) return {};
@@ -355,15 +316,17 @@ Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, co
   Query query(ray, t_max, impl_->size, without);
   found.ray.tfar = query.limit;
   embree_intersect(impl_->scene, query, meet_triangle, found);
-  if (std::isinf(query.nearest.t)) return {};
-  Hit hit;
-  hit.t = query.nearest.t;
+  First met;
+  met.others = std::min(query.others, query.limit);
+  if (std::isinf(query.t)) return met;
+  Hit& hit = met.hit.emplace();
+  hit.t = query.t;
   hit.shape = query.shape;
   const ShapeData& shape = impl_->shapes[hit.shape];
-  if (const auto* mesh = std::get_if<MeshShape>(&shape)) locate(*mesh, query.triangle, ray, hit);
-  if (const auto* sphere = std::get_if<SphereShape>(&shape)) locate(*sphere, ray, hit);
-  if (const auto* disc = std::get_if<DiscShape>(&shape)) locate(*disc, ray, hit);
-  return {hit, std::min(query.others, query.limit)};
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) locate(*mesh, query.triangle, ray, query.nearest, hit);
+  if (const auto* sphere = std::get_if<SphereShape>(&shape)) locate(*sphere, ray, query.nearest, hit);
+  if (const auto* disc = std::get_if<DiscShape>(&shape)) locate(*disc, ray, query.nearest, hit);
+  return met;
 }
 
 Box Geometry::bounds() const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "vpm/base/vec.h"
@@ -122,7 +123,7 @@ class Geometry {
     std::optional<Hit> hit;
     float others = 0.0f;  // m
   };
-  First first(const Ray& ray, float t_max, uint32_t layers, const Encounter& without) const;
+  First first(const Ray& ray, float t_max, uint32_t layers, std::span<const Hit> without) const;
   std::optional<Hit> in_contact(const Ray& ray, float t_max, const First& dielectric) const;
   Encounter faces(const Ray& ray, uint32_t layers) const;
 

@@ -20,16 +20,16 @@ Vec3 shading_normal(const MeshShape& mesh, const glm::uvec3& v, const Hit& hit) 
   return glm::dot(normal, hit.normal) < 0.0f ? -normal : normal;
 }
 
-/// All that follows from the point of a triangle, and its barycentric coordinates.
-void fill_in(const MeshShape& mesh, uint32_t triangle, const Vec3d& position, const Vec2& barycentric, Hit& hit) {
+/// All that follows from the point of a triangle of this plane and area, and from its barycentric coordinates.
+void fill_in(const MeshShape& mesh, uint32_t triangle, double twice_area, const Vec3d& position,
+             const Vec2& barycentric, Hit& hit) {
   const glm::uvec3& v = mesh.triangles[triangle];
   const Vec3 &a = mesh.positions[v.x], &b = mesh.positions[v.y], &c = mesh.positions[v.z];
-  const TrianglePlane& plane = mesh.planes[triangle];
   hit.position = Vec3(position);
-  hit.normal = Vec3(plane.normal);
+  hit.normal = Vec3(mesh.planes[triangle].normal);
   const Vec3& p = hit.position;
   const Vec3 reach = glm::max(glm::max(glm::abs(a - p), glm::abs(b - p)), glm::abs(c - p));
-  hit.slack = flat_slack(hit.normal, reach, plane.twice_area);
+  hit.slack = flat_slack(hit.normal, reach, twice_area);
   hit.triangle = triangle;
   hit.barycentric = barycentric;
   hit.shading_normal = shading_normal(mesh, v, hit);
@@ -37,60 +37,51 @@ void fill_in(const MeshShape& mesh, uint32_t triangle, const Vec3d& position, co
 
 }  // namespace
 
-TrianglePlane::TrianglePlane(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3d across = area_vector(a, b, c);
-  twice_area = glm::length(across);
-  normal = across / twice_area;
-  offset = glm::dot(normal, Vec3d(a));
-}
-
 Crossing crossing(const MeshShape& mesh, uint32_t triangle, const Ray& ray) {
   const TrianglePlane& plane = mesh.planes[triangle];
-  const double inverse = 1.0 / glm::dot(plane.normal, Vec3d(ray.direction));
-  const double t = (plane.offset - glm::dot(plane.normal, Vec3d(ray.origin))) * inverse;
-  return {static_cast<float>(t), static_cast<float>(std::abs(inverse))};
+  const double inverse_cosine = 1.0 / glm::dot(plane.normal, Vec3d(ray.direction));
+  return {(plane.offset - glm::dot(plane.normal, Vec3d(ray.origin))) * inverse_cosine, inverse_cosine};
 }
 
-Crossing crossing(const SphereShape& sphere, const Ray& ray) {
-  return {static_cast<float>(intersect_sphere(sphere, ray, kMinT))};
-}
+Crossing crossing(const SphereShape& sphere, const Ray& ray) { return {intersect_sphere(sphere, ray, kMinT)}; }
 
 Crossing crossing(const DiscShape& disc, const Ray& ray) {
-  return {static_cast<float>(intersect_disc(disc, ray, kMinT)), 1.0f / std::abs(glm::dot(disc.normal, ray.direction))};
+  return {intersect_disc(disc, ray, kMinT), 1.0 / double{glm::dot(disc.normal, ray.direction)}};
 }
 
-void locate(const MeshShape& mesh, uint32_t triangle, const Ray& ray, Hit& hit) {
+void locate(const MeshShape& mesh, uint32_t triangle, const Ray& ray, const Crossing& met, Hit& hit) {
   const glm::uvec3& v = mesh.triangles[triangle];
   const TrianglePlane& plane = mesh.planes[triangle];
   const Vec3d a(mesh.positions[v.x]), ab = Vec3d(mesh.positions[v.y]) - a, ac = Vec3d(mesh.positions[v.z]) - a;
-  const Vec3d d(ray.direction), from_a = Vec3d(ray.origin) - a, across = glm::cross(from_a, d);
-  const double inverse = 1.0 / glm::dot(plane.normal, d), scale = inverse / plane.twice_area;
+  const Vec3d origin(ray.origin), d(ray.direction), across = glm::cross(origin - a, d);
+  const double twice_area = glm::length(glm::cross(ab, ac)), scale = met.inverse_cosine / twice_area;
   const double u = std::clamp(-scale * glm::dot(ac, across), 0.0, 1.0);
   const double w = std::clamp(scale * glm::dot(ab, across), 0.0, 1.0 - u);
   // The point is that of the ray, put onto the plane once more, and not that of the coordinates: on the edge, or
   // rounded as they are, it could lie before a neighbouring face, and a ray would leave both in turn for ever.
-  const double t = (plane.offset - glm::dot(plane.normal, Vec3d(ray.origin))) * inverse;
-  const Vec3d met = Vec3d(ray.origin) + t * d;
-  fill_in(mesh, triangle, met + (plane.offset - glm::dot(plane.normal, met)) * plane.normal, Vec2(u, w), hit);
+  const Vec3d point = origin + met.t * d;
+  const Vec3d in_plane = point + (plane.offset - glm::dot(plane.normal, point)) * plane.normal;
+  fill_in(mesh, triangle, twice_area, in_plane, Vec2(u, w), hit);
 }
 
 void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit) {
   const glm::uvec3& v = mesh.triangles[triangle];
+  const Vec3 &a = mesh.positions[v.x], &b = mesh.positions[v.y], &c = mesh.positions[v.z];
   const double u = barycentric.x, w = barycentric.y;
-  const Vec3d a(mesh.positions[v.x]), b(mesh.positions[v.y]), c(mesh.positions[v.z]);
-  fill_in(mesh, triangle, (1.0 - u - w) * a + u * b + w * c, barycentric, hit);
+  const Vec3d point = (1.0 - u - w) * Vec3d(a) + u * Vec3d(b) + w * Vec3d(c);
+  fill_in(mesh, triangle, glm::length(area_vector(a, b, c)), point, barycentric, hit);
 }
 
-void locate(const SphereShape& sphere, const Ray& ray, Hit& hit) {
-  const Vec3d normal = sphere_normal(sphere, ray, intersect_sphere(sphere, ray, kMinT));
+void locate(const SphereShape& sphere, const Ray& ray, const Crossing& met, Hit& hit) {
+  const Vec3d normal = sphere_normal(sphere, ray, met.t);
   hit.position = point_on(sphere, normal);
   hit.normal = Vec3(normal);
   hit.slack = sphere_slack(sphere);
   hit.shading_normal = hit.normal;
 }
 
-void locate(const DiscShape& disc, const Ray& ray, Hit& hit) {
-  hit.position = Vec3(disc_point(disc, ray, intersect_disc(disc, ray, kMinT)));
+void locate(const DiscShape& disc, const Ray& ray, const Crossing& met, Hit& hit) {
+  hit.position = Vec3(disc_point(disc, ray, met.t));
   hit.normal = disc.normal;
   hit.slack = disc_slack(disc);
   hit.shading_normal = hit.normal;

@@ -2,6 +2,7 @@
 // reciprocals, which differ from processor to processor: what becomes of a ray must not depend on them.
 #pragma once
 
+#include "vpm/base/huge_pages.h"
 #include "vpm/surface/geometry.h"
 
 namespace vpm {
@@ -9,20 +10,17 @@ namespace vpm {
 /// Every hit has t > kMinT, m. It is the smallest normal float, so that t > 0 in every rounding mode.
 inline constexpr float kMinT = std::numeric_limits<float>::min();
 
-/// What a triangle's corners say of its plane, once for all rays.
-struct TrianglePlane {
-  Vec3d normal;       // unit, outward
-  double offset;      // m: dot(normal, p) of its points p
-  double twice_area;  // m^2
-
-  TrianglePlane(const Vec3& a, const Vec3& b, const Vec3& c);
+/// What a triangle's corners say of its plane, once for all rays. None lies across two cache lines.
+struct alignas(32) TrianglePlane {
+  Vec3d normal;   // unit, outward
+  double offset;  // m: dot(normal, p) of its points p
 };
 
 /// A mesh: positions and triangles in Embree's own buffers, and the data that Embree does not need.
 struct MeshShape {
   const Vec3* positions = nullptr;
   const glm::uvec3* triangles = nullptr;
-  std::vector<TrianglePlane> planes;  // of the triangles
+  LargeTable<TrianglePlane> planes;  // of the triangles
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
 };
@@ -37,8 +35,8 @@ T interpolated(const std::vector<T>& values, const glm::uvec3& v, const Vec2& ba
 
 /// Where a ray crosses a shape.
 struct Crossing {
-  float t = kInfinity;          // m; negative behind the origin, infinite or NaN where nothing is met
-  float inverse_cosine = 1.0f;  // 1/|cos| of the angle to the normal; 1 for spheres, whose t is exact
+  double t = kInfinity;         // m; negative behind the origin, infinite or NaN where nothing is met
+  double inverse_cosine = 1.0;  // of the angle to the normal, with its sign; 1 for spheres, whose t is exact
 };
 
 /// In double. That a ray meets the triangle, and not its plane alone, is for Embree to say.
@@ -46,12 +44,12 @@ Crossing crossing(const MeshShape& mesh, uint32_t triangle, const Ray& ray);
 Crossing crossing(const SphereShape& sphere, const Ray& ray);
 Crossing crossing(const DiscShape& disc, const Ray& ray);
 
-/// These fill in the members of a hit from `position` on. The point of a triangle's plane is where the ray crosses it,
+/// These fill in the members of a hit from `position` on, from what crossing() gave. The point of a triangle's plane is where the ray crosses it,
 /// which may be a rounding error beside the triangle; the barycentric coordinates, by Cramer's rule [Moeller1997], are
 /// those of its edge then. For a sphere the point is projected onto it.
-void locate(const MeshShape& mesh, uint32_t triangle, const Ray& ray, Hit& hit);
-void locate(const SphereShape& sphere, const Ray& ray, Hit& hit);
-void locate(const DiscShape& disc, const Ray& ray, Hit& hit);
+void locate(const MeshShape& mesh, uint32_t triangle, const Ray& ray, const Crossing& met, Hit& hit);
+void locate(const SphereShape& sphere, const Ray& ray, const Crossing& met, Hit& hit);
+void locate(const DiscShape& disc, const Ray& ray, const Crossing& met, Hit& hit);
 /// The same of a given point of a triangle: it lies in the plane.
 void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit);
 
