@@ -15,7 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <functional>
 
@@ -169,6 +171,7 @@ void write_exr(const path& file, const Image& radiance, const std::vector<ExrLay
   assert(!radiance.pixels.empty());
   TemporaryFile temporary(file);
   std::ofstream out(temporary.path(), std::ios::binary);
+  errno = 0;
   try {
     Imf::Header header = header_of(radiance, part);
     header.compression() = Imf::ZIP_COMPRESSION;
@@ -190,8 +193,11 @@ void write_exr(const path& file, const Image& radiance, const std::vector<ExrLay
   } catch (const std::exception& error) {
     throw InputError("cannot write '" + file.string() + "': " + error.what());
   }
-  out.close();  // OpenEXR ends the file in a destructor that cannot report; the stream remembers
-  if (!out) throw InputError("cannot write '" + file.string() + "': the disk did not take all bytes");
+  // OpenEXR ends the file in a destructor that cannot report. The stream remembers, and errno says why.
+  out.close();
+  if (!out)
+    throw InputError("cannot write '" + file.string() +
+                     "': " + (errno != 0 ? std::strerror(errno) : "the disk did not take all bytes"));
   temporary.commit();
 }
 

@@ -1,4 +1,4 @@
-// Shapes in Embree: triangle meshes as they are, spheres and discs as user geometry with our own intersection.
+// The shapes of a scene: each looked at for each ray where they are few, found by Embree where they are many.
 #include "vpm/surface/geometry.h"
 
 #include <algorithm>
@@ -13,6 +13,8 @@
 #include "vpm/surface/check_shapes.h"
 #include "vpm/surface/disc.h"
 #include "vpm/surface/distance.h"
+#include "vpm/surface/embree.h"
+#include "vpm/surface/few_triangles.h"
 #include "vpm/surface/locate.h"
 #include "vpm/surface/mesh.h"
 #include "vpm/surface/query.h"
@@ -42,11 +44,19 @@ void own_bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
 }
 
+/// A search as Embree hands it to its callbacks.
+struct EmbreeQuery : EmbreeContext {
+  Query& query;
+
+  explicit EmbreeQuery(Query& a_query) : EmbreeContext{}, query(a_query) { init_context(*this); }
+};
+Query& query_of(EmbreeContext* context) { return static_cast<EmbreeQuery*>(context)->query; }
+
 /// Embree's callback for a triangle that it found. Its distance becomes the limit, which is no further than Embree was
 /// looking already.
 void meet_triangle(const RTCFilterFunctionNArguments* args) {
   assert(args->N == 1);
-  auto& query = *static_cast<Query*>(args->context);
+  Query& query = query_of(args->context);
   const unsigned shape = RTCHitN_geomID(args->hit, 1, 0), triangle = RTCHitN_primID(args->hit, 1, 0);
   const auto& mesh = *static_cast<const MeshShape*>(args->geometryUserPtr);
   if (!query.leaves_out(shape) && query.take(crossing(mesh, triangle, query.ray), shape, triangle))
@@ -59,7 +69,7 @@ template <class S>
 void own_intersect(const RTCIntersectFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
-  auto& query = *static_cast<Query*>(args->context);
+  Query& query = query_of(args->context);
   if (query.leaves_out(args->geomID)) return;
   if (query.take(crossing(*static_cast<const S*>(args->geometryUserPtr), query.ray), args->geomID, 0))
     reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = query.limit;
@@ -108,7 +118,10 @@ struct Geometry::Impl {
   std::vector<double> areas;     // m^2
   std::vector<Box> bounds;
   std::vector<Layer> layers;
-  float size = 0.0f;  // m: of the box around all shapes, and its distance from the origin
+  float size = 0.0f;            // m: of the box around all shapes, and its distance from the origin
+  FewTriangles few;             // all, if the scene is small
+  std::vector<uint32_t> round;  // the spheres and discs
+  bool is_small = false;        // all shapes are looked at for each ray
   bool committed = false;
   std::atomic<int64_t> bytes{0};
   std::string error;
@@ -144,6 +157,9 @@ struct Geometry::Impl {
   /// How far beyond a hit one that coincides with it is looked for, m.
   float margin() const { return 0x1p-18f * size; }
 
+  void lay_out();
+  void look_at_all(Query& query, uint32_t layers_seen) const;
+  void look_along(Query& query, uint32_t layers_seen) const;  // by Embree's tree
   template <class S>
   uint32_t add_own(const S& shape, double area, Layer layer);
   uint32_t attach(RTCGeometry geometry, double area, const Box& box, Layer layer) {
@@ -220,9 +236,55 @@ uint32_t Geometry::add(const DiscShape& disc, Layer layer) {
   return impl_->add_own(disc, kPiD * double{disc.radius} * disc.radius, layer);
 }
 
+/// Decides whether a tree is needed, and lays the triangles out if it is not.
+void Geometry::Impl::lay_out() {
+  constexpr size_t kTrianglesForOne = 8;  // a sphere or disc takes as long
+  size_t all = 0;
+  for (uint32_t shape = 0; shape < shapes.size(); ++shape) {
+    const auto* mesh = std::get_if<MeshShape>(&shapes[shape]);
+    all += mesh ? mesh->planes.size() : kTrianglesForOne;
+    if (!mesh) round.push_back(shape);
+  }
+  is_small = all <= FewTriangles::kMost;
+  if (!is_small) return;
+  for (uint32_t shape = 0; shape < shapes.size(); ++shape)
+    if (const auto* mesh = std::get_if<MeshShape>(&shapes[shape]))
+      few.add(*mesh, shape, static_cast<uint32_t>(layers[shape]));
+  bytes += static_cast<int64_t>(few.memory_bytes());
+}
+
+void Geometry::Impl::look_at_all(Query& query, uint32_t layers_seen) const {
+  few.visit(query.ray, layers_seen, [&](const MeshShape& mesh, uint32_t shape, uint32_t triangle) {
+    if (!query.leaves_out(shape)) query.take(crossing(mesh, triangle, query.ray), shape, triangle);
+  });
+  for (const uint32_t shape : round) {
+    if ((static_cast<uint32_t>(layers[shape]) & layers_seen) == 0 || query.leaves_out(shape)) continue;
+    if (const auto* sphere = std::get_if<SphereShape>(&shapes[shape]))
+      query.take(crossing(*sphere, query.ray), shape, 0);
+    if (const auto* disc = std::get_if<DiscShape>(&shapes[shape])) query.take(crossing(*disc, query.ray), shape, 0);
+  }
+}
+
+void Geometry::Impl::look_along(Query& query, uint32_t layers_seen) const {
+  RTCRayHit found{};
+  found.ray.org_x = query.ray.origin.x;
+  found.ray.org_y = query.ray.origin.y;
+  found.ray.org_z = query.ray.origin.z;
+  found.ray.dir_x = query.ray.direction.x;
+  found.ray.dir_y = query.ray.direction.y;
+  found.ray.dir_z = query.ray.direction.z;
+  found.ray.tnear = kMinT;
+  found.ray.tfar = query.limit;
+  found.ray.mask = layers_seen;
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  EmbreeQuery context(query);
+  embree_intersect(scene, context, meet_triangle, found);
+}
+
 void Geometry::commit() {
   rtcCommitScene(impl_->scene);
   impl_->check();
+  impl_->lay_out();
   impl_->committed = true;
 }
 
@@ -303,19 +365,8 @@ Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, st
   assert(impl_->committed);
   assert(is_finite(ray.origin) && is_finite(ray.direction));
   if (!(t_max > kMinT)) return {};
-  RTCRayHit found{};
-  found.ray.org_x = ray.origin.x;
-  found.ray.org_y = ray.origin.y;
-  found.ray.org_z = ray.origin.z;
-  found.ray.dir_x = ray.direction.x;
-  found.ray.dir_y = ray.direction.y;
-  found.ray.dir_z = ray.direction.z;
-  found.ray.tnear = kMinT;
-  found.ray.mask = layers;
-  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   Query query(ray, t_max, impl_->size, without);
-  found.ray.tfar = query.limit;
-  embree_intersect(impl_->scene, query, meet_triangle, found);
+  impl_->is_small ? impl_->look_at_all(query, layers) : impl_->look_along(query, layers);
   First met;
   met.others = std::min(query.others, query.limit);
   if (std::isinf(query.t)) return met;

@@ -1,5 +1,5 @@
-// Where rays meet shapes. Embree intersects triangles and quads; vpm's own code intersects spheres and discs. Every
-// offset of a ray's origin is made in this folder.
+// Where rays meet shapes. Embree finds what a ray may meet in large scenes, and our own arithmetic decides what it
+// meets. Every offset of a ray's origin is made in this folder.
 #pragma once
 
 #include <array>

@@ -44,9 +44,9 @@ Crossing crossing(const MeshShape& mesh, uint32_t triangle, const Ray& ray);
 Crossing crossing(const SphereShape& sphere, const Ray& ray);
 Crossing crossing(const DiscShape& disc, const Ray& ray);
 
-/// These fill in the members of a hit from `position` on, from what crossing() gave. The point of a triangle's plane is where the ray crosses it,
-/// which may be a rounding error beside the triangle; the barycentric coordinates, by Cramer's rule [Moeller1997], are
-/// those of its edge then. For a sphere the point is projected onto it.
+/// These fill in the members of a hit from `position` on, from what crossing() gave. The point of a triangle's plane is
+/// where the ray crosses it, which may be a rounding error beside the triangle; the barycentric coordinates, by
+/// Cramer's rule [Moeller1997], are those of its edge then. For a sphere the point is projected onto it.
 void locate(const MeshShape& mesh, uint32_t triangle, const Ray& ray, const Crossing& met, Hit& hit);
 void locate(const SphereShape& sphere, const Ray& ray, const Crossing& met, Hit& hit);
 void locate(const DiscShape& disc, const Ray& ray, const Crossing& met, Hit& hit);

@@ -1,0 +1,107 @@
+// Scenes whose shapes are all looked at for each ray: they are met as those of a tree, and edges let nothing through.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "surface/random_shapes.h"
+#include "vpm/surface/few_triangles.h"
+#include "vpm/surface/mesh.h"
+#include "vpm/surface/procedural_mesh.h"
+
+namespace vpm {
+namespace {
+
+void add_random_shapes(Rng& rng, Geometry& geometry) {
+  for (int i = 0; i < 6; ++i) geometry.add(quad_mesh(Vec3d(in_cube(rng)), Vec3d(in_cube(rng)), Vec3d(in_cube(rng))));
+  geometry.add(box_mesh(Vec3d(-0.2), Vec3d(0.3)));
+  geometry.add(SphereShape{in_cube(rng), 0.3f}, Layer::boundary);
+  geometry.add(DiscShape{in_cube(rng), uniform_sphere(rng.uniform2()), 0.5f});
+}
+
+// A mesh behind all others makes the scene one of Embree's. Embree takes rays for inside that pass an edge within the
+// rounding of floats: 3e-7 of the length of edges or less, so that of 200,000 rays one or two may differ.
+TEST(FewTriangles, AreMetAsThoseOfATree) {
+  Rng rng(1, rng_stream(RngUse::test, 53), 0);
+  Geometry few, many;
+  for (Geometry* geometry : {&few, &many}) {
+    Rng same = rng;
+    add_random_shapes(same, *geometry);
+  }
+  TriangleMesh waves = find_procedural_mesh("waves")->make(16);
+  ASSERT_GT(waves.triangles.size(), FewTriangles::kMost);
+  for (Vec3& p : waves.positions) p.z += 50.0f;
+  many.add(waves);
+  few.commit();
+  many.commit();
+  int met = 0, different = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Ray ray{in_cube(rng), uniform_sphere(rng.uniform2())};
+    const std::optional<Hit> one = few.intersect(ray, 10.0f), other = many.intersect(ray, 10.0f);
+    met += one ? 1 : 0;
+    different += one.has_value() != other.has_value() || (one && std::memcmp(&*one, &*other, sizeof *one) != 0) ? 1 : 0;
+  }
+  EXPECT_GT(met, 50000);
+  EXPECT_LE(different, 2);
+}
+
+// From within a closed mesh, at points of its edges and at its corners.
+TEST(FewTriangles, LetNoRayOutBetweenThem) {
+  Rng rng(1, rng_stream(RngUse::test, 54), 0);
+  TriangleMesh mesh = box_mesh(Vec3d(-1.0), Vec3d(1.0));
+  for (Vec3& p : mesh.positions) p = 0.8f * p + 0.1f * in_cube(rng) + Vec3(5.0f, -3.0f, 2.0f);
+  Geometry geometry;
+  geometry.add(mesh);
+  geometry.commit();
+  for (int i = 0; i < 200000; ++i) {
+    const glm::uvec3& v = mesh.triangles[i % 12];
+    const Vec3 &a = mesh.positions[v.x], &b = mesh.positions[v.y];
+    const Vec3 origin = 0.3f * in_cube(rng) + Vec3(5.0f, -3.0f, 2.0f);
+    const Vec3 aim = i % 5 == 0 ? a : a + rng.uniform() * (b - a);
+    const std::optional<Hit> hit = geometry.intersect({origin, glm::normalize(aim - origin)});
+    ASSERT_TRUE(hit) << "ray " << i;
+    EXPECT_NEAR(hit->t, glm::distance(aim, origin), 1e-5f) << "ray " << i;
+  }
+}
+
+// Two triangles, and rays that meet their common edge exactly: all lie in the plane x = 3 y. The products of Pluecker
+// coordinates are nothing but rounding errors there, which must have opposite signs in the two triangles.
+TEST(FewTriangles, LetNoRayThroughTheirEdge) {
+  Rng rng(1, rng_stream(RngUse::test, 55), 0);
+  const auto in_plane = [&](float y) {
+    const float rounded = std::ldexp(std::round(std::ldexp(y, 20)), -20);  // three times it is a float, too
+    return Vec3(3.0f * rounded, rounded, power_of_ten(rng, -6.0f, 0.0f));
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 corners[] = {in_plane(-1.0f - rng.uniform()), in_plane(1.0f + rng.uniform()),
+                            Vec3(2.0f, -2.0f, rng.uniform()), Vec3(-2.0f, 2.0f, rng.uniform())};
+    const glm::uvec3 triangles[] = {{0, 2, 1}, {1, 3, 0}};
+    MeshShape mesh{corners, triangles, {}, {}, {}};
+    mesh.planes.resize(2);
+    FewTriangles two;
+    two.add(mesh, 0, 1);
+    Vec3 direction = in_plane(0.2f * rng.uniform() - 0.1f);
+    direction.z = -1.0f;
+    const Ray ray{in_plane(0.1f * rng.uniform()) + Vec3(0, 0, 3), direction};
+    int met = 0;
+    two.visit(ray, 1, [&](const MeshShape&, uint32_t, uint32_t) { ++met; });
+    ASSERT_GE(met, 1) << "ray " << i;
+  }
+}
+
+// Layers and shapes that are left out, by the lamp and the boundary of a box of fog between two walls.
+TEST(FewTriangles, AreSeenByLayer) {
+  Geometry geometry;
+  const auto wall = [&](double z, Layer layer) {
+    return geometry.add(quad_mesh(Vec3d(-1, -1, z), Vec3d(2, 0, 0), Vec3d(0, 2, 0)), layer);
+  };
+  const uint32_t fog = wall(1.0, Layer::boundary), behind = wall(2.0, Layer::surface);
+  geometry.commit();
+  const Ray ray{Vec3(0.1f, 0.2f, 0.0f), Vec3(0.0f, 0.0f, 1.0f)};
+  EXPECT_EQ(geometry.intersect(ray)->shape, fog);
+  EXPECT_EQ(geometry.intersect_surface(ray, 10.0f)->shape, behind);
+  EXPECT_FALSE(geometry.intersect(ray, 1.0f));
+}
+
+}  // namespace
+}  // namespace vpm
