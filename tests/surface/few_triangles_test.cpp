@@ -45,7 +45,7 @@ TEST(FewTriangles, AreMetAsThoseOfATree) {
   EXPECT_LE(different, 2);
 }
 
-// From within a closed mesh, at points of its edges and at its corners.
+// From within a closed mesh, towards points of its edges and its corners.
 TEST(FewTriangles, LetNoRayOutBetweenThem) {
   Rng rng(1, rng_stream(RngUse::test, 54), 0);
   TriangleMesh mesh = box_mesh(Vec3d(-1.0), Vec3d(1.0));
@@ -64,28 +64,52 @@ TEST(FewTriangles, LetNoRayOutBetweenThem) {
   }
 }
 
-// Two triangles, and rays that meet their common edge exactly: all lie in the plane x = 3 y. The products of Pluecker
-// coordinates are nothing but rounding errors there, which must have opposite signs in the two triangles.
-TEST(FewTriangles, LetNoRayThroughTheirEdge) {
-  Rng rng(1, rng_stream(RngUse::test, 55), 0);
-  const auto in_plane = [&](float y) {
-    const float rounded = std::ldexp(std::round(std::ldexp(y, 20)), -20);  // three times it is a float, too
-    return Vec3(3.0f * rounded, rounded, power_of_ten(rng, -6.0f, 0.0f));
-  };
-  for (int i = 0; i < 20000; ++i) {
-    const Vec3 corners[] = {in_plane(-1.0f - rng.uniform()), in_plane(1.0f + rng.uniform()),
-                            Vec3(2.0f, -2.0f, rng.uniform()), Vec3(-2.0f, 2.0f, rng.uniform())};
-    const glm::uvec3 triangles[] = {{0, 2, 1}, {1, 3, 0}};
-    MeshShape mesh{corners, triangles, {}, {}, {}};
-    mesh.planes.resize(2);
-    FewTriangles two;
-    two.add(mesh, 0, 1);
-    Vec3 direction = in_plane(0.2f * rng.uniform() - 0.1f);
-    direction.z = -1.0f;
-    const Ray ray{in_plane(0.1f * rng.uniform()) + Vec3(0, 0, 3), direction};
-    int met = 0;
-    two.visit(ray, 1, [&](const MeshShape&, uint32_t, uint32_t) { ++met; });
-    ASSERT_GE(met, 1) << "ray " << i;
+// Planes x = 3 y, in which rounding errors are all that products of Pluecker coordinates have.
+class FewTrianglesOfOnePlane : public testing::Test {
+ protected:
+  /// To 20 binary digits: three times it is a float, too.
+  static float rounded(float x) { return std::ldexp(std::round(std::ldexp(x, 20)), -20); }
+  static Vec3 in_plane(float y, float z) { return {3.0f * rounded(y), rounded(y), z}; }
+  Vec3 near_origin() { return in_plane(rng_.uniform(), power_of_ten(rng_, -6.0f, 0.0f)); }
+  bool meets(const Ray& ray, const std::vector<Vec3>& corners, const std::vector<glm::uvec3>& triangles) {
+    Geometry geometry;
+    geometry.add(TriangleMesh{corners, triangles});
+    geometry.commit();
+    return geometry.intersect(ray).has_value();
+  }
+
+  Rng rng_{1, rng_stream(RngUse::test, 55), 0};
+};
+
+// Rays through the common edge of two triangles.
+TEST_F(FewTrianglesOfOnePlane, NoRayPassesBetweenTriangles) {
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 before = in_plane(-1.0f - rng_.uniform(), rng_.uniform()), behind = near_origin() + Vec3(3, 1, 0);
+    const Vec3 left(2.0f, -2.0f, rng_.uniform()), right(-2.0f, 2.0f, rng_.uniform());
+    const Ray ray{in_plane(0.1f * rng_.uniform(), 3.0f), in_plane(0.2f * rng_.uniform() - 0.1f, -1.0f)};
+    EXPECT_TRUE(meets(ray, {before, behind, left, right}, {{0, 2, 1}, {1, 3, 0}})) << "ray " << i;
+  }
+}
+
+// Rays through the corner that three triangles have in common, which lies on them exactly.
+TEST_F(FewTrianglesOfOnePlane, NoRayPassesThroughACorner) {
+  const auto place = [&] { return Vec3(rounded(rng_.uniform()), rounded(rng_.uniform()), rounded(rng_.uniform())); };
+  for (int i = 0; i < 5000; ++i) {
+    const Ray ray{place() + Vec3(0, 0, 2), 0.5f * place() - Vec3(0, 0, 1)};
+    const Vec3 corner = ray.origin + 2.0f * ray.direction;
+    const Vec3 ring[] = {Vec3(1, 0, 0), Vec3(-0.5f, 0.8f, 0), Vec3(-0.5f, -0.8f, 0)};
+    std::vector<Vec3> corners{corner};
+    for (const Vec3& p : ring) corners.push_back(corner + p + 0.1f * in_cube(rng_));
+    EXPECT_TRUE(meets(ray, corners, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}})) << "ray " << i;
+  }
+}
+
+// Rays in the plane of a triangle, away from it.
+TEST_F(FewTrianglesOfOnePlane, NoRayMeetsATriangleBesideIt) {
+  for (int i = 0; i < 2000; ++i) {
+    const Ray away{in_plane(5.0f + rng_.uniform(), 0.0f), in_plane(0.1f + rng_.uniform(), 0.5f * rng_.uniform())};
+    EXPECT_FALSE(meets(away, {near_origin(), near_origin(), near_origin() + Vec3(0, 0, 2)}, {{0, 1, 2}}))
+        << "ray " << i;
   }
 }
 

@@ -17,9 +17,9 @@
 #include <cassert>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <functional>
+#include <system_error>
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -170,8 +170,8 @@ void write_exr(const path& file, const Image& radiance, const std::vector<ExrLay
                const std::vector<std::pair<std::string, std::string>>& metadata, const std::optional<ExrWindow>& part) {
   assert(!radiance.pixels.empty());
   TemporaryFile temporary(file);
-  std::ofstream out(temporary.path(), std::ios::binary);
   errno = 0;
+  std::ofstream out(temporary.path(), std::ios::binary);
   try {
     Imf::Header header = header_of(radiance, part);
     header.compression() = Imf::ZIP_COMPRESSION;
@@ -197,7 +197,7 @@ void write_exr(const path& file, const Image& radiance, const std::vector<ExrLay
   out.close();
   if (!out)
     throw InputError("cannot write '" + file.string() +
-                     "': " + (errno != 0 ? std::strerror(errno) : "the disk did not take all bytes"));
+                     "': " + (errno != 0 ? std::generic_category().message(errno) : "the disk did not take all bytes"));
   temporary.commit();
 }
 

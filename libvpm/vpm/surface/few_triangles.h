@@ -1,6 +1,7 @@
 // Scenes of a few triangles, all of which are looked at for each ray: quicker than a tree of them.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -8,20 +9,21 @@
 
 namespace vpm {
 
-/// Which triangles the line of a ray goes through. It passes each edge on one side or on the other, or meets it: that
-/// is the sign of the product of their Pluecker coordinates [Shoemake1998]. An edge that two triangles share has in
-/// both the same product up to its sign, to the last bit, so that no line slips through between them.
+/// Which triangles the line of a ray goes through: those all three edges of which it passes on one side. The side is
+/// the sign of the product of Pluecker coordinates [Shoemake1998]; the three products add up to twice the area as seen
+/// along the line. As with Embree a line that passes an edge by less than a float's rounding meets it, so that none
+/// slips through between triangles whose corners are the same up to their rounding.
 class FewTriangles {
  public:
-  /// From so many on a tree is quicker.
+  /// Of more a tree is quicker.
   static constexpr size_t kMost = 48;
 
   /// Adds the triangles of a mesh, which must stay where it is.
   void add(const MeshShape& mesh, uint32_t shape, uint32_t layer);
-  /// Calls visit(mesh, shape, triangle) for each triangle of these layers that the line of the ray goes through, also
+  /// Calls met(mesh, shape, triangle) for each triangle of these layers that the line of the ray goes through, also
   /// behind its origin.
-  template <class Visit>
-  void visit(const Ray& ray, uint32_t layers, Visit&& visit) const;
+  template <class Use>
+  void visit(const Ray& ray, uint32_t layers, Use&& met) const;
   size_t memory_bytes() const { return blocks_.capacity() * sizeof(Block); }
 
  private:
@@ -37,7 +39,7 @@ class FewTriangles {
     uint32_t shape[kLanes], triangle[kLanes];
     uint32_t layer[kLanes];  // 0: there is no triangle
   };
-  using Met = int64_t[kLanes];
+  using Met = int64_t[kLanes];  // 0 or not; as wide as what is compared
   static void find(const Block& block, const Vec3d& direction, const Vec3d& moment, Met& met);
 
   std::vector<Block> blocks_;
@@ -53,21 +55,22 @@ inline void FewTriangles::find(const Block& block, const Vec3d& direction, const
                 direction.z * edge.moment[2][lane] +
                 (moment.x * edge.along[0][lane] + moment.y * edge.along[1][lane] + moment.z * edge.along[2][lane]);
     }
-    const bool left = (side[0] >= 0.0) & (side[1] >= 0.0) & (side[2] >= 0.0);
-    const bool right = (side[0] <= 0.0) & (side[1] <= 0.0) & (side[2] <= 0.0);
+    const double rounding = 0x1p-23 * std::abs(side[0] + side[1] + side[2]);
+    const bool left = (side[0] >= -rounding) & (side[1] >= -rounding) & (side[2] >= -rounding);
+    const bool right = (side[0] <= rounding) & (side[1] <= rounding) & (side[2] <= rounding);
     met[lane] = left | right;
   }
 }
 
-template <class Visit>
-void FewTriangles::visit(const Ray& ray, uint32_t layers, Visit&& visit) const {
+template <class Use>
+void FewTriangles::visit(const Ray& ray, uint32_t layers, Use&& met) const {
   const Vec3d direction(ray.direction), moment = glm::cross(Vec3d(ray.origin), direction);
   for (const Block& block : blocks_) {
-    Met met;
-    find(block, direction, moment, met);
+    Met found;
+    find(block, direction, moment, found);
     for (int lane = 0; lane < kLanes; ++lane)
-      if (met[lane] != 0 && (block.layer[lane] & layers) != 0)
-        visit(*block.mesh[lane], block.shape[lane], block.triangle[lane]);
+      if (found[lane] != 0 && (block.layer[lane] & layers) != 0)
+        met(*block.mesh[lane], block.shape[lane], block.triangle[lane]);
   }
 }
 

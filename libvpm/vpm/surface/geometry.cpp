@@ -118,10 +118,10 @@ struct Geometry::Impl {
   std::vector<double> areas;     // m^2
   std::vector<Box> bounds;
   std::vector<Layer> layers;
-  float size = 0.0f;            // m: of the box around all shapes, and its distance from the origin
-  FewTriangles few;             // all, if the scene is small
-  std::vector<uint32_t> round;  // the spheres and discs
-  bool is_small = false;        // all shapes are looked at for each ray
+  float size = 0.0f;                        // m: of the box around all shapes, and its distance from the origin
+  FewTriangles few;                         // all, if the scene is small
+  std::vector<uint32_t> spheres_and_discs;  // likewise
+  bool is_small = false;                    // all shapes are looked at for each ray
   bool committed = false;
   std::atomic<int64_t> bytes{0};
   std::string error;
@@ -166,7 +166,7 @@ struct Geometry::Impl {
     const auto number = static_cast<uint32_t>(areas.size());
     layers.push_back(layer);
     size = std::max(size, glm::length(box.lo) + glm::length(box.hi));
-    rtcSetGeometryMask(geometry, static_cast<uint32_t>(layer));
+    rtcSetGeometryMask(geometry, bit(layer));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, number);
     rtcReleaseGeometry(geometry);
@@ -236,20 +236,22 @@ uint32_t Geometry::add(const DiscShape& disc, Layer layer) {
   return impl_->add_own(disc, kPiD * double{disc.radius} * disc.radius, layer);
 }
 
-/// Decides whether a tree is needed, and lays the triangles out if it is not.
+/// Decides how rays are to look for shapes.
 void Geometry::Impl::lay_out() {
   constexpr size_t kTrianglesForOne = 8;  // a sphere or disc takes as long
   size_t all = 0;
   for (uint32_t shape = 0; shape < shapes.size(); ++shape) {
     const auto* mesh = std::get_if<MeshShape>(&shapes[shape]);
     all += mesh ? mesh->planes.size() : kTrianglesForOne;
-    if (!mesh) round.push_back(shape);
   }
   is_small = all <= FewTriangles::kMost;
   if (!is_small) return;
-  for (uint32_t shape = 0; shape < shapes.size(); ++shape)
+  for (uint32_t shape = 0; shape < shapes.size(); ++shape) {
     if (const auto* mesh = std::get_if<MeshShape>(&shapes[shape]))
-      few.add(*mesh, shape, static_cast<uint32_t>(layers[shape]));
+      few.add(*mesh, shape, bit(layers[shape]));
+    else
+      spheres_and_discs.push_back(shape);
+  }
   bytes += static_cast<int64_t>(few.memory_bytes());
 }
 
@@ -257,8 +259,8 @@ void Geometry::Impl::look_at_all(Query& query, uint32_t layers_seen) const {
   few.visit(query.ray, layers_seen, [&](const MeshShape& mesh, uint32_t shape, uint32_t triangle) {
     if (!query.leaves_out(shape)) query.take(crossing(mesh, triangle, query.ray), shape, triangle);
   });
-  for (const uint32_t shape : round) {
-    if ((static_cast<uint32_t>(layers[shape]) & layers_seen) == 0 || query.leaves_out(shape)) continue;
+  for (const uint32_t shape : spheres_and_discs) {
+    if ((bit(layers[shape]) & layers_seen) == 0 || query.leaves_out(shape)) continue;
     if (const auto* sphere = std::get_if<SphereShape>(&shapes[shape]))
       query.take(crossing(*sphere, query.ray), shape, 0);
     if (const auto* disc = std::get_if<DiscShape>(&shapes[shape])) query.take(crossing(*disc, query.ray), shape, 0);
@@ -366,7 +368,10 @@ Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, st
   assert(is_finite(ray.origin) && is_finite(ray.direction));
   if (!(t_max > kMinT)) return {};
   Query query(ray, t_max, impl_->size, without);
-  impl_->is_small ? impl_->look_at_all(query, layers) : impl_->look_along(query, layers);
+  if (impl_->is_small)
+    impl_->look_at_all(query, layers);
+  else
+    impl_->look_along(query, layers);
   First met;
   met.others = std::min(query.others, query.limit);
   if (std::isinf(query.t)) return met;

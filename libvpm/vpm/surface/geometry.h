@@ -113,7 +113,7 @@ class Geometry {
   Hit point_of_triangle(uint32_t shape, uint32_t triangle, const Vec2& barycentric) const;
   /// The area of a shape, m^2.
   double area(uint32_t shape) const;
-  /// The memory that Embree holds, its copy of the shapes included, and that of planes, normals and uvs.
+  /// The memory that Embree holds, its copy of the shapes included, and that of planes, edges, normals and uvs.
   size_t memory_bytes() const;
 
  private:

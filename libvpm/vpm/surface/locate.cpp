@@ -2,6 +2,7 @@
 #include "vpm/surface/locate.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "vpm/surface/disc.h"
 #include "vpm/surface/mesh.h"
@@ -39,7 +40,8 @@ void fill_in(const MeshShape& mesh, uint32_t triangle, double twice_area, const 
 
 Crossing crossing(const MeshShape& mesh, uint32_t triangle, const Ray& ray) {
   const TrianglePlane& plane = mesh.planes[triangle];
-  const double inverse_cosine = 1.0 / glm::dot(plane.normal, Vec3d(ray.direction));
+  const double cosine = glm::dot(plane.normal, Vec3d(ray.direction)), inverse_cosine = 1.0 / cosine;
+  if (std::abs(cosine) < 1e-14) return {};
   return {(plane.offset - glm::dot(plane.normal, Vec3d(ray.origin))) * inverse_cosine, inverse_cosine};
 }
 

@@ -1,5 +1,5 @@
-// Where a ray meets a shape that Embree found. Embree's own distances and barycentric coordinates come from approximate
-// reciprocals, which differ from processor to processor: what becomes of a ray must not depend on them.
+// Where a ray meets a shape. Embree's own distances and barycentric coordinates come from approximate reciprocals,
+// which differ from processor to processor: what becomes of a ray must not depend on them.
 #pragma once
 
 #include "vpm/base/huge_pages.h"
@@ -39,7 +39,8 @@ struct Crossing {
   double inverse_cosine = 1.0;  // of the angle to the normal, with its sign; 1 for spheres, whose t is exact
 };
 
-/// In double. That a ray meets the triangle, and not its plane alone, is for Embree to say.
+/// In double. That a ray meets the triangle, and not its plane alone, is for others to say. It never meets a plane that
+/// it lies in up to the rounding of doubles.
 Crossing crossing(const MeshShape& mesh, uint32_t triangle, const Ray& ray);
 Crossing crossing(const SphereShape& sphere, const Ray& ray);
 Crossing crossing(const DiscShape& disc, const Ray& ray);
