@@ -19,8 +19,9 @@ void add_random_shapes(Rng& rng, Geometry& geometry) {
   geometry.add(DiscShape{in_cube(rng), uniform_sphere(rng.uniform2()), 0.5f});
 }
 
-// A mesh behind all others makes the scene one of Embree's. Embree takes rays for inside that pass an edge within the
-// rounding of floats: 3e-7 of the length of edges or less, so that of 200,000 rays one or two may differ.
+// A mesh behind all others makes the scene one of Embree's. Both take lines for inside that pass an edge within the
+// rounding of floats, and round otherwise: 3e-7 of the length of edges or less, so that of 200,000 rays one or two may
+// differ.
 TEST(FewTriangles, AreMetAsThoseOfATree) {
   Rng rng(1, rng_stream(RngUse::test, 53), 0);
   Geometry few, many;
