@@ -39,7 +39,7 @@ float pdf_of(const DiscLight& light, const Vec3&, const SeenLight& seen) { retur
 
 LightPlace place_of(const DiscLight& light) {
   const DiscShape shape{light.centre, light.normal, light.radius};
-  return {disc_bounds(shape), leave_surface_at(light.centre, light.normal, light.normal, disc_slack(shape))};
+  return {bounds_of(shape), leave_surface_at(light.centre, light.normal, light.normal, disc_slack(shape))};
 }
 
 }  // namespace vpm

@@ -18,7 +18,7 @@ Vec3d disc_point(const DiscShape& disc, const Ray& ray, double t) {
   return Vec3d(disc.centre) + from_centre - glm::dot(from_centre, normal) / glm::dot(normal, normal) * normal;
 }
 
-Box disc_bounds(const DiscShape& disc) {
+Box bounds_of(const DiscShape& disc) {
   const Vec3 half = disc.radius * glm::sqrt(glm::max(Vec3(0.0f), 1.0f - disc.normal * disc.normal));
   return {disc.centre - half, disc.centre + half};
 }

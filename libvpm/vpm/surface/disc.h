@@ -10,6 +10,6 @@ double intersect_disc(const DiscShape& disc, const Ray& ray, float t_min);
 /// The point of the disc's plane next to origin + t direction.
 Vec3d disc_point(const DiscShape& disc, const Ray& ray, double t);
 /// The box around a disc.
-Box disc_bounds(const DiscShape& disc);
+Box bounds_of(const DiscShape& disc);
 
 }  // namespace vpm

@@ -2,78 +2,25 @@
 #include "vpm/surface/geometry.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <deque>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <variant>
 
 #include "vpm/surface/check_shapes.h"
 #include "vpm/surface/disc.h"
-#include "vpm/surface/distance.h"
-#include "vpm/surface/embree.h"
+#include "vpm/surface/embree_tree.h"
 #include "vpm/surface/few_triangles.h"
 #include "vpm/surface/locate.h"
 #include "vpm/surface/mesh.h"
-#include "vpm/surface/query.h"
 #include "vpm/surface/sphere.h"
 
 namespace vpm {
-
-static_assert(sizeof(Vec3) == 3 * sizeof(float) && sizeof(glm::uvec3) == 3 * sizeof(uint32_t),
-              "Embree's buffer layout");
 
 namespace {
 
 constexpr uint32_t bit(Layer layer) { return static_cast<uint32_t>(layer); }
 constexpr uint32_t kAllLayers = ~0u, kOpaque = bit(Layer::surface) | bit(Layer::dividing_surface);
-using ShapeData = std::variant<MeshShape, SphereShape, DiscShape>;
-
-Box bounds_of(const SphereShape& s) { return {s.centre - s.radius, s.centre + s.radius}; }
-Box bounds_of(const DiscShape& d) { return disc_bounds(d); }
-
-/// Embree's callbacks for a shape of our own.
-template <class S>
-void own_bounds(const RTCBoundsFunctionArguments* args) {
-  const auto& s = *static_cast<const S*>(args->geometryUserPtr);
-  const Box box = bounds_of(s);
-  const Vec3 margin = 0x1p-22f * (glm::abs(s.centre) + s.radius);  // rounding must not cut the shape
-  const Vec3 lo = box.lo - margin, hi = box.hi + margin;
-  *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
-}
-
-/// A search as Embree hands it to its callbacks.
-struct EmbreeQuery : EmbreeContext {
-  Query& query;
-
-  explicit EmbreeQuery(Query& a_query) : EmbreeContext{}, query(a_query) { init_context(*this); }
-};
-Query& query_of(EmbreeContext* context) { return static_cast<EmbreeQuery*>(context)->query; }
-
-/// Embree's callback for a triangle that it found. Its distance becomes the limit, which is no further than Embree was
-/// looking already.
-void meet_triangle(const RTCFilterFunctionNArguments* args) {
-  assert(args->N == 1);
-  Query& query = query_of(args->context);
-  const unsigned shape = RTCHitN_geomID(args->hit, 1, 0), triangle = RTCHitN_primID(args->hit, 1, 0);
-  const auto& mesh = *static_cast<const MeshShape*>(args->geometryUserPtr);
-  if (!query.leaves_out(shape) && query.take(crossing(mesh, triangle, query.ray), shape, triangle))
-    RTCRayN_tfar(args->ray, 1, 0) = query.limit;
-  else
-    args->valid[0] = 0;
-}
-
-template <class S>
-void own_intersect(const RTCIntersectFunctionNArguments* args) {
-  assert(args->N == 1);
-  if (args->valid[0] == 0) return;
-  Query& query = query_of(args->context);
-  if (query.leaves_out(args->geomID)) return;
-  if (query.take(crossing(*static_cast<const S*>(args->geometryUserPtr), query.ray), args->geomID, 0))
-    reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = query.limit;
-}
 
 std::span<const Hit> hits_of(const Encounter& met) { return {met.hits.data(), static_cast<size_t>(met.count)}; }
 
@@ -84,97 +31,36 @@ float coincidence(const Hit& hit, const Vec3& direction) {
   return skipped / std::max(1e-6f, std::abs(glm::dot(hit.normal, direction))) + 0x1p-20f * hit.t;
 }
 
-/// A search for a shape near a point, as Embree hands it to is_within_reach().
-struct Search {
-  const std::deque<ShapeData>& shapes;
-  Vec3 point;
-  float radius;  // m
-  bool found = false;
-};
-
-/// Looks at one primitive whose box Embree found near the point; ends the search where it is near itself.
-bool is_within_reach(RTCPointQueryFunctionArguments* args) {
-  auto& search = *static_cast<Search*>(args->userPtr);
-  if (search.found) return false;
-  const ShapeData& shape = search.shapes[args->geomID];
-  double distance = kInfinity;
-  if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
-    const glm::uvec3& v = mesh->triangles[args->primID];
-    distance = distance_to_triangle(search.point, mesh->positions[v.x], mesh->positions[v.y], mesh->positions[v.z]);
-  }
-  if (const auto* sphere = std::get_if<SphereShape>(&shape)) distance = distance_to(*sphere, search.point);
-  if (const auto* disc = std::get_if<DiscShape>(&shape)) distance = distance_to(*disc, search.point);
-  search.found = distance <= search.radius;
-  if (search.found) args->query->radius = 0.0f;
-  return search.found;
-}
-
 }  // namespace
 
 struct Geometry::Impl {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  std::deque<ShapeData> shapes;  // a deque, because Embree keeps pointers to its elements
-  std::vector<double> areas;     // m^2
+  std::deque<ShapeData> shapes;
+  std::vector<double> areas;  // m^2
   std::vector<Box> bounds;
   std::vector<Layer> layers;
+  EmbreeTree tree{shapes};
   float size = 0.0f;                        // m: of the box around all shapes, and its distance from the origin
   FewTriangles few;                         // all, if the scene is small
   std::vector<uint32_t> spheres_and_discs;  // likewise
   bool is_small = false;                    // all shapes are looked at for each ray
   bool committed = false;
-  std::atomic<int64_t> bytes{0};
-  std::string error;
-
-  Impl() : device(rtcNewDevice(nullptr)) {
-    if (!device) throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
-    rtcSetDeviceErrorFunction(device, on_error, this);
-    rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kEmbreeFilters));
-    check();
-  }
-  ~Impl() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
-  }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-
-  /// Embree calls this from C code, through which no exception may pass: check() throws later.
-  static void on_error(void* self, RTCError code, const char* message) {
-    static_cast<Impl*>(self)->error =
-        "Embree: " + std::string(message ? message : "") + ", error " + std::to_string(code);
-  }
-  static bool on_memory(void* self, ssize_t change, bool) {
-    static_cast<Impl*>(self)->bytes += change;
-    return true;
-  }
-  void check() const {
-    if (!error.empty()) throw std::runtime_error(error);
-  }
+  size_t bytes = 0;  // without the tree's
 
   /// How far beyond a hit one that coincides with it is looked for, m.
   float margin() const { return 0x1p-18f * size; }
 
-  void lay_out();
-  void look_at_all(Query& query, uint32_t layers_seen) const;
-  void look_along(Query& query, uint32_t layers_seen) const;  // by Embree's tree
-  template <class S>
-  uint32_t add_own(const S& shape, double area, Layer layer);
-  uint32_t attach(RTCGeometry geometry, double area, const Box& box, Layer layer) {
-    const auto number = static_cast<uint32_t>(areas.size());
-    layers.push_back(layer);
-    size = std::max(size, glm::length(box.lo) + glm::length(box.hi));
-    rtcSetGeometryMask(geometry, bit(layer));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene, geometry, number);
-    rtcReleaseGeometry(geometry);
-    check();
+  /// Takes note of the shape that was added last, and says its number.
+  uint32_t note(double area, const Box& box, Layer layer) {
     areas.push_back(area);
     bounds.push_back(box);
-    return number;
+    layers.push_back(layer);
+    size = std::max(size, glm::length(box.lo) + glm::length(box.hi));
+    return static_cast<uint32_t>(shapes.size() - 1);
   }
+  template <class S>
+  uint32_t add_own(const S& shape, double area, Layer layer);
+  void lay_out();
+  void look_at_all(Query& query, uint32_t layers_seen) const;
 };
 
 Geometry::Geometry() : impl_(std::make_unique<Impl>()) {}
@@ -185,19 +71,14 @@ Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
   assert(!impl_->committed);
   const std::vector<glm::uvec3> proper = checked_triangles(mesh);
-  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               sizeof(Vec3), mesh.positions.size()));
-  auto* triangles = static_cast<glm::uvec3*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), proper.size()));
-  impl_->check();
-  std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
-  std::copy(proper.begin(), proper.end(), triangles);
+  auto& shape =
+      std::get<MeshShape>(impl_->shapes.emplace_back(MeshShape{nullptr, nullptr, {}, mesh.normals, mesh.uvs}));
+  impl_->tree.add(shape, mesh.positions, proper, layer);
   double area = 0.0;
   Box box;
-  MeshShape shape{positions, triangles, {}, mesh.normals, mesh.uvs};
   shape.planes.reserve(proper.size());
   for (const glm::uvec3& v : proper) {
+    const Vec3* const positions = shape.positions;
     const Vec3d across = area_vector(positions[v.x], positions[v.y], positions[v.z]);
     const double twice_area = glm::length(across);
     const Vec3d normal = across / twice_area;
@@ -206,23 +87,16 @@ uint32_t Geometry::add(const TriangleMesh& mesh, Layer layer) {
     for (int corner = 0; corner < 3; ++corner) box.add(positions[v[corner]]);
   }
   for (Vec3& normal : shape.normals) normal = Vec3(glm::normalize(Vec3d(normal)));
-  impl_->bytes += static_cast<int64_t>(shape.planes.size() * sizeof(TrianglePlane) +
-                                       shape.normals.size() * sizeof(Vec3) + shape.uvs.size() * sizeof(Vec2));
-  impl_->shapes.emplace_back(std::move(shape));
-  rtcSetGeometryUserData(geometry, &std::get<MeshShape>(impl_->shapes.back()));
-  return impl_->attach(geometry, area, box, layer);
+  impl_->bytes += shape.planes.size() * sizeof(TrianglePlane) + shape.normals.size() * sizeof(Vec3) +
+                  shape.uvs.size() * sizeof(Vec2);
+  return impl_->note(area, box, layer);
 }
 
 template <class S>
 uint32_t Geometry::Impl::add_own(const S& shape, double area, Layer layer) {
   assert(!committed);
-  shapes.emplace_back(shape);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, 1);
-  rtcSetGeometryUserData(geometry, &std::get<S>(shapes.back()));
-  rtcSetGeometryBoundsFunction(geometry, own_bounds<S>, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, own_intersect<S>);
-  return attach(geometry, area, bounds_of(shape), layer);
+  tree.add(std::get<S>(shapes.emplace_back(shape)), layer);
+  return note(area, bounds_of(shape), layer);
 }
 
 uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
@@ -252,7 +126,7 @@ void Geometry::Impl::lay_out() {
     else
       spheres_and_discs.push_back(shape);
   }
-  bytes += static_cast<int64_t>(few.memory_bytes());
+  bytes += few.memory_bytes();
 }
 
 void Geometry::Impl::look_at_all(Query& query, uint32_t layers_seen) const {
@@ -267,25 +141,8 @@ void Geometry::Impl::look_at_all(Query& query, uint32_t layers_seen) const {
   }
 }
 
-void Geometry::Impl::look_along(Query& query, uint32_t layers_seen) const {
-  RTCRayHit found{};
-  found.ray.org_x = query.ray.origin.x;
-  found.ray.org_y = query.ray.origin.y;
-  found.ray.org_z = query.ray.origin.z;
-  found.ray.dir_x = query.ray.direction.x;
-  found.ray.dir_y = query.ray.direction.y;
-  found.ray.dir_z = query.ray.direction.z;
-  found.ray.tnear = kMinT;
-  found.ray.tfar = query.limit;
-  found.ray.mask = layers_seen;
-  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  EmbreeQuery context(query);
-  embree_intersect(scene, context, meet_triangle, found);
-}
-
 void Geometry::commit() {
-  rtcCommitScene(impl_->scene);
-  impl_->check();
+  impl_->tree.commit();
   impl_->lay_out();
   impl_->committed = true;
 }
@@ -300,12 +157,7 @@ std::optional<Hit> Geometry::intersect_surface(const Ray& ray, float t_max) cons
 
 bool Geometry::is_near(const Vec3& point, float radius) const {
   assert(impl_->committed && is_finite(point));
-  RTCPointQuery query{point.x, point.y, point.z, 0.0f, radius};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  Search search{impl_->shapes, point, radius};
-  rtcPointQuery(impl_->scene, &query, &context, is_within_reach, &search);
-  return search.found;
+  return impl_->tree.is_near(point, radius);
 }
 
 Encounter Geometry::encounter(const Ray& ray, float t_max) const {
@@ -371,7 +223,7 @@ Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, st
   if (impl_->is_small)
     impl_->look_at_all(query, layers);
   else
-    impl_->look_along(query, layers);
+    impl_->tree.look_along(query, layers);
   First met;
   met.others = std::min(query.others, query.limit);
   if (std::isinf(query.t)) return met;
@@ -427,6 +279,6 @@ double Geometry::area(uint32_t shape) const {
   return impl_->areas[shape];
 }
 
-size_t Geometry::memory_bytes() const { return static_cast<size_t>(impl_->bytes.load()); }
+size_t Geometry::memory_bytes() const { return impl_->tree.memory_bytes() + impl_->bytes; }
 
 }  // namespace vpm
