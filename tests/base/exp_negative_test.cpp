@@ -36,7 +36,7 @@ TEST(ExpNegative, EndsWellAtTheEnds) {
 TEST(ExpNegative, IsTheSameOfManyNumbersAtOnce) {
   for (uint32_t bits = 0; bits <= std::bit_cast<uint32_t>(90.0f); bits += 61 * kBlock) {
     Floats x;
-    for (uint32_t i = 0; i < kBlock; ++i) x[i] = -std::bit_cast<float>(bits + 61 * i);
+    for (uint32_t i = 0; i < kBlock; ++i) x.set(i, -std::bit_cast<float>(bits + 61 * i));
     const Floats all = exp_negative(x);
     for (uint32_t i = 0; i < kBlock; ++i) ASSERT_EQ(all[i], exp_negative(x[i])) << x[i];
   }

@@ -240,7 +240,7 @@ TEST(Combined, LightTracingFillsPixelsAsTheirFiltersSay) {
 TEST(SharesOfPoints, AreNumbersWhereAPixelDrawsNoRay) {
   TechniqueCounts counts;
   counts.points_2d = 0.5;
-  const Floats one = all_lanes(1.0f);
+  const Floats one = Floats(1.0f);
   PhotonsBesideRays beside{};
   beside.adjacent = beside.density = beside.kept = one;
   beside.colliding = 0.5f * one;

@@ -69,7 +69,7 @@ Crossings cross_together(const PhotonBeamMap& map, float radius, const std::vect
           const CrossingLanes found = cross(beams, p, lanes, radius);
           const Floats each = beams.g[p] * (1.0f - found.distance2 * (1.0f / (radius * radius))) / sqrt(found.sine2);
           count -= found.met;
-          sum += found.met ? each : Floats{};
+          sum += select(found.met, each, 0.0f);
         }
         for (size_t i = 0; i < kBlock; ++i) {
           all.count += static_cast<size_t>(count[i]);

@@ -63,6 +63,7 @@ struct Subject {
   void (*measure)(Bench&, const Sizes&);
 };
 
+void measure_lanes(Bench&, const Sizes&);
 void measure_lookups(Bench&, const Sizes&);
 void measure_flights(Bench&, const Sizes&);
 void measure_transmittance(Bench&, const Sizes&);

@@ -14,6 +14,7 @@ namespace vpm::bench {
 namespace {
 
 constexpr Subject kSubjects[] = {
+    {"lanes", "numbers side by side, as gathers take them", measure_lanes},
     {"lookups", "density look-ups in a cloud of 256^3 voxels", measure_lookups},
     {"flights", "free flights through that cloud", measure_flights},
     {"transmittance", "transmittance estimators in that cloud", measure_transmittance},

@@ -8,62 +8,33 @@
 #include <cstdint>
 #include <limits>
 
-#if defined(__AVX512F__)
-#include <immintrin.h>
-#endif
+#include "vpm/base/floats.h"
 
 namespace vpm {
-
-/// Numbers looked at at once.
-inline constexpr uint32_t kBlock = 16;
 
 /// Appends those of the first `count` <= kBlock values that are below the limit to `found`, and to `numbers` which ones
 /// they are, from `first` on. Reads and writes kBlock places of each. Returns how many there are.
 inline uint32_t append_below(const float* values, uint32_t count, float limit, uint32_t first, float* found,
                              uint32_t* numbers) {
   assert(count <= kBlock);
-#if defined(__AVX512F__)
-  const __m512 all = _mm512_loadu_ps(values);
-  const __m512i which = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)),
-                                         _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
-  const auto below =
-      static_cast<__mmask16>(_mm512_cmp_ps_mask(all, _mm512_set1_ps(limit), _CMP_LT_OQ) & ((1u << count) - 1));
-  _mm512_storeu_ps(found, _mm512_maskz_compress_ps(below, all));
-  _mm512_storeu_si512(numbers, _mm512_maskz_compress_epi32(below, which));
-  return static_cast<uint32_t>(__builtin_popcount(below));
-#else
-  uint32_t kept = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    found[kept] = values[i];
-    numbers[kept] = first + i;
-    kept += values[i] < limit ? 1 : 0;
-  }
-  return kept;
-#endif
+  const Floats all = lanes_of(values);
+  const uint32_t below = bits_of(all < limit) & ((1u << count) - 1);
+  store_packed(all, below, found);
+  return store_numbers(first, below, numbers);
 }
 
 /// Moves those of `count` values that are at most the limit, with their numbers, to the front, in their order. Reads
 /// and writes up to the next multiple of kBlock. Returns how many there are.
 inline size_t keep_up_to(float* values, uint32_t* numbers, size_t count, float limit) {
   size_t kept = 0;
-#if defined(__AVX512F__)
   for (size_t i = 0; i < count; i += kBlock) {
-    const __m512 some = _mm512_loadu_ps(values + i);
-    const __m512i which = _mm512_loadu_si512(numbers + i);
+    const Floats some = lanes_of(values + i);
+    const Lanes<uint32_t> which = lanes_of(numbers + i);
     const uint32_t there = count - i < kBlock ? (1u << (count - i)) - 1 : 0xffffu;
-    const auto keep = static_cast<__mmask16>(_mm512_cmp_ps_mask(some, _mm512_set1_ps(limit), _CMP_LE_OQ) & there);
-    _mm512_storeu_ps(values + kept, _mm512_maskz_compress_ps(keep, some));
-    _mm512_storeu_si512(numbers + kept, _mm512_maskz_compress_epi32(keep, which));
-    kept += static_cast<size_t>(__builtin_popcount(keep));
+    const uint32_t keep = bits_of(some <= limit) & there;
+    store_packed(some, keep, values + kept);
+    kept += store_packed(which, keep, numbers + kept);
   }
-#else
-  for (size_t i = 0; i < count; ++i) {
-    const float value = values[i];
-    values[kept] = value;
-    numbers[kept] = numbers[i];
-    kept += value <= limit ? 1 : 0;
-  }
-#endif
   return kept;
 }
 

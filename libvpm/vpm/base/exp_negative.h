@@ -25,7 +25,7 @@ Real whole_part(const Real& x) {
 template <class Real>
 Real polynomial(const Real& x, const Real& n) {
   const Real rest = (x - n * kUpper) - n * kLower;
-  Real sum = Real{} + 1.0f / 5040.0f;
+  Real sum = 1.0f / 5040.0f;
   for (const float term : {1.0f / 720.0f, 1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f})
     sum = sum * rest + term;
   return sum;
@@ -42,10 +42,9 @@ inline float exp_negative(float x) {
 }
 /// The same of many numbers.
 inline Floats exp_negative(const Floats& x) {
-  const Floats bounded = max(x, all_lanes(exponential::kLeast - 1.0f)), n = exponential::whole_part(bounded);
-  const Floats result =
-      exponential::polynomial(bounded, n) * std::bit_cast<Floats>((__builtin_convertvector(n, LaneMask) + 127) << 23);
-  return x < exponential::kLeast ? Floats{} : result;
+  const Floats bounded = max(x, exponential::kLeast - 1.0f), n = exponential::whole_part(bounded);
+  const Floats result = exponential::polynomial(bounded, n) * with_bits((truncated(n) + 127) << 23);
+  return select(x < exponential::kLeast, 0.0f, result);
 }
 
 }  // namespace vpm

@@ -31,10 +31,12 @@ float kernel_norm(KernelKind kind, float r) {
   return Dimension == 1 ? kernel_norm_1d(kind, r) : Dimension == 2 ? kernel_norm_2d(kind, r) : kernel_norm_3d(kind, r);
 }
 
-/// The weights of a kernel and of its correction, without their common norm, as a function of (distance / radius)^2.
+/// The weights of a kernel and of its correction, without their common norm, as a function of (distance / radius)^2:
+/// a float, or Floats.
 template <KernelKind K, int Dimension>
 struct KernelProfile {
-  KernelPair<float> operator()(float q) const {
+  template <class Real>
+  KernelPair<Real> operator()(const Real& q) const {
     return {kernel_profile<K, Dimension>(q), kernel_correction<K, Dimension>(q)};
   }
 };

@@ -12,9 +12,13 @@ namespace vpm {
 
 /// Scatters equally into all directions.
 struct Isotropic {
-  /// Density per solid angle, 1/sr: at a cosine, and from one direction of travel to the next (unit).
+  /// Density per solid angle, 1/sr, at a cosine.
   float value(float) const { return 1.0f / (4.0f * kPi); }
-  float value(const Vec3&, const Vec3&) const { return 1.0f / (4.0f * kPi); }
+  /// The same from one direction of travel to the next (unit). Either may be a Floats3: many of them side by side.
+  template <class Before, class After>
+  auto value(const Before& before, const After& after) const {
+    return decltype(before.x + after.x)(1.0f / (4.0f * kPi));
+  }
   /// A direction of travel after scattering, distributed as value().
   Vec3 sample(const Vec3& travel, const Vec2& u) const;
   float mean_cosine() const { return 0.0f; }
@@ -29,9 +33,10 @@ struct HenyeyGreenstein {
   float value(float cosine) const { return value_away(1.0f - (g < 0.0f ? -cosine : cosine)); }
   /// The same between unit vectors. 1 - cos is half the square of their difference, which keeps its digits where the
   /// cosine has lost them: the peak of g = 0.9999 is 1e-4 rad wide.
-  float value(const Vec3& before, const Vec3& after) const {
-    const Vec3 apart = g < 0.0f ? after + before : after - before;
-    return value_away(0.5f * glm::dot(apart, apart));
+  template <class Before, class After>
+  auto value(const Before& before, const After& after) const {
+    const auto apart = g < 0.0f ? after + before : after - before;
+    return value_away(0.5f * dot(apart, apart));
   }
   Vec3 sample(const Vec3& travel, const Vec2& u) const;
   float mean_cosine() const { return g; }
@@ -40,17 +45,25 @@ struct HenyeyGreenstein {
  private:
   /// By `away` = 1 - sign(g) cos. The bracket is computed as (1 - |g|)^2 + 2 |g| away, because the printed form cancels
   /// for |g| near 1.
-  float value_away(float away) const {
+  template <class Real>
+  Real value_away(const Real& away) const {
+    using std::max, std::sqrt;
     const float a = std::abs(g);
-    const float b = (1.0f - a) * (1.0f - a) + 2.0f * a * std::max(0.0f, away);
-    return (1.0f - a) * (1.0f + a) / (4.0f * kPi * b * std::sqrt(b));
+    const Real b = (1.0f - a) * (1.0f - a) + 2.0f * a * max(Real(0.0f), away);
+    return (1.0f - a) * (1.0f + a) / (4.0f * kPi * b * sqrt(b));
   }
 };
 
 /// Scattering by particles much smaller than the wavelength, unpolarised: 3 (1 + cos^2) / (16 pi).
 struct Rayleigh {
-  float value(float cosine) const { return 3.0f / (16.0f * kPi) * (1.0f + cosine * cosine); }
-  float value(const Vec3& before, const Vec3& after) const { return value(glm::dot(before, after)); }
+  template <class Real>
+  Real value(const Real& cosine) const {
+    return 3.0f / (16.0f * kPi) * (1.0f + cosine * cosine);
+  }
+  template <class Before, class After>
+  auto value(const Before& before, const After& after) const {
+    return value(dot(before, after));
+  }
   Vec3 sample(const Vec3& travel, const Vec2& u) const;
   float mean_cosine() const { return 0.0f; }
   float mean_square_cosine() const { return 0.4f; }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "vpm/base/below.h"
+#include "vpm/base/floats.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/vec.h"
 #include "vpm/photon/ray_bundle.h"
@@ -59,6 +59,8 @@ class BoxTree {
   uint32_t meet(const Vec3& point, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
   /// Likewise, for the boxes that no plane around the bundle parts from it.
   uint32_t meet(const RayBundle& bundle, size_t place, uint32_t count, uint32_t first, uint32_t* met) const;
+  /// Appends likewise which of the `count` first lanes the mask is set in.
+  static uint32_t append(const LaneMask& mask, uint32_t count, uint32_t first, uint32_t* met);
   /// Visits the leaves that meet() finds.
   template <class Where, class Visit>
   void descend(const Where& where, Visit&& visit) const;
@@ -80,57 +82,37 @@ BoxTree::BoxTree(size_t leaves, BoxOf&& box_of) {
   join_boxes();
 }
 
+inline uint32_t BoxTree::append(const LaneMask& mask, uint32_t count, uint32_t first, uint32_t* met) {
+  return store_numbers(first, bits_of(mask) & ((1u << count) - 1), met);
+}
+
 inline uint32_t BoxTree::meet(const Beam& beam, size_t place, uint32_t count, uint32_t first, uint32_t* met) const {
-  const float *near_x = beam.near[0] + place, *near_y = beam.near[1] + place, *near_z = beam.near[2] + place;
-  const float *far_x = beam.far[0] + place, *far_y = beam.far[1] + place, *far_z = beam.far[2] + place;
-  const auto [t0, t1] = beam.interval;
-  const Vec3 inverse = beam.inverse, at_enter = beam.enter, at_leave = beam.leave;
-  float missed[kBlock], unused[kBlock];
-  for (uint32_t i = 0; i < kBlock; ++i) {
-    float enter = t0, leave = t1;
-    enter = std::max(enter, near_x[i] * inverse.x + at_enter.x);
-    enter = std::max(enter, near_y[i] * inverse.y + at_enter.y);
-    enter = std::max(enter, near_z[i] * inverse.z + at_enter.z);
-    leave = std::min(leave, far_x[i] * inverse.x + at_leave.x);
-    leave = std::min(leave, far_y[i] * inverse.y + at_leave.y);
-    leave = std::min(leave, far_z[i] * inverse.z + at_leave.z);
-    missed[i] = enter <= leave ? 0.0f : 1.0f;
+  Floats enter = beam.interval.t0, leave = beam.interval.t1;
+  for (int axis = 0; axis < 3; ++axis) {
+    enter = max(lanes_of(beam.near[axis] + place) * beam.inverse[axis] + beam.enter[axis], enter);
+    leave = min(lanes_of(beam.far[axis] + place) * beam.inverse[axis] + beam.leave[axis], leave);
   }
-  return append_below(missed, count, 0.5f, first, unused, met);
+  return append(enter <= leave, count, first, met);
 }
 
 inline uint32_t BoxTree::meet(const Vec3& point, size_t place, uint32_t count, uint32_t first, uint32_t* met) const {
-  const float *lo_x = lo_[0].data() + place, *lo_y = lo_[1].data() + place, *lo_z = lo_[2].data() + place;
-  const float *hi_x = hi_[0].data() + place, *hi_y = hi_[1].data() + place, *hi_z = hi_[2].data() + place;
-  const Vec3 at = point;
-  float missed[kBlock], unused[kBlock];
-  for (uint32_t i = 0; i < kBlock; ++i) {
-    const float x = std::max(lo_x[i] - at.x, at.x - hi_x[i]);
-    const float y = std::max(lo_y[i] - at.y, at.y - hi_y[i]);
-    const float z = std::max(lo_z[i] - at.z, at.z - hi_z[i]);
-    missed[i] = std::max(x, std::max(y, z)) <= 0.0f ? 0.0f : 1.0f;
-  }
-  return append_below(missed, count, 0.5f, first, unused, met);
+  LaneMask holds = -1;
+  for (int axis = 0; axis < 3; ++axis)
+    holds &= (lanes_of(lo_[axis].data() + place) <= point[axis]) & (lanes_of(hi_[axis].data() + place) >= point[axis]);
+  return append(holds, count, first, met);
 }
 
 inline uint32_t BoxTree::meet(const RayBundle& bundle, size_t place, uint32_t count, uint32_t first,
                               uint32_t* met) const {
   const HalfSpaces& region = bundle.region();
-  const Vec3 apex = bundle.apex();
-  float least_inside[kBlock], missed[kBlock], unused[kBlock];  // of all planes, m, of the corner that is most inside
-  std::fill_n(least_inside, kBlock, kInfinity);
+  LaneMask inside = -1;
   for (int k = 0; k < region.count(); ++k) {
     const Vec3 n = region.normal(k);
-    const float offset = region.offset(k);
-    const float *x = (n.x > 0.0f ? hi_ : lo_)[0].data() + place, *y = (n.y > 0.0f ? hi_ : lo_)[1].data() + place,
-                *z = (n.z > 0.0f ? hi_ : lo_)[2].data() + place;
-    for (uint32_t i = 0; i < kBlock; ++i) {
-      const float inside = n.x * (x[i] - apex.x) + n.y * (y[i] - apex.y) + n.z * (z[i] - apex.z) - offset;
-      least_inside[i] = std::min(least_inside[i], inside);
-    }
+    const auto side = [&](int axis) { return (n[axis] > 0.0f ? hi_ : lo_)[axis].data() + place; };
+    const Floats3 most_inside = Floats3::of(side(0), side(1), side(2)) - bundle.apex();
+    inside &= dot(n, most_inside) - region.offset(k) >= 0.0f;
   }
-  for (uint32_t i = 0; i < kBlock; ++i) missed[i] = least_inside[i] >= 0.0f ? 0.0f : 1.0f;
-  return append_below(missed, count, 0.5f, first, unused, met);
+  return append(inside, count, first, met);
 }
 
 template <class Visit>

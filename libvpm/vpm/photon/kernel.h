@@ -38,13 +38,17 @@ inline const KernelInfo& kernel_info(KernelKind kind) { return kKernels[static_c
 /// The power of the radius that the error of a kernel in a smooth density goes with.
 inline int kernel_order(KernelKind kind) { return kind == KernelKind::order_4 ? 4 : 2; }
 
+/// `a` where the condition holds, else `b`; floats.h has that of many numbers.
+inline float select(bool condition, float a, float b) { return condition ? a : b; }
+
 /// The kernels' profiles in q = (distance / radius)^2, q <= 1, without their normalisation: (1 - q)^n, and 1 - sqrt(q).
 /// That of order 4 in d dimensions is (1 - q) (1 - c q): the integral of q times it over the ball is proportional to
-/// 1/(d+2) - (1+c)/(d+4) + c/(d+6), which is 0 for c = (d+6)/(d+2).
-template <KernelKind K, int Dimension>
-float kernel_profile(float q) {
+/// 1/(d+2) - (1+c)/(d+4) + c/(d+6), which is 0 for c = (d+6)/(d+2). A Real is a float, or Floats.
+template <KernelKind K, int Dimension, class Real>
+Real kernel_profile(const Real& q) {
+  using std::sqrt;
   if constexpr (K == KernelKind::constant) return 1.0f;
-  if constexpr (K == KernelKind::cone) return 1.0f - std::sqrt(q);
+  if constexpr (K == KernelKind::cone) return 1.0f - sqrt(q);
   if constexpr (K == KernelKind::epanechnikov) return 1.0f - q;
   if constexpr (K == KernelKind::biweight) return (1.0f - q) * (1.0f - q);
   if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (1.0f - q);
@@ -56,11 +60,12 @@ float kernel_profile(float q) {
 /// that goes as r^2 is minus what this weight gives on average. One that goes as r is twice that; one that goes as r^4,
 /// the least that a kernel of order 4 has, is half of that. A constant kernel has no derivative at its edge; for it,
 /// the difference from the kernel of radius r/sqrt(2) has the same two properties.
-template <KernelKind K, int Dimension>
-float kernel_correction(float q) {
+template <KernelKind K, int Dimension, class Real>
+Real kernel_correction(const Real& q) {
+  using std::sqrt;
   constexpr float d = Dimension;
-  if constexpr (K == KernelKind::constant) return q < 0.5f ? 2.0f * std::exp2(d / 2.0f) - 2.0f : -2.0f;
-  if constexpr (K == KernelKind::cone) return d / 2.0f - (d + 1.0f) / 2.0f * std::sqrt(q);
+  if constexpr (K == KernelKind::constant) return select(q < 0.5f, 2.0f * std::exp2(d / 2.0f) - 2.0f, -2.0f);
+  if constexpr (K == KernelKind::cone) return d / 2.0f - (d + 1.0f) / 2.0f * sqrt(q);
   if constexpr (K == KernelKind::epanechnikov) return d / 2.0f * (1.0f - q) - q;
   if constexpr (K == KernelKind::biweight) return (1.0f - q) * (d / 2.0f * (1.0f - q) - 2.0f * q);
   if constexpr (K == KernelKind::triweight) return (1.0f - q) * (1.0f - q) * (d / 2.0f * (1.0f - q) - 3.0f * q);

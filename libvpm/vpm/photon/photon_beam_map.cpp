@@ -187,10 +187,8 @@ uint32_t PhotonBeamMap::select(const RayBundle& bundle, Selection& near) const {
   if (size_ == 0) return 0;
   uint32_t visited = 0;
   boxes_.visit_leaves(bundle, [&](uint32_t leaf) {
-    float missed[kBlock];
-    test(leaves_[leaf], bundle, radius_, missed);
-    for (size_t i = 0; i < kBlock; ++i)
-      if (missed[i] < 0.5f) near.add(leaves_[leaf], owners_[leaf], i);
+    for (uint32_t bits = bits_of(test(leaves_[leaf], bundle, radius_)); bits != 0; bits &= bits - 1)
+      near.add(leaves_[leaf], owners_[leaf], static_cast<size_t>(std::countr_zero(bits)));
     count(visited, kBlock);
   });
   return visited;

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "vpm/base/below.h"
 #include "vpm/base/count.h"
+#include "vpm/base/floats.h"
 #include "vpm/photon/box_tree.h"
 #include "vpm/photon/photon_beam.h"
 
@@ -72,6 +72,8 @@ class PhotonBeamMap {
     float dx[kBlock], dy[kBlock], dz[kBlock];  // direction, unit
     float half[kBlock];                        // of their lengths, m
 
+    Floats3 middles() const { return Floats3::of(x, y, z); }
+    Floats3 directions() const { return Floats3::of(dx, dy, dz); }
     void put(size_t i, const Vec3& middle, const Vec3& direction, float half_length);
   };
   /// The beams that the pieces of a leaf are of.
@@ -88,14 +90,14 @@ class PhotonBeamMap {
 
     Vec3 right, up, along;
   };
-  /// Finds which pieces of a leaf the ray passes closely: 0 for these in `missed`, 1 for others.
-  void test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval, float* missed) const;
+  /// Which pieces of a leaf does the ray pass closely?
+  LaneMask test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval) const;
   /// The same for a point.
-  void test(const Leaf& leaf, const Vec3& point, float* missed) const;
-  /// The same for the rays of a bundle; some pieces that they pass by a little further away are not missed.
-  static void test(const Leaf& leaf, const RayBundle& bundle, float radius, float* missed);
-  /// `search` hands the number of each leaf that it visits, and which pieces of it are missed, to its argument; `use`
-  /// takes the pieces that are not, up to kMost at a time. Returns how many pieces were looked at.
+  LaneMask test(const Leaf& leaf, const Vec3& point) const;
+  /// The same for the rays of a bundle, and some pieces that they pass by a little further away.
+  static LaneMask test(const Leaf& leaf, const RayBundle& bundle, float radius);
+  /// `search` hands the number of each leaf that it visits, and which pieces of it are near, to its argument; `use`
+  /// takes these pieces, up to kMost at a time. Returns how many pieces were looked at.
   template <size_t kMost, class Search, class Use>
   static uint32_t collect(Search&& search, Use&& use);
   /// The middles of pieces as places.
@@ -131,66 +133,40 @@ class PhotonBeamMap::Selection {
   std::vector<Owners> owners_;
 };
 
-inline void PhotonBeamMap::test(const Leaf& leaf, const Ray& ray, const Frame& frame, const Interval& interval,
-                                float* missed) const {
-  const auto& [px, py, pz, dx, dy, dz, half] = leaf;
-  const Vec3 right = frame.right, up = frame.up, along = frame.along;
-  const auto [t0, t1] = interval;
-  const Vec3 o = ray.origin;
-  const float radius2 = radius_ * radius_;
-  for (uint32_t i = 0; i < kBlock; ++i) {
-    const float x = px[i] - o.x, y = py[i] - o.y, z = pz[i] - o.z;
-    const float a = x * right.x + y * right.y + z * right.z, b = x * up.x + y * up.y + z * up.z;
-    const float da = dx[i] * right.x + dy[i] * right.y + dz[i] * right.z;
-    const float db = dx[i] * up.x + dy[i] * up.y + dz[i] * up.z;
-    const float sine2 = da * da + db * db, across = a * db - b * da, back = a * da + b * db;
-    const float s_sine2 = -back;  // along the beam from the middle, times sine2
-    const float c = x * along.x + y * along.y + z * along.z;
-    const float dc = dx[i] * along.x + dy[i] * along.y + dz[i] * along.z;
-    const float t_sine2 = c * sine2 + s_sine2 * dc, end = half[i] * sine2;
-    const bool near = across * across < radius2 * sine2;
-    const bool on_piece = s_sine2 >= -end && s_sine2 < end;
-    const bool on_ray = t_sine2 >= t0 * sine2 && t_sine2 < t1 * sine2;
-    missed[i] = near && on_piece && on_ray ? 0.0f : 1.0f;
-  }
+inline LaneMask PhotonBeamMap::test(const Leaf& leaf, const Ray& ray, const Frame& frame,
+                                    const Interval& interval) const {
+  const Floats3 middle = leaf.middles() - ray.origin, direction = leaf.directions();
+  const Floats a = dot(frame.right, middle), b = dot(frame.up, middle);
+  const Floats da = dot(frame.right, direction), db = dot(frame.up, direction);
+  const Floats sine2 = da * da + db * db, across = a * db - b * da;
+  const Floats s_sine2 = Floats{} - (a * da + b * db);  // along the beam from the middle, times sine2
+  const Floats t_sine2 = dot(frame.along, middle) * sine2 + s_sine2 * dot(frame.along, direction);
+  const Floats end = lanes_of(leaf.half) * sine2;
+  return (across * across < radius_ * radius_ * sine2) & (s_sine2 >= Floats{} - end) & (s_sine2 < end) &
+         (t_sine2 >= interval.t0 * sine2) & (t_sine2 < interval.t1 * sine2);
 }
 
-inline void PhotonBeamMap::test(const Leaf& leaf, const Vec3& point, float* missed) const {
-  const auto& [px, py, pz, dx, dy, dz, half] = leaf;
-  const Vec3 p = point;
-  const float radius2 = radius_ * radius_;
-  for (uint32_t i = 0; i < kBlock; ++i) {
-    const float x = px[i] - p.x, y = py[i] - p.y, z = pz[i] - p.z;
-    const float s = -(x * dx[i] + y * dy[i] + z * dz[i]);
-    const float across_x = x + s * dx[i], across_y = y + s * dy[i], across_z = z + s * dz[i];
-    const bool near = across_x * across_x + across_y * across_y + across_z * across_z < radius2;
-    const bool on_piece = s >= -half[i] && s < half[i];
-    missed[i] = near && on_piece ? 0.0f : 1.0f;
-  }
+inline LaneMask PhotonBeamMap::test(const Leaf& leaf, const Vec3& point) const {
+  const Floats3 middle = leaf.middles() - point, direction = leaf.directions();
+  const Floats s = Floats{} - dot(middle, direction), half = lanes_of(leaf.half);
+  const Floats3 across = middle + s * direction;
+  return (dot(across, across) < radius_ * radius_) & (s >= Floats{} - half) & (s < half);
 }
 
-inline void PhotonBeamMap::test(const Leaf& leaf, const RayBundle& bundle, float radius, float* missed) {
-  const auto& [px, py, pz, dx, dy, dz, half] = leaf;
+inline LaneMask PhotonBeamMap::test(const Leaf& leaf, const RayBundle& bundle, float radius) {
   const HalfSpaces& region = bundle.region();
-  const Vec3 apex = bundle.apex();
   const float reach = 1.0001f * radius;
+  const Floats3 middle = leaf.middles() - bundle.apex(), direction = leaf.directions();
   // Each plane, moved by the radius, cuts off a part of a piece; what no plane cuts off lies among the rays.
-  float begin[kBlock], end[kBlock];  // m from the middle
-  for (uint32_t i = 0; i < kBlock; ++i) {
-    begin[i] = -half[i];
-    end[i] = half[i];
-  }
+  Floats end = lanes_of(leaf.half), begin = Floats{} - end;  // m from the middle
   for (int k = 0; k < region.count(); ++k) {
-    const Vec3 n = region.normal(k);
-    const float least = region.offset(k) - reach;
-    for (uint32_t i = 0; i < kBlock; ++i) {
-      const float depth = n.x * (px[i] - apex.x) + n.y * (py[i] - apex.y) + n.z * (pz[i] - apex.z) - least;
-      const float rise = n.x * dx[i] + n.y * dy[i] + n.z * dz[i], at = -depth / rise;
-      begin[i] = rise > 0.0f ? std::max(begin[i], at) : begin[i];
-      end[i] = rise < 0.0f ? std::min(end[i], at) : rise == 0.0f && depth < 0.0f ? -kInfinity : end[i];
-    }
+    const Floats depth = dot(region.normal(k), middle) - (region.offset(k) - reach);
+    const Floats rise = dot(region.normal(k), direction), at = (Floats{} - depth) / rise;
+    begin = vpm::select(rise > 0.0f, max(at, begin), begin);
+    end = vpm::select(rise < 0.0f, min(at, end), end);
+    end = vpm::select((rise == 0.0f) & (depth < 0.0f), -kInfinity, end);
   }
-  for (uint32_t i = 0; i < kBlock; ++i) missed[i] = begin[i] <= end[i] ? 0.0f : 1.0f;
+  return begin <= end;
 }
 
 template <size_t N>
@@ -252,11 +228,10 @@ inline void PhotonBeamMap::stand_beside(const uint32_t* pieces, size_t count, co
 template <size_t kMost, class Search, class Use>
 uint32_t PhotonBeamMap::collect(Search&& search, Use&& use) {
   uint32_t pieces[kMost + kBlock];
-  float unused[kBlock];
   size_t count_found = 0;
   uint32_t visited = 0;
-  search([&](uint32_t leaf, const float* missed) {
-    count_found += append_below(missed, kBlock, 0.5f, leaf * kBlock, unused, pieces + count_found);
+  search([&](uint32_t leaf, const LaneMask& near) {
+    count_found += store_numbers(leaf * kBlock, bits_of(near), pieces + count_found);
     if (count_found > kMost - kBlock) {
       use(pieces, count_found);
       count_found = 0;
@@ -273,11 +248,8 @@ uint32_t PhotonBeamMap::visit_crossings(const Ray& ray, const Interval& interval
   const Frame frame(ray.direction);
   BeamCrossings found;
   const auto search = [&](auto&& use_leaf) {
-    boxes_.visit_leaves(ray, interval, [&](uint32_t leaf) {
-      float missed[kBlock];
-      test(leaves_[leaf], ray, frame, interval, missed);
-      use_leaf(leaf, missed);
-    });
+    boxes_.visit_leaves(ray, interval,
+                        [&](uint32_t leaf) { use_leaf(leaf, test(leaves_[leaf], ray, frame, interval)); });
   };
   return collect<BeamPlaces::kMost>(search, [&](const uint32_t* pieces, size_t number) {
     cross(pieces, number, ray, frame, found);
@@ -290,9 +262,7 @@ uint32_t PhotonBeamMap::Selection::visit_near_bundle(const RayBundle& bundle, Vi
   BundledBeams found;
   const auto search = [&](auto&& use_leaf) {
     for (uint32_t leaf = 0; leaf < chunk_count(size_, kBlock); ++leaf) {
-      float missed[kBlock];
-      test(leaves_[leaf], bundle, radius_, missed);
-      use_leaf(leaf, missed);
+      use_leaf(leaf, test(leaves_[leaf], bundle, radius_));
     }
   };
   return collect<BundledBeams::kMost>(search, [&](const uint32_t* pieces, size_t number) {
@@ -307,11 +277,7 @@ uint32_t PhotonBeamMap::visit_near(const Vec3& point, Visit&& visit) const {
   if (size_ == 0) return 0;
   BeamPlaces found;
   const auto search = [&](auto&& use_leaf) {
-    boxes_.visit_leaves(point, [&](uint32_t leaf) {
-      float missed[kBlock];
-      test(leaves_[leaf], point, missed);
-      use_leaf(leaf, missed);
-    });
+    boxes_.visit_leaves(point, [&](uint32_t leaf) { use_leaf(leaf, test(leaves_[leaf], point)); });
   };
   return collect<BeamPlaces::kMost>(search, [&](const uint32_t* pieces, size_t number) {
     stand_beside(pieces, number, point, found);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vpm/base/below.h"
+#include "vpm/base/floats.h"
 #include "vpm/base/vec.h"
 #include "vpm/photon/half_spaces.h"
 #include "vpm/photon/photon.h"

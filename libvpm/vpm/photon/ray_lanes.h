@@ -16,15 +16,17 @@ struct RayLanes {
     make_frame(ray.direction, to_right, upwards);
     from.set(lane, ray.origin - apex);
     along.set(lane, ray.direction);
+    towards_eye.set(lane, -ray.direction);
     right.set(lane, to_right);
     up.set(lane, upwards);
-    t0[lane] = interval.t0;
-    t1[lane] = interval.t1;
+    t0.set(lane, interval.t0);
+    t1.set(lane, interval.t1);
   }
 
-  Floats3 from;                        // origins, m from the bundle's apex
-  Floats3 along, right, up;            // directions, unit, and two across each
-  Floats t0{}, t1 = all_lanes(-1.0f);  // the parts of them, m
+  Floats3 from;                // origins, m from the bundle's apex
+  Floats3 along, towards_eye;  // directions, unit
+  Floats3 right, up;           // two across each
+  Floats t0{}, t1 = -1.0f;     // the parts of them, m
 };
 
 /// Where rays cross a piece of a beam.
@@ -44,7 +46,7 @@ inline CrossingLanes cross(const BundledBeams& beams, size_t p, const RayLanes& 
   const Floats a = dot(middle, rays.right), b = dot(middle, rays.up);
   const Floats da = dot(direction, rays.right), db = dot(direction, rays.up);
   const Floats sine2 = da * da + db * db, across = a * db - b * da;
-  const Floats per_sine2 = 1.0f / max(sine2, all_lanes(std::numeric_limits<float>::min()));
+  const Floats per_sine2 = 1.0f / max(sine2, std::numeric_limits<float>::min());
   const Floats s = Floats{} - (a * da + b * db) * per_sine2;  // along the beam from the middle, m
   CrossingLanes crossing{middle + s * direction, s + beams.s[p], across * across * per_sine2, sine2, {}};
   const Floats t = dot(crossing.places, rays.along);

@@ -20,10 +20,10 @@ struct CrossedRay {
 bool set_medium(const CrossedRay& crossed, const Ray& beam, const Vec3& place, float s, float t, size_t lane,
                 Crossings& at) {
   const Medium& medium = crossed.medium;
-  at.along_ray[lane] = t;
+  at.along_ray.set(lane, t);
   if (medium.homogeneous()) {
-    at.seen_integral[lane] = t;
-    at.flown_integral[lane] = s;
+    at.seen_integral.set(lane, t);
+    at.flown_integral.set(lane, s);
     return true;
   }
   const float density = medium.density(place);
@@ -31,17 +31,17 @@ bool set_medium(const CrossedRay& crossed, const Ray& beam, const Vec3& place, f
   if (density == 0.0f) return false;
   const DensityIntegral flown = density_integral(medium, beam, {0.0f, s});
   count(crossed.counters.lookups, flown.lookups);
-  at.density[lane] = density;
-  at.seen_integral[lane] = static_cast<float>(crossed.integrals.at(t).integral);
-  at.flown_integral[lane] = static_cast<float>(flown.value);
+  at.density.set(lane, density);
+  at.seen_integral.set(lane, static_cast<float>(crossed.integrals.at(t).integral));
+  at.flown_integral.set(lane, static_cast<float>(flown.value));
   return true;
 }
 
 void set_flight(const FlightTerms& flight, const Rgb& power, size_t lane, Crossings& at) {
   for (int c = 0; c < 3; ++c) {
-    at.power[c][lane] = power[c];
-    at.before[c][lane] = flight.before[c];
-    at.back[c][lane] = flight.back[c];
+    at.power[c].set(lane, power[c]);
+    at.before[c].set(lane, flight.before[c]);
+    at.back[c].set(lane, flight.back[c]);
   }
   at.turn.set(lane, flight.turn);
 }
@@ -60,10 +60,10 @@ uint32_t set_crossings(const CrossedRay& crossed, const PhaseFunction& phase, co
     if (!set_medium(crossed, {place - s * travel, travel}, place, s, found.t[n], lane, at)) continue;
     ++number;
     set_flight(flight, Rgb(found.r[n], found.g[n], found.b[n]), lane, at);
-    at.adjacent[lane] = adjacent_at(flight, place, travel, flown) * (flight.parallel ? 1.0f : flown * flown);
-    at.scattered[lane] = phase.value(travel, -crossed.ray.direction);
-    at.sine[lane] = found.sine[n];
-    at.q[lane] = std::min(found.distance2[n] / (crossed.radius * crossed.radius), 1.0f);
+    at.adjacent.set(lane, adjacent_at(flight, place, travel, flown) * (flight.parallel ? 1.0f : flown * flown));
+    at.scattered.set(lane, phase.value(travel, -crossed.ray.direction));
+    at.sine.set(lane, found.sine[n]);
+    at.q.set(lane, std::min(found.distance2[n] / (crossed.radius * crossed.radius), 1.0f));
   }
   return number;
 }

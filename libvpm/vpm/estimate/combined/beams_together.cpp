@@ -14,23 +14,23 @@ uint32_t set_crossings(const LightBeams& beams, const RayBlock& block, const Pha
   if (!any(crossing.met)) return 0;
   const FlightTerms& flight = beams.flights[found.beam[p]];
   const Vec3 travel(found.dx[p], found.dy[p], found.dz[p]);
-  const auto where_met = [&](const Floats& x, float otherwise) { return crossing.met ? x : all_lanes(otherwise); };
+  const auto where_met = [&](const Floats& x, float otherwise) { return select(crossing.met, x, otherwise); };
   const Floats s = where_met(max(crossing.s, Floats{}), 0.0f), flown = flight.offset + s;
   const Rgb power(found.r[p], found.g[p], found.b[p]);
-  for (int c = 0; c < 3; ++c) at.power[c] = where_met(all_lanes(power[c]), 0.0f);
+  for (int c = 0; c < 3; ++c) at.power[c] = where_met(power[c], 0.0f);
   at.before = all_lanes(flight.before);
   at.back = all_lanes(flight.back);
-  at.turn = {all_lanes(flight.turn.x), all_lanes(flight.turn.y), all_lanes(flight.turn.z)};
-  at.adjacent = all_lanes(flight.adjacent);
+  at.turn = {flight.turn.x, flight.turn.y, flight.turn.z};
+  at.adjacent = flight.adjacent;
   if (flight.round)
     for (size_t lane = 0; lane < kBlock; ++lane)
       if (crossing.met[lane])
-        at.adjacent[lane] =
-            adjacent_at(flight, block.apex + block.lanes.from[lane] + crossing.places[lane], travel, flown[lane]);
+        at.adjacent.set(lane, adjacent_at(flight, block.apex + block.lanes.from[lane] + crossing.places[lane], travel,
+                                          flown[lane]));
   if (!flight.parallel) at.adjacent *= flown * flown;
-  for (size_t lane = 0; lane < kBlock; ++lane) at.scattered[lane] = phase.value(travel, -block.rays.along[lane]);
+  at.scattered = phase.value(travel, block.lanes.towards_eye);
   at.sine = where_met(sqrt(crossing.sine2), 1.0f);
-  at.q = where_met(min(crossing.distance2 * (1.0f / (block.radius * block.radius)), all_lanes(1.0f)), 1.0f);
+  at.q = where_met(min(crossing.distance2 * (1.0f / (block.radius * block.radius)), 1.0f), 1.0f);
   at.along_ray = at.seen_integral = where_met(dot(crossing.places, block.rays.along), 0.0f);
   at.flown_integral = s;
   return lanes_in(crossing.met);

@@ -15,11 +15,11 @@ struct Crossings {
   Floats3 turn;
   Floats adjacent{};                         // FlightTerms::adjacent times the squared distance from the last vertex
   Floats scattered{};                        // the phase function towards the eye, 1/sr
-  Floats sine = all_lanes(1.0f);             // of the angle between the two
+  Floats sine = 1.0f;                        // of the angle between the two
   Floats q{};                                // their squared distance over that of the radius
   Floats along_ray{};                        // m from the ray's origin
   Floats seen_integral{}, flown_integral{};  // of density up to the crossing, along the ray and along the beam, m
-  Floats density = all_lanes(1.0f);          // of the medium, > 0
+  Floats density = 1.0f;                     // of the medium, > 0
 };
 
 /// What is left of short beams' powers, as analog_weight() has it.
@@ -32,7 +32,7 @@ inline FloatsRgb left_of_short(const FloatsRgb& power, const Rgb& sigma_t, const
     sum += abs(power[c]);
     weighted += abs(power[c]) * left[c];
   }
-  const Floats factor = weighted > 0.0f ? sum / weighted : Floats{};
+  const Floats factor = select(weighted > 0.0f, sum / weighted, 0.0f);
   for (Floats& channel : left) channel *= factor;
   return left;
 }
@@ -48,15 +48,15 @@ class CrossingLight {
         profile_(profile),
         medium_(context, medium),
         is_long_(technique == Technique::long_beams),
-        grey_(is_grey(medium.sigma_t)) {}
+        grey_(medium_.extinction().grey()) {}
 
   const PhaseFunction& phase() const { return phase_; }
 
   void add(const MergingRays& rays, const Crossings& at, LaneMerges& sums) const {
     const Rgb& sigma_t = medium_.sigma_t();
     const FloatsRgb whole = all_lanes(Rgb(1.0f));
-    const FloatsRgb on_beam = attenuated(whole, sigma_t, at.flown_integral);
-    const FloatsRgb on_ray = attenuated(rays.passed, sigma_t, at.seen_integral);
+    const FloatsRgb on_beam = attenuated(whole, medium_.extinction(), at.flown_integral);
+    const FloatsRgb on_ray = attenuated(rays.passed, medium_.extinction(), at.seen_integral);
     const Floats share = shares_.of(crossed(rays, at, on_beam, on_ray));
     const FloatsRgb left = is_long_ ? on_beam : grey_ ? whole : left_of_short(at.power, sigma_t, at.flown_integral);
     const Floats found = at.density * at.scattered / at.sine;

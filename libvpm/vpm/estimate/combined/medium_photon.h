@@ -1,9 +1,6 @@
 // A photon in a medium, for merges, and kBlock of them side by side.
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "vpm/estimate/combined/mis_weights.h"
 #include "vpm/estimate/combined/vertex_map.h"
 
@@ -24,9 +21,6 @@ struct MediumPhoton {
 inline double behind_scale(const TechniqueCounts& counts, double sigma_t) {
   return counts.points_2d > 0.0 && sigma_t > 0.0 ? counts.weigh(sigma_t / counts.points_2d) : 1.0;
 }
-
-/// A number for each photon of a leaf.
-using Lanes = std::array<float, kBlock>;
 
 /// Each member of kBlock photons in a row of its own, so that loops over rows are vector loops.
 struct alignas(64) MediumPhotonLeaf : LeafPlaces {

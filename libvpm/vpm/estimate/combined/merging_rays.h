@@ -5,8 +5,8 @@
 #include <span>
 #include <type_traits>
 
-#include "vpm/base/exp_negative.h"
 #include "vpm/estimate/combined/ray_merges.h"
+#include "vpm/estimate/extinction.h"
 #include "vpm/estimate/eye_segment.h"
 #include "vpm/estimate/kernel_sum.h"
 #include "vpm/photon/ray_bundle.h"
@@ -23,9 +23,9 @@ struct MergingRays {
   Floats3 along;    // directions, unit
 
   void set(size_t lane, const RaySegment& segment, double unit) {
-    for (int c = 0; c < 3; ++c) passed[c][lane] = segment.passed[c];
-    before[lane] = segment.before;
-    splats[lane] = static_cast<float>(std::min(segment.adjacent / unit, 1e30));
+    for (int c = 0; c < 3; ++c) passed[c].set(lane, segment.passed[c]);
+    before.set(lane, segment.before);
+    splats.set(lane, static_cast<float>(std::min(segment.adjacent / unit, 1e30)));
     along.set(lane, segment.ray.direction);
   }
 };
@@ -36,33 +36,23 @@ inline MergingRays rays_of(const RaySegment& segment, double unit) {
   return rays;
 }
 
-/// exp(-sigma_t integral), channel by channel, times `before`.
-inline FloatsRgb attenuated(const FloatsRgb& before, const Rgb& sigma_t, const Floats& integral) {
-  FloatsRgb passed;
-  Floats left{};
-  for (int c = 0; c < 3; ++c) {
-    if (c == 0 || sigma_t[c] != sigma_t[c - 1]) left = exp_negative(-sigma_t[c] * integral);  // most media are grey
-    passed[c] = before[c] * left;
-  }
-  return passed;
-}
-
 /// The medium along rays, as far as merges need it.
 class MergingMedium {
  public:
   MergingMedium(const CombinedContext& context, const Medium& medium)
-      : sigma_t_(medium.sigma_t),
+      : extinction_(medium.sigma_t),
         floor_(medium.grid ? floor_in(medium, context.counts.density_floor) : 0.0f),
         per_largest_(relative_density(medium, 1.0f)) {}
 
-  const Rgb& sigma_t() const { return sigma_t_; }  // at density 1, 1/m
+  const Extinction& extinction() const { return extinction_; }
+  const Rgb& sigma_t() const { return extinction_.sigma_t; }  // at density 1, 1/m
   /// Densities over the largest one.
   Floats relative(const Floats& density) const { return density * per_largest_; }
   /// Junction::kept.
-  Floats kept(const Floats& relative_density) const { return max(all_lanes(1.0f), floor_ / relative_density); }
+  Floats kept(const Floats& relative_density) const { return max(1.0f, floor_ / relative_density); }
 
  private:
-  Rgb sigma_t_;
+  Extinction extinction_;
   float floor_;  // of relative densities, below which photons are kept along flights
   float per_largest_;
 };
@@ -89,16 +79,11 @@ struct LaneMerges {
 
   template <class Profile>
   void add(const FloatsRgb& light, const Floats& share, const Floats& q, const Profile& profile) {
-    Floats kernel, corrected;
-    for (size_t i = 0; i < kBlock; ++i) {
-      const KernelPair<float> spread = profile(q[i]);
-      kernel[i] = spread.value;
-      corrected[i] = spread.correction;
-    }
+    const KernelPair<Floats> kernel = profile(q);
     for (int c = 0; c < 3; ++c) {
-      unweighted[c] += light[c] * kernel;
-      value[c] += light[c] * kernel * share;
-      correction[c] += light[c] * corrected * share;
+      unweighted[c] += light[c] * kernel.value;
+      value[c] += light[c] * kernel.value * share;
+      correction[c] += light[c] * kernel.correction * share;
     }
   }
 };

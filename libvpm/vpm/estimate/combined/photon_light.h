@@ -33,12 +33,12 @@ class PhotonLight {
 
   void add(const MergingRays& rays, const PhotonsBeside& at, LaneMerges& sums) const {
     const Rgb& sigma_t = medium_.sigma_t();
-    const FloatsRgb on_ray = attenuated(rays.passed, sigma_t, at.seen_integral);
+    const FloatsRgb on_ray = attenuated(rays.passed, medium_.extinction(), at.seen_integral);
     FloatsRgb attenuation;
     for (int c = 0; c < 3; ++c) attenuation[c] = sigma_t[c] * on_ray[c];
     const Floats colliding = mean_channel(attenuation) * (1.0f / mean_channel(sigma_t));
     const LaneMask counts = (at.density > 0.0f) & (colliding > 0.0f);
-    const Floats density = counts ? at.density : all_lanes(1.0f), relative = medium_.relative(density);
+    const Floats density = select(counts, at.density, 1.0f), relative = medium_.relative(density);
     const Floats to_eye = rays.before + at.along_ray;
     const Floats share = shares_.of({.sine = at.sine,
                                      .determinant = at.determinant,
@@ -49,9 +49,9 @@ class PhotonLight {
                                      .phase = at.scattered,
                                      .density = density,
                                      .kept = medium_.kept(relative),
-                                     .colliding = counts ? colliding : all_lanes(1.0f),
+                                     .colliding = select(counts, colliding, 1.0f),
                                      .splats = rays.splats * to_eye * to_eye});
-    const Floats found = counts ? relative * at.scattered : Floats{};
+    const Floats found = select(counts, relative * at.scattered, 0.0f);
     FloatsRgb light;
     for (int c = 0; c < 3; ++c) light[c] = at.power[c] * on_ray[c] * found;
     sums.add(light, share, at.q, profile_);

@@ -16,15 +16,17 @@ uint32_t set_medium_beside(const Medium& medium, const DensityIntegralsAlong& in
   uint32_t number = 0;
   for (size_t i = 0; i < kBlock; ++i) {
     if (!(beside.distances2[i] < radius * radius)) continue;
-    at.q[i] = beside.distances2[i] / (radius * radius);
-    at.along_ray[i] = at.seen_integral[i] = beside.places[i];
-    at.density[i] = 1.0f;
+    at.q.set(i, beside.distances2[i] / (radius * radius));
+    float density = 1.0f, seen_integral = beside.places[i];
     if (!medium.homogeneous()) {
       const DensityIntegralsAlong::Place place = integrals.at(beside.places[i]);
-      at.density[i] = static_cast<float>(place.density);
-      at.seen_integral[i] = static_cast<float>(place.integral);
+      density = static_cast<float>(place.density);
+      seen_integral = static_cast<float>(place.integral);
     }
-    number += at.density[i] > 0.0f ? 1 : 0;
+    at.along_ray.set(i, beside.places[i]);
+    at.density.set(i, density);
+    at.seen_integral.set(i, seen_integral);
+    number += density > 0.0f ? 1 : 0;
   }
   return number;
 }
@@ -36,11 +38,11 @@ void set_photons(const MediumPhotonLeaf& leaf, const PhaseFunction& phase, const
   at.sent = lanes_of(leaf.sent);
   at.adjacent = lanes_of(leaf.adjacent);
   at.further = lanes_of(leaf.further);
-  const Floats3 travel{lanes_of(leaf.travel_x), lanes_of(leaf.travel_y), lanes_of(leaf.travel_z)};
+  const Floats3 travel = Floats3::of(leaf.travel_x, leaf.travel_y, leaf.travel_z);
   const Floats3 across = cross(along, travel);
   at.sine = sqrt(dot(across, across));
-  at.determinant = abs(dot(along, Floats3{lanes_of(leaf.turn_x), lanes_of(leaf.turn_y), lanes_of(leaf.turn_z)}));
-  for (size_t i = 0; i < kBlock; ++i) at.scattered[i] = phase.value(leaf.travel(i), -along);
+  at.determinant = abs(dot(along, Floats3::of(leaf.turn_x, leaf.turn_y, leaf.turn_z)));
+  at.scattered = phase.value(travel, -along);
 }
 
 // --- One photon and many rays
@@ -65,21 +67,19 @@ PhotonsBeside photon_beside(const MediumPhotonLeaf& leaf, size_t p, const RayBlo
   const Floats3& along = block.lanes.along;
   const Vec3 travel = leaf.travel(p);
   const Floats3 across = cross(travel, along);
-  Floats scattered;
-  for (size_t lane = 0; lane < kBlock; ++lane) scattered[lane] = phase.value(travel, -along[lane]);
-  const Floats place = beside.near ? beside.places : Floats{};
+  const Floats place = select(beside.near, beside.places, 0.0f);
   return {.power = all_lanes(leaf.power(p)),
-          .passing = all_lanes(leaf.passing[p]),
-          .sent = all_lanes(leaf.sent[p]),
-          .adjacent = all_lanes(leaf.adjacent[p]),
-          .further = all_lanes(leaf.further[p]),
+          .passing = leaf.passing[p],
+          .sent = leaf.sent[p],
+          .adjacent = leaf.adjacent[p],
+          .further = leaf.further[p],
           .sine = sqrt(dot(across, across)),
           .determinant = abs(dot(leaf.turn(p), along)),
-          .scattered = scattered,
-          .q = beside.near ? beside.distance2 * (1.0f / (block.radius * block.radius)) : all_lanes(1.0f),
+          .scattered = phase.value(travel, block.lanes.towards_eye),
+          .q = select(beside.near, beside.distance2 * (1.0f / (block.radius * block.radius)), 1.0f),
           .along_ray = place,
           .seen_integral = place,
-          .density = beside.near ? all_lanes(1.0f) : Floats{}};
+          .density = select(beside.near, 1.0f, 0.0f)};
 }
 
 /// Of one block, among leaves near all of the bundle.

@@ -44,7 +44,7 @@ class SharesOfBeams {
     all += weigh(in_balls_ * at.kept * at.colliding * at.seen);
     all += weigh(at.adjacent * at.seen) + weigh(at.back * at.seen);
     all += weigh(at.splats * at.colliding);
-    return all > 0.0f ? (is_long_ ? long_beams : short_beams) / all : Floats{};
+    return select(all > 0.0f, (is_long_ ? long_beams : short_beams) / all, 0.0f);
   }
 
  private:

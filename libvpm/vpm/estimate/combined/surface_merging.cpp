@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "vpm/base/count.h"
+#include "vpm/estimate/combined/around_place.h"
 #include "vpm/estimate/combined/eye_sub_path.h"
 #include "vpm/estimate/combined/merging_rays.h"
 #include "vpm/estimate/surface_estimate.h"
@@ -37,27 +38,6 @@ void EyeSubPath::merge_surface(const Arrival& at) {
   count(work_.counters.gather.visited, map.visit_near(vertex.point, radius, merge));
 }
 
-namespace {
-
-/// The photons of a leaf around a place on a surface.
-struct AroundPlace {
-  LaneMask arrived;  // do they arrive within the radius, on that side of the surface?
-  Floats q;          // their squared distance over that of the radius
-  Floats cosine;     // of their directions to the normal
-};
-AroundPlace around(const SurfacePhotonLeaf& leaf, const Vec3& place, const Arrives& arrives, float radius) {
-  const Floats3 offset = Floats3{lanes_of(leaf.x), lanes_of(leaf.y), lanes_of(leaf.z)} - place;
-  const Floats distance2 = dot(offset, offset), height = abs(dot(arrives.normal, offset));
-  const Floats3 travel{lanes_of(leaf.travel_x), lanes_of(leaf.travel_y), lanes_of(leaf.travel_z)};
-  const Floats cosine = Floats{} - dot(arrives.normal, travel);
-  const LaneMask near = distance2 < radius * radius;
-  const Floats reached = near ? distance2 : Floats{};
-  return {near & (cosine > 0.0f) & (height <= arrives.thickness + kSlope * sqrt(reached)),
-          reached * (1.0f / (radius * radius)), cosine};
-}
-
-}  // namespace
-
 void EyeSubPath::merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& reflectance) {
   constexpr float kPerPi = 1.0f / kPi;
   const PathVertex& vertex = at.vertex;
@@ -73,11 +53,11 @@ void EyeSubPath::merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& r
       const AroundPlace near = around(leaf, vertex.point, arrives, radius);
       if (!any(near.arrived)) return;
       count(work_.counters.gather.used, lanes_in(near.arrived));
-      const Floats to_light = max(near.cosine, Floats{}) * kPerPi;
+      const Floats to_light = max(near.cosine, 0.0f) * kPerPi;
       const Floats back = squares ? to_light * to_light : to_light;
       const Floats share = 1.0f / (others + lanes_of(leaf.adjacent) + back * lanes_of(leaf.further));
       FloatsRgb power{lanes_of(leaf.power_r), lanes_of(leaf.power_g), lanes_of(leaf.power_b)};
-      for (Floats& channel : power) channel = near.arrived ? channel : Floats{};
+      for (Floats& channel : power) channel = select(near.arrived, channel, 0.0f);
       totals.next().add(power, share, near.q, profile);
     });
   };

@@ -24,22 +24,15 @@ struct LeafPlaces {
   float x[kBlock], y[kBlock], z[kBlock];
 };
 
-/// Finds the vertices of a leaf that may be nearer to rays of the bundle than the radius, m: their numbers, up to
-/// kBlock. Returns how many there are.
+/// Finds the vertices of a leaf that may be nearer to rays of the bundle than the radius, m: their numbers, for which
+/// there is to be room for kBlock. Returns how many there are.
 inline uint32_t find_near(const LeafPlaces& leaf, const RayBundle& bundle, float radius, uint32_t* numbers) {
   const HalfSpaces& region = bundle.region();
-  const Vec3 apex = bundle.apex();
   const float reach = 1.0001f * radius;  // for rounding
-  float outside[kBlock] = {}, unused[kBlock];
-  for (int k = 0; k < region.count(); ++k) {
-    const Vec3 n = region.normal(k);
-    const float least = region.offset(k) - reach;
-    for (uint32_t i = 0; i < kBlock; ++i) {
-      const float depth = n.x * (leaf.x[i] - apex.x) + n.y * (leaf.y[i] - apex.y) + n.z * (leaf.z[i] - apex.z);
-      outside[i] = depth >= least ? outside[i] : 1.0f;
-    }
-  }
-  return append_below(outside, kBlock, 0.5f, 0, unused, numbers);
+  const Floats3 places = Floats3::of(leaf.x, leaf.y, leaf.z) - bundle.apex();
+  LaneMask near = -1;
+  for (int k = 0; k < region.count(); ++k) near &= dot(region.normal(k), places) >= region.offset(k) - reach;
+  return store_numbers(0, bits_of(near), numbers);
 }
 
 /// Finds vertices within a radius: a hierarchy of boxes over leaves. A leaf is LeafPlaces with records of the type
@@ -63,8 +56,8 @@ class VertexMap {
 
   /// How the kBlock vertices of a leaf lie to a ray.
   struct BesideRay {
-    float distances2[kBlock];  // squared distances from the ray, m^2; infinite beside its ends
-    float places[kBlock];      // along the ray, m
+    Floats distances2;  // squared distances from the ray, m^2; infinite beside its ends
+    Floats places;      // along the ray, m
   };
   /// Calls visit(leaf, BesideRay) for each leaf of which some vertex may be nearer to the ray than the radius, at a
   /// place in the interval, m, in a fixed order. Returns how many vertices these have room for.
@@ -150,22 +143,14 @@ uint32_t VertexMap<Leaf>::visit_leaves_near_ray(const Ray& ray, const Interval& 
                                                 Visit&& visit) const {
   if (size_ == 0) return 0;
   uint32_t visited = 0;
-  const Vec3 o = ray.origin, w = ray.direction;
-  const float t0 = interval.t0, t1 = interval.t1, radius2 = radius * radius;
-  boxes_.visit_leaves(ray, interval, [&, o, w, t0, t1](uint32_t number) {
+  boxes_.visit_leaves(ray, interval, [&](uint32_t number) {
     const Leaf& leaf = leaves_[number];
-    BesideRay beside;
-    float least = kInfinity;
-    for (uint32_t i = 0; i < kBlock; ++i) {
-      const float x = leaf.x[i] - o.x, y = leaf.y[i] - o.y, z = leaf.z[i] - o.z;
-      const float t = x * w.x + y * w.y + z * w.z;
-      const float across_x = x - t * w.x, across_y = y - t * w.y, across_z = z - t * w.z;
-      const float across2 = across_x * across_x + across_y * across_y + across_z * across_z;
-      beside.places[i] = t;
-      beside.distances2[i] = (t >= t0) & (t < t1) ? across2 : kInfinity;
-    }
-    for (const float distance2 : beside.distances2) least = std::min(least, distance2);
-    if (least < radius2) visit(leaf, beside);
+    const Floats3 offset = Floats3::of(leaf.x, leaf.y, leaf.z) - ray.origin;
+    const Floats t = dot(offset, ray.direction);
+    const Floats3 across = offset - t * ray.direction;
+    const LaneMask beside_it = (t >= interval.t0) & (t < interval.t1);
+    const BesideRay beside{select(beside_it, dot(across, across), kInfinity), t};
+    if (any(beside.distances2 < radius * radius)) visit(leaf, beside);
     count(visited, kBlock);
   });
   return visited;

@@ -1,8 +1,8 @@
 // Photons near rays, and the transmittance from their projections onto the ray to the eye.
 #include "vpm/estimate/volume/beam_radiance.h"
 
-#include "vpm/estimate/volume/bundle_gather.h"
 #include "vpm/estimate/volume/pass_to_eye.h"
+#include "vpm/estimate/volume/photon_beside.h"
 #include "vpm/photon/stored_power.h"
 
 namespace vpm {
@@ -35,46 +35,12 @@ KernelEstimate gather(const EyeSegment& segment, const SegmentRegion& region, co
   return over_share(light, region.share(found.radius, seen, work.rng), work.counters.gather);
 }
 
-/// What one photon adds to the lanes.
-template <class P, class Profile>
-struct PhotonBeside {
-  const SegmentLanes& segments;
-  const P& phase;
-  Profile profile;
-  Rgb sigma_t;
-  float radius;
-  const BeamBalance* balance;
-
-  void add(const BundledPhotons& photons, size_t p, LaneEstimates& sums) const {
-    const Vec3 place(photons.x[p], photons.y[p], photons.z[p]), travel(photons.dx[p], photons.dy[p], photons.dz[p]);
-    const float radius2 = radius * radius;
-    const RayLanes& rays = segments.rays();
-    const Floats3 offset = place - rays.from;
-    const Floats t = dot(offset, rays.along);
-    const Floats3 across = offset - t * rays.along;
-    const Floats distance2 = dot(across, across);
-    const LaneMask inside = (distance2 < radius2) & (t >= rays.t0) & (t < rays.t1) & segments.hold(offset);
-    Floats weight = phase_values(phase, travel, -1.0f * rays.along);
-    if (balance) weight *= shares(travel);
-    weight = inside ? weight : Floats{};
-    sums.used -= inside;
-    add_light({photons.r[p], photons.g[p], photons.b[p]}, sigma_t, segments.distances_to_eye(offset), weight,
-              profiles(profile, min(distance2 * (1.0f / radius2), all_lanes(1.0f))), sums);
-  }
-
-  /// Beside beams.
-  Floats shares(const Vec3& travel) const {
-    const Floats3 normal = cross(travel, segments.rays().along);
-    return balance->of_collisions(sqrt(dot(normal, normal)), mean_channel(sigma_t));
-  }
-};
-
 LaneTotals sum_beside(const Medium& medium, const BeamMap& map, const GatherLanes& lanes, const BeamBalance* balance,
                       GatherCounters& counters) {
   const float radius = map.settings.radius, norm = kernel_norm_2d(map.settings.kernel, radius);
   LaneTotals totals;
   const auto sum = [&](const auto& phase, auto profile) {
-    const PhotonBeside beside{lanes.segments(), phase, profile, medium.sigma_t, radius, balance};
+    const PhotonBeside beside{lanes.segments(), phase, profile, Extinction(medium.sigma_t), radius, balance};
     const auto visit = [&](const BundledPhotons& photons) {
       LaneEstimates sums;
       for (size_t p = 0; p < photons.size; ++p) beside.add(photons, p, sums);

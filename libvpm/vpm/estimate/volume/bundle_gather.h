@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "vpm/base/exp_negative.h"
+#include "vpm/estimate/extinction.h"
 #include "vpm/estimate/volume/estimator.h"
 #include "vpm/estimate/volume/segment_lanes.h"
 #include "vpm/photon/ray_bundle.h"
@@ -53,13 +53,13 @@ class GatherLanes {
 };
 
 /// Adds a photon's or a beam's power, attenuated over distances to the eye, m, and times `weight` and a kernel.
-[[gnu::always_inline]] inline void add_light(const Rgb& power, const Rgb& sigma_t, const Floats& distances,
+[[gnu::always_inline]] inline void add_light(const Rgb& power, const Extinction& extinction, const Floats& distances,
                                              const Floats& weight, const KernelPair<Floats>& kernel,
                                              LaneEstimates& sums) {
   Floats value, correction;
   for (int c = 0; c < 3; ++c) {
-    if (c == 0 || sigma_t[c] != sigma_t[c - 1]) {
-      const Floats passed = weight * exp_negative(-sigma_t[c] * distances);
+    if (c == 0 || !extinction.repeats[c]) {
+      const Floats passed = weight * exp_negative(-extinction.sigma_t[c] * distances);
       value = passed * kernel.value;
       correction = passed * kernel.correction;
     }
@@ -68,33 +68,13 @@ class GatherLanes {
   }
 }
 /// The same where of the power only `left` comes so far, channel by channel.
-inline void add_light(const Rgb& power, const std::array<Floats, 3>& left, const Rgb& sigma_t, const Floats& distances,
+inline void add_light(const Rgb& power, const FloatsRgb& left, const Extinction& extinction, const Floats& distances,
                       const Floats& weight, const KernelPair<Floats>& kernel, LaneEstimates& sums) {
   for (int c = 0; c < 3; ++c) {
-    const Floats light = power[c] * left[c] * weight * exp_negative(-sigma_t[c] * distances);
+    const Floats light = power[c] * left[c] * weight * exp_negative(-extinction.sigma_t[c] * distances);
     sums.value[c] += light * kernel.value;
     sums.correction[c] += light * kernel.correction;
   }
-}
-
-/// A kernel's profile and its correction.
-template <class Profile>
-KernelPair<Floats> profiles(const Profile& profile, const Floats& q) {
-  KernelPair<Floats> kernel;
-  for (size_t i = 0; i < kBlock; ++i) {
-    const KernelPair<float> spread = profile(q[i]);
-    kernel.value[i] = spread.value;
-    kernel.correction[i] = spread.correction;
-  }
-  return kernel;
-}
-
-/// The phase function from one direction of travel to many, 1/sr.
-template <class P>
-Floats phase_values(const P& phase, const Vec3& before, const Floats3& after) {
-  Floats values;
-  for (size_t i = 0; i < kBlock; ++i) values[i] = phase.value(before, after[i]);
-  return values;
 }
 
 }  // namespace vpm

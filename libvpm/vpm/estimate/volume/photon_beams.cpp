@@ -2,10 +2,9 @@
 #include "vpm/estimate/volume/photon_beams.h"
 
 #include <algorithm>
-#include <limits>
 #include <variant>
 
-#include "vpm/medium/distance/mixture.h"
+#include "vpm/estimate/volume/beam_across.h"
 
 namespace vpm {
 namespace {
@@ -16,62 +15,6 @@ VolumeMapSettings with_beams(const PhotonBeamSettings& settings) {
   maps.turned &= !settings.planes;
   return maps;
 }
-
-/// What is left of a beam's power at these distances from its origin, m, channel by channel, in a homogeneous medium:
-/// multiply_by_left() of many rays.
-std::array<Floats, 3> left_along(const Rgb& sigma_t, bool long_beams, const Rgb& power, const Floats& s) {
-  const Rgb shares = channel_shares(power);
-  const float least = long_beams ? 0.0f : std::min(sigma_t.r, std::min(sigma_t.g, sigma_t.b));
-  std::array<Floats, 3> left;
-  Floats mixture{};
-  for (int c = 0; c < 3; ++c) {
-    left[c] = exp_negative((least - sigma_t[c]) * max(s, Floats{}));
-    mixture += shares[c] * left[c];
-  }
-  if (!long_beams)
-    for (Floats& channel : left) channel /= max(mixture, all_lanes(std::numeric_limits<float>::min()));
-  return left;
-}
-
-/// What one piece of a beam adds to the lanes.
-template <class P, class Profile>
-struct BeamAcross {
-  const SegmentLanes& segments;
-  const P& phase;
-  Profile profile;
-  Rgb sigma_t;
-  float radius;
-  BeamBalance balance;
-  bool long_beams;
-
-  /// `from`: the direction before the collision that the beam begins at, and `sigma_s` there, 1/m, if it is shared with
-  /// planes; 0: it is not.
-  void add(const BundledBeams& beams, size_t p, const Vec3& from, float sigma_s, LaneEstimates& sums) const {
-    const Vec3 direction(beams.dx[p], beams.dy[p], beams.dz[p]);
-    const CrossingLanes crossing = cross(beams, p, segments.rays(), radius);
-    const LaneMask met = crossing.met & segments.hold(crossing.places);
-    if (!any(met)) return;
-    const Floats3& along = segments.rays().along;
-    const Floats sine = sqrt(crossing.sine2);
-    Floats weight = phase_values(phase, direction, -1.0f * along);
-    if (sigma_s > 0.0f) {
-      const Floats determinant = dot(glm::cross(from, direction), along);
-      weight *= balance.of_beams_beside_planes_over_sine(sine, sigma_s, max(determinant, -1.0f * determinant));
-    } else {
-      weight *= balance.of_beams_over_sine(sine, mean_channel(sigma_t));
-    }
-    weight = met ? weight : Floats{};
-    sums.used -= met;
-    const Rgb power(beams.r[p], beams.g[p], beams.b[p]);
-    const Floats distances = segments.distances_to_eye(crossing.places);
-    const Floats q = min(crossing.distance2 * (1.0f / (radius * radius)), all_lanes(1.0f));
-    if (long_beams || !is_grey(sigma_t))
-      add_light(power, left_along(sigma_t, long_beams, power, crossing.s), sigma_t, distances, weight,
-                profiles(profile, q), sums);
-    else
-      add_light(power, sigma_t, distances, weight, profiles(profile, q), sums);
-  }
-};
 
 }  // namespace
 
@@ -160,8 +103,13 @@ LaneTotals PhotonBeams::sum_in_lanes(const Medium& medium, const Map& map, const
   const float radius = map.settings.radius, norm = kernel_norm_1d(map.settings.kernel, radius);
   LaneTotals totals;
   const auto sum = [&](const auto& phase, auto profile) {
-    const BeamAcross across{
-        lanes.segments(), phase, profile, medium.sigma_t, radius, map.balance, beams_.settings().long_beams};
+    const BeamAcross across{lanes.segments(),
+                            phase,
+                            profile,
+                            Extinction(medium.sigma_t),
+                            radius,
+                            map.balance,
+                            beams_.settings().long_beams};
     const auto visit = [&](const BundledBeams& beams) {
       LaneEstimates sums;
       for (size_t p = 0; p < beams.size; ++p) {

@@ -10,14 +10,14 @@ void SegmentLanes::set(size_t lane, const EyeSegment& segment, const SegmentRegi
   rays_.set(lane, segment.ray, near, apex);
   const PlaneDistances distances = region.distances();
   slope_.set(lane, distances.slope);
-  plane_[lane] = distances.from;
-  start_[lane] = region.mirrored().t0;
-  end_[lane] = region.mirrored().t1;
+  plane_.set(lane, distances.from);
+  start_.set(lane, region.mirrored().t0);
+  end_.set(lane, region.mirrored().t1);
   const HalfSpaces& within = region.within();
   plane_count_ = std::max(plane_count_, within.count());
   for (int k = 0; k < within.count(); ++k) {
     planes_[k].normal.set(lane, within.normal(k));
-    planes_[k].offset[lane] = within.offset(k);
+    planes_[k].offset.set(lane, within.offset(k));
   }
 }
 

@@ -15,7 +15,7 @@ class SegmentLanes {
 
   /// -1 where a place, counted from the ray's origin, lies in the region; else 0.
   LaneMask hold(const Floats3& places) const {
-    LaneMask held = LaneMask{} - 1;
+    LaneMask held = -1;
     for (int k = 0; k < plane_count_; ++k) held &= dot(planes_[k].normal, places) >= planes_[k].offset;
     return held;
   }
@@ -31,7 +31,7 @@ class SegmentLanes {
  private:
   struct Plane {
     Floats3 normal;
-    Floats offset = all_lanes(-kInfinity);
+    Floats offset = -kInfinity;
   };
 
   RayLanes rays_;

@@ -259,18 +259,18 @@ double share_along_ray(const WholePath& path, const TechniqueCounts& counts, con
   const Departure& eye = traced.eye_leaves[i + 1];
   const double to_eye = path.leg(i).distance;
   PhotonsBesideRays beside{};
-  beside.density[0] = 1.0f;
-  beside.sine[0] = glm::length(glm::cross(leaf.travel(0), path.direction(i)));
-  beside.determinant[0] = std::abs(glm::dot(leaf.turn(0), path.direction(i)));
-  beside.passing[0] = leaf.passing[0];
-  beside.sent[0] = leaf.sent[0];
-  beside.adjacent[0] = leaf.adjacent[0];
-  beside.further[0] = leaf.further[0];
-  beside.phase[0] = static_cast<float>(density_on(path, i, true));
-  beside.kept[0] = static_cast<float>(at.kept);
-  beside.colliding[0] = static_cast<float>(mean_channel(at.sigma_t * path.transmittances[i]) / sigma_t);
-  beside.splats[0] =
-      static_cast<float>(std::min(eye.adjacent / eye.forward * to_eye * to_eye / counts.points_2d, 1e30));
+  beside.density.set(0, 1.0f);
+  beside.sine.set(0, glm::length(glm::cross(leaf.travel(0), path.direction(i))));
+  beside.determinant.set(0, std::abs(glm::dot(leaf.turn(0), path.direction(i))));
+  beside.passing.set(0, leaf.passing[0]);
+  beside.sent.set(0, leaf.sent[0]);
+  beside.adjacent.set(0, leaf.adjacent[0]);
+  beside.further.set(0, leaf.further[0]);
+  beside.phase.set(0, static_cast<float>(density_on(path, i, true)));
+  beside.kept.set(0, static_cast<float>(at.kept));
+  beside.colliding.set(0, static_cast<float>(mean_channel(at.sigma_t * path.transmittances[i]) / sigma_t));
+  beside.splats.set(
+      0, static_cast<float>(std::min(eye.adjacent / eye.forward * to_eye * to_eye / counts.points_2d, 1e30)));
   const auto mean = static_cast<float>(sigma_t);
   return double{counts.heuristic == Heuristic::power ? SharesOfPoints<true>(counts, mean).of(beside)[0]
                                                      : SharesOfPoints<false>(counts, mean).of(beside)[0]};
@@ -286,17 +286,17 @@ double share_across_ray(const WholePath& path, const TechniqueCounts& counts, co
   const auto distance = static_cast<float>(path.leg(i - 1).distance);
   const float adjacent = adjacent_at(flight, path.points[i], path.direction(i - 1), distance);
   CrossedBeams crossed{};
-  crossed.sine[0] = glm::length(glm::cross(path.direction(i - 1), path.direction(i)));
-  crossed.determinant[0] = std::abs(glm::dot(flight.turn, path.direction(i)));
-  crossed.passed[0] = mean_channel(flown);
-  crossed.colliding[0] = mean_channel(at.sigma_t * flown);
-  crossed.seen[0] = mean_channel(at.sigma_t * seen);
-  crossed.kept[0] = static_cast<float>(at.kept);
-  crossed.back[0] = sum_channels(flight.back * flown) * static_cast<float>(density_on(path, i, true));
-  crossed.adjacent[0] = adjacent * (flight.parallel ? 1.0f : distance * distance);
+  crossed.sine.set(0, glm::length(glm::cross(path.direction(i - 1), path.direction(i))));
+  crossed.determinant.set(0, std::abs(glm::dot(flight.turn, path.direction(i))));
+  crossed.passed.set(0, mean_channel(flown));
+  crossed.colliding.set(0, mean_channel(at.sigma_t * flown));
+  crossed.seen.set(0, mean_channel(at.sigma_t * seen));
+  crossed.kept.set(0, static_cast<float>(at.kept));
+  crossed.back.set(0, sum_channels(flight.back * flown) * static_cast<float>(density_on(path, i, true)));
+  crossed.adjacent.set(0, adjacent * (flight.parallel ? 1.0f : distance * distance));
   const Departure& eye = traced.eye_leaves[i + 1];
   const double to_eye = path.leg(i).distance;
-  crossed.splats[0] = static_cast<float>(eye.adjacent / eye.forward * to_eye * to_eye / unit_of_beams(counts));
+  crossed.splats.set(0, static_cast<float>(eye.adjacent / eye.forward * to_eye * to_eye / unit_of_beams(counts)));
   const Technique technique = found.by == Found::By::short_beams ? Technique::short_beams : Technique::long_beams;
   return double{counts.heuristic == Heuristic::power ? SharesOfBeams<true>(counts, technique).of(crossed)[0]
                                                      : SharesOfBeams<false>(counts, technique).of(crossed)[0]};
