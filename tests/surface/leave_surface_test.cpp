@@ -1,4 +1,5 @@
-// Rays that leave surfaces, and where rays were sent to: none meets again what it left.
+// Rays that leave surfaces, and where rays were sent to: none meets again what it left. Every second scene is one of
+// Embree's tree.
 #include <gtest/gtest.h>
 
 #include "surface/random_shapes.h"
@@ -20,6 +21,7 @@ TEST(LeaveSurface, NeverMeetsTheSameTriangleAgain) {
     if (k % 3 == 2) c = glm::mix(a, b, rng.uniform()) + 0.01f * (c - a);
     Geometry geometry;
     geometry.add(triangle(a, b, c));
+    if (k % 2 == 1) add_specks(geometry, centre, size);
     geometry.commit();
     for (int i = 0; i < 100; ++i) {
       const Vec2 u = rng.uniform2();
@@ -49,6 +51,7 @@ TEST(LeaveSurface, LeavesASphereOutwardForGoodAndInwardToItsFarSide) {
     const SphereShape sphere{away * in_cube(rng), radius};
     Geometry geometry;
     geometry.add(sphere);
+    if (k % 2 == 1) add_specks(geometry, sphere.centre, radius);
     geometry.commit();
     for (int i = 0; i < 100; ++i) {
       const Vec3 direction = uniform_sphere(rng.uniform2());
@@ -80,6 +83,7 @@ TEST(LeaveSurface, NeverMeetsTheSameDiscAgain) {
     const DiscShape disc{away * in_cube(rng), uniform_sphere(rng.uniform2()), radius};
     Geometry geometry;
     geometry.add(disc);
+    if (k % 2 == 1) add_specks(geometry, disc.centre, radius);
     geometry.commit();
     for (int i = 0; i < 100; ++i) {
       const Vec3 direction = uniform_sphere(rng.uniform2());
@@ -164,6 +168,7 @@ TEST(LeaveSurface, PassesCornersOfBoxesInAFewSteps) {
     const Vec3d half = 0.05 + 0.5 * (1.0 + Vec3d(in_cube(rng))), centre(in_cube(rng));
     Geometry geometry;
     geometry.add(box_mesh(centre - half, centre + half), Layer::boundary);
+    if (k % 2 == 1) add_specks(geometry, Vec3(centre), 1.0f);
     geometry.commit();
     for (int i = 0; i < 1000; ++i) {
       Vec3d aim(glm::sign(in_cube(rng)));

@@ -91,28 +91,24 @@ double exponentials_of_the_library(const std::vector<float>& numbers) {
   return all;
 }
 
-double picked(const std::vector<float>& numbers) {
-  float found[2 * kBlock];
-  uint32_t which[2 * kBlock];
-  double sum = 0.0;
-  for (size_t i = 0; i < kNumbers; i += kBlock) {
-    const uint32_t kept = append_below(&numbers[i], kBlock, 0.3f, static_cast<uint32_t>(i), found, which);
-    if (kept > 0) sum += which[kept - 1] + double{found[0]};
+uint32_t pick_one_by_one(const float* numbers, uint32_t count, float limit, uint32_t first, float* found,
+                         uint32_t* which) {
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!(numbers[i] < limit)) continue;
+    found[kept] = numbers[i];
+    which[kept++] = first + i;
   }
-  return sum;
+  return kept;
 }
 
-double picked_one_by_one(const std::vector<float>& numbers) {
-  float found[2 * kBlock];
-  uint32_t which[2 * kBlock];
+template <class Pick>
+double picked(const std::vector<float>& numbers, const Pick& pick) {
+  float found[kBlock];
+  uint32_t which[kBlock];
   double sum = 0.0;
-  for (size_t i = 0; i < kNumbers; i += kBlock) {
-    uint32_t kept = 0;
-    for (size_t k = 0; k < kBlock; ++k) {
-      if (!(numbers[i + k] < 0.3f)) continue;
-      found[kept] = numbers[i + k];
-      which[kept++] = static_cast<uint32_t>(i + k);
-    }
+  for (uint32_t i = 0; i < kNumbers; i += kBlock) {
+    const uint32_t kept = pick(&numbers[i], kBlock, 0.3f, i, found, which);
     if (kept > 0) sum += which[kept - 1] + double{found[0]};
   }
   return sum;
@@ -134,8 +130,8 @@ void measure_lanes(Bench& bench, const Sizes&) {
           {{"vpm, exp_negative of lanes", [&] { return exponentials(numbers); }},
            {"the C library's exp", [&] { return exponentials_of_the_library(numbers); }}});
   compare("Picking numbers below a limit", "number", kNumbers,
-          {{"vpm, append_below", [&] { return picked(numbers); }},
-           {"one by one", [&] { return picked_one_by_one(numbers); }}});
+          {{"vpm, append_below", [&] { return picked(numbers, append_below); }},
+           {"one by one", [&] { return picked(numbers, pick_one_by_one); }}});
 }
 
 }  // namespace vpm::bench
