@@ -33,6 +33,18 @@ TEST(ExpNegative, EndsWellAtTheEnds) {
     EXPECT_EQ(exp_negative(x), 0.0f);
 }
 
+/// So that what is wrong is counted where light is added up, and is not taken for darkness.
+TEST(ExpNegative, OfNoNumberIsNone) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float x : {nan, -nan}) {
+    EXPECT_TRUE(std::isnan(exp_negative(x)));
+    Floats some(-1.0f);
+    some.set(5, x);
+    EXPECT_TRUE(std::isnan(exp_negative(some)[5]));
+    EXPECT_EQ(exp_negative(some)[4], exp_negative(-1.0f));
+  }
+}
+
 TEST(ExpNegative, IsTheSameOfManyNumbersAtOnce) {
   for (uint32_t bits = 0; bits <= std::bit_cast<uint32_t>(90.0f); bits += 61 * kBlock) {
     Floats x;

@@ -16,11 +16,13 @@ namespace exponential {
 inline constexpr float kUpper = 0.693359375f, kLower = -2.12194440e-4f, kPerLog2 = 1.44269504f;
 inline constexpr float kRound = 0x1.8p23f;  // a float that is added to this has no room for a fraction
 inline constexpr float kLeast = -87.0f;     // below, the exponential is less than 1.7e-38
+// The bits of n + kRound count up with n: this makes them the exponent of 2^n.
+inline constexpr int32_t kToExponent = 127 - std::bit_cast<int32_t>(kRound);
 
-/// `n` of a number above -88, and the polynomial; of a float or of Floats.
+/// `n` + kRound of a number above -88, and the polynomial; of a float or of Floats.
 template <class Real>
-Real whole_part(const Real& x) {
-  return (x * kPerLog2 + kRound) - kRound;
+Real rounded(const Real& x) {
+  return x * kPerLog2 + kRound;
 }
 template <class Real>
 Real polynomial(const Real& x, const Real& n) {
@@ -33,18 +35,20 @@ Real polynomial(const Real& x, const Real& n) {
 
 }  // namespace exponential
 
-/// exp(x) for x <= 0, off by at most 1.5 units in the last place; 0 below -87, where it is less than 1.7e-38.
+/// exp(x) for x <= 0, off by at most 1.5 units in the last place; 0 below -87, where it is less than 1.7e-38; NaN of
+/// NaN.
 inline float exp_negative(float x) {
-  const float bounded = std::max(x, exponential::kLeast - 1.0f), n = exponential::whole_part(bounded);
-  const float result =
-      exponential::polynomial(bounded, n) * std::bit_cast<float>((static_cast<int32_t>(n) + 127) << 23);
-  return x < exponential::kLeast ? 0.0f : result;
+  using namespace exponential;
+  const float bounded = std::max(x, kLeast - 1.0f), n = rounded(bounded);
+  const float power = std::bit_cast<float>((std::bit_cast<int32_t>(n) + kToExponent) << 23);
+  return x < kLeast ? 0.0f : polynomial(bounded, n - kRound) * power;
 }
 /// The same of many numbers.
 inline Floats exp_negative(const Floats& x) {
-  const Floats bounded = max(x, exponential::kLeast - 1.0f), n = exponential::whole_part(bounded);
-  const Floats result = exponential::polynomial(bounded, n) * with_bits((truncated(n) + 127) << 23);
-  return select(x < exponential::kLeast, 0.0f, result);
+  using namespace exponential;
+  const Floats bounded = max(kLeast - 1.0f, x), n = rounded(bounded);  // of a NaN max() is the second
+  const Floats power = with_bits((as_bits(n) + kToExponent) << 23);
+  return select(x < kLeast, 0.0f, polynomial(bounded, n - kRound) * power);
 }
 
 }  // namespace vpm

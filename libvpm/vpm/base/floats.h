@@ -154,9 +154,9 @@ inline Floats sqrt(const Floats& x) {
   return {Floats::kNumbers, [&](auto k) { return one_register::sqrt(x.registers[k]); }};
 }
 
-/// Without their fractions, as integers.
-inline LaneMask truncated(const Floats& x) {
-  return {Floats::kNumbers, [&](auto k) { return __builtin_convertvector(x.registers[k], LaneMask::Register); }};
+/// The bits of floats, as integers.
+inline LaneMask as_bits(const Floats& x) {
+  return {LaneMask::kNumbers, [&](auto k) { return LaneMask::Register(x.registers[k]); }};
 }
 /// The floats of these bits.
 inline Floats with_bits(const LaneMask& bits) {
