@@ -10,12 +10,14 @@ using Json = nlohmann::json;
 
 class VpmValidate : public VpmBinary {
  protected:
-  Json climb(const std::vector<std::string>& options) const {
+  Json climb(const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"validate", "--quick", "--seed", "1", "--json", "report.json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    vpm_succeeds(arguments, 600.0);
+    out_ = vpm_succeeds(arguments, 600.0).out;
     return report("report.json");
   }
+
+  std::string out_;  // of the last climb
 };
 
 /// The checks of an experiment without their verdicts, which depend on how many there are in the run.
@@ -33,6 +35,15 @@ Json checks_of(const Json& run, const std::string& experiment) {
 TEST_F(VpmValidate, PassesAndIsTheSameOnAnyNumberOfThreads) {
   const Json all = climb({"--threads", "2"});
   EXPECT_EQ(all["failed"], 0);
+  // Each level is told of when it is done, which is before the verdicts.
+  size_t told = 0;
+  for (const char level : {'0', '1', '2', '3', '4'}) {
+    const size_t at = out_.find(std::string("level ") + level + " done: ");
+    ASSERT_NE(at, std::string::npos) << level;
+    EXPECT_GE(at, told);
+    told = at;
+  }
+  EXPECT_LT(told, out_.find("Level 0: "));
   for (const std::string experiment :
        {"free flights, delta-local", "even photons, estimates of their density", "slabs"}) {
     const Json on_one_thread = checks_of(climb({"--threads", "1", "--only", experiment}), experiment);

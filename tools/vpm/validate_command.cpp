@@ -50,12 +50,19 @@ Outcome climb(const ValidateOptions& options) {
   const std::vector<Experiment> all = asked_for(options);
   Outcome outcome;
   Progress bar("validate", all.size(), progress_enabled(options.progress));
-  for (const Experiment& experiment : all) {
-    for (Check& check : experiment.run(effort)) {
+  for (size_t i = 0; i < all.size(); ++i) {
+    for (Check& check : all[i].run(effort)) {
       outcome.checks.push_back(std::move(check));
-      outcome.lines.push_back({experiment.level, experiment.name});
+      outcome.lines.push_back({all[i].level, all[i].name});
     }
     bar.advance();
+    // Verdicts depend on how many checks there are, so they come at the end: that it goes on is said before, also in a
+    // pipe.
+    if (i + 1 == all.size() || all[i + 1].level != all[i].level) {
+      fmt::print("level {} done: {} checks so far, {:.1f} s\n", all[i].level, outcome.checks.size(),
+                 climbing.seconds());
+      std::fflush(stdout);
+    }
   }
   bar.finish();
   outcome.threshold = judge(outcome.checks, options.rate);
