@@ -273,10 +273,9 @@ void patch(std::string& text, const std::string& name, const std::vector<int32_t
   }
 }
 
-/// The most memory this process has used since then, in MiB.
-void peak_memory_begins() {
-  std::ofstream("/proc/self/clear_refs") << 5;  // tests before may have used more: see proc(5)
-}
+/// Forgets how much memory this process has used so far: tests before may have used more. See proc(5).
+void peak_memory_begins() { std::ofstream("/proc/self/clear_refs") << 5; }
+/// The most memory it has used since then, in MiB.
 long peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
