@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -58,14 +59,17 @@ TEST_F(Parallel, TheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-/// How many threads take part in work that lasts long enough for all to come.
-size_t threads_at_work() {
+/// How many threads take part in work that waits until so many have come, or for ten seconds on a busy machine.
+size_t threads_at_work(size_t awaited) {
   std::mutex mutex;
+  std::condition_variable came;
   std::set<std::thread::id> threads;
   parallel_for_chunks(64, 1, [&](size_t, size_t, size_t) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    const std::lock_guard<std::mutex> lock(mutex);
+    std::unique_lock<std::mutex> lock(mutex);
     threads.insert(std::this_thread::get_id());
+    came.notify_all();
+    came.wait_for(lock, std::chrono::seconds(10), [&] { return threads.size() >= awaited; });
   });
   return threads.size();
 }
@@ -77,9 +81,10 @@ TEST_F(Parallel, KeepsToTheNumberOfThreads) {
   for (const int n : {1, 2, 4, 1}) {  // up, also above the number of cores, and down again
     set_threads(n);
     EXPECT_EQ(thread_count(), n);
-    const size_t at_work = threads_at_work();
+    const auto awaited = static_cast<size_t>(std::min(n, 2));
+    const size_t at_work = threads_at_work(awaited);
     EXPECT_LE(at_work, static_cast<size_t>(n));
-    EXPECT_GE(at_work, static_cast<size_t>(std::min(n, 2)));
+    EXPECT_GE(at_work, awaited);
   }
 }
 

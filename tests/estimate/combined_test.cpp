@@ -16,8 +16,6 @@
 namespace vpm {
 namespace {
 
-const std::atomic<bool> kGoOn{false};
-
 Vec3 random_place(Rng& rng) { return 2.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()); }
 
 /// kBlock numbers.
@@ -132,9 +130,9 @@ TEST(Combined, IsTheSameBitForBitOnAnyNumberOfThreads) {
   const Scene scene = foggy_box();
   const RenderSettings settings = combined_settings_of(5'000);
   set_threads(1);
-  const Image one = render_combined_pass(scene, settings, 3, kGoOn).image;
+  const Image one = render_combined_pass(scene, settings, 3).image;
   set_threads(3);
-  const Image three = render_combined_pass(scene, settings, 3, kGoOn).image;
+  const Image three = render_combined_pass(scene, settings, 3).image;
   set_threads(0);
   EXPECT_EQ(one.pixels, three.pixels);
 }
@@ -145,7 +143,7 @@ TEST(Combined, PhotonsOnDiffuseSurfacesAreMergedAsOnOthers) {
     RenderSettings settings = combined_settings_of(20'000);
     settings.combined.heuristic = heuristic;
     const auto floor_of = [&](const Material& material) {
-      return render_combined_pass(foggy_box(material), settings, 2, kGoOn).image;
+      return render_combined_pass(foggy_box(material), settings, 2).image;
     };
     const Image diffuse = floor_of(Lambertian{Rgb(0.6f, 0.3f, 0.1f)});
     const Image others = floor_of(Phong{Rgb(0.6f, 0.3f, 0.1f), Rgb(0.0f), 5.0f});
@@ -158,13 +156,13 @@ TEST(Combined, PhotonsOnDiffuseSurfacesAreMergedAsOnOthers) {
 TEST(Combined, StatisticsTellRadiiAndThinPlaces) {
   RenderSettings settings = combined_settings_of(2'000);
   settings.radii = RadiusSchedule::constant;
-  EXPECT_FLOAT_EQ(render_combined_pass(foggy_box(), settings, 0, kGoOn).statistics.last_volume_radius, 0.1f);
+  EXPECT_FLOAT_EQ(render_combined_pass(foggy_box(), settings, 0).statistics.last_volume_radius, 0.1f);
   const auto grid = make_grid(centred_frame(16, 2.0 / 32.0), lattice_noise);
   Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f), 0.9f), PointLight{Vec3(0.5f, 1.5f, 0.5f), Rgb(9.0f)});
   scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {6, 6});
   const auto below = [&](float floor) {
     settings.density_floor = floor;
-    return render_combined_pass(scene, settings, 0, kGoOn).statistics.ledger.floored;
+    return render_combined_pass(scene, settings, 0).statistics.ledger.floored;
   };
   EXPECT_EQ(below(0.0f), 0u);
   EXPECT_GT(below(0.3f), below(0.1f));
@@ -175,9 +173,9 @@ TEST(Combined, LayersAreThePartsOfThePicture) {
   const Scene scene = foggy_box();
   RenderSettings settings = combined_settings_of(3'000);
   settings.combined.heuristic = Heuristic::balance;  // each technique has a part then
-  const Image alone = render_combined_pass(scene, settings, 1, kGoOn).image;
+  const Image alone = render_combined_pass(scene, settings, 1).image;
   settings.combined.layers = true;
-  const Pass pass = render_combined_pass(scene, settings, 1, kGoOn);
+  const Pass pass = render_combined_pass(scene, settings, 1);
   EXPECT_EQ(pass.image.pixels, alone.pixels);
   const std::vector<std::string> names = layer_names(settings);
   ASSERT_EQ(pass.layers.size(), names.size());
@@ -205,7 +203,7 @@ Image mean_picture(const Scene& scene, Technique technique, uint64_t seed) {
   constexpr int kPasses = 40;
   Image sum(scene.camera.width, scene.camera.height);
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Image image = render_combined_pass(scene, settings, pass, kGoOn).image;
+    const Image image = render_combined_pass(scene, settings, pass).image;
     for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += image.pixels[i] / float{kPasses};
   }
   return sum;
@@ -265,7 +263,7 @@ TEST(Combined, FollowsBothSidesOfGlass) {
   scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 0.5f, {16, 16});
   scene.geometry.commit();
   finish(scene);
-  const Image picture = render_combined_pass(scene, combined_settings_of(100), 0, kGoOn).image;
+  const Image picture = render_combined_pass(scene, combined_settings_of(100), 0).image;
   for (const Rgb& pixel : picture.pixels) {
     EXPECT_GT(pixel.g, 0.039f);
     EXPECT_LT(pixel.g, 0.09f);
@@ -278,7 +276,7 @@ TEST(Combined, FollowsBothSidesOfGlass) {
 uint64_t dropped(const Scene& scene, const RenderSettings& settings) {
   uint64_t count = 0;
   for (int pass = 0; pass < 4; ++pass) {
-    const RenderStatistics s = render_combined_pass(scene, settings, pass, kGoOn).statistics;
+    const RenderStatistics s = render_combined_pass(scene, settings, pass).statistics;
     count += s.eye.non_finite + s.ledger.non_finite;
   }
   return count;

@@ -1,7 +1,6 @@
 // Where the eye, the light and the borders are: on boundaries, in media, inside solids; nested and touching glass;
 // total internal reflection at grazing angles.
 #include "hard/hard_scenes.h"
-#include "vpm/base/progress.h"
 #include "vpm/path/direct_light.h"
 
 namespace vpm {
@@ -84,7 +83,7 @@ TEST(BoundariesExtremes, NestedAndTouchingGlassIsInvisibleInUniformLight) {
     finish(scene);
     RenderSettings settings = settings_of(10, 0.1f);
     settings.max_events = 100;  // light may circle for ever in a hollow ball: cut there, and counted
-    const Pass pass = render_photon_pass(scene, settings, 0, kNeverStopped);
+    const Pass pass = render_photon_pass(scene, settings, 0);
     uint64_t darker = 0;  // than 1: a branch of their paths was cut
     double lost = 0.0;
     for (const Rgb& pixel : pass.image.pixels) {

@@ -5,7 +5,6 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/base/progress.h"
 #include "vpm/base/tails.h"
 #include "vpm/photon/photon_lists.h"
 #include "vpm/render/path_tracer.h"
@@ -25,7 +24,7 @@ inline RenderSettings settings_of(uint64_t photons, float radius) {
 
 /// The path tracer's pass over the same scene: every pixel is finite, and no path was dropped.
 inline void expect_finite_paths(const Scene& scene, const RenderSettings& settings, int pass) {
-  const Pass done = render_path_pass(scene, settings, pass, kNeverStopped);
+  const Pass done = render_path_pass(scene, settings, pass);
   EXPECT_EQ(done.statistics.eye.non_finite, 0u);
   for (const Rgb& p : done.image.pixels) EXPECT_TRUE(is_finite(p));
 }
@@ -33,7 +32,7 @@ inline void expect_finite_paths(const Scene& scene, const RenderSettings& settin
 /// Renders pass number `pass`: every pixel is finite, and no sample, photon or path was dropped or cut.
 inline Image clean_image(const Scene& scene, const RenderSettings& settings, int pass = 0) {
   expect_finite_paths(scene, settings, pass);
-  const Pass done = render_photon_pass(scene, settings, pass, kNeverStopped);
+  const Pass done = render_photon_pass(scene, settings, pass);
   int bad = 0;
   for (const Rgb& p : done.image.pixels) bad += !is_finite(p);
   EXPECT_EQ(bad, 0);

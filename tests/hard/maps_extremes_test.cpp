@@ -1,7 +1,6 @@
 // Photon maps at their ends: photons that coincide by the thousand, none and one, radii beyond the scene, below the
 // spacing of floats, and far from the origin.
 #include "hard/hard_scenes.h"
-#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/estimate/volume_estimate.h"
@@ -58,7 +57,7 @@ TEST(MapsExtremes, KNearestWhereAllKCoincideWithTheQueryIsNoNumberAndCounted) {
   RenderSettings settings = settings_of(100'000, 4.0f);  // most miss: the sphere around the scene is rounded up, too
   settings.surface_direct = DirectLight::photons;
   settings.surface.mode = GatherMode::nearest;
-  const Pass pass = render_photon_pass(scene, settings, 0, kNeverStopped);
+  const Pass pass = render_photon_pass(scene, settings, 0);
   for (const Rgb& pixel : pass.image.pixels) EXPECT_TRUE(is_finite(pixel));
   EXPECT_GT(pass.statistics.eye.non_finite, 0u);
   settings.surface.mode = GatherMode::radius;

@@ -1,6 +1,5 @@
 // Media from nothing to opaque, from black to white, from forward to backward: against closed forms.
 #include "hard/hard_scenes.h"
-#include "vpm/base/progress.h"
 #include "vpm/base/tails.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/volume/march.h"
@@ -264,7 +263,7 @@ TEST(MediaExtremes, ThePathTracersWhiteFurnaceIsOneInTheNarrowestPeak) {
       scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 10.0f, {8, 8});
       Moments mean;
       for (int pass = 0; pass < 16; ++pass) {
-        const Pass done = render_path_pass(scene, settings_of(1, 1.0f), pass, kNeverStopped);
+        const Pass done = render_path_pass(scene, settings_of(1, 1.0f), pass);
         EXPECT_EQ(done.statistics.eye.non_finite + done.statistics.eye.cut_paths, 0u);
         mean.add(mean_of(done.image));
       }

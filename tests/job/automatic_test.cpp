@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "job/pilot_scenes.h"
+#include "support/simulated_clock.h"
 #include "vpm/base/count.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
@@ -14,7 +15,7 @@
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/counted_cost.h"
 #include "vpm/job/declare.h"
-#include "vpm/job/forecast.h"
+#include "vpm/job/pass_time.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
@@ -32,7 +33,7 @@ TEST(Automatic, ChoosesTheSameOnAnyNumberOfThreads) {
   for (const int threads : {1, 2}) {
     set_threads(threads);
     RenderSettings settings;
-    chosen.push_back(choose_settings(scene, automatic, settings));
+    chosen.push_back(choose_settings(scene, automatic, SimulatedClock(), settings).choices);
     EXPECT_GT(settings.volume.radius.metres(), 0.0f);
     EXPECT_GT(settings.surface.radius.metres(), 0.0f);
   }
@@ -67,8 +68,8 @@ TEST(Automatic, ChangesNothingThatIsGiven) {
   given.photons_emitted = 12'345;
   given.distance.strategy = "delta";
   RenderSettings settings = given;
-  EXPECT_TRUE(choose_settings(scene, {}, settings).empty());
-  EXPECT_EQ(choose_settings(scene, {{"surface.radius"}}, settings).size(), 1u);
+  EXPECT_TRUE(choose_settings(scene, {}, SimulatedClock(), settings).choices.empty());
+  EXPECT_EQ(choose_settings(scene, {{"surface.radius"}}, SimulatedClock(), settings).choices.size(), 1u);
   EXPECT_EQ(settings.volume.radius.metres(), 0.3f);
   EXPECT_NE(settings.surface.radius.metres(), 0.4f);
   EXPECT_EQ(settings.caustics.radius.metres(), 0.5f);
@@ -85,7 +86,7 @@ TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
     if (setting.automatic) all.keys.insert(setting.key);
   EXPECT_EQ(all.keys.erase("render.integrator"), 1u);
   EXPECT_EQ(all.keys.size(), 7u);
-  const std::vector<Choice> choices = choose_settings(scene, all, settings);
+  const std::vector<Choice> choices = choose_settings(scene, all, SimulatedClock(), settings).choices;
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(settings.distance.strategy, "homogeneous");
   EXPECT_EQ(settings.photons_emitted, RenderSettings{}.photons_emitted);
@@ -174,10 +175,9 @@ TEST(SlowAutomatic, BeamsLeaveTimeForPasses) {
     job.settings.volume.mode = GatherMode::photon_beams;
     job.settings.until.seconds = kSeconds;
     job.automatic.keys = {"photons.emitted", "volume.radius", "surface.radius"};
-    choose(job);
-    RenderResult nothing = nothing_rendered(job.scene.camera);
-    nothing.seconds = job.pilot_seconds;
-    const RenderResult result = render(job.scene, job.settings, std::move(nothing));
+    const auto clock = std::make_shared<WallClock>();
+    choose(job, *clock);
+    const RenderResult result = render(job.scene, job.settings, nothing_rendered(job.scene.camera), {.clock = clock});
     fits = result.seconds < longest_time(kSeconds) && result.film.passes() >= kLeastPasses;
   }
   EXPECT_TRUE(fits);
@@ -199,16 +199,16 @@ TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMaps) {
   choose_records(scene, {{"volume.radius", "surface.radius"}}, kLimit, maps);
   EXPECT_EQ(combined.volume.radius, maps.volume.radius);
   EXPECT_EQ(combined.surface.radius, maps.surface.radius);
-  EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, combined), InputError);
+  EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, SimulatedClock(), combined), InputError);
 }
 
 /// A gather that is given stays, and so does that of a scene without media.
 TEST(Automatic, KeepsGathersThatAreGiven) {
   RenderSettings settings;
   settings.volume.mode = GatherMode::nearest;
-  choose_settings(lit_evenly(0.01f), {{"volume.radius"}}, settings);
+  choose_settings(lit_evenly(0.01f), {{"volume.radius"}}, SimulatedClock(), settings);
   EXPECT_EQ(settings.volume.mode, GatherMode::nearest);
-  EXPECT_TRUE(choose_settings(lit_evenly(0.0f), {{"volume.gather"}}, settings).empty());
+  EXPECT_TRUE(choose_settings(lit_evenly(0.0f), {{"volume.gather"}}, SimulatedClock(), settings).choices.empty());
 }
 
 TEST(Automatic, TheLeastErrorIsTheFirstsUnlessAnotherIsClearlyLess) {

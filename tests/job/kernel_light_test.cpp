@@ -13,8 +13,6 @@
 namespace vpm {
 namespace {
 
-const std::atomic<bool> kGoingOn{false};
-
 /// A floor under a slab of glass, which the camera sees through it, as a light above does. A wall beside it is seen
 /// straight.
 Scene floor_under_glass(const Light& light) {
@@ -48,7 +46,7 @@ Moments mean_light(const Scene& scene, const RenderSettings& settings) {
   constexpr int kPasses = 30;
   Moments means;
   for (int pass = 0; pass < kPasses; ++pass)
-    means.add(channel_means(render_combined_pass(scene, settings, pass, kGoingOn).image).g);
+    means.add(channel_means(render_combined_pass(scene, settings, pass).image).g);
   return means;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "job/pilot_scenes.h"
+#include "support/simulated_clock.h"
 #include "vpm/job/automatic.h"
 #include "vpm/job/declare.h"
 #include "vpm/job/pilot_error.h"
@@ -88,7 +89,7 @@ TEST(Automatic, APartOfAPassHasTheSharesOfTheWhole) {
 Choice chosen_integrator(const Scene& scene, RenderSettings settings) {
   settings.photons_emitted = 5'000;
   const AutomaticSettings automatic{{"render.integrator", "volume.radius", "surface.radius"}};
-  const std::vector<Choice> choices = choose_settings(scene, automatic, settings);
+  const std::vector<Choice> choices = choose_settings(scene, automatic, SimulatedClock(), settings).choices;
   EXPECT_EQ(choices.at(0).key, "render.integrator");
   EXPECT_EQ(choices.at(0).value, word_of(settings.integrator));
   for (const char* part : {"least error in a pilot", "photon ", " path "})
@@ -131,7 +132,8 @@ TEST(Automatic, TechniquesAreChosen) {
   settings.integrator = Integrator::combined;
   settings.photons_emitted = 2'000;
   settings.volume.radius = settings.surface.radius = 0.1f;
-  const std::vector<Choice> choices = choose_settings(scene, {{"combined.techniques"}}, settings);
+  const std::vector<Choice> choices =
+      choose_settings(scene, {{"combined.techniques"}}, SimulatedClock(), settings).choices;
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(choices[0].key, "combined.techniques");
   for (const char* part : {"least error in a pilot", " combined without short-beams ", " combined "})
@@ -148,7 +150,7 @@ TEST(Automatic, WhatDoesNotFitIntoTheTimeIsNotChosen) {
   settings.photons_emitted = 100'000'000;
   settings.volume.radius = settings.surface.radius = 0.1f;
   settings.until.seconds = 0.5;
-  choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, settings);
+  choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, SimulatedClock(), settings);
   EXPECT_EQ(settings.integrator, Integrator::path);
 }
 
@@ -165,7 +167,8 @@ TEST(Automatic, FlightsThatAreAskedForAreGathered) {
     settings.volume.mode = mode;
     if (mode == GatherMode::photon_planes) settings.planes = 50;
     settings.photons_emitted = 500;
-    const std::vector<Choice> choices = choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, settings);
+    const std::vector<Choice> choices =
+        choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, SimulatedClock(), settings).choices;
     EXPECT_EQ(settings.integrator, Integrator::photon);
     EXPECT_EQ(settings.volume.mode, mode);
     const std::string why = "not combined, path: 'gather' of [volume] is \"" + word_of(mode) + "\"";
@@ -177,7 +180,8 @@ TEST(Automatic, FlightsThatAreAskedForAreGathered) {
 Choice chosen_gather(const Scene& scene, RenderSettings settings) {
   settings.photons_emitted = 20'000;
   settings.surface.radius = 0.1f;
-  const std::vector<Choice> choices = choose_settings(scene, {{"volume.gather", "volume.radius"}}, settings);
+  const std::vector<Choice> choices =
+      choose_settings(scene, {{"volume.gather", "volume.radius"}}, SimulatedClock(), settings).choices;
   EXPECT_EQ(choices.size(), 2u);
   EXPECT_EQ(choices.at(0).key, "volume.gather");
   EXPECT_EQ(choices.at(0).value, word_of(settings.volume.mode));

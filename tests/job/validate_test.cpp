@@ -284,18 +284,17 @@ TEST(Validate, TakesACountWhereGathersGoByIt) {
 /// A render from code is refused before its first pass.
 TEST(Validate, StandsBeforeEveryRender) {
   const Scene scene;
-  const std::atomic<bool> stop{true};
   RenderSettings s;
   s.guide.scatter = true;
-  EXPECT_THROW(render(scene, s, {Film(1, 1), {}, 0.0, {}}, {stop}), SettingError);
-  EXPECT_THROW(bake_light_map(scene, s, {}, {stop}), SettingError);
+  EXPECT_THROW(render(scene, s, {Film(1, 1), {}, 0.0, {}}), SettingError);
+  EXPECT_THROW(bake_light_map(scene, s, {}, {}), SettingError);
   for (const auto& change : std::vector<std::function<void(RenderSettings&)>>{
            [](RenderSettings& other) { other.integrator = Integrator::path; },
            [](RenderSettings& other) { other.radii = RadiusSchedule::per_pixel; },
            [](RenderSettings& other) { other.until.error = 0.1; }}) {
     RenderSettings of_light_map;
     change(of_light_map);
-    EXPECT_THROW(bake_light_map(scene, of_light_map, {}, {stop}), SettingError);
+    EXPECT_THROW(bake_light_map(scene, of_light_map, {}, {}), SettingError);
   }
 }
 

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <limits>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "vpm/base/cancel.h"
 
 namespace vpm {
 namespace {
@@ -40,7 +41,7 @@ TEST(PassPool, HasNoMoreUnderWayThanThereIsRoomFor) {
   pool.deliver(1, pass_of_number(1));
   EXPECT_EQ(pool.try_take().order, Order::wait) << "pass 1 is made, but waits for pass 0";
   pool.deliver(0, pass_of_number(0));
-  EXPECT_EQ(number_of(*pool.join(0)), 0);
+  EXPECT_EQ(number_of(pool.join(0)), 0);
   const PassPool::Task next = pool.try_take();
   EXPECT_EQ(next.order, Order::make);
   EXPECT_EQ(next.number, 2);
@@ -56,7 +57,7 @@ TEST(PassPool, JoinsThePassesOfManyMakersInOrder) {
       for (PassPool::Task task = pool.take(); task.order == Order::make; task = pool.take())
         pool.deliver(task.number, pass_of_number(task.number));
     });
-  for (int number = 0; number < kPasses; ++number) EXPECT_EQ(number_of(*pool.join(number)), number);
+  for (int number = 0; number < kPasses; ++number) EXPECT_EQ(number_of(pool.join(number)), number);
   for (std::thread& maker : makers) maker.join();
   EXPECT_EQ(pool.try_take().order, Order::leave);
 }
@@ -65,14 +66,14 @@ TEST(PassPool, WakesAllWhenItIsClosed) {
   PassPool pool({0, 9}, {}, 1);
   EXPECT_EQ(pool.take().number, 0);
   std::thread maker([&] { EXPECT_EQ(pool.take().order, Order::leave); });
-  std::thread joiner([&] { EXPECT_FALSE(pool.join(0)); });
+  std::thread joiner([&] { EXPECT_THROW(pool.join(0), Cancelled); });
   EXPECT_FALSE(pool.closed());
   pool.close();
   maker.join();
   joiner.join();
   EXPECT_TRUE(pool.closed());
   pool.deliver(0, pass_of_number(0));
-  EXPECT_FALSE(pool.join(0)) << "what comes late is dropped";
+  EXPECT_THROW(pool.join(0), Cancelled) << "what comes late is dropped";
 }
 
 TEST(PassPool, TellsTheJoinerWhyAMakerCannotGoOn) {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "ranks/ranks_in_memory.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/rng.h"
 #include "vpm/job/named_fields.h"
 #include "vpm/job/pieces.h"
@@ -38,17 +39,15 @@ Pass some_pass(int number) {
   return pass;
 }
 
-MakerOfPasses maker() {
-  return [](const std::atomic<bool>&) {
-    return PassMaker{[](int number, const RenderResult&, const PassProgress&) { return some_pass(number); }, 1};
-  };
+PassMaker maker() {
+  return {[](int number, const RenderResult&, const PassProgress&) { return some_pass(number); }, 1};
 }
 
 RenderResult nothing() { return {Film(kWidth, kHeight), {}, 0.0, {}}; }
 
 /// The render of so many ranks.
 RenderResult together(int ranks, const StopRule& until, RenderResult begun = nothing(), const RunControl& control = {},
-                      const MakerOfPasses& of_leader = maker()) {
+                      const PassMaker& of_leader = maker()) {
   Post post(ranks);
   std::vector<std::thread> others;
   for (int rank = 1; rank < ranks; ++rank)
@@ -72,10 +71,7 @@ RenderResult together(int ranks, const StopRule& until, RenderResult begun = not
   return result;
 }
 
-RenderResult alone(const StopRule& until) {
-  static const std::atomic<bool> never{false};
-  return run_passes(until, maker()(never), nothing(), {});
-}
+RenderResult alone(const StopRule& until) { return run_passes(until, maker(), nothing(), {}); }
 
 void expect_same(const RenderResult& a, const RenderResult& b) {
   EXPECT_EQ(a.film.sums(), b.film.sums());
@@ -116,7 +112,7 @@ TEST(Together, RenderForATime) {
 
 TEST(Together, TellEachPassInOrder) {
   std::vector<int> told;
-  const RunControl control{kNeverStopped, ProgressMode::never,
+  const RunControl control{ProgressMode::never,
                            [&](const RenderResult& so_far) { told.push_back(so_far.film.passes()); }};
   together(4, {.passes = 9}, nothing(), control);
   EXPECT_EQ(told, (std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
@@ -128,30 +124,26 @@ TEST(Together, AStopWaitsForNobody) {
   RankInMemory leader(post, 0), gone(post, 1);
   gone.send(0, "a");  // asks for a number, and is never heard of again
   std::atomic<bool> stop{false};
-  const RunControl control{stop, ProgressMode::never,
-                           [&](const RenderResult& so_far) { stop = so_far.film.passes() == 3; }};
-  const MakerOfPasses slow = [](const std::atomic<bool>& told) {
-    return PassMaker{[&](int number, const RenderResult&, const PassProgress&) {
-                       if (number > 3)
-                         while (!told) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                       return some_pass(number);
-                     },
-                     1};
-  };
+  const RunControl control{ProgressMode::never, [&](const RenderResult& so_far) { stop = so_far.film.passes() == 3; }};
+  const PassMaker slow{[](int number, const RenderResult&, const PassProgress&) {
+                         for (; number > 3; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+                           cancellation_point();
+                         return some_pass(number);
+                       },
+                       1};
   std::thread other([&] {  // makes the one pass that it is told to
     const std::string order = wait_for_message(gone).bytes;
     gone.send(0, "p" + order.substr(1) + "\n" + bytes_of(some_pass(std::stoi(order.substr(1)))));
   });
+  const CancelScope scope(stop);
   const RenderResult result = lead_passes(leader, {.passes = 100}, slow, nothing(), control);
   other.join();
   EXPECT_EQ(result.film.passes(), 3);
 }
 
 TEST(Together, WhatTheMakerThrowsComesOut) {
-  const MakerOfPasses broken = [](const std::atomic<bool>&) {
-    return PassMaker{[](int, const RenderResult&, const PassProgress&) -> Pass { throw std::domain_error("broken"); },
-                     1};
-  };
+  const PassMaker broken{
+      [](int, const RenderResult&, const PassProgress&) -> Pass { throw std::domain_error("broken"); }, 1};
   EXPECT_THROW(together(3, {.passes = 50}, nothing(), {}, broken), std::domain_error);
 }
 
@@ -159,10 +151,8 @@ TEST(Together, WhatTheMakerOfAnotherRankThrowsComesOutThere) {
   Post post(2);
   RankInMemory other(post, 1);
   post.send(0, 1, "m0");
-  const MakerOfPasses broken = [](const std::atomic<bool>&) {
-    return PassMaker{[](int, const RenderResult&, const PassProgress&) -> Pass { throw std::domain_error("broken"); },
-                     1};
-  };
+  const PassMaker broken{
+      [](int, const RenderResult&, const PassProgress&) -> Pass { throw std::domain_error("broken"); }, 1};
   EXPECT_THROW(make_passes(other, broken), std::domain_error);
 }
 

@@ -110,7 +110,7 @@ void expect_alike(const Scene& scene, const RenderSettings& settings, const Vec3
                   bool go_together = true) {
   const Estimators estimators = plan_estimators(scene, settings, 0);
   RenderStatistics statistics;
-  prepare_pass(scene, settings, estimators, {.stop = kNeverStopped}, statistics);
+  prepare_pass(scene, settings, estimators, {}, statistics);
   const EyeContext context{scene, estimators};
   expect_alike_by([&](std::span<EyeRay> rays) { eye_radiance(context, rays); },
                   [&](const Ray& ray, EyeWork& work) { return eye_radiance(context, ray, work); }, from, towards,
@@ -121,7 +121,7 @@ void expect_alike(const Scene& scene, const RenderSettings& settings, const Vec3
 void expect_combined_alike(Scene& scene, const RenderSettings& settings, const Vec3& from, const Vec3& towards,
                            bool go_together = true) {
   scene.camera = make_camera(from, towards, Vec3(0, 1, 0), 60.0f, {kEdge, kEdge});
-  const CombinedPass pass(scene, settings, 0, kNeverStopped);
+  const CombinedPass pass(scene, settings, 0);
   expect_alike_by([&](std::span<EyeRay> rays) { pass.radiance(rays); },
                   [&](const Ray& ray, EyeWork& work) { return pass.radiance(ray, work); }, from, towards, go_together);
 }

@@ -35,7 +35,7 @@ Scene hollow_cube(const Medium* fog = nullptr, float reflectance = kReflectance)
 /// The mean radiance over a pass's pixels, green.
 template <class RenderPass>
 double pass_mean(const Scene& scene, const RenderSettings& settings, int pass, RenderPass&& render) {
-  return channel_means(render(scene, settings, pass, kNeverStopped, PassProgress{}).image).g;
+  return channel_means(render(scene, settings, pass, PassProgress{}).image).g;
 }
 
 /// The means of `kPasses` passes.
@@ -84,7 +84,7 @@ TEST(SlowFinalGather, NeedsNoMapInACavitySmallerThanItsRadius) {
 TEST(FinalGather, CutsEndlessPathsAndCountsThem) {
   RenderSettings settings = gathering(10.0f);
   settings.max_events = 20;
-  const EyeCounters eye = render_photon_pass(hollow_cube(nullptr, 1.0f), settings, 0, kNeverStopped).statistics.eye;
+  const EyeCounters eye = render_photon_pass(hollow_cube(nullptr, 1.0f), settings, 0).statistics.eye;
   EXPECT_EQ(eye.cut_paths, eye.rays * 8);
   EXPECT_EQ(eye.gather_rays, eye.rays * 8 * 20);
 }
@@ -102,7 +102,7 @@ TEST(FinalGather, BoundariesOnTheWayAreNoEvents) {
   finish(scene);
   RenderSettings settings = gathering(1e-6f);
   settings.max_events = 1;
-  const EyeCounters eye = render_photon_pass(scene, settings, 0, kNeverStopped).statistics.eye;
+  const EyeCounters eye = render_photon_pass(scene, settings, 0).statistics.eye;
   EXPECT_GT(eye.walk.crossings, 5 * eye.rays);
   EXPECT_EQ(eye.cut_paths, 0u);
 }
@@ -111,8 +111,7 @@ TEST(FinalGather, BoundariesOnTheWayAreNoEvents) {
 // shorter, as few as at a radius of 0.1 m. All are shorter than 10 m, and would go on: twice as many rays.
 TEST(FinalGather, RaysBeyondTheNearestPhotonsEndInTheMap) {
   const auto rays = [](const RenderSettings& settings) {
-    return static_cast<double>(
-        render_photon_pass(hollow_cube(), settings, 0, kNeverStopped).statistics.eye.gather_rays);
+    return static_cast<double>(render_photon_pass(hollow_cube(), settings, 0).statistics.eye.gather_rays);
   };
   RenderSettings nearest = gathering(10.0f);
   nearest.surface.mode = GatherMode::nearest;
@@ -126,9 +125,9 @@ TEST(FinalGather, ByPhotonsAndIrradianceComputedBeforehandIsTheSameOnAnyNumberOf
   settings.end_irradiance = EndIrradiance::precomputed;
   settings.samples_per_pixel = 16;
   set_threads(1);
-  const Pass one = render_photon_pass(scene, settings, 0, kNeverStopped);
+  const Pass one = render_photon_pass(scene, settings, 0);
   set_threads(4);
-  const Pass four = render_photon_pass(scene, settings, 0, kNeverStopped);
+  const Pass four = render_photon_pass(scene, settings, 0);
   set_threads(0);
   EXPECT_EQ(one.image.pixels, four.image.pixels);
   EXPECT_EQ(one.statistics.guiding_photons, four.statistics.guiding_photons);
@@ -142,7 +141,7 @@ TEST(FinalGather, CountsItsRays) {
   const Scene scene = hollow_cube();
   RenderSettings settings = gathering(1e-4f);
   settings.gather_rays = 3;
-  const RenderStatistics s = render_photon_pass(scene, settings, 0, kNeverStopped).statistics;
+  const RenderStatistics s = render_photon_pass(scene, settings, 0).statistics;
   EXPECT_GE(s.eye.gather_rays, s.eye.rays * 3);
   EXPECT_LE(s.eye.gather_rays, s.eye.rays * 3 + s.eye.rays / 10);  // a few are shorter than the radius
   EXPECT_EQ(s.caustic_photons, 0u);                                // nothing but diffuse walls

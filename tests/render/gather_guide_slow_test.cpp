@@ -3,7 +3,6 @@
 
 #include "support/recorders.h"
 #include "support/statistics.h"
-#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface/gather_guide.h"
 #include "vpm/medium/make_grid.h"
@@ -126,7 +125,7 @@ Moments gathered(const Scene& scene, bool guided, const Ray& ray, int samples, E
   if (!guided) settings.gather_by = GatherBy::material;
   RenderStatistics statistics;
   const Estimators estimators = plan_estimators(scene, settings, 0);
-  prepare_pass(scene, settings, estimators, {.stop = kNeverStopped}, statistics);
+  prepare_pass(scene, settings, estimators, {}, statistics);
   const Hit hit = *scene.geometry.intersect(ray);
   const Material material = material_at(scene, hit);
   const SurfaceView view{hit, material, ray.direction, kVacuum};

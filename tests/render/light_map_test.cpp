@@ -10,7 +10,6 @@
 #include "support/statistics.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/progress.h"
 #include "vpm/job/bake.h"
 #include "vpm/scene/build.h"
 
@@ -48,7 +47,7 @@ struct Baked {
 Baked bake(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int passes) {
   Baked baked{std::vector<Moments>(layout.texels()), {}};
   for (int pass = 0; pass < passes; ++pass) {
-    const Image map = light_map_pass(scene, settings, layout, pass, kNeverStopped).image;
+    const Image map = light_map_pass(scene, settings, layout, pass).image;
     for (size_t t = 0; t < layout.texels(); ++t) baked.texels[t].add(map.pixels[t].g);
     baked.power.add(received_power(layout, map).g);
   }
@@ -159,7 +158,7 @@ TEST(SlowLightMap, ReceivesThePowerOfTheLedger) {
   const UvLayout layout = lay_out_light_map(scene, 0, 48);
   Moments difference;  // W
   for (int pass = 0; pass < 100; ++pass) {
-    const Pass done = light_map_pass(scene, settings, layout, pass, kNeverStopped);
+    const Pass done = light_map_pass(scene, settings, layout, pass);
     const Ledger& ledger = done.statistics.ledger;
     const double absorbed = ledger.absorbed_on_surfaces.g / static_cast<double>(ledger.emitted_count);
     difference.add(received_power(layout, done.image).g - absorbed / (1.0 - kTexelReflectance));
@@ -192,7 +191,7 @@ TEST(LightMap, IsTheSameOnAnyNumberOfThreads) {
   std::vector<Image> maps;
   for (const int threads : {1, 2}) {
     set_threads(threads);
-    maps.push_back(bake_light_map(scene, settings, layout, {kNeverStopped}).film.mean());
+    maps.push_back(bake_light_map(scene, settings, layout, {}).film.mean());
   }
   set_threads(0);
   EXPECT_EQ(std::memcmp(maps[0].pixels.data(), maps[1].pixels.data(), layout.texels() * sizeof(Rgb)), 0);

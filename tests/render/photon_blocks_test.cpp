@@ -99,8 +99,8 @@ TEST(PhotonBlocks, MakeThePictureOfThePass) {
     RenderSettings settings = in_one_piece();
     way.choose(settings);
     ASSERT_NO_THROW(validate(in_blocks(settings), facts_of(scene))) << way.name;
-    const Pass whole = render_photon_pass(scene, settings, 3, kNeverStopped);
-    const Pass blocks = render_photon_pass(scene, in_blocks(settings), 3, kNeverStopped);
+    const Pass whole = render_photon_pass(scene, settings, 3);
+    const Pass blocks = render_photon_pass(scene, in_blocks(settings), 3);
     EXPECT_GT(largest_of(whole.image), 0.0f);
     EXPECT_LT(apart(whole.image, blocks.image), kRounding) << way.name;
     EXPECT_LT(apart(whole.correction, blocks.correction), kRounding) << way.name;
@@ -115,10 +115,10 @@ TEST(PhotonBlocks, MayBeOfFewPhotons) {
   const Scene scene = fog_smoke_and_glass();
   RenderSettings settings = in_one_piece();
   settings.photons_emitted = 60;
-  const Pass whole = render_photon_pass(scene, settings, 0, kNeverStopped);
+  const Pass whole = render_photon_pass(scene, settings, 0);
   settings.photons_block = 1;
   EXPECT_EQ(block_count(settings), 60u);
-  EXPECT_LT(apart(whole.image, render_photon_pass(scene, settings, 0, kNeverStopped).image), kRounding);
+  EXPECT_LT(apart(whole.image, render_photon_pass(scene, settings, 0).image), kRounding);
 }
 
 TEST(PhotonBlocks, HaveAllPhotonsOfThePassOnce) {
@@ -157,8 +157,8 @@ TEST(PhotonBlocks, AddUpInTheStatistics) {
   RenderSettings settings = in_one_piece();
   settings.radii = RadiusSchedule::per_pixel;
   settings.volume.mode = GatherMode::photon_beams;
-  const Pass whole = render_photon_pass(scene, settings, 0, kNeverStopped);
-  const Pass blocks = render_photon_pass(scene, in_blocks(settings), 0, kNeverStopped);
+  const Pass whole = render_photon_pass(scene, settings, 0);
+  const Pass blocks = render_photon_pass(scene, in_blocks(settings), 0);
   const RenderStatistics &a = whole.statistics, &b = blocks.statistics;
   EXPECT_EQ(b.passes, 1);
   EXPECT_EQ(b.ledger.emitted_count, kPhotons);
@@ -178,7 +178,7 @@ TEST(PhotonBlocks, AreTheSameOnAnyNumberOfThreads) {
   std::vector<Image> images;
   for (const int threads : {1, 2}) {
     set_threads(threads);
-    images.push_back(render_photon_pass(scene, in_blocks(in_one_piece()), 0, kNeverStopped).image);
+    images.push_back(render_photon_pass(scene, in_blocks(in_one_piece()), 0).image);
   }
   set_threads(0);
   EXPECT_EQ(std::memcmp(images[0].pixels.data(), images[1].pixels.data(), images[0].pixels.size() * sizeof(Rgb)), 0);
@@ -191,8 +191,8 @@ TEST(PhotonBlocks, MakeTheLightMapOfThePass) {
     RenderSettings settings = in_one_piece();
     settings.surface_indirect = indirect;
     ASSERT_NO_THROW(validate_light_map(in_blocks(settings), facts_of(scene)));
-    const Pass whole = light_map_pass(scene, settings, layout, 0, kNeverStopped);
-    const Pass blocks = light_map_pass(scene, in_blocks(settings), layout, 0, kNeverStopped);
+    const Pass whole = light_map_pass(scene, settings, layout, 0);
+    const Pass blocks = light_map_pass(scene, in_blocks(settings), layout, 0);
     EXPECT_LT(apart(whole.image, blocks.image), kRounding);
     EXPECT_EQ(blocks.statistics.ledger.emitted_count, kPhotons);
   }

@@ -6,7 +6,6 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/base/progress.h"
 #include "vpm/base/tails.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/radius_schedule.h"
@@ -20,7 +19,7 @@ namespace {
 Moments pass_means(const Scene& scene, const RenderSettings& settings, int passes) {
   Moments means;
   for (int pass = 0; pass < passes; ++pass) {
-    const Image image = render_photon_pass(scene, settings, pass, kNeverStopped).image;
+    const Image image = render_photon_pass(scene, settings, pass).image;
     double sum = 0.0;
     for (const Rgb& p : image.pixels) sum += sum_channels(p) / 3.0;
     means.add(sum / static_cast<double>(image.pixels.size()));
@@ -126,7 +125,7 @@ TEST(PhotonPass, FogDimsBeforeAndBehindThePhotons) {
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays, DirectLight::equiangular})
     for (auto [name, settings] : volume_estimates(settings_of(1000, 0.05f))) {
       settings.volume_direct = direct;
-      const Image image = render_photon_pass(scene, settings, 0, kNeverStopped).image;
+      const Image image = render_photon_pass(scene, settings, 0).image;
       for (const Rgb& pixel : image.pixels)
         for (int c = 0; c < 3; ++c) {
           // 4 m to the panel, up to 0.1 % more at the corners.
@@ -178,8 +177,7 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
   finish(scene);
   RenderSettings settings = settings_of(1000, 0.05f);
   const double exact = 0.5 / kPiD * 1.0 / std::sqrt(1.05);
-  for (const Rgb& pixel : render_photon_pass(scene, settings, 0, kNeverStopped).image.pixels)
-    EXPECT_NEAR(pixel.r, exact, 1e-4);
+  for (const Rgb& pixel : render_photon_pass(scene, settings, 0).image.pixels) EXPECT_NEAR(pixel.r, exact, 1e-4);
 }
 
 TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
@@ -193,8 +191,8 @@ TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
     std::vector<WalkCounters> walks;
     for (int pass = 0; pass < 3; ++pass) {
       const bool photons = integrator == Integrator::photon;
-      const RenderStatistics s = photons ? render_photon_pass(scene, settings, pass, kNeverStopped).statistics
-                                         : render_path_pass(scene, settings, pass, kNeverStopped).statistics;
+      const RenderStatistics s = photons ? render_photon_pass(scene, settings, pass).statistics
+                                         : render_path_pass(scene, settings, pass).statistics;
       walks.push_back(photons ? s.ledger.walk : s.eye.walk);
     }
     const auto share_of_violations = [&](size_t pass) {
@@ -216,7 +214,7 @@ TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
   EXPECT_FALSE(plan_estimators(no_surface, {}, 0).surface);
   EXPECT_FALSE(casts_shadow_rays(scattering_of(no_surface), {}));
   const auto statistics = [](const Scene& scene) {
-    return render_photon_pass(scene, settings_of(100, 0.1f), 0, kNeverStopped).statistics;
+    return render_photon_pass(scene, settings_of(100, 0.1f), 0).statistics;
   };
   EXPECT_EQ(statistics(no_medium).last_volume_radius, 0.0f);
   EXPECT_EQ(statistics(no_medium).last_surface_radius, 0.1f);
@@ -228,8 +226,7 @@ TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
 double noise_of(const Scene& scene, const RenderSettings& settings) {
   constexpr int kPasses = 12;
   Film film(scene.camera.width, scene.camera.height);
-  for (int pass = 0; pass < kPasses; ++pass)
-    film.add(pass, render_photon_pass(scene, settings, pass, kNeverStopped).image);
+  for (int pass = 0; pass < kPasses; ++pass) film.add(pass, render_photon_pass(scene, settings, pass).image);
   double sum = 0.0;
   for (const Rgb& v : film.variance_of_mean().pixels) sum += kPasses * v.g;
   return sum / static_cast<double>(scene.camera.width * scene.camera.height);
@@ -254,9 +251,9 @@ TEST(PhotonPass, PhotonsAreRandomWhereTheyMustBeIndependent) {
   const auto differs = [&](auto change) {
     RenderSettings settings = settings_of(1000, 0.5f);
     change(settings);
-    const Pass even = render_photon_pass(scene, settings, 0, kNeverStopped);
+    const Pass even = render_photon_pass(scene, settings, 0);
     settings.photon_sequence = PhotonSequence::random;
-    return even.image.pixels != render_photon_pass(scene, settings, 0, kNeverStopped).image.pixels;
+    return even.image.pixels != render_photon_pass(scene, settings, 0).image.pixels;
   };
   EXPECT_TRUE(differs([](RenderSettings&) {}));
   EXPECT_FALSE(differs([](RenderSettings& s) { s.volume.mode = GatherMode::nearest; }));
@@ -305,9 +302,7 @@ TEST(PhotonPass, SeveralShadowRaysBringTheSameLight) {
   scene.lights.push_back(ConstantEnvironment{Rgb(0.5f)});
   finish_again(scene);
   RenderSettings settings = settings_of(1, 0.1f);
-  const auto shadow_rays = [&] {
-    return render_photon_pass(scene, settings, 0, kNeverStopped).statistics.eye.shadow_rays;
-  };
+  const auto shadow_rays = [&] { return render_photon_pass(scene, settings, 0).statistics.eye.shadow_rays; };
   const uint64_t rays = shadow_rays();  // one to each of six lights
   const Moments one = pass_means(scene, settings, 300);
   settings.surface_direct_samples = 5;
@@ -325,7 +320,7 @@ TEST(PhotonPass, PreparesSumsByNodesForDiffuseSurfaces) {
       settings.surface.mode = GatherMode::nearest;
       settings.surface.count = count;
       settings.surface_direct = DirectLight::photons;
-      return render_photon_pass(scene, settings, 0, kNeverStopped).statistics.photon_map_bytes;
+      return render_photon_pass(scene, settings, 0).statistics.photon_map_bytes;
     };
     return bytes(NearestMap::kMany) - bytes(NearestMap::kMany - 1);
   };

@@ -130,7 +130,7 @@ RenderSettings per_pixel(uint64_t photons) {
 }
 
 RenderResult render_all(const Scene& scene, const RenderSettings& settings) {
-  return render(scene, settings, nothing_rendered(scene.camera), {kNeverStopped});
+  return render(scene, settings, nothing_rendered(scene.camera), {});
 }
 
 TEST(RadiiOfPixels, ShrinkTheLaterTheFewerPhotonsArrive) {
@@ -177,11 +177,10 @@ TEST(RadiiOfPixels, OfARenderAreThoseOfItsPassesOneAfterAnother) {
   const Scene scene = lit_floor(PointLight{Vec3(-0.5f, 0.3f, 0.2f), Rgb(1.0f)});
   const RenderSettings settings = per_pixel(3000);
   const auto run = [&](int number, const RenderResult& so_far, const PassProgress& shown) {
-    return render_photon_pass_after(so_far.discs, scene, settings, {number, kNeverStopped, shown});
+    return render_photon_pass_after(so_far.discs, scene, settings, {number, shown});
   };
   const Image passes =
-      run_passes(settings.until, {run, tile_count(scene.camera)}, nothing_rendered(scene.camera), {kNeverStopped})
-          .film.mean();
+      run_passes(settings.until, {run, tile_count(scene.camera)}, nothing_rendered(scene.camera), {}).film.mean();
   const Image whole = render_all(scene, settings).film.mean();
   ASSERT_EQ(passes.pixels.size(), whole.pixels.size());
   EXPECT_TRUE(std::memcmp(passes.pixels.data(), whole.pixels.data(), whole.pixels.size() * sizeof(Rgb)) == 0);

@@ -41,7 +41,7 @@ template <class RenderPass>
 Moments means(const Scene& scene, const RenderSettings& settings, RenderPass&& render) {
   Moments result;
   for (int pass = 0; pass < 12; ++pass) {
-    const Image image = render(scene, settings, pass, kNeverStopped, PassProgress{}).image;
+    const Image image = render(scene, settings, pass, PassProgress{}).image;
     double sum = 0.0;
     for (const Rgb& p : image.pixels) sum += p.g;
     result.add(sum / static_cast<double>(image.pixels.size()));

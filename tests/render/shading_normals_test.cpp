@@ -3,7 +3,6 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/base/progress.h"
 #include "vpm/base/tails.h"
 #include "vpm/base/warp.h"
 #include "vpm/photon/photon_lists.h"
@@ -165,8 +164,8 @@ TEST(ShadingNormals, ADiffusePlateIsAsBrightAsItsShadingCosine) {
     const bool by_photons = direct == DirectLight::photons;
     Moments mean;
     for (int pass = 0; pass < (by_photons ? 12 : 2); ++pass) {
-      const Pass rendered = integrator == Integrator::path ? render_path_pass(scene, settings, pass, kNeverStopped)
-                                                           : render_photon_pass(scene, settings, pass, kNeverStopped);
+      const Pass rendered = integrator == Integrator::path ? render_path_pass(scene, settings, pass)
+                                                           : render_photon_pass(scene, settings, pass);
       double sum = 0.0;
       for (const Rgb& pixel : rendered.image.pixels) sum += pixel.g;
       mean.add(sum / static_cast<double>(rendered.image.pixels.size()));

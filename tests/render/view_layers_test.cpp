@@ -32,10 +32,9 @@ RenderSettings few_photons(Integrator integrator, const ViewLayerSet& layers) {
 }
 
 Pass render_pass(const Scene& scene, const RenderSettings& settings, int pass) {
-  const std::atomic<bool> stop{false};
-  if (settings.integrator == Integrator::path) return render_path_pass(scene, settings, pass, stop);
-  if (settings.integrator == Integrator::combined) return render_combined_pass(scene, settings, pass, stop);
-  return render_photon_pass(scene, settings, pass, stop);
+  if (settings.integrator == Integrator::path) return render_path_pass(scene, settings, pass);
+  if (settings.integrator == Integrator::combined) return render_combined_pass(scene, settings, pass);
+  return render_photon_pass(scene, settings, pass);
 }
 
 /// A box of fog that fills the middle of the picture, before a wall that fills its lower half.

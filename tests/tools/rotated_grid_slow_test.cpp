@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -79,11 +78,10 @@ DensityIntegralDifference compare_integrals(const Medium& grid, const Medium& co
 
 /// Moments over passes of the mean radiance of the whole picture (first) and of each block of pixels.
 std::vector<Moments> block_moments(const RenderJob& loaded) {
-  const std::atomic<bool> stop{false};
   const int integrals = kWidth / kBlock;
   std::vector<Moments> moments(1 + integrals * (kHeight / kBlock));
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Image image = render_photon_pass(loaded.scene, loaded.settings, pass, stop).image;
+    const Image image = render_photon_pass(loaded.scene, loaded.settings, pass).image;
     std::vector<double> means(moments.size());
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {

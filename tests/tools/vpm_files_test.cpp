@@ -1,7 +1,6 @@
 // Awkward .vdb files through the program: what can be a density renders, everything else is refused soon, clearly and
 // without absurd memory.
 #include <fmt/format.h>
-#include <atomic>
 #include <filesystem>
 
 #include "support/statistics.h"
@@ -149,7 +148,6 @@ TEST_F(VpmFiles, ABackgroundFillsTheShapeAroundIt) {
   EXPECT_TRUE(
       is_lit(image, kWidth / 2 + 4, kHeight / 2));  // 0.8 m beside the middle: outside the grid's own box of 1 m
 
-  const std::atomic<bool> stop{false};
   const auto totals = [&](const std::string& name, const std::string& text, uint64_t seed) {
     write(name, text);
     RenderJob loaded = load_scene(path(name));
@@ -157,7 +155,7 @@ TEST_F(VpmFiles, ABackgroundFillsTheShapeAroundIt) {
     Moments moments;
     for (int pass = 0; pass < 32; ++pass) {
       double total = 0.0;
-      for (const Rgb& c : render_photon_pass(loaded.scene, loaded.settings, 0, stop).image.pixels) total += c.g;
+      for (const Rgb& c : render_photon_pass(loaded.scene, loaded.settings, 0).image.pixels) total += c.g;
       moments.add(total);
       ++loaded.settings.seed;
     }

@@ -55,6 +55,33 @@ TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
   }
 }
 
+// Whatever it is at: one walk of a photon in a medium of a million mean free paths, or the building of maps.
+TEST_F(VpmRender, ARenderIsInterruptedInTheMidstOfAPass) {
+  const std::vector<std::string> before = files();
+  for (const char* slow : {"media.smoke.sigma_t=1e7", "volume.radius=100"}) {
+    Process process(command({"render", "scene.toml", "-o", "a.exr", "--set", slow, "--set", "photons.emitted=1_000_000",
+                             "--set", "film.width=1024", "--set", "film.height=1024", "--progress", "always"}),
+                    {60.0, 0, folder_.string()});
+    EXPECT_TRUE(process.wait_for_error_output("render  ["));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    process.signal(SIGINT);
+    const ProcessResult result = process.wait();
+    EXPECT_EQ(result.status, 130) << slow << result.err;
+    EXPECT_EQ(files(), before);
+  }
+}
+
+// --- Time
+
+TEST_F(VpmRender, WhereNotOnePassFitsIntoTheTimeItSaysWhatWould) {
+  const std::vector<std::string> before = files();
+  const ProcessResult result = vpm({"render", "scene.toml", "-o", "a.exr", "--time", "0.5", "--set",
+                                    "photons.emitted=80_000_000", "--set", "volume.radius=0.2"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  expect_words(result.err, {"no pass is finished within the 0.5 s asked for", "photons.emitted"});
+  EXPECT_EQ(files(), before);
+}
+
 // `timeout` signals the process, and then its group.
 TEST_F(VpmRender, SignalsInQuickSuccessionAreOne) {
   Process process(command({"render", "scene.toml", "-o", "a.exr", "--time", "50", "--progress", "always"}),

@@ -4,7 +4,9 @@
 
 #include "commands.h"
 #include "pass_run.h"
+#include "this_process.h"
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
@@ -61,18 +63,20 @@ int bake_command(const BakeOptions& options) {
   check_outputs(outputs, layout.texels(), false, job);
   foresee_light_map(job);
   print_notes(job);
-  const std::atomic<bool>& stop = stop_on_signals();
-  const RenderResult result = bake_light_map(job.scene, job.settings, layout, {stop, options.progress});
+  const RenderResult result =
+      bake_light_map(job.scene, job.settings, layout, {options.progress, {}, clock_of_process()});
+  if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
+  const bool stopped = is_cancelled();
+  const CancelledWith nothing(nullptr);  // what is finished is written
   if (layout.flat_triangles > 0)
     fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
                layout.flat_triangles);
-  if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
   print_warnings(warnings_of_light_map(job, result));
   write_outputs(outputs, options, job, layout, result);
   fmt::print("{}: {} in {:.1f} s; {} of {} texels covered; preview {}, report {}\n", outputs.exr.string(),
              passes_text(result.film.passes()), result.seconds, layout.covered_texels(), layout.texels(),
              outputs.png.string(), outputs.json.string());
-  return stop ? say_interrupted(job.settings.until, result.film.passes()) : 0;
+  return stopped ? say_interrupted(job.settings.until, result.film.passes()) : 0;
 }
 
 }  // namespace vpm::tools

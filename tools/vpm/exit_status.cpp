@@ -3,6 +3,7 @@
 
 #include <new>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 
 namespace vpm::tools {
@@ -12,6 +13,8 @@ Failure failure_of(const std::exception_ptr& thrown) {
     std::rethrow_exception(thrown);
   } catch (const InputError& error) {
     return {kBadInput, error.what()};
+  } catch (const Cancelled&) {
+    return {kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
     return {kFailed, "out of memory"};
   } catch (const std::exception& error) {

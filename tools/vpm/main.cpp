@@ -13,6 +13,8 @@
 #include "commands.h"
 #include "exit_status.h"
 #include "option_checks.h"
+#include "this_process.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/version.h"
 #include "vpm/ranks/ranks.h"
@@ -347,8 +349,10 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  clock_of_process();
   std::signal(SIGXFSZ, SIG_IGN);  // a file larger than `ulimit -f` allows is an error of its writing, not vpm's end
   try {
+    const CancelScope told_to_end(stop_on_signals());
     const int status = run(argc, argv);
     if (std::fflush(stdout) == 0) return status;
     fmt::print(stderr, "vpm: cannot write to standard output: {}\n", std::strerror(errno));

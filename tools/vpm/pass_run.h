@@ -1,8 +1,7 @@
-// What the subcommands that run passes have in common: the files they write, the options that overrule the scene, what
-// they print, and that they can be interrupted.
+// What the subcommands that run passes have in common: the files they write, the options that overrule the scene, and
+// what they print.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 
 #include "commands.h"
@@ -11,10 +10,6 @@
 #include "vpm/job/render_job.h"
 
 namespace vpm::tools {
-
-/// From now on a first SIGINT, SIGTERM or SIGHUP sets what is returned, so that what is finished can be written; one
-/// that comes a few seconds later kills.
-const std::atomic<bool>& stop_on_signals();
 
 /// An image, and the files that are written next to it.
 struct Outputs {

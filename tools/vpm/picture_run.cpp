@@ -11,7 +11,9 @@
 #include "error_log.h"
 #include "option_checks.h"
 #include "run_watch.h"
+#include "this_process.h"
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/file_lock.h"
 #include "vpm/input/scene_file.h"
@@ -36,7 +38,7 @@ void choose_all(const RenderOptions& options, const Outputs& outputs, RenderJob&
   if (options.resume && job.automatic.any())
     choose_again(job, choices_of(checkpoint_identity(outputs.checkpoint)));
   else
-    choose(job);
+    choose(job, *clock_of_process());
 }
 
 std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outputs& outputs, const Film& film,
@@ -48,13 +50,12 @@ std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outpu
   return ErrorLog(options.reference, outputs.errors, film, camera);
 }
 
-/// Tells what a user should know before the first pass. What that took is part of the render's time.
-void look_ahead(const RenderOptions& options, RenderJob& job, RenderResult& begun) {
+/// Tells what a user should know before the first pass.
+void look_ahead(const RenderOptions& options, RenderJob& job, const RenderResult& begun) {
   if (begun.film.passes() == 0) {
-    foresee(job);
-    look_for_kernel_light(job);
+    foresee(job, *clock_of_process());
+    look_for_kernel_light(job, *clock_of_process());
   }
-  begun.seconds += job.pilot_seconds;
   if (options.quiet) return;
   print_notes(job);
   if (const StopRule& until = job.settings.until; until.counts_passes() && begun.film.passes() >= until.passes)
@@ -62,8 +63,8 @@ void look_ahead(const RenderOptions& options, RenderJob& job, RenderResult& begu
 }
 
 /// The exit status; of several ranks, which may be gone, this ends them all.
-int interrupted(Ranks& ranks, const StopRule& until, const RenderResult& result) {
-  const int status = say_interrupted(until, result.film.passes());
+int interrupted(Ranks& ranks, const StopRule& until, int passes) {
+  const int status = say_interrupted(until, passes);
   if (ranks.size() > 1) ranks.abort(status);
   return status;
 }
@@ -145,7 +146,10 @@ RenderJob load_for_render(const RenderOptions& options, const GridLoader& load) 
   return job;
 }
 
-int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job, Ranks& ranks) {
+namespace {
+
+/// All but what is said where there is no picture.
+int render_finished_picture(const RenderOptions& options, const Outputs& outputs, RenderJob& job, Ranks& ranks) {
   const bool checkpoint = options.checkpoint || options.resume;
   const Camera& camera = job.scene.camera;
   const PixelRect rendered = camera.rendered();
@@ -153,7 +157,6 @@ int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJ
   check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height() * copies, checkpoint, job);
   const std::unique_ptr<FileLock> lock =
       checkpoint ? lock_checkpoint(outputs.checkpoint, options.resume || options.overwrite) : nullptr;
-  const std::atomic<bool>& stop = stop_on_signals();
   choose_all(options, outputs, job);
   apply_pass_range(options.pass_range, job.settings.until);
   const Identity identity = identity_of(job);
@@ -169,14 +172,34 @@ int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJ
     if (log) log->add(so_far);
     watch.finished(so_far);
   };
-  const RenderResult result = lead_render(ranks, job.scene, job.settings, std::move(begun), {stop, progress, finished});
-  if (result.film.passes() == 0) return interrupted(ranks, job.settings.until, result);
+  const auto note = [&](const std::string& text) {
+    if (!options.quiet) fmt::print(stderr, "note: {}\n", text);
+  };
+  const RunControl control{progress, finished, clock_of_process(), job.foreseen_pass, note};
+  const RenderResult result = lead_render(ranks, job.scene, job.settings, std::move(begun), control);
+  if (result.film.passes() == 0) return interrupted(ranks, job.settings.until, 0);
+  const bool stopped = is_cancelled();
+  const CancelledWith nothing(nullptr);  // what is finished is written
   print_warnings(warnings_of(job, result));
   if (log) log->finish(result);
   watch.finish(result);
   write_outputs(outputs, options.exposure, job, result);
   if (!options.quiet) print_summary(outputs, job, result);
-  return stop ? interrupted(ranks, job.settings.until, result) : 0;
+  return stopped ? interrupted(ranks, job.settings.until, result.film.passes()) : 0;
+}
+
+}  // namespace
+
+int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job, Ranks& ranks) {
+  try {
+    return render_finished_picture(options, outputs, job, ranks);
+  } catch (const Cancelled&) {
+    return interrupted(ranks, job.settings.until, 0);
+  } catch (const NoPassFits& failure) {
+    fmt::print(stderr, "vpm: {}{}\n", failure.what(), job.what_fits.empty() ? "" : "; " + job.what_fits);
+    if (ranks.size() > 1) ranks.abort(kNoPassFits);
+    return kNoPassFits;
+  }
 }
 
 }  // namespace vpm::tools

@@ -1,11 +1,14 @@
 // vpm view: a scene around a grid, and pictures of it.
 #include <fmt/format.h>
 #include <filesystem>
+#include <optional>
 
 #include "commands.h"
 #include "pass_run.h"
 #include "picture_run.h"
+#include "this_process.h"
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
@@ -17,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRewritten = 2.0;  // s, after which better pictures are written, unless --preview says
+constexpr double kFirstPictureShare = 0.2;  // of the time that is asked for
+constexpr double kRewritten = 2.0;          // s, after which better pictures are written, unless --preview says
 
 /// Where the scene is to be written, which is also the name under which it is read; else a name that is no file's.
 std::string scene_name(const ViewOptions& options) {
@@ -51,13 +55,21 @@ std::vector<std::string> overrides_of_view(const ViewOptions& options) {
   return overrides;
 }
 
-/// One pass of few photons, before anything is chosen: a picture to look at while a pilot runs.
+/// One pass of few photons, before anything is chosen: a picture to look at while a pilot runs. None where it would
+/// take more than its part of the time.
 void show_first_picture(const ViewOptions& options, const Outputs& outputs, const RenderJob& job) {
   RenderSettings settings = job.settings;
   settings.until = {.passes = 1};
   settings.photons_emitted = 50'000;
-  const RenderResult first = render(job.scene, settings, nothing_rendered(job.scene.camera));
-  write_preview(outputs, options.exposure, first.film.mean());
+  const double seconds = job.settings.until.seconds;
+  const double end = seconds > 0.0 ? kFirstPictureShare * seconds : double{kInfinity};
+  std::optional<Image> first;
+  clock_of_process()->finish_by(end, [&] {
+    const RenderResult made = render(job.scene, settings, nothing_rendered(job.scene.camera));
+    cancellation_point();
+    first = made.film.mean();
+  });
+  if (first) write_preview(outputs, options.exposure, *first);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cassert>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/workers.h"
 
 namespace vpm {
@@ -24,12 +25,15 @@ struct PublishAtEnd {
 struct Job {
   size_t count, chunk;
   const std::function<void(size_t, size_t, size_t)>& work;
+  const CancelFlags* flags;  // that its caller looks at
 };
 
 void run_chunk(void* context, size_t i) {
   receive();
   const PublishAtEnd publish_even_an_exception;
   const Job& job = *static_cast<const Job*>(context);
+  const CancelledWith caller(job.flags);
+  cancellation_point();
   job.work(i * job.chunk, std::min(job.count, (i + 1) * job.chunk), i);
 }
 
@@ -41,7 +45,7 @@ void parallel_for_chunks(size_t count, size_t chunk,
   struct ReceiveAtEnd {
     ~ReceiveAtEnd() { receive(); }
   } const receive_even_an_exception;
-  Job job{count, chunk, work};
+  Job job{count, chunk, work, cancel_flags};
   publish();
   run_on_workers(chunk_count(count, chunk), run_chunk, &job);
 }

@@ -1,5 +1,4 @@
-// How far a stage of work is and how long it will take: one line on the terminal, nothing in a pipe; and whether it is
-// to be stopped.
+// How far a stage of work is and how long it will take: one line on the terminal, nothing in a pipe.
 #pragma once
 
 #include <atomic>
@@ -10,9 +9,6 @@
 #include "vpm/base/stopwatch.h"
 
 namespace vpm {
-
-/// A stop flag that is never set.
-inline const std::atomic<bool> kNeverStopped{false};
 
 /// When progress is shown: automatic = where stderr is a terminal.
 enum class ProgressMode { automatic, always, never };

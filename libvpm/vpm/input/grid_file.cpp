@@ -5,6 +5,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetUtil.h>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/input/vdb_bricks.h"
 #include "vpm/input/vdb_layout.h"
@@ -177,6 +178,7 @@ Fault find_faults(const Tree& tree, const CoordBBox& box, Bad&& bad) {
     if (!shared.empty()) fault.add(shared.volume(), shared.min(), static_cast<double>(*tile));
   }
   for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
+    cancellation_point();
     for (openvdb::Index i = 0; i < leaf->SIZE; ++i) {
       if (!bad(leaf->getValue(i))) continue;
       const Coord where = leaf->offsetToGlobalCoord(i);

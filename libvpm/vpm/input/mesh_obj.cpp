@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "vpm/base/cancel.h"
 #include "vpm/input/mesh_parts.h"
 
 namespace vpm {
@@ -27,6 +28,7 @@ class ObjReader {
 
   TriangleMesh read() {
     while (!rest_.empty()) {
+      cancellation_point();
       ++line_;
       const size_t end = std::min(rest_.find('\n'), rest_.size());
       words_ = rest_.substr(0, end);

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 
+#include "vpm/base/cancel.h"
 #include "vpm/input/mesh_parts.h"
 
 namespace vpm {
@@ -219,8 +220,10 @@ class PlyReader {
   }
 
   void skip(const Element& element) {
-    for (uint64_t i = 0; i < element.count; ++i)
+    for (uint64_t i = 0; i < element.count; ++i) {
+      cancellation_point();
       for (const Property& property : element.properties) skip(property);
+    }
   }
 
   /// Which of a vertex' kSlots values each property holds, or -1.
@@ -250,6 +253,7 @@ class PlyReader {
     const bool uvs = has_slots(slots, 6, 7, "u and v (or s and t, texture_u and texture_v) once each, or none of them");
     mesh_.positions.reserve(element.count);
     for (uint64_t i = 0; i < element.count; ++i) {
+      cancellation_point();
       std::array<float, kSlots> value{};
       for (size_t p = 0; p < slots.size(); ++p) {
         if (slots[p] < 0)
@@ -281,13 +285,15 @@ class PlyReader {
     };
     if (std::count_if(element.properties.begin(), element.properties.end(), is_corners) != 1)
       fail("a face needs one list property vertex_indices");
-    for (uint64_t i = 0; i < element.count; ++i)
+    for (uint64_t i = 0; i < element.count; ++i) {
+      cancellation_point();
       for (const Property& property : element.properties) {
         if (is_corners(property))
           read_corners(property, i);
         else
           skip(property);
       }
+    }
   }
 
   void read_corners(const Property& property, uint64_t face) {

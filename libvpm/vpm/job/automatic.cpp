@@ -3,49 +3,62 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <utility>
 
 #include "vpm/base/count.h"
 #include "vpm/base/error.h"
 #include "vpm/job/choice_rules.h"
-#include "vpm/job/choose_records.h"
 #include "vpm/job/declare.h"
 #include "vpm/job/pilot.h"
-#include "vpm/job/scale_records.h"
 #include "vpm/job/setting.h"
 #include "vpm/job/trials.h"
 
 namespace vpm {
 namespace {
 
+constexpr double kLeastTime = 0.01;  // s: where less is left, choosing is given up
+
 Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
   const bool grids = std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grid; });
-  std::string reason = "no medium is a grid: exact there, and nothing to look up";
-  settings.distance.strategy = "homogeneous";
+  std::string reason = "no medium is a grid: exact there, and nothing to look up", strategy = "homogeneous";
   if (grids) {
     if (!kCounts)
       throw InputError("distance.strategy: this program does not count look-ups, and cannot choose: name a strategy");
     const std::vector<StrategyCost> costs = strategy_costs(scene, settings);
-    settings.distance.strategy = cheapest(costs).name;
+    strategy = cheapest(costs).name;
     reason = "of exact strategies the cheapest in a pilot, in look-ups for a photon:";
     for (const StrategyCost& each : costs) reason += fmt::format(" {} {:.3g}", each.name, each.cost);
   }
-  return {"distance.strategy", settings.distance.strategy, reason};
+  settings.distance.strategy = strategy;
+  return {"distance.strategy", strategy, reason};
 }
 
 }  // namespace
 
-std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
-  std::vector<Choice> choices;
-  if (automatic.has("distance.strategy") && !scene.media.empty()) choices.push_back(choose_strategy(scene, settings));
+Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, const Clock& clock,
+                       RenderSettings& settings) {
+  constexpr double kShare = 0.25, kStrategyShare = 0.05;  // of what is left of the time
+  const double begin = clock.seconds(), asked = settings.until.seconds;
+  const double left = asked > 0.0 ? std::max(asked - begin, 0.0) : double{kInfinity};
+  RenderSettings hurried = settings;  // that know of no other time
+  if (asked > 0.0) hurried.until.seconds = std::max(left, kLeastTime);
+  Chosen chosen;
+  const auto strategy = [&] { chosen.choices.push_back(choose_strategy(scene, hurried)); };
+  if (automatic.has("distance.strategy") && !scene.media.empty() &&
+      !clock.finish_by(begin + kStrategyShare * left, strategy))
+    chosen.left_out = "the time does not allow to choose a distance strategy";
+  const ChoosingTime time{clock, begin + kShare * left};
   std::vector<Choice> more;
-  if (asks_for_trials(scene, automatic, settings)) {
-    more = choose_by_trials(scene, automatic, settings);
-  } else {
-    more = choose_records(scene, automatic, limit_of_timing(settings), settings);
-    scale_records(scene, limit_of_scaling(settings), settings, more);
+  if (asks_for_trials(scene, automatic, hurried)) {
+    more = choose_by_trials(scene, automatic, time, hurried);
+  } else if (std::string left_out = choose_and_scale_records(scene, automatic, time, hurried, more);
+             !left_out.empty()) {
+    chosen.left_out = std::move(left_out);
   }
-  for (Choice& choice : more) choices.push_back(std::move(choice));
-  return choices;
+  for (Choice& choice : more) chosen.choices.push_back(std::move(choice));
+  settings = hurried;
+  settings.until.seconds = asked;
+  return chosen;
 }
 
 void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value) {

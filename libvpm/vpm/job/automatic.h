@@ -4,18 +4,27 @@
 #include <string>
 #include <vector>
 
+#include "vpm/base/clock.h"
 #include "vpm/job/choice.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {
 
+/// What was chosen, and what was not for want of time, which keeps its default: a sentence, or "".
+struct Chosen {
+  std::vector<Choice> choices;
+  std::string left_out;
+};
+
 /// Chooses what is asked for, after a short pilot, and puts it into the settings. What is chosen is a pure function of
 /// scene and settings, on any machine and number of threads: costs are counted, not timed. Only where a time is asked
 /// for, passes are timed: then the numbers of photons, the gather in media, the integrator, and the radii that go by
-/// these depend on the machine. What the scene has no use for is left alone. Throws InputError where this program
+/// these depend on the machine. Then the render has what is left of its seconds on the clock,
+/// and choosing a quarter of that. What the scene has no use for is left alone. Throws InputError where this program
 /// counts nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
-std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings);
+Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, const Clock& clock,
+                       RenderSettings& settings);
 
 /// Puts a choice made earlier into the settings. Throws InputError where it is none: a setting that is not declared
 /// Setting::automatic, or a value that is not of its domain, or 0.

@@ -10,7 +10,7 @@ RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, 
                             const RunControl& control) {
   validate_light_map(settings, facts_of(scene));
   const auto make = [&](int pass, const RenderResult&, const PassProgress& shown) {
-    return light_map_pass(scene, settings, layout, pass, control.stop, shown);
+    return light_map_pass(scene, settings, layout, pass, shown);
   };
   return run_passes(settings.until, {make, light_map_work(layout), block_count(settings)},
                     {Film(layout.resolution, layout.resolution), {}, 0.0, {}}, control);

@@ -8,9 +8,11 @@
 #include <cmath>
 
 #include "vpm/base/error.h"
+#include "vpm/estimate/pass_map.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/photon_blocks.h"
+#include "vpm/render/plan.h"
 
 namespace vpm {
 namespace {
@@ -43,21 +45,20 @@ RenderSettings at_a_time(RenderSettings settings) {
   return settings;
 }
 
-/// "about 210000 photons.emitted would fit": that share of the photons of a pass, and of those aimed for caustics.
+/// "about 210000 photons.emitted": that share of the photons of a pass, and of those aimed for caustics.
 std::string fitting_text(double photons, const RenderSettings& settings, double share) {
   std::string text = fmt::format("about {} photons.emitted", photons_text(share * photons));
   if (settings.caustics_emitted > 0)
     text +=
         fmt::format(" and {} caustics.emitted", photons_text(share * static_cast<double>(settings.caustics_emitted)));
-  return text + " would fit";
+  return text;
 }
 
 /// Light sub-paths are kept whole, and sorted beside themselves: told by the first of them.
 void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& settings, double memory) {
   constexpr uint64_t kFew = 1000;
   const RenderSettings few = with_light_paths(settings, kFew);
-  const std::atomic<bool> never{false};
-  const CombinedPass pass(scene, few, 0, never);
+  const CombinedPass pass(scene, few, 0);
   const auto paths = static_cast<double>(settings.photons_emitted);
   const double each =
       2.0 * static_cast<double>(pass.statistics().photon_map_bytes) / static_cast<double>(few.photons_emitted);
@@ -70,19 +71,29 @@ void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& setting
 
 }  // namespace
 
-double longest_time(double seconds) { return 1.3 * seconds + 1.0; }
-
-std::string too_long_text(const PassCost& cost, const RenderSettings& settings) {
-  const double photons = photons_of_pass(settings, cost.stored_per_photon), seconds = settings.until.seconds;
-  const double pass = cost.seconds(photons);
-  if (pass <= longest_time(seconds)) return "";
-  const std::string text =
-      fmt::format("one pass takes about {:.2g} s, longer than the {:g} s asked for: ", pass, seconds);
-  const double share = pass > cost.eye ? (seconds - cost.eye) / (pass - cost.eye) : 0.0;
+std::string photons_that_fit(const PassCost& cost, const RenderSettings& settings, double seconds) {
+  const double photons = photons_of_pass(settings, cost.stored_per_photon), pass = cost.seconds(photons);
+  const double of_rays = cost.eye - cost.gathered;  // whatever photons there are
+  const double share = (seconds - of_rays) / (pass - of_rays);
   const double most = std::max(photons, static_cast<double>(settings.caustics_emitted));
-  if (share * most >= static_cast<double>(kLeastCount)) return text + fitting_text(photons, settings, share);
-  return text +
-         fmt::format("the eye's rays alone take {:.2g} s; fewer pixels or samples_per_pixel take less", cost.eye);
+  if (share * most >= static_cast<double>(kLeastCount)) return fitting_text(photons, settings, share);
+  return "";
+}
+
+std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking) {
+  constexpr int kHalves = 6;
+  const bool media = scattering_of(scene).media;
+  AskedGather& gather = media ? settings.volume : settings.surface;
+  if (settings.integrator != Integrator::photon || gather.goes_by_count()) return "";
+  float radius = media ? first_radius_of_merges(gather, scene) : first_radius(gather, scene);
+  for (int i = 0; i < kHalves; ++i) {
+    radius *= 0.5f;
+    gather.radius = radius;
+    const PassCost cost = time_pass(scene, settings, looking / kHalves);
+    if (cost.seconds(photons_of_pass(settings, cost.stored_per_photon)) < seconds)
+      return fmt::format("{}.radius = {:.2g}", media ? "volume" : "surface", radius);
+  }
+  return "";
 }
 
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory) {
@@ -107,9 +118,10 @@ void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of,
       "GB, where {}",
       key, by_blocks ? "block" : "pass", stored, flights > 0.0 ? fmt::format(" and {:.2g} flights", flights) : "",
       room.bytes * 1e-9, memory * 1e-9,
-      by_blocks ? fmt::format("about {} photons.block would fit", photons_text(0.5 * fits * photons))
-                : fitting_text(photons, settings, 0.5 * fits) +
-                      "; more passes do what more photons would, and photons.block gathers as many in blocks"));
+      by_blocks
+          ? fmt::format("about {} photons.block would fit", photons_text(0.5 * fits * photons))
+          : fitting_text(photons, settings, 0.5 * fits) +
+                " would fit; more passes do what more photons would, and photons.block gathers as many in blocks"));
 }
 
 double physical_memory() {

@@ -9,12 +9,12 @@
 
 namespace vpm {
 
-/// A render that is asked for so many seconds is kept within this time, s, by all who can: the number of photons where
-/// it is chosen, and the passes that are started.
-double longest_time(double seconds);
-
-/// What to say of a first pass that takes longer than the time that its render is asked for; "" where it does not.
-std::string too_long_text(const PassCost& cost, const RenderSettings& settings);
+/// "about 210000 photons.emitted": with which a pass of that cost takes so many seconds, > 0; "" where its rays alone
+/// take longer.
+std::string photons_that_fit(const PassCost& cost, const RenderSettings& settings, double seconds);
+/// "volume.radius = 0.12": the first half, quarter, ... of the radius with which a pass takes less; "" where there is
+/// none, or no radius decides what is gathered. Passes are timed for `looking` s in all, or a little longer.
+std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking);
 
 /// Throws InputError where the photons that a pass, or a block of it, stores take more than `memory` bytes. Only where
 /// they may be many does it trace some.

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "vpm/base/parallel.h"
-#include "vpm/base/progress.h"
 #include "vpm/base/statistics.h"
 #include "vpm/job/eye_blocks.h"
 #include "vpm/job/lost_light.h"
@@ -58,7 +57,7 @@ std::optional<KernelLight> kernel_light_of(const Scene& scene, const RenderSetti
   for (int pass = 0; pass < kPasses; ++pass) {
     const RaysOfPass all = rays_of_pass(scene, few, pass);
     whole.add(found_by_rays(scene, few, pass, all.radiance, all.light_tracing));
-    const CombinedPass alone(scene, few, pass, kNeverStopped, SoughtLight::by_kernels_alone);
+    const CombinedPass alone(scene, few, pass, SoughtLight::by_kernels_alone);
     by_kernels.add(found_by_rays(scene, few, pass, [&](std::span<EyeRay> rays) { alone.radiance(rays); }, {}));
   }
   if (by_kernels.mean() == 0.0 || whole.mean() == 0.0) return std::nullopt;

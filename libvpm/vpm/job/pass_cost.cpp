@@ -125,7 +125,7 @@ ReadyPass make_ready(const Scene& scene, const RenderSettings& settings, PassOf 
       settings,
       of == PassOf::picture ? plan_estimators(scene, settings, 0) : plan_surface_estimators(scene, settings, 0),
       {}};
-  prepare_pass(scene, settings, ready.estimators, {.stop = kNeverStopped}, ready.statistics);
+  prepare_pass(scene, settings, ready.estimators, {}, ready.statistics);
   return ready;
 }
 
@@ -218,7 +218,9 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
   const auto blocks = static_cast<double>(block_count(settings));
   const double tracings = tracings_of_pass(scene, settings);
   cost.photon *= tracings;  // at the most: what is sorted and stored is so once
-  cost.eye = tracings * blocks * guide + with_more_photons(eye, std::max(1.0, whole / std::max(1.0, found)), blocks);
+  const double more = std::max(1.0, whole / std::max(1.0, found));
+  cost.eye = tracings * blocks * guide + with_more_photons(eye, more, blocks);
+  cost.gathered = eye.seconds * eye.of_photons * more;
   return cost;
 }
 

@@ -19,6 +19,7 @@ struct PassCost {
   double caustics = 0.0;            // tracing and sorting, of all photons that are aimed for caustics
   double stored_caustics = 0.0;     // of these
   double flights_per_photon = 0.0;  // recorded, of which some become beams or planes
+  double gathered = 0.0;            // of `eye`: what goes with the number of photons
 
   /// s: of what does not go by the number of photons.
   double rest() const { return eye + caustics; }

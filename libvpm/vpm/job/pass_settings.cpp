@@ -38,8 +38,8 @@ std::vector<Setting> declare_render() {
       {.key = "render.seconds",
        .member = at<&S::until, &StopRule::seconds>(),
        .domain = Numbers{kNotNegative},
-       .meaning = "> 0: passes start until this time, of which a pilot is part, is over, or one more would end at over "
-                  "1.3 times it and 1 s; instead",
+       .meaning = "> 0: passes start until this time, from the start of the process on, is over, or one more would end "
+                  "after it; instead",
        .unit = "s",
        .of_passes = true},
       {.key = "render.error",

@@ -173,7 +173,6 @@ Ledger flights_of(const Scene& scene, const RenderSettings& settings) {
   trace.emitted = settings.photons_emitted;
   trace.stored = settings.photons_stored;
   trace.max_events = settings.max_events;
-  trace.stop = &kNeverStopped;
   const bool maps_density =
       settings.integrator == Integrator::photon && settings.volume_form == VolumeForm::density_at_query;
   const auto strategy = make_distance_strategy(settings.distance, {.density = maps_density});
@@ -189,7 +188,7 @@ struct PilotPass {
 PilotPass trace(const Scene& scene, const RenderSettings& settings) {
   RenderStatistics statistics;
   Estimators estimators = plan_estimators(scene, settings, 0);
-  trace_pass(scene, settings, estimators, {.stop = kNeverStopped}, statistics);
+  trace_pass(scene, settings, estimators, {}, statistics);
   return {std::move(estimators), statistics.ledger};
 }
 

@@ -4,7 +4,6 @@
 #include <memory>
 #include <utility>
 
-#include "vpm/base/progress.h"
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/render/path_tracer.h"
@@ -28,14 +27,13 @@ RaysOfPass rays_of_photon_pass(const Scene& scene, const RenderSettings& setting
                     eye_radiance({scene, *estimators, events}, of);
                   },
                   {}};
-  prepare_pass(scene, settings, *estimators, {.pass = pass, .stop = kNeverStopped}, rays.statistics);
+  prepare_pass(scene, settings, *estimators, {.pass = pass}, rays.statistics);
   return rays;
 }
 
 RaysOfPass rays_of_combined_pass(const Scene& scene, const RenderSettings& settings, int pass,
                                  uint64_t paths_of_shares) {
-  const auto ready =
-      std::make_shared<const CombinedPass>(scene, settings, pass, kNeverStopped, SoughtLight::all, paths_of_shares);
+  const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, SoughtLight::all, paths_of_shares);
   RaysOfPass rays{[ready](std::span<EyeRay> of) { ready->radiance(of); },
                   Image(scene.camera.width, scene.camera.height), ready->statistics()};
   ready->add_light_tracing(rays.light_tracing);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
-#include "vpm/base/stopwatch.h"
-#include "vpm/job/forecast.h"
+#include "vpm/job/pass_time.h"
 #include "vpm/job/validate.h"
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/path_tracer.h"
@@ -25,11 +25,6 @@ double share_done(const StopRule& until, const RenderResult& result) {
   if (until.seconds > 0.0) share = result.seconds / until.seconds;
   if (until.error > 0.0) share = std::max(share, until.error / highest_error(result));
   return share;
-}
-
-/// Would another pass, as long as the last one, end too late?
-bool too_late(const StopRule& until, const RenderResult& result, double last_pass) {
-  return until.seconds > 0.0 && result.film.passes() > 0 && result.seconds + last_pass > longest_time(until.seconds);
 }
 
 /// Reads the errors off the film where the stop rule goes by them.
@@ -106,6 +101,11 @@ void add(RenderResult& result, int number, const Pass& pass) {
 
 std::string passes_text(int passes) { return passes == 1 ? "1 pass" : fmt::format("{} passes", passes); }
 
+NoPassFits::NoPassFits(double asked, double pass)
+    : std::runtime_error(fmt::format("no pass is finished within the {:.3g} s asked for", asked) +
+                         (pass > 0.0 ? fmt::format(": one takes about {:.2g} s", pass) : "")),
+      pass_(pass) {}
+
 RenderResult nothing_rendered(const Camera& camera) {
   const PixelRect rendered = camera.rendered();
   return {Film(rendered.width(), rendered.height()), {}, 0.0, {}};
@@ -132,15 +132,15 @@ void check_begun(const Scene& scene, const RenderSettings& settings, const Rende
   check_begin(result.film, settings.until.first);
 }
 
-PassMaker pass_maker(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop) {
+PassMaker pass_maker(const Scene& scene, const RenderSettings& settings) {
   const auto whole = [&](int pass, const RenderResult& so_far, const PassProgress& shown) {
     switch (settings.integrator) {
       case Integrator::path:
-        return render_path_pass(scene, settings, pass, stop, shown);
+        return render_path_pass(scene, settings, pass, shown);
       case Integrator::combined:
-        return render_combined_pass(scene, settings, pass, stop, shown);
+        return render_combined_pass(scene, settings, pass, shown);
       case Integrator::photon:
-        return render_photon_pass_after(so_far.discs, scene, settings, {pass, stop, shown});
+        return render_photon_pass_after(so_far.discs, scene, settings, {pass, shown});
     }
     __builtin_unreachable();
   };
@@ -153,41 +153,42 @@ PassMaker pass_maker(const Scene& scene, const RenderSettings& settings, const s
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const RunControl& control) {
   check_begun(scene, settings, result);
-  return run_passes(settings.until, pass_maker(scene, settings, control.stop), std::move(result), control);
+  return run_passes(settings.until, pass_maker(scene, settings), std::move(result), control);
 }
 
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result,
                         const RunControl& control) {
-  const Stopwatch rendering;
-  const double before = result.seconds;
+  const double earlier = result.seconds;
   // One pass shows its stages. Of several, or of blocks, the whole is shown: as work of all passes, or as thousandths
   // of the limit.
   const bool counted = until.counts_passes(), shown = progress_enabled(control.progress);
   const int missing = counted ? std::max(0, until.passes - result.film.passes()) : 0;
   const bool single = counted && missing == 1 && passes.blocks == 1;
+  PassTime time(until, passes, control, earlier);
   // A pass or a block begins with its photons: what is done before its end does not tell how long it takes.
   Progress bar("render", counted ? passes.work * passes.blocks * static_cast<uint64_t>(missing) : 1000,
                shown && !single, counted ? passes.work : 1);
   ProgressNote note(until);
-  const PassProgress pass_progress{shown && single, counted ? &bar : nullptr};
   estimate_errors(until, result);  // of a render that goes on
-  for (double last = 0.0; !control.stop && share_done(until, result) < 1.0 && !too_late(until, result, last);) {
+  for (double last = 0.0; !is_cancelled() && share_done(until, result) < 1.0 && time.allows(result, last);) {
+    const double begin = control.clock->seconds();
     const int number = result.film.sums().passes.first_missing(until.first);
-    const Pass done = passes.make(number, result, pass_progress);
-    if (control.stop) break;
-    add(result, number, done);
+    const std::optional<Pass> done = time.make(number, result, {shown && single, counted ? &bar : nullptr});
+    if (!done) break;
+    add(result, number, *done);
+    const CancelledWith nothing(nullptr);  // what follows belongs to the pass
     estimate_errors(until, result);
-    const double seconds = before + rendering.seconds();
-    last = seconds - result.seconds;
-    result.seconds = seconds;
+    result.seconds = earlier + control.clock->seconds();
+    if (control.finished) control.finished(result);
+    last = control.clock->seconds() - begin;
     if (!counted) {
       const auto reached = static_cast<uint64_t>(1000.0 * std::min(1.0, share_done(until, result)));
       bar.advance(reached - std::min(reached, bar.done()));  // estimates of the error may rise
     }
     if (shown && !single) bar.note(note.after(result));
-    if (control.finished) control.finished(result);
   }
   bar.finish();
+  const CancelledWith nothing(nullptr);
   result.errors = errors_of(result);
   return result;
 }

@@ -1,12 +1,14 @@
 // A render: a sum of passes, one after the other, until a stop rule is met, or a stop.
 #pragma once
 
-#include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "vpm/base/clock.h"
 #include "vpm/base/progress.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/job/stated_error.h"
@@ -22,7 +24,7 @@ namespace vpm {
 struct RenderResult {
   Film film;
   RenderStatistics statistics;
-  double seconds = 0.0;                   // wall clock, of all runs together where a render was resumed
+  double seconds = 0.0;                   // on the runs' clocks, of all runs together where a render was resumed
   PixelDiscs discs;                       // where pixels have radii of their own, once there is a pass
   std::optional<FilmErrors> errors = {};  // of the film, once it has two passes and run_passes() has come to its end;
                                           // where the stop rule asks for an error also after each pass, once there
@@ -33,17 +35,36 @@ struct RenderResult {
 /// "1 pass", "16 passes".
 std::string passes_text(int passes);
 
-/// How a render is watched and stopped.
+/// How a render is watched.
 struct RunControl {
-  const std::atomic<bool>& stop = kNeverStopped;  // once set, the pass under way is dropped; those finished are kept
   ProgressMode progress = ProgressMode::never;
-  std::function<void(const RenderResult&)> finished = {};  // is told of each further pass
+  std::function<void(const RenderResult&)> finished = {};              // is told of each further pass
+  std::shared_ptr<const Clock> clock = std::make_shared<WallClock>();  // of the run, which may have begun before
+  double foreseen = 0.0;                                               // s that a pass takes; 0: not known
+  std::function<void(const std::string&)> note = {};                   // is told of a first pass that ends late
 };
 
-/// Renders passes until the settings' stop rule is met, at least one pass where that asks for a time or an error.
-/// `result` is nothing_rendered() or what an earlier run has left off with, for the same scene and settings: passes go
-/// on where it ended. Throws a SettingError where settings contradict themselves or the scene, and InputError where the
-/// result is of another size than the camera's film.
+/// The time that was asked for is over, and not one pass is finished.
+class NoPassFits : public std::runtime_error {
+ public:
+  /// Of `asked` s; a pass takes `pass` s, 0 where that is not known.
+  NoPassFits(double asked, double pass);
+  double pass() const { return pass_; }
+
+ private:
+  double pass_;
+};
+
+/// Renders passes until the settings' stop rule is met, or the work is given up (base/cancel.h): the pass under way is
+/// then dropped, and those finished are returned. `result` is nothing_rendered() or what an earlier run has left off
+/// with, for the same scene and settings: passes go on where it ended.
+///
+/// Where a time is asked for, it counts from the beginning of control.clock, and with that of earlier runs. No pass is
+/// begun that would end later if it took as long as the last one; one that does is dropped soon after. The first is
+/// finished if it is foreseen to end within twice the time.
+///
+/// Throws a SettingError where settings contradict themselves or the scene, InputError where the result is of another
+/// size than the camera's film, and NoPassFits.
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const RunControl& control = {});
 
@@ -57,9 +78,8 @@ struct PassMaker {
 /// The same loop over any passes of a film.
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result, const RunControl& control);
 
-/// The passes of render(): of the scene and the settings, which must live until then, and left early, with what must be
-/// dropped, once `stop` is set.
-PassMaker pass_maker(const Scene& scene, const RenderSettings& settings, const std::atomic<bool>& stop);
+/// The passes of render(): of the scene and the settings, which must live until then.
+PassMaker pass_maker(const Scene& scene, const RenderSettings& settings);
 /// Throws what render() throws before its first pass.
 void check_begun(const Scene& scene, const RenderSettings& settings, const RenderResult& result);
 

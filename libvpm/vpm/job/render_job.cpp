@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "vpm/base/error.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/job/automatic.h"
 #include "vpm/job/forecast.h"
+#include "vpm/job/pilot.h"
 #include "vpm/job/validate.h"
 
 namespace vpm {
@@ -17,6 +18,23 @@ namespace {
 double share_rendered(const Camera& camera) {
   const PixelRect rendered = camera.rendered();
   return double(rendered.width()) * rendered.height() / (double(camera.width) * camera.height);
+}
+
+/// The share of a time that is asked for which a look ahead may take, each.
+constexpr double kLookShare = 0.1;
+
+/// What is left of the time that is asked for, s; infinite where none is.
+double time_left(const RenderJob& job, const Clock& clock) {
+  const double seconds = job.settings.until.seconds;
+  return seconds > 0.0 ? std::max(seconds - clock.seconds(), 0.0) : double{kInfinity};
+}
+
+/// "about 210000 photons.emitted, or volume.radius = 0.12 would fit"; either may be missing.
+std::string fitting_text(const std::string& photons, const std::string& radius, const PassCost& cost) {
+  if (photons.empty() && radius.empty())
+    return fmt::format("the eye's rays alone take {:.2g} s; fewer pixels or samples_per_pixel take less",
+                       cost.eye - cost.gathered);
+  return fmt::format("{}{}{} would fit", photons, photons.empty() || radius.empty() ? "" : ", or ", radius);
 }
 
 /// What was chosen, and how to have it again.
@@ -41,14 +59,15 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
           .kernel_light = {}};
 }
 
-void choose(RenderJob& job) {
+void choose(RenderJob& job, const Clock& clock) {
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
-  const Stopwatch choosing;
-  job.choices = choose_settings(job.scene, job.automatic, job.settings);
-  const double seconds = choosing.seconds();
-  job.pilot_seconds += seconds;
-  if (!job.choices.empty()) job.notes.push_back(fmt::format("choosing settings took {:.2g} s", seconds));
+  const double begin = clock.seconds();
+  Chosen chosen = choose_settings(job.scene, job.automatic, clock, job.settings);
+  job.choices = std::move(chosen.choices);
+  if (!chosen.left_out.empty()) job.notes.push_back(std::move(chosen.left_out));
+  if (!job.choices.empty())
+    job.notes.push_back(fmt::format("choosing settings took {:.2g} s", clock.seconds() - begin));
   note_choices(job);
 }
 
@@ -67,23 +86,37 @@ void check_not_read(const std::filesystem::path& path, const RenderJob& job) {
           fmt::format("cannot write '{}': the scene is read from '{}'; name another output", path.string(), file));
 }
 
-void foresee(RenderJob& job) {
+void foresee(RenderJob& job, const Clock& clock) {
   validate(job.settings, facts_of(job.scene));
-  const Stopwatch looking;
   check_memory(job.scene, job.settings, PassOf::picture, physical_memory());
-  if (const double seconds = job.settings.until.seconds; seconds > 0.0) {
-    PassCost cost = time_pass(job.scene, job.settings, std::min(0.1 * seconds, 1.0));
-    cost.eye *= share_rendered(job.scene.camera);
-    if (std::string text = too_long_text(cost, job.settings); !text.empty()) job.notes.push_back(std::move(text));
+  const double left = time_left(job, clock), looking = std::min(kLookShare * left, 1.0);
+  if (std::isinf(left)) return;
+  const auto within = [&](double seconds, const std::function<void()>& look) {
+    return clock.finish_by(clock.seconds() + seconds, look);
+  };
+  PassCost cost;
+  if (!within(2.0 * looking, [&] { cost = time_pass(job.scene, job.settings, looking); })) {
+    job.notes.push_back(fmt::format("a look of {:.2g} s does not tell how long a pass takes", 2.0 * looking));
+    return;
   }
-  job.pilot_seconds += looking.seconds();
+  const double share = share_rendered(job.scene.camera);
+  cost.eye *= share;
+  cost.gathered *= share;
+  job.foreseen_pass = cost.seconds(photons_of_pass(job.settings, cost.stored_per_photon));
+  const double fits = left - looking;
+  if (job.foreseen_pass <= fits) return;
+  std::string radius;
+  within(looking, [&] { radius = radius_that_fits(job.scene, job.settings, fits / share, looking); });
+  job.what_fits = fitting_text(photons_that_fit(cost, job.settings, fits), radius, cost);
+  job.notes.push_back(fmt::format("one pass takes about {:.2g} s, longer than the {:.2g} s that are left: {}",
+                                  job.foreseen_pass, fits, job.what_fits));
 }
 
-void look_for_kernel_light(RenderJob& job) {
-  const Stopwatch looking;
-  job.kernel_light = kernel_light_of(job.scene, job.settings);
+void look_for_kernel_light(RenderJob& job, const Clock& clock) {
+  const double end = clock.seconds() + kLookShare * time_left(job, clock);
+  if (!clock.finish_by(end, [&] { job.kernel_light = kernel_light_of(job.scene, job.settings); }))
+    job.notes.emplace_back("the time does not allow to look for light that is found by kernels alone");
   if (job.kernel_light) job.notes.push_back(text_of(*job.kernel_light, job.light_names));
-  job.pilot_seconds += looking.seconds();
 }
 
 void foresee_light_map(const RenderJob& job) {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "vpm/base/clock.h"
 #include "vpm/job/choice.h"
 #include "vpm/job/kernel_light.h"
 #include "vpm/render/settings.h"
@@ -38,8 +39,8 @@ struct RenderJob {
   std::vector<std::pair<std::string, std::string>> contents{};  // of the scene file, with its options: what is no
                                                                 // setting, by name; and hashes of those files
   std::optional<KernelLight> kernel_light;                      // once it has been looked for
-  double pilot_seconds = 0.0;  // wall clock, of choose(), foresee() and look_for_kernel_light(): part of a render's
-                               // time
+  double foreseen_pass = 0.0;                                   // s that a pass takes, once foresee() has told it
+  std::string what_fits{};  // would make a pass fit into the time asked for, where none is foreseen to; or ""
   uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
 };
 
@@ -47,22 +48,24 @@ struct RenderJob {
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings = {});
 
 /// Chooses the settings that are left to it, after a short pilot, and tells so in the job's notes. Does nothing where
-/// there are none. Throws InputError as choose_settings().
-void choose(RenderJob& job);
+/// there are none. Where a time is asked for, the render has what is left of it on the clock, and what takes more than
+/// its part of that is given up. Throws InputError as choose_settings().
+void choose(RenderJob& job, const Clock& clock = WallClock());
 /// The same with the choices of an earlier run, in the place of a pilot. Throws InputError as set_chosen().
 void choose_again(RenderJob& job, std::vector<Choice> choices);
 
 /// Throws InputError where writing to `path` would replace a file that the scene is read from.
 void check_not_read(const std::filesystem::path& path, const RenderJob& job);
 
-/// Looks ahead at the first pass. Notes in the job where it will not fit into the seconds of the stop rule, and what
-/// would; for that it times a few photons and rays, for a tenth of these seconds and at most a second. Throws
-/// InputError where the photons of a pass will not fit into the memory of the machine.
-void foresee(RenderJob& job);
+/// Looks ahead at the first pass. Notes in the job where it will not fit into what is left on the clock of the seconds
+/// of the stop rule, and what would; for that it times a few photons and rays, for a tenth of these seconds and at most
+/// a second. Throws InputError where the photons of a pass will not fit into the memory of the machine.
+void foresee(RenderJob& job, const Clock& clock = WallClock());
 /// The same of a light map's memory alone: how long its passes take is not told.
 void foresee_light_map(const RenderJob& job);
 
-/// Measures light that techniques combined find by kernels alone, if there is any, and notes it in the job.
-void look_for_kernel_light(RenderJob& job);
+/// Measures light that techniques combined find by kernels alone, if there is any, and notes it in the job; or that
+/// there was no time for that.
+void look_for_kernel_light(RenderJob& job, const Clock& clock = WallClock());
 
 }  // namespace vpm

@@ -11,7 +11,7 @@
 #include "vpm/job/automatic.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/choose_records.h"
-#include "vpm/job/forecast.h"
+#include "vpm/job/pass_time.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/render.h"
 

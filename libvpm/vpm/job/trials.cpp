@@ -12,7 +12,7 @@
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/choose_records.h"
 #include "vpm/job/declare.h"
-#include "vpm/job/forecast.h"
+#include "vpm/job/pass_time.h"
 #include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
 #include "vpm/job/scale_records.h"
@@ -167,6 +167,26 @@ void run_trial(const Scene& scene, const AutomaticSettings& automatic, Densities
   trial.factors = trial.passes->best_factors();
 }
 
+/// Runs all, and leaves those that came to an end, or else the first. Returns "; not NAME: ..." of the others.
+std::string run_trials(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
+                       std::vector<Trial>& trials) {
+  const double limit = limit_of_trial(trials.front().settings, trials.size());
+  DensitiesOfTrials densities(scene, automatic);
+  std::vector<Trial> measured;
+  std::string others;
+  for (size_t i = 0; i < trials.size(); ++i) {
+    Trial trial = trials[i];
+    if (time.clock.finish_by(time.end_of_next(trials.size() - i),
+                             [&] { run_trial(scene, automatic, densities, limit, trial); }))
+      measured.push_back(std::move(trial));
+    else
+      others += fmt::format("; not {}: the time does not allow to measure it", trial.name);
+  }
+  if (measured.empty()) measured.push_back(trials.front());
+  trials = std::move(measured);
+  return others;
+}
+
 /// The time after which trials are compared, s: that of the render, or else what the least number of the longest passes
 /// takes.
 double seconds_to_compare(const std::vector<Trial>& trials) {
@@ -215,13 +235,13 @@ std::string reason_of(double seconds, const std::vector<Trial>& trials, const st
 }
 
 /// Tries all, and leaves the one with the least error first. Returns why.
-std::string put_best_first(const Scene& scene, const AutomaticSettings& automatic, std::vector<Trial>& trials) {
-  const double limit = limit_of_trial(trials.front().settings, trials.size());
-  DensitiesOfTrials densities(scene, automatic);
-  for (Trial& trial : trials) run_trial(scene, automatic, densities, limit, trial);
+std::string put_best_first(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
+                           std::vector<Trial>& trials) {
+  const std::string unmeasured = run_trials(scene, automatic, time, trials);
+  if (!trials.front().passes) return "the first of all" + unmeasured;
   const double seconds = seconds_to_compare(trials);
   const std::vector<double> errors = errors_after(seconds, trials);
-  std::string reason = reason_of(seconds, trials, errors);
+  std::string reason = reason_of(seconds, trials, errors) + unmeasured;
   std::swap(trials.front(), trials[least_error(errors)]);
   Trial& best = trials.front();
   scale(scene, best.factors, best.settings, best.choices);
@@ -269,17 +289,33 @@ bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, con
   return settings.integrator == Integrator::photon && gathers_in_media(scene, automatic, settings);
 }
 
-std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
+std::string choose_and_scale_records(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
+                                     RenderSettings& settings, std::vector<Choice>& choices) {
+  RenderSettings tried = settings;
+  std::vector<Choice> found;
+  const auto choose = [&] { found = choose_records(scene, automatic, limit_of_timing(settings), tried); };
+  if (!time.clock.finish_by(time.end, choose)) return "the time does not allow to choose photons and radii";
+  settings = tried;
+  choices = found;
+  const auto scale = [&] { scale_records(scene, limit_of_scaling(settings), tried, found); };
+  if (!time.clock.finish_by(time.end, scale)) return "the time does not allow to scale photons and radii";
+  settings = tried;
+  choices = found;
+  return "";
+}
+
+std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
+                                     RenderSettings& settings) {
   auto [trials, refused] = open_trials(scene, automatic, settings);
   if (trials.empty()) throw InputError(fmt::format("nothing can be chosen{}", refused));
   std::string reason;
   if (trials.size() == 1) {
     Trial& only = trials.front();
-    only.choices = choose_records(scene, automatic, limit_of_timing(settings), only.settings);
-    scale_records(scene, limit_of_scaling(settings), only.settings, only.choices);
-    if (!refused.empty()) reason = "no other way is open" + refused;
+    reason = "no other way is open" + refused;
+    const std::string left_out = choose_and_scale_records(scene, automatic, time, only.settings, only.choices);
+    if (!left_out.empty()) reason += "; " + left_out;
   } else {
-    reason = put_best_first(scene, automatic, trials) + refused;
+    reason = put_best_first(scene, automatic, time, trials) + refused;
   }
   settings = trials.front().settings;
   return choices_of(scene, automatic, trials.front(), reason);

@@ -1,8 +1,10 @@
 // Ways to render that are tried, and of which the one that leaves the least error is chosen.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "vpm/base/clock.h"
 #include "vpm/job/choice.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
@@ -19,9 +21,29 @@ double limit_of_scaling(const RenderSettings& settings);
 /// InputError where a gather is to be chosen beside combined techniques, which have none.
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings);
 
+/// When choosing is to have ended, s on a clock; infinite where it may take any time.
+struct ChoosingTime {
+  const Clock& clock;
+  double end;
+
+  /// When the next of so many trials is to have ended.
+  double end_of_next(size_t trials) const {
+    const double now = clock.seconds();
+    return now + (end - now) / static_cast<double>(trials);
+  }
+};
+
+/// choose_records(), and then scale_records(), as far as the time allows. Returns what it does not allow: a sentence,
+/// or
+/// "".
+std::string choose_and_scale_records(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
+                                     RenderSettings& settings, std::vector<Choice>& choices);
+
 /// Tries each way that the settings and the scene allow: chooses what else is to be chosen for it, measures what a pass
 /// costs and what error it leaves, and compares errors after the time of the render, or else after that of the least
-/// number of the longest passes. Puts the best one into the settings. Throws InputError where nothing is allowed.
-std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings);
+/// number of the longest passes. Puts the best one into the settings, or the first where none can be measured by the
+/// end of the time. Throws InputError where nothing is allowed.
+std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
+                                     RenderSettings& settings);
 
 }  // namespace vpm

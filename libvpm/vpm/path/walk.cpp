@@ -1,6 +1,7 @@
 // Flights between events and what happens at them.
 #include "vpm/path/walk.h"
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/count.h"
 #include "vpm/medium/distance/mixture.h"
 #include "vpm/path/stretches.h"
@@ -48,6 +49,7 @@ struct Flying {
 }  // namespace
 
 Encounter meet(const Scene& scene, const Ray& ray, float t_max, MediumId& medium, WalkCounters& counters) {
+  cancellation_point();
   count(counters.rays);
   Encounter met = scene.geometry.encounter(ray, t_max);
   if (!met && t_max < kInfinity) return met;

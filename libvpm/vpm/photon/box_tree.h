@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/floats.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/vec.h"
@@ -147,6 +148,7 @@ void BoxTree::descend(const Where& where, Visit&& visit) const {
     }
     const uint32_t box = met[group.begin++];
     if (depth == depth_) {
+      cancellation_point();
       visit(box);
       continue;
     }

@@ -51,7 +51,6 @@ std::vector<Photon> trace_caustics(const Scene& scene, const DistanceStrategy& s
                                                    rng_stream(RngUse::caustic_scout, settings.pass), score);
   std::vector<std::vector<Photon>> parts(chunk_count(settings.emitted, kCausticChunk));
   parallel_for_chunks(settings.emitted, kCausticChunk, [&](size_t begin, size_t end, size_t chunk) {
-    if (settings.stop && *settings.stop) return;
     for (size_t i = begin; i < end; ++i) {
       Rng rng(settings.seed, rng_stream(RngUse::caustic, settings.pass), i);
       const EmissionGuide::Sample drawn = guide.sample(rng);

@@ -1,7 +1,6 @@
 // Photons that are aimed at mirrors and glass, for a separate caustic map.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +16,6 @@ struct CausticSettings {
   uint64_t emitted = 0;  // photons to emit, >= 1
   int max_events = 100'000;
   const ImportanceMap* importance = nullptr;  // how much a caustic matters to the picture; null: all equally
-  const std::atomic<bool>* stop = nullptr;    // once true, tracing ends as soon as it can
 };
 
 /// The paths that so many photons take, with those of the scouts that are traced first.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/count.h"
 #include "vpm/base/floats.h"
 #include "vpm/photon/box_tree.h"
@@ -233,6 +234,7 @@ uint32_t PhotonBeamMap::collect(Search&& search, Use&& use) {
   search([&](uint32_t leaf, const LaneMask& near) {
     count_found += store_numbers(leaf * kBlock, bits_of(near), pieces + count_found);
     if (count_found > kMost - kBlock) {
+      cancellation_point();
       use(pieces, count_found);
       count_found = 0;
     }

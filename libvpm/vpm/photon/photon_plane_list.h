@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vpm/base/below.h"
+#include "vpm/base/cancel.h"
 #include "vpm/photon/photon_plane.h"
 
 namespace vpm {
@@ -50,6 +51,7 @@ void PhotonPlaneList::visit_crossings(const Ray& ray, const Interval& interval, 
   const auto [right, up] = across(ray.direction);
   const Vec3 along = ray.direction, o = ray.origin;
   const auto [t0, t1] = interval;
+  cancellation_point();
   for (size_t block = 0; block < planes_.size(); block += kBlock) {
     float from[kBlock], beyond[kBlock], t[kBlock], determinant[kBlock];
     bool crossed[kBlock];

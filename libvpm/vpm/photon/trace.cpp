@@ -273,8 +273,6 @@ uint64_t next_wave(const Tally& tally, const TraceSettings& settings) {
       most, kPhotonChunk * std::clamp<uint64_t>(static_cast<uint64_t>(missing / kPhotonChunk) + 1, 1, kLargestWave));
 }
 
-bool is_stopped(const TraceSettings& settings) { return settings.stop && *settings.stop; }
-
 Part empty_part(const Recorders& recorders) {
   Part part;
   for (const PhotonRecorder* recorder : recorders) part.recorders.push_back(recorder->part());
@@ -289,14 +287,13 @@ Ledger trace_photons(const Scene& scene, const DistanceStrategy& strategy, const
   Joined joined{recorders};
   Tally traced(recorders.size());
   std::vector<Part> parts;
-  while (!is_full(traced, settings) && !is_stopped(settings)) {
+  while (!is_full(traced, settings)) {
     const uint64_t first = settings.first + traced.emitted, last = first + next_wave(traced, settings);
     std::vector<Part> next(chunk_count(last - first, kPhotonChunk));
     // One thread joins the wave before, while the others trace this one.
     parallel_for_chunks(next.size() + 1, 1, [&](size_t task, size_t, size_t) {
       if (task == 0) return joined.add(parts, settings);
       Part& part = next[task - 1] = empty_part(recorders);
-      if (is_stopped(settings)) return;
       PhotonPath path(scene, strategy, settings, numbers, part);
       const uint64_t begin = first + (task - 1) * kPhotonChunk, end = std::min(begin + kPhotonChunk, last);
       for (uint64_t i = begin; i < end; ++i) path.trace(i);

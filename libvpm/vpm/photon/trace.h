@@ -1,7 +1,6 @@
 // Photon tracing [Jarosz2008, alg. 7.1 to 7.3, corrected]: from the lights, event by event, into recorders.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 
 #include "vpm/base/progress.h"
@@ -25,7 +24,6 @@ struct TraceSettings {
   PhotonSequence sequence = PhotonSequence::random;  // of the numbers that photons start with
   const PhotonGuide* guide = nullptr;                // where photons are emitted and scattered; null: as power is
   bool split = false;                                // with a guide: by importance also on their way
-  const std::atomic<bool>* stop = nullptr;           // once true, tracing ends soon, and its photons must not be used
 };
 
 /// Traces photons in parallel and deposits what becomes of them into the recorders. Photon i depends on the sequence

@@ -2,7 +2,10 @@
 #include "vpm/ranks/pass_pool.h"
 
 #include <cassert>
+#include <chrono>
 #include <utility>
+
+#include "vpm/base/cancel.h"
 
 namespace vpm {
 
@@ -40,11 +43,13 @@ void PassPool::deliver(int number, Pass pass) {
   changed_.notify_all();
 }
 
-std::optional<Pass> PassPool::join(int number) {
+Pass PassPool::join(int number) {
+  constexpr std::chrono::milliseconds kBetweenLooks(20);  // at whether the work is given up
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return closed_ || made_.contains(number); });
+  while (!changed_.wait_for(lock, kBetweenLooks, [&] { return closed_ || made_.contains(number); }))
+    cancellation_point();
   if (failure_) std::rethrow_exception(failure_);
-  if (closed_) return std::nullopt;
+  if (closed_) throw Cancelled();
   Pass pass = std::move(made_.extract(number).mapped());
   --under_way_;
   changed_.notify_all();

@@ -5,7 +5,6 @@
 #include <exception>
 #include <map>
 #include <mutex>
-#include <optional>
 
 #include "vpm/render/pass.h"
 #include "vpm/render/pass_set.h"
@@ -32,8 +31,9 @@ class PassPool {
 
   /// A pass that a maker was told to make. One that comes after close() is dropped.
   void deliver(int number, Pass pass);
-  /// Pass `number`, once it is delivered; nothing where the pool is closed. Throws what fail() was told.
-  std::optional<Pass> join(int number);
+  /// Pass `number`, once it is delivered. Throws what fail() was told, and Cancelled where the pool is closed or the
+  /// work of this thread is given up.
+  Pass join(int number);
 
   /// From now on there is nothing to make, and nothing to join.
   void close();

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "vpm/base/cancel.h"
 #include "vpm/job/validate.h"
 #include "vpm/ranks/pass_bytes.h"
 #include "vpm/ranks/pass_pool.h"
@@ -40,13 +41,13 @@ PassRange numbers_of(const StopRule& until) {
 /// What rank 0 does beside joining: a thread answers the others, another makes passes.
 class Leader {
  public:
-  Leader(Ranks& ranks, PassPool& pool, const MakerOfPasses& maker, const std::atomic<bool>& stop)
+  Leader(Ranks& ranks, PassPool& pool, const PassMaker& maker)
       : ranks_(ranks),
         pool_(pool),
-        stop_(stop),
+        flags_(cancel_flags),
         told_to_leave_(ranks.size(), false),
         answering_([this] { answer(); }),
-        making_([this, maker] { make(maker(halt_)); }) {}
+        making_([this, &maker] { make(maker); }) {}
   ~Leader() {
     pool_.close();
     halt_ = true;
@@ -57,10 +58,11 @@ class Leader {
   Leader& operator=(const Leader&) = delete;
 
  private:
-  /// Until all others have left; or, after a stop, at once.
+  /// Until all others have left; or, where the work is given up, at once.
   void answer() {
+    const CancelledWith leader(flags_);
     while (left_ < ranks_.size() - 1) {
-      if (stop_) {
+      if (is_cancelled()) {
         halt_ = true;
         pool_.close();
         return;
@@ -111,12 +113,12 @@ class Leader {
 
   void make(const PassMaker& passes) {
     const RenderResult none{Film(1, 1), {}, 0.0, {}};
+    const CancelScope halted(halt_);
     try {
       for (PassPool::Task task = pool_.take(); task.order == PassPool::Order::make; task = pool_.take()) {
-        Pass pass = passes.make(task.number, none, {});
-        if (halt_) return;
-        pool_.deliver(task.number, std::move(pass));
+        pool_.deliver(task.number, passes.make(task.number, none, {}));
       }
+    } catch (const Cancelled&) {
     } catch (...) {
       pool_.fail(std::current_exception());
     }
@@ -124,7 +126,7 @@ class Leader {
 
   Ranks& ranks_;
   PassPool& pool_;
-  const std::atomic<bool>& stop_;
+  const CancelFlags* const flags_;  // of the leading thread
   std::atomic<bool> halt_{false};
   // Of the answering thread:
   std::vector<int> asking_;  // ranks that wait for an answer
@@ -189,36 +191,36 @@ void refuse_radii_of_pixels(const RenderSettings& settings) {
                        "write other radii, or render in one process");
 }
 
-MakerOfPasses maker_of(const Scene& scene, const RenderSettings& settings) {
-  return [&](const std::atomic<bool>& stop) { return pass_maker(scene, settings, stop); };
-}
-
 }  // namespace
 
-RenderResult lead_passes(Ranks& ranks, const StopRule& until, const MakerOfPasses& maker, RenderResult result,
+RenderResult lead_passes(Ranks& ranks, const StopRule& until, const PassMaker& maker, RenderResult result,
                          const RunControl& control) {
   PassPool pool(numbers_of(until), result.film.sums().passes, passes_ahead(ranks.size()));
-  const uint64_t work = maker(control.stop).work;
+  const uint64_t work = maker.work;
   const auto join = [&](int number, const RenderResult&, const PassProgress& progress) {
-    std::optional<Pass> pass = pool.join(number);
-    if (pass && progress.tiles != nullptr) progress.tiles->advance(work);
-    return pass ? std::move(*pass) : Pass(0, 0);  // closed: by control.stop, which drops it
+    Pass pass = pool.join(number);
+    if (progress.tiles != nullptr) progress.tiles->advance(work);
+    return pass;
   };
-  const Leader leader(ranks, pool, maker, control.stop);
+  const Leader leader(ranks, pool, maker);
   return run_passes(until, {join, work}, std::move(result), control);
 }
 
-void make_passes(Ranks& ranks, const MakerOfPasses& maker) {
+void make_passes(Ranks& ranks, const PassMaker& maker) {
   Orders orders(ranks);
-  const PassMaker passes = maker(orders.leave());
   const RenderResult none{Film(1, 1), {}, 0.0, {}};
-  for (;;) {
-    ranks.send(0, std::string{kAsk});
-    const std::optional<int> number = orders.next();
-    if (!number) break;
-    const Pass pass = passes.make(*number, none, {});
-    if (orders.leave()) break;
-    ranks.send(0, kPass + std::to_string(*number) + "\n" + bytes_of(pass));
+  try {
+    const CancelScope left(orders.leave());
+    for (;;) {
+      ranks.send(0, std::string{kAsk});
+      const std::optional<int> number = orders.next();
+      if (!number) break;
+      const Pass pass = maker.make(*number, none, {});
+      if (orders.leave()) break;
+      ranks.send(0, kPass + std::to_string(*number) + "\n" + bytes_of(pass));
+    }
+  } catch (const Cancelled&) {
+    if (is_cancelled()) throw;
   }
   ranks.send(0, std::string{kLeft});
 }
@@ -228,11 +230,11 @@ RenderResult lead_render(Ranks& ranks, const Scene& scene, const RenderSettings&
   if (ranks.size() == 1) return render(scene, settings, std::move(result), control);
   refuse_radii_of_pixels(settings);
   check_begun(scene, settings, result);
-  return lead_passes(ranks, settings.until, maker_of(scene, settings), std::move(result), control);
+  return lead_passes(ranks, settings.until, pass_maker(scene, settings), std::move(result), control);
 }
 
 void make_render(Ranks& ranks, const Scene& scene, const RenderSettings& settings) {
-  make_passes(ranks, maker_of(scene, settings));
+  make_passes(ranks, pass_maker(scene, settings));
 }
 
 }  // namespace vpm

@@ -6,26 +6,20 @@
 // nothing. What grows with the number of ranks is what rank 0 receives and sums, see papers/performance.md.
 #pragma once
 
-#include <atomic>
-#include <functional>
-
 #include "vpm/job/render.h"
 #include "vpm/ranks/ranks.h"
 
 namespace vpm {
 
-/// Makes a pass of any number, and leaves early once it is told to stop.
-using MakerOfPasses = std::function<PassMaker(const std::atomic<bool>& stop)>;
-
 /// What rank 0 of several does: run_passes() over the passes of all. Returns once all other ranks have ended their
-/// work; where control.stop ended it, at once, as a rank may be gone: ranks are then to be aborted, after what is
-/// finished is written. Throws what run_passes() and the maker throw.
-RenderResult lead_passes(Ranks& ranks, const StopRule& until, const MakerOfPasses& maker, RenderResult result,
+/// work; where the work was given up (base/cancel.h), at once, as a rank may be gone: ranks are then to be aborted,
+/// after what is finished is written. Throws what run_passes() and the maker throw.
+RenderResult lead_passes(Ranks& ranks, const StopRule& until, const PassMaker& maker, RenderResult result,
                          const RunControl& control);
 
 /// What the others do, until rank 0 tells them that there is no more. Throws what the maker throws; rank 0 waits for
 /// that pass then, so that ranks are to be aborted.
-void make_passes(Ranks& ranks, const MakerOfPasses& maker);
+void make_passes(Ranks& ranks, const PassMaker& maker);
 
 /// The same of a scene. Throws SettingError where pixels have radii of their own, which follow from all passes before,
 /// and what render() throws.

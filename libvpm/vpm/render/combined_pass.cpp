@@ -114,8 +114,8 @@ void count_by_few(const LightTracing& tracing, const RenderSettings& settings, i
 
 }  // namespace
 
-CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-                           SoughtLight sought, uint64_t paths_of_shares)
+CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, SoughtLight sought,
+                           uint64_t paths_of_shares)
     : scene_(scene),
       paths_(settings.photons_emitted),
       max_events_(settings.max_events),
@@ -128,7 +128,7 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, kConnectable};
   const Stopwatch clock;
   count_by_few(tracing, settings, pass, counts_);
-  LightSubPaths light = trace(tracing, stop);
+  LightSubPaths light = trace(tracing);
   statistics_.trace_seconds = clock.seconds();
   statistics_.ledger = light.ledger;
   splats_ = std::exchange(light.splats, {});
@@ -143,10 +143,10 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   statistics_.last_surface_radius = kernels_.surface;
 }
 
-LightSubPaths CombinedPass::trace(const LightTracing& tracing, const std::atomic<bool>& stop) {
+LightSubPaths CombinedPass::trace(const LightTracing& tracing) {
   std::vector<LightSubPaths> parts(chunk_count(paths_, kPathChunk), LightSubPaths(scene_.media.size()));
   parallel_for_chunks(paths_, kPathChunk, [&](size_t begin, size_t end, size_t chunk) {
-    if (!stop) trace_light_sub_paths(tracing, begin, end, parts[chunk]);
+    trace_light_sub_paths(tracing, begin, end, parts[chunk]);
   });
   LightSubPaths all(scene_.media.size());
   all.take_over(parts);
@@ -194,9 +194,8 @@ bool merges(const TechniqueSet& techniques) {
   return techniques.has(Technique::surface_merging) || techniques.merge_in_media();
 }
 
-Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-                          const PassProgress& progress) {
-  const CombinedPass ready(scene, settings, pass, stop);
+Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const PassProgress& progress) {
+  const CombinedPass ready(scene, settings, pass);
   std::optional<TechniqueLayers> layers;
   if (settings.combined.layers) layers.emplace(scene.camera.width, scene.camera.height);
   const auto radiance = [&](std::span<EyeRay> rays) {
@@ -207,7 +206,7 @@ Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, in
       if (is_finite(rays[i].radiance.value) && is_finite(rays[i].radiance.correction))
         layers->add(rays[i].work.pixel, parts[i], settings.samples_per_pixel);
   };
-  Pass result = render_image(scene, settings, pass, radiance, stop, progress);
+  Pass result = render_image(scene, settings, pass, radiance, progress);
   ready.add_light_tracing(result.image);
   if (layers) {
     ready.add_light_tracing(*layers);

@@ -1,7 +1,6 @@
 // One pass of the combined estimator: light sub-paths, their maps, and sub-paths from the eye.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,11 +19,11 @@ enum class SoughtLight { all, by_kernels_alone };
 /// Immutable while rays run; the scene must live as long.
 class CombinedPass {
  public:
-  /// Once `stop` is set it returns as soon as it can, and must not be used. Shares are those of a pass with
+  /// Shares are those of a pass with
   /// `paths_of_shares` light sub-paths, if that is not 0: a part of a pass then finds what the whole does, with more
   /// noise.
-  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-               SoughtLight sought = SoughtLight::all, uint64_t paths_of_shares = 0);
+  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, SoughtLight sought = SoughtLight::all,
+               uint64_t paths_of_shares = 0);
 
   /// combined_radiance() along a ray of the camera, or along several.
   KernelEstimate radiance(const Ray& ray, EyeWork& work) const;
@@ -37,7 +36,7 @@ class CombinedPass {
 
  private:
   /// The vertices and flights, and what light tracing finds.
-  LightSubPaths trace(const LightTracing& tracing, const std::atomic<bool>& stop);
+  LightSubPaths trace(const LightTracing& tracing);
 
   CombinedContext context() const {
     return {scene_, *strategy_, *transmittance_, counts_, kernels_, *light_, static_cast<double>(paths_), max_events_};
@@ -64,8 +63,8 @@ RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most);
 /// Do techniques of the combined estimator merge, so that kernels make a bias?
 bool merges(const TechniqueSet& techniques);
 
-/// Renders such a pass. Once `stop` is set it returns as soon as it can, and its image must not be used.
-Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
+/// Renders such a pass.
+Pass render_combined_pass(const Scene& scene, const RenderSettings& settings, int pass,
                           const PassProgress& progress = {});
 
 }  // namespace vpm

@@ -88,7 +88,7 @@ uint64_t tile_count(const Camera& camera) {
 }
 
 Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
-                  const std::atomic<bool>& stop, const PassProgress& progress) {
+                  const PassProgress& progress) {
   const Stopwatch rendering;
   const Camera& camera = scene.camera;
   Pass result(camera.width, camera.height);
@@ -103,7 +103,6 @@ Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, 
   std::vector<EyeCounters> counters(tiles);
   Progress bar("image", tiles, progress.stages);
   parallel_for_chunks(tiles, 1, [&](size_t tile, size_t, size_t) {
-    if (stop) return;
     const auto across = static_cast<size_t>(tiled.width());
     const int x0 = (tiled.x0 + static_cast<int>(tile % across)) * kTile;
     const int y0 = (tiled.y0 + static_cast<int>(tile / across)) * kTile;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <functional>
 #include <span>
 
@@ -60,9 +59,8 @@ KernelEstimate mean_of_samples(int samples, EyeCounters& counters, Sample&& samp
 
 /// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel, a SampleMean, and where the
 /// settings ask for layers, the means of what these samples' rays see. Where the camera has a crop, the pixels are
-/// those of all tiles that it meets: it has the same bits as that part of the whole. Once `stop` is set it returns as
-/// soon as it can, and its image must not be used.
+/// those of all tiles that it meets: it has the same bits as that part of the whole.
 Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
-                  const std::atomic<bool>& stop, const PassProgress& progress = {});
+                  const PassProgress& progress = {});
 
 }  // namespace vpm

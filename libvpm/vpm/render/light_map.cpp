@@ -68,7 +68,6 @@ Pass bake_block(const Scene& scene, const RenderSettings& settings, const UvLayo
   std::vector<EyeCounters> counters(chunks);
   Progress bar("texels", chunks, run.progress.stages);
   parallel_for_chunks(layout.texels(), kTexelChunk, [&](size_t begin, size_t end, size_t chunk) {
-    if (run.stop) return;
     TexelWork work{counters[chunk], {}, {}};
     for (size_t texel = begin; texel < end; ++texel) {
       const auto column = static_cast<int>(texel % layout.resolution),
@@ -95,10 +94,10 @@ UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution) {
 }
 
 Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int pass,
-                    const std::atomic<bool>& stop, const PassProgress& progress) {
+                    const PassProgress& progress) {
   assert(settings.integrator == Integrator::photon && settings.radii != RadiusSchedule::per_pixel);
-  return mean_of_blocks(settings, stop, [&](const PhotonBlock& block) {
-    return bake_block(scene, settings, layout, {pass, stop, progress, block});
+  return mean_of_blocks(settings, [&](const PhotonBlock& block) {
+    return bake_block(scene, settings, layout, {pass, progress, block});
   });
 }
 

@@ -2,8 +2,6 @@
 // shadow rays.
 #pragma once
 
-#include <atomic>
-
 #include "vpm/render/pass.h"
 #include "vpm/render/settings.h"
 #include "vpm/render/uv_layout.h"
@@ -21,7 +19,7 @@ UvLayout lay_out_light_map(const Scene& scene, uint32_t shape, int resolution);
 /// samples_per_pixel points uniform over its area; black where that is nothing. Cosines are to the geometric normal:
 /// irradiance times area is the power that arrives.
 Pass light_map_pass(const Scene& scene, const RenderSettings& settings, const UvLayout& layout, int pass,
-                    const std::atomic<bool>& stop, const PassProgress& progress = {});
+                    const PassProgress& progress = {});
 /// The units of work of a pass, or of a block of it, by which it advances PassProgress::tiles.
 uint64_t light_map_work(const UvLayout& layout);
 

@@ -158,13 +158,12 @@ Rgb path_radiance(const PathContext& context, const Ray& ray, MediumId medium, R
   return path.radiance();
 }
 
-Pass render_path_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-                      const PassProgress& progress) {
+Pass render_path_pass(const Scene& scene, const RenderSettings& settings, int pass, const PassProgress& progress) {
   const PathContext context = make_path_context(scene, settings, pass);
   const auto radiance = [&](const Ray& ray, EyeWork& work) -> KernelEstimate {
     return {path_radiance(context, ray, medium_of_ray(scene, scene.camera_medium, ray), work.rng, work.counters)};
   };
-  return render_image(scene, settings, pass, ray_by_ray(radiance), stop, progress);
+  return render_image(scene, settings, pass, ray_by_ray(radiance), progress);
 }
 
 }  // namespace vpm

@@ -27,8 +27,7 @@ PathContext make_path_context(const Scene& scene, const RenderSettings& settings
 /// and the transmittance estimator are; nothing is clamped. Not finite where the path's throughput is not.
 Rgb path_radiance(const PathContext& context, const Ray& ray, MediumId medium, Rng& rng, EyeCounters& counters);
 
-/// Renders pass number `pass`, from 0. Once `stop` is set it returns as soon as it can, and its image must not be used.
-Pass render_path_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-                      const PassProgress& progress = {});
+/// Renders pass number `pass`, from 0.
+Pass render_path_pass(const Scene& scene, const RenderSettings& settings, int pass, const PassProgress& progress = {});
 
 }  // namespace vpm

@@ -42,8 +42,7 @@ PhotonBlock photon_block(const RenderSettings& settings, uint64_t number) {
   return {number * each + std::min(number, larger), each + (number < larger)};
 }
 
-Pass mean_of_blocks(const RenderSettings& settings, const std::atomic<bool>& stop,
-                    const std::function<Pass(const PhotonBlock&)>& render) {
+Pass mean_of_blocks(const RenderSettings& settings, const std::function<Pass(const PhotonBlock&)>& render) {
   Pass mean = render(photon_block(settings, 0));
   const uint64_t blocks = block_count(settings);
   if (blocks == 1) return mean;
@@ -51,7 +50,7 @@ Pass mean_of_blocks(const RenderSettings& settings, const std::atomic<bool>& sto
     return static_cast<double>(photon_block(settings, number).count) / static_cast<double>(settings.photons_emitted);
   };
   WeightedSum image(mean.image, share(0)), correction(mean.correction, share(0));
-  for (uint64_t number = 1; number < blocks && !stop; ++number) {
+  for (uint64_t number = 1; number < blocks; ++number) {
     const Pass next = render(photon_block(settings, number));
     image.add(next.image, share(number));
     correction.add(next.correction, share(number));

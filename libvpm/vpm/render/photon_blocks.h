@@ -7,7 +7,6 @@
 // they draw must not depend on photons.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 
@@ -28,9 +27,7 @@ uint64_t block_count(const RenderSettings& settings);
 PhotonBlock photon_block(const RenderSettings& settings, uint64_t number);
 
 /// The mean of what `render` makes of each block; of a single one just that. What is counted is the sum over blocks: so
-/// many rays are followed, so many photons found. Layers of what the camera sees are those of any block. Once `stop` is
-/// set no further block is begun, and the picture must not be used.
-Pass mean_of_blocks(const RenderSettings& settings, const std::atomic<bool>& stop,
-                    const std::function<Pass(const PhotonBlock&)>& render);
+/// many rays are followed, so many photons found. Layers of what the camera sees are those of any block.
+Pass mean_of_blocks(const RenderSettings& settings, const std::function<Pass(const PhotonBlock&)>& render);
 
 }  // namespace vpm

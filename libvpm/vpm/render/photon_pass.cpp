@@ -32,7 +32,6 @@ TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run)
   trace.emitted = block.count;
   trace.stored = settings.photons_stored;
   trace.max_events = settings.max_events;
-  trace.stop = &run.stop;
   return trace;
 }
 
@@ -40,11 +39,11 @@ TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run)
 MediaBounds bounds_of_blocks(const Scene& scene, const RenderSettings& settings, const PassRun& run,
                              RenderStatistics& statistics) {
   MediaBounds around(scene.media.size());
-  for (uint64_t number = 0; number < block_count(settings) && !run.stop; ++number) {
+  for (uint64_t number = 0; number < block_count(settings); ++number) {
     Estimators estimators = plan_estimators(scene, settings, run.pass);
     estimators.surface.reset();
     RenderStatistics traced;
-    trace_pass(scene, settings, estimators, {run.pass, run.stop, run.progress, photon_block(settings, number)}, traced);
+    trace_pass(scene, settings, estimators, {run.pass, run.progress, photon_block(settings, number)}, traced);
     statistics.guide_seconds += traced.guide_seconds;
     statistics.trace_seconds += traced.trace_seconds;
     for (const MapInfo& map : estimators.maps())
@@ -60,7 +59,7 @@ Pass render_block(const Scene& scene, const RenderSettings& settings, const Pass
   prepare_pass(scene, settings, estimators, run, statistics);
   const EyeContext context{scene, estimators, settings.max_events};
   const RadianceOfRays radiance = [&](std::span<EyeRay> rays) { eye_radiance(context, rays); };
-  Pass result = render_image(scene, settings, run.pass, radiance, run.stop, run.progress);
+  Pass result = render_image(scene, settings, run.pass, radiance, run.progress);
   if (estimators.surface) result.found = estimators.surface->take_found();
   result.statistics.merge(statistics);
   return result;
@@ -107,9 +106,8 @@ int tracings_of_pass(const Scene& scene, const RenderSettings& settings) {
   return marches && block_count(settings) > 1 ? 2 : 1;
 }
 
-Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
-                        const PassProgress& progress) {
-  return render_photon_pass_after({}, scene, settings, {pass, stop, progress});
+Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const PassProgress& progress) {
+  return render_photon_pass_after({}, scene, settings, {pass, progress});
 }
 
 Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const RenderSettings& settings,
@@ -117,8 +115,8 @@ Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const
   RenderStatistics looking;
   std::optional<MediaBounds> around;
   if (tracings_of_pass(scene, settings) > 1) around = bounds_of_blocks(scene, settings, run, looking);
-  Pass pass = mean_of_blocks(settings, run.stop, [&](const PhotonBlock& block) {
-    return render_block(scene, settings, {run.pass, run.stop, run.progress, block},
+  Pass pass = mean_of_blocks(settings, [&](const PhotonBlock& block) {
+    return render_block(scene, settings, {run.pass, run.progress, block},
                         plan_estimators(scene, settings, run.pass, discs, around ? &*around : nullptr));
   });
   looking.merge(pass.statistics);

@@ -12,8 +12,7 @@ namespace vpm {
 
 /// What runs a pass besides scene and settings.
 struct PassRun {
-  int pass = 0;                   // from 0
-  const std::atomic<bool>& stop;  // once set, the pass ends as soon as it can, and its results must not be used
+  int pass = 0;  // from 0
   PassProgress progress = {};
   std::optional<PhotonBlock> block = {};  // the photons of the pass that are traced; nothing: all of them
 };
@@ -31,9 +30,8 @@ void prepare_pass(const Scene& scene, const RenderSettings& settings, const Esti
 /// beforehand where all of them lie.
 int tracings_of_pass(const Scene& scene, const RenderSettings& settings);
 
-/// Renders pass number `pass`, from 0, by blocks of photons where the settings say so (mean_of_blocks()). Once `stop`
-/// is set it returns as soon as it can, and its image must not be used.
-Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass, const std::atomic<bool>& stop,
+/// Renders pass number `pass`, from 0, by blocks of photons where the settings say so (mean_of_blocks()).
+Pass render_photon_pass(const Scene& scene, const RenderSettings& settings, int pass,
                         const PassProgress& progress = {});
 /// The same where pixels have radii of their own, after passes that have left `discs`. Without discs, there was no
 /// earlier pass.

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <stdexcept>
 
+#include "vpm/base/cancel.h"
 #include "vpm/surface/disc.h"
 #include "vpm/surface/distance.h"
 #include "vpm/surface/embree.h"
@@ -149,7 +150,11 @@ void EmbreeTree::add(const SphereShape& shape, Layer layer) { add_own(shape, lay
 void EmbreeTree::add(const DiscShape& shape, Layer layer) { add_own(shape, layer); }
 
 void EmbreeTree::commit() {
+  const auto go_on = [](void* flags, double) { return !is_cancelled(static_cast<const CancelFlags*>(flags)); };
+  rtcSetSceneProgressMonitorFunction(scene_, go_on, const_cast<CancelFlags*>(cancel_flags));
   rtcCommitScene(scene_);
+  rtcSetSceneProgressMonitorFunction(scene_, nullptr, nullptr);
+  cancellation_point();
   check();
 }
 

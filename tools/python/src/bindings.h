@@ -5,7 +5,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <atomic>
 #include <functional>
 #include <optional>
 
@@ -33,8 +32,8 @@ py::array_t<float> view_of(const Image& image, py::handle owner);
 Image image_of(const Floats& array);
 
 /// Runs work on a thread of its own, without the interpreter's lock, while this one lets Python handle signals. Where a
-/// handler raises, as that of Ctrl-C does, `stop` is set, and what it raised is returned once the work has ended. What
-/// the work throws is thrown here.
-std::optional<py::error_already_set> run_interruptibly(std::atomic<bool>& stop, const std::function<void()>& work);
+/// handler raises, as that of Ctrl-C does, the work is given up (base/cancel.h), and what it raised is returned once
+/// the work has ended. What the work throws is thrown here.
+std::optional<py::error_already_set> run_interruptibly(const std::function<void()>& work);
 
 }  // namespace vpm::python

@@ -2,11 +2,13 @@
 #include "bindings.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <string>
 #include <utility>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
@@ -35,11 +37,18 @@ Image image_of(const Floats& array) {
   return image;
 }
 
-std::optional<py::error_already_set> run_interruptibly(std::atomic<bool>& stop, const std::function<void()>& work) {
+std::optional<py::error_already_set> run_interruptibly(const std::function<void()>& work) {
   constexpr std::chrono::milliseconds kBetweenLooks(20);
+  std::atomic<bool> stop{false};
   std::optional<py::error_already_set> raised;
   const py::gil_scoped_release others_run;
-  std::future<void> done = std::async(std::launch::async, work);
+  std::future<void> done = std::async(std::launch::async, [&] {
+    const CancelScope told_to_end(stop);
+    try {
+      work();
+    } catch (const Cancelled&) {
+    }
+  });
   while (done.wait_for(kBetweenLooks) != std::future_status::ready) {
     const py::gil_scoped_acquire lock;
     if (raised || PyErr_CheckSignals() == 0) continue;

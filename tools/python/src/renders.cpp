@@ -10,6 +10,7 @@
 #include "joined_ranks.h"
 #include "scene_job.h"
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/image/png.h"
 #include "vpm/job/messages.h"
@@ -50,11 +51,10 @@ StopRule stop_rule(std::optional<int> passes, std::optional<double> seconds, std
 bool leads(JoinedRanks* together) { return !together || together->ranks().leads(); }
 
 /// run_interruptibly() of what processes do together, or of what this one does by itself.
-std::optional<py::error_already_set> run(JoinedRanks* together, std::atomic<bool>& stop,
-                                         const std::function<void()>& work) {
-  if (!together) return run_interruptibly(stop, work);
+std::optional<py::error_already_set> run(JoinedRanks* together, const std::function<void()>& work) {
+  if (!together) return run_interruptibly(work);
   JoinedRanks::Turn turn(*together);
-  auto raised = run_interruptibly(stop, work);
+  auto raised = run_interruptibly(work);
   if (!raised) turn.finish();
   return raised;
 }
@@ -74,21 +74,21 @@ std::shared_ptr<Passes> begin(const std::shared_ptr<SceneJob>& scene, std::optio
   RenderSettings& settings = begun->state.settings;
   settings.until = stop_rule(passes, seconds, error, settings.until);
   if (seed) settings.seed = *seed;
-  std::atomic<bool> stop{false};
-  auto raised = run(begun->together, stop, [&] {
+  const WallClock clock;
+  auto raised = run(begun->together, [&] {
     with_job(*scene, begun->state, [&](RenderJob& job) {
       if (leads(begun->together)) {
-        choose(job);
-        foresee(job);
+        choose(job, clock);
+        foresee(job, clock);
         if (begun->together) tell_render(begun->together->ranks(), identity_of(job));
       } else {
         render_as_told(job, told_render(begun->together->ranks()));
       }
-      look_for_kernel_light(job);
+      look_for_kernel_light(job, clock);
     });
   });
   if (raised) throw *std::move(raised);
-  begun->result.seconds = begun->state.pilot_seconds;
+  begun->result.seconds = clock.seconds();
   return begun;
 }
 
@@ -109,20 +109,27 @@ RenderResult render_with(JoinedRanks* together, const RenderJob& job, RenderResu
     return told_result(ranks);
   }
   RenderResult result = lead_render(ranks, job.scene, job.settings, std::move(begun), control);
-  if (!control.stop) tell_result(ranks, result);  // else the others may be gone
+  if (!is_cancelled()) tell_result(ranks, result);  // else the others may be gone
   return result;
 }
 
 /// Renders until the stop rule is met, or one pass; and what a signal's handler raised meanwhile, or None.
 std::pair<std::shared_ptr<Passes>, py::object> advance(const Passes& before, bool one_pass, bool progress) {
   auto after = std::make_shared<Passes>(before);
-  std::atomic<bool> stop{false};
+  std::atomic<bool> enough{false};
   std::function<void(const RenderResult&)> finished;
-  if (one_pass) finished = [&](const RenderResult&) { stop = true; };
-  const RunControl control{stop, progress ? ProgressMode::automatic : ProgressMode::never, finished};
-  auto raised = run(after->together, stop, [&] {
+  if (one_pass) finished = [&](const RenderResult&) { enough = true; };
+  RunControl control{progress ? ProgressMode::automatic : ProgressMode::never, finished};
+  control.foreseen = before.state.foreseen_pass;
+  auto raised = run(after->together, [&] {
     with_job(*after->scene, after->state, [&](RenderJob& job) {
-      after->result = render_with(after->together, job, std::move(after->result), control);
+      const CancelScope one(enough);
+      try {
+        after->result = render_with(after->together, job, std::move(after->result), control);
+      } catch (const NoPassFits& failure) {
+        if (job.what_fits.empty()) throw;
+        throw std::runtime_error(fmt::format("{}; {}", failure.what(), job.what_fits));
+      }
     });
   });
   if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw *std::move(raised);

@@ -24,7 +24,8 @@ struct JobState {
   std::vector<Choice> choices;
   std::vector<std::string> notes;
   std::optional<KernelLight> kernel_light;
-  double pilot_seconds = 0.0;
+  double foreseen_pass = 0.0;
+  std::string what_fits;
 
   explicit JobState(const RenderJob& job)
       : settings(job.settings),
@@ -32,7 +33,8 @@ struct JobState {
         choices(job.choices),
         notes(job.notes),
         kernel_light(job.kernel_light),
-        pilot_seconds(job.pilot_seconds) {}
+        foreseen_pass(job.foreseen_pass),
+        what_fits(job.what_fits) {}
 
   void exchange(RenderJob& job) {
     std::swap(settings, job.settings);
@@ -40,7 +42,8 @@ struct JobState {
     std::swap(choices, job.choices);
     std::swap(notes, job.notes);
     std::swap(kernel_light, job.kernel_light);
-    std::swap(pilot_seconds, job.pilot_seconds);
+    std::swap(foreseen_pass, job.foreseen_pass);
+    std::swap(what_fits, job.what_fits);
   }
 };
 

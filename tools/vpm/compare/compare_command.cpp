@@ -14,6 +14,7 @@
 #include "compare/techniques.h"
 #include "pass_run.h"
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
@@ -139,21 +140,19 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
   return contests;
 }
 
-/// Finds the reference of a scene, or makes it. False where `stop` was set first.
-bool make_reference(Contest& contest, const Store& store, const CompareOptions& options,
-                    const std::atomic<bool>& stop) {
-  if (!contest.reference_entrant) return true;
+/// Finds the reference of a scene, or makes it.
+void make_reference(Contest& contest, const Store& store, const CompareOptions& options) {
+  if (!contest.reference_entrant) return;
   if (std::optional<Reference> known = store.find_reference(contest.reference_entrant->identity)) {
     contest.reference = std::move(*known);
   } else {
     const RenderResult result =
-        run_reference(contest.reference_entrant->loaded, contest.compared->rendered.error, stop, options.progress);
-    if (stop) return false;
+        run_reference(contest.reference_entrant->loaded, contest.compared->rendered.error, options.progress);
+    cancellation_point();
     contest.reference = {result.film.mean(), result.film.variance_of_mean()};
     store.add_reference(contest.reference_entrant->identity, contest.reference);
   }
   if (contest.reference_entrant->loaded.settings.integrator != Integrator::path) contest.reference.doubt = kOfPhotons;
-  return true;
 }
 
 /// The first repetition alone keeps what techniques find as pictures, so it is another run than one of its seed that
@@ -167,7 +166,7 @@ std::string run_identity(const Entrant& entrant, const ComparisonPlan& plan, int
 /// Makes the runs that are missing. Repetitions are interleaved, and each begins with another method, so that what
 /// changes about the machine in the meantime meets all methods alike.
 void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan, const Store& store,
-               const CompareOptions& options, const std::atomic<bool>& stop) {
+               const CompareOptions& options) {
   const size_t methods = plan.methods.size();
   const auto repetitions = static_cast<size_t>(plan.repetitions);
   Progress bar("compare", repetitions * contests.size() * methods, progress_enabled(options.progress));
@@ -177,8 +176,8 @@ void make_runs(const std::vector<Contest>& contests, const ComparisonPlan& plan,
         const Entrant& entrant = *contest.methods[(turn + r) % methods];
         const std::string identity = run_identity(entrant, plan, static_cast<int>(r));
         if (!store.find_run(identity)) {
-          const MethodRun run = run_method(entrant.loaded, plan, static_cast<int>(r), stop);
-          if (stop) return;
+          const MethodRun run = run_method(entrant.loaded, plan, static_cast<int>(r));
+          cancellation_point();
           store.add_run(identity, run);
         }
         bar.advance(1);
@@ -300,11 +299,10 @@ int compare_command(const CompareOptions& options) {
   const ComparisonPlan plan = load_comparison_plan(options.experiment, options.overrides);
   std::vector<Contest> contests = load_contests(plan);
   const Store store(options.output);
-  const std::atomic<bool>& stop = stop_on_signals();
-  for (Contest& contest : contests)
-    if (!make_reference(contest, store, options, stop)) break;
-  if (!stop) make_runs(contests, plan, store, options, stop);
-  if (stop) {
+  try {
+    for (Contest& contest : contests) make_reference(contest, store, options);
+    make_runs(contests, plan, store, options);
+  } catch (const Cancelled&) {
     fmt::print(stderr, "interrupted: finished runs are kept in {}; the same command goes on\n", options.output);
     return kInterrupted;
   }

@@ -1,8 +1,11 @@
 // Passes, with a look at their cost after each.
 #include "compare/run.h"
 
+#include <atomic>
 #include <ctime>
+#include <utility>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
 #include "vpm/job/automatic.h"
@@ -39,7 +42,7 @@ RunCost counted(const RenderStatistics& s) {
 
 }  // namespace
 
-MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition, const std::atomic<bool>& stop) {
+MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition) {
   RenderSettings settings = job.settings;
   settings.seed = plan.seed + static_cast<uint64_t>(repetition);
   double cpu = 0.0, wall = 0.0;  // s
@@ -48,7 +51,7 @@ MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repet
   MethodRun run;
   if (job.automatic.any()) {
     settings.until = {.seconds = plan.budgets.back() / thread_count()};
-    run.choices = choose_settings(job.scene, job.automatic, settings);
+    run.choices = choose_settings(job.scene, job.automatic, WallClock(), settings).choices;
   }
   settings.until = {.passes = kMostPasses};
   std::vector<Snapshot>& snapshots = run.snapshots;
@@ -61,21 +64,24 @@ MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repet
     cost.wall_seconds = wall;
     while (snapshots.size() < plan.budgets.size() && cost_in(plan.unit, cost) >= plan.budgets[snapshots.size()])
       snapshots.push_back({cost, so_far.film.mean()});
-    done = stop || snapshots.size() == plan.budgets.size();
+    done = snapshots.size() == plan.budgets.size();
     cpu_begin = cpu_seconds();
     rendering = {};
   };
-  const RenderResult result =
-      render(job.scene, settings, nothing_rendered(job.scene.camera), {done, ProgressMode::never, look});
+  RenderResult result = nothing_rendered(job.scene.camera);
+  {
+    const CancelScope at_last_budget(done);
+    result = render(job.scene, settings, std::move(result), {ProgressMode::never, look});
+  }
   run.techniques = found_by_techniques(settings, result);
   if (repetition == 0) run.parts = parts_of_techniques(settings, result);
   return run;
 }
 
-RenderResult run_reference(const RenderJob& job, double error, const std::atomic<bool>& stop, ProgressMode progress) {
+RenderResult run_reference(const RenderJob& job, double error, ProgressMode progress) {
   RenderSettings settings = job.settings;
   settings.until = {.error = error};
-  return render(job.scene, settings, nothing_rendered(job.scene.camera), {stop, progress});
+  return render(job.scene, settings, nothing_rendered(job.scene.camera), {progress});
 }
 
 }  // namespace vpm::tools

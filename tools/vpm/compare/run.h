@@ -1,7 +1,6 @@
 // One run of a comparison: a method on a scene with a seed of its own, looked at as it passes each budget.
 #pragma once
 
-#include <atomic>
 #include <vector>
 
 #include "vpm/base/progress.h"
@@ -31,10 +30,10 @@ struct MethodRun {
 
 /// Chooses what the job leaves to be chosen, for the time of the last budget, and renders passes until that is passed.
 /// CPU time is that of choosing and rendering: what is done with snapshots does not count. Fewer snapshots than budgets
-/// where `stop` was set.
-MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition, const std::atomic<bool>& stop);
+/// where the work was given up.
+MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repetition);
 
-/// Renders a scene until its estimated relative MSE is down to `error`.
-RenderResult run_reference(const RenderJob& job, double error, const std::atomic<bool>& stop, ProgressMode progress);
+/// Renders a scene until its estimated relative MSE is down to `error`, or the work is given up.
+RenderResult run_reference(const RenderJob& job, double error, ProgressMode progress);
 
 }  // namespace vpm::tools

@@ -39,7 +39,7 @@ void FinalGather::trace_more(const TracedPass& pass, RenderStatistics& statistic
   if (settings_.caustics_emitted == 0) return;
   const Stopwatch tracing;
   const TraceSettings& trace = pass.settings;
-  CausticSettings aimed{trace.seed, trace.pass, settings_.caustics_emitted, trace.max_events, nullptr, trace.stop};
+  CausticSettings aimed{trace.seed, trace.pass, settings_.caustics_emitted, trace.max_events, nullptr};
   if (trace.guide) aimed.importance = &trace.guide->importance;
   const auto share = static_cast<float>(static_cast<double>(pass.emitted) / static_cast<double>(aimed.emitted));
   for (Photon& photon : trace_caustics(scene_, pass.strategy, aimed)) {

@@ -12,6 +12,7 @@
 #include <functional>
 #include <vector>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/count.h"
 #include "vpm/base/rng.h"
 #include "vpm/medium/density_integrals_along.h"
@@ -91,6 +92,7 @@ void march_evenly(const SeenThrough& seen, const Interval& interval, float lengt
   const double width = static_cast<double>(interval.length()) / strata;
   double t = interval.t0 + rng.uniform_double() * width;
   for (uint32_t next = 0; next < strata;) {
+    cancellation_point();
     const auto integral = static_cast<float>(seen.integrals.at(seen_at(t)).integral);
     add(seen.ray.at(static_cast<float>(t)), glm::exp(-seen.sigma_t * integral) * static_cast<float>(width));
     t = interval.t0 + (++next + rng.uniform_double()) * width;
@@ -110,6 +112,7 @@ KernelEstimate march_seen(const Ray& ray, const Interval& interval, float length
   KernelPair<Rgbd> sum;
   float scale = width;  // of what survived roulette, m
   for (uint32_t i = 0; i < strata && scale > 0.0f; ++i) {
+    cancellation_point();
     const float t = interval.t0 + (static_cast<float>(i) + rng.uniform()) * width;
     const KernelEstimate seen = sum_at(ray.at(t));
     sum += {Rgbd(scale * seen.value), Rgbd(scale * seen.correction)};
@@ -157,6 +160,7 @@ Marched Marcher::march(const Medium& medium, const Ray& ray, const Interval& int
   parts_.clear();
   integral_ = 0.0;
   const auto finish_step = [&] {
+    cancellation_point();
     if (integral_ > 0.0) {
       const double c = draw_attenuated(thickest, integral_, rng.uniform_double());
       const double per_density = attenuated_integral(thickest, integral_) * scale;

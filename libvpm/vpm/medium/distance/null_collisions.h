@@ -14,6 +14,7 @@
 
 #include <cmath>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/count.h"
 #include "vpm/medium/distance/mixture.h"
 
@@ -34,6 +35,7 @@ class NullCollisionFlight {
       left_ -= reach;
       return false;
     }
+    cancellation_point();
     t += left_ / rate;
     left_ = 0.0;
     decision_ = rng_.uniform_double();

@@ -3,11 +3,17 @@
 // Each step takes the density at its middle and the flight's end is solved for inside the step, so the bias is
 // O(step^2); taking the first sample beyond the random number, as printed, would leave O(step). Known failure: spikes
 // thinner than a step are missed.
+#include "vpm/base/cancel.h"
 #include "vpm/base/count.h"
 #include "vpm/medium/distance/mixture.h"
 #include "vpm/medium/distance/strategies.h"
 
 namespace vpm {
+namespace {
+
+constexpr uint32_t kStepsBetweenLooks = 256;  // at whether the work is given up
+
+}  // namespace
 
 Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                         Rng& rng) const {
@@ -20,7 +26,9 @@ Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& in
   Flight flight;
   flight.t = interval.t1;
   double crossed = 0.0;
+  uint32_t steps = 0;
   for (double t = inside.t0; t < inside.t1 && sigma_t > 0.0; t += length) {
+    if (++steps % kStepsBetweenLooks == 0) cancellation_point();
     const double end = std::min(t + length, static_cast<double>(inside.t1));
     const double density = along.at(std::isinf(end) ? t : 0.5 * (t + end));
     count(flight.lookups);

@@ -8,6 +8,7 @@
 // thinner than a step are missed.
 #include <algorithm>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/count.h"
 #include "vpm/medium/distance/mixture.h"
 #include "vpm/medium/distance/strategies.h"
@@ -30,6 +31,7 @@ Flight RayMarchAdaptive::sample(const Medium& medium, const Ray& ray, const Inte
   flight.t = interval.t1;
   double crossed = 0.0;
   flight.bricks = medium.visit_majorants(ray, interval, [&](const DensityStretch& stretch) {
+    cancellation_point();
     const double wanted = std::clamp(integral_of_step / stretch.max, kShortest * longest, longest);
     const double steps = stretch.uniform() ? 1.0 : std::ceil((stretch.t1 - stretch.t0) / wanted);
     const double length = (stretch.t1 - stretch.t0) / steps;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "vpm/base/cancel.h"
 #include "vpm/medium/transmittance/estimator.h"
 
 namespace vpm {
@@ -29,6 +30,7 @@ inline double comb_integral(const Medium& medium, const Ray& ray, const Interval
   float densities[DensityAlong::kAtOnce];
   double sum = 0.0;
   for (double i = 0.0; i < count; i += DensityAlong::kAtOnce) {
+    cancellation_point();
     const auto here = static_cast<size_t>(std::min(count - i, double{DensityAlong::kAtOnce}));
     along.at(inside.t0 + (i + offset) * length, length, {densities, here});
     for (size_t k = 0; k < here; ++k) sum += densities[k];

@@ -2,6 +2,7 @@
 // look.
 #pragma once
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/vec.h"
 
@@ -17,6 +18,7 @@ class PoissonPoints {
   bool visit(double t0, double t1, double rate, Visit&& visit) {
     double t = t0;
     while (left_ < (t1 - t) * rate) {
+      cancellation_point();
       t += left_ / rate;
       left_ = draw();
       if (!visit(t)) return false;

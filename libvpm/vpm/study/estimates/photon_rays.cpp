@@ -2,7 +2,6 @@
 #include "vpm/study/estimates/photon_rays.h"
 
 #include "vpm/base/parallel.h"
-#include "vpm/base/progress.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/render/photon_pass.h"
 
@@ -21,7 +20,7 @@ std::vector<double> look_at_pass(const Scene& scene, const PhotonRays& by, int p
   settings.volume.radius = static_cast<float>(radius);
   const Estimators estimators = plan_estimators(scene, settings, pass);
   RenderStatistics statistics;
-  prepare_pass(scene, settings, estimators, {pass, kNeverStopped}, statistics);
+  prepare_pass(scene, settings, estimators, {pass}, statistics);
   const EyeContext context{scene, estimators};
   EyeCounters counters;
   EyeScratch scratch;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "vpm/base/parallel.h"
-#include "vpm/base/progress.h"
 #include "vpm/image/metrics.h"
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/path_tracer.h"
@@ -49,7 +48,7 @@ enum class BiasOrder { edges = 1, smooth = 2 };
 
 Pass render_pass(const Scene& scene, const RenderSettings& settings, int pass) {
   const auto render = settings.integrator == Integrator::combined ? render_combined_pass : render_photon_pass;
-  return render(scene, settings, pass, kNeverStopped, {});
+  return render(scene, settings, pass, {});
 }
 
 /// Photon maps, and combined techniques: extrapolated passes.

@@ -8,7 +8,6 @@
 
 #include "vpm/base/line_fit.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/progress.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/estimate/volume_estimate.h"
@@ -81,8 +80,7 @@ std::vector<Check> path_tracer(const Effort& effort) {
     Film film(scene.camera.width, scene.camera.height);
     std::vector<double> errors;
     for (const int count : n) {
-      while (film.passes() < count)
-        film.add(film.passes(), render_path_pass(scene, settings, film.passes(), kNeverStopped).image);
+      while (film.passes() < count) film.add(film.passes(), render_path_pass(scene, settings, film.passes()).image);
       double sum = 0.0;
       for (const Rgb& pixel : film.mean().pixels) sum += (pixel.g - 1.0) * (pixel.g - 1.0) / 36.0;
       errors.push_back(sum);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface_region.h"
 #include "vpm/estimate/volume_estimate.h"
@@ -131,9 +130,8 @@ std::vector<Check> check_inside_glass(const Effort& effort) {
     for (const Rgb& pixel : image.pixels) sum += pixel.g;
     return check_bound(std::move(name), sum / 256.0, double{kIor} * kIor, 1e-4);
   };
-  return {check("inside a ball of glass, by paths", render_path_pass(scene, settings, 0, kNeverStopped).image),
-          check("inside a ball of glass, by rays that gather",
-                render_photon_pass(scene, settings, 0, kNeverStopped).image)};
+  return {check("inside a ball of glass, by paths", render_path_pass(scene, settings, 0).image),
+          check("inside a ball of glass, by rays that gather", render_photon_pass(scene, settings, 0).image)};
 }
 
 std::vector<Check> check_radiances(const Effort& effort) {
@@ -286,7 +284,7 @@ std::vector<Check> check_picture(const std::string& name, Scene scene, const Ask
   Moments means;
   uint64_t least_shares = 0;
   for (int pass = 0; pass < static_cast<int>(effort.count(passes, 400)); ++pass) {
-    const Pass found = render_photon_pass(scene, settings, pass, kNeverStopped);
+    const Pass found = render_photon_pass(scene, settings, pass);
     means.add(channel_means(found.image).g);
     least_shares += found.statistics.eye.gather.least_shares;
   }
@@ -392,7 +390,7 @@ std::vector<Check> check_combined(const Effort& effort) {
       settings.seed = effort.seed_of(full);
       Moments means;
       for (int pass = 0; pass < static_cast<int>(effort.count(100, 4'000)); ++pass)
-        means.add(channel_means(render_combined_pass(scene, settings, pass, kNeverStopped).image).g);
+        means.add(channel_means(render_combined_pass(scene, settings, pass).image).g);
       checks.push_back(check_within(full, means, 1.0, 0.005));
     }
   }

@@ -1,6 +1,5 @@
 // Level 3: the light map of a floor, in every way that light reaches it, against paths from the points of the floor.
 #include "vpm/base/parallel.h"
-#include "vpm/base/progress.h"
 #include "vpm/base/warp.h"
 #include "vpm/render/light_map.h"
 #include "vpm/render/path_tracer.h"
@@ -44,7 +43,7 @@ Irradiance by_light_map(const Scene& scene, const RenderSettings& settings, uint
   const UvLayout layout = lay_out_light_map(scene, kFloor, kResolution);
   std::vector<Rgbd> means(passes);
   parallel_for_chunks(passes, 1, [&](size_t pass, size_t, size_t) {
-    means[pass] = mean_of_inner(light_map_pass(scene, settings, layout, static_cast<int>(pass), kNeverStopped).image);
+    means[pass] = mean_of_inner(light_map_pass(scene, settings, layout, static_cast<int>(pass)).image);
   });
   Irradiance irradiance(3);
   for (const Rgbd& mean : means)

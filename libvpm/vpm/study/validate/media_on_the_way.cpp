@@ -1,6 +1,5 @@
 // The medium a path is in: known at every step from the boundaries it has crossed. What the next shape says can correct
 // it, so that errors do no harm to pictures; here only rays that graze may need one.
-#include "vpm/base/progress.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -46,8 +45,8 @@ std::vector<Check> check_media(const Effort& effort) {
   settings.samples_per_pixel = static_cast<int>(effort.count(20, 1000));
   settings.volume.radius = 0.1f;
   settings.volume_direct = DirectLight::shadow_rays;
-  const RenderStatistics photons = render_photon_pass(scene, settings, 0, kNeverStopped).statistics;
-  const RenderStatistics paths = render_path_pass(scene, settings, 0, kNeverStopped).statistics;
+  const RenderStatistics photons = render_photon_pass(scene, settings, 0).statistics;
+  const RenderStatistics paths = render_path_pass(scene, settings, 0).statistics;
   const auto corrections = [](std::string name, const WalkCounters& walk) {
     return check_bound(std::move(name), static_cast<double>(walk.medium_mismatches), 0.0,
                        most_corrections(walk.crossings));

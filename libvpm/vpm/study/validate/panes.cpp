@@ -74,7 +74,7 @@ std::vector<Check> check_combined_panes(const Effort& effort) {
   settings.surface.radius = settings.volume.radius = 0.01f;
   for (const TechniqueInfo& info : kTechniques)
     settings.combined.techniques.set(info.technique, info.technique == Technique::connections);
-  const CombinedPass pass(scene, settings, 0, kNeverStopped);
+  const CombinedPass pass(scene, settings, 0);
   const auto samples =
       sample_moments(1, effort.count(40'000, 800'000), effort.seed_of("panes, combined"), [&](Rng& rng, double* out) {
         EyeScratch scratch;

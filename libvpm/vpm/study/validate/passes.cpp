@@ -29,7 +29,7 @@ std::vector<Check> check_radii(const Effort& effort) {
   RenderSettings settings = pass_settings(effort.seed_of("radii"));
   std::vector<Check> checks;
   for (const int pass : {0, 1, 30}) {
-    const RenderStatistics found = render_photon_pass(scene, settings, pass, kNeverStopped).statistics;
+    const RenderStatistics found = render_photon_pass(scene, settings, pass).statistics;
     const auto check = [&](const char* name, float radius, float first, double d) {
       double measure = 1.0;
       for (int i = 1; i <= pass; ++i) measure *= (i + 4.0 / (d + 4.0)) / (i + 1.0);
@@ -40,18 +40,17 @@ std::vector<Check> check_radii(const Effort& effort) {
     check("surface radius", found.last_surface_radius, settings.surface.radius.metres(), 2.0);
     RenderSettings beams = settings;
     beams.volume.mode = GatherMode::beam;
-    check("radius around rays", render_photon_pass(scene, beams, pass, kNeverStopped).statistics.last_volume_radius,
+    check("radius around rays", render_photon_pass(scene, beams, pass).statistics.last_volume_radius,
           settings.volume.radius.metres(), 2.0);
     beams.volume.mode = GatherMode::photon_beams;
-    check("radius of photon beams", render_photon_pass(scene, beams, pass, kNeverStopped).statistics.last_volume_radius,
+    check("radius of photon beams", render_photon_pass(scene, beams, pass).statistics.last_volume_radius,
           settings.volume.radius.metres(), 1.0);
     beams.volume.mode = GatherMode::beams_points;
-    check("radius of beams around points",
-          render_photon_pass(scene, beams, pass, kNeverStopped).statistics.last_volume_radius,
+    check("radius of beams around points", render_photon_pass(scene, beams, pass).statistics.last_volume_radius,
           settings.volume.radius.metres(), 2.0);
   }
   settings.radii = RadiusSchedule::constant;
-  const RenderStatistics found = render_photon_pass(scene, settings, 30, kNeverStopped).statistics;
+  const RenderStatistics found = render_photon_pass(scene, settings, 30).statistics;
   checks.push_back(
       check_bound("volume radius that stays", found.last_volume_radius, settings.volume.radius.metres(), 0.0));
   checks.push_back(
@@ -88,11 +87,11 @@ std::vector<Check> check_pixels(int samples, const Effort& effort) {
   std::vector<TextbookPixel> textbook(result.film.mean().pixels.size(), {settings.surface.radius.metres()});
   const double power = light_power(scene.lights[0], scene.bounds).g;  // of every photon
   const auto run = [&](int number, const RenderResult& so_far, const PassProgress& progress) {
-    Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {number, kNeverStopped, progress});
+    Pass pass = render_photon_pass_after(so_far.discs, scene, settings, {number, progress});
     for (size_t i = 0; i < textbook.size(); ++i) textbook[i].add(static_cast<double>(pass.found[i]), power / samples);
     return pass;
   };
-  result = run_passes(settings.until, {run, tile_count(scene.camera)}, std::move(result), {kNeverStopped});
+  result = run_passes(settings.until, {run, tile_count(scene.camera)}, std::move(result), {});
   const double per_flux = 0.5 / kPiD / (kPiD * settings.until.passes * static_cast<double>(settings.photons_emitted));
   const Image mean = result.film.mean();
   double radius_off = 0.0, radiance_off = 0.0;
@@ -123,7 +122,7 @@ std::vector<Check> check_variance(const Effort& effort) {
       RenderSettings settings = pass_settings(effort.seed_of(fmt::format("film {} {}", which, i)));
       settings.until.passes = 4;
       settings.radii = RadiusSchedule::constant;  // passes of one distribution
-      return render(scene, settings, nothing_rendered(scene.camera), {kNeverStopped}).film;
+      return render(scene, settings, nothing_rendered(scene.camera), {}).film;
     };
     const Film a = film("a"), b = film("b");
     const Image mean_a = a.mean(), mean_b = b.mean(), variance_a = a.variance_of_mean(),

@@ -3,7 +3,6 @@
 // and by those among all; by irradiance where gathering rays end, whose picture is known, and by that computed
 // beforehand.
 #include "vpm/base/parallel.h"
-#include "vpm/base/progress.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
@@ -47,7 +46,7 @@ Moments radiance(const Scene& scene, RenderSettings settings, size_t passes, con
   const auto render_pass = settings.integrator == Integrator::path ? render_path_pass : render_photon_pass;
   std::vector<double> means(passes);
   parallel_for_chunks(passes, 1, [&](size_t i, size_t, size_t) {
-    const Image image = render_pass(scene, settings, static_cast<int>(i), kNeverStopped, {}).image;
+    const Image image = render_pass(scene, settings, static_cast<int>(i), {}).image;
     for (const Rgb& pixel : image.pixels) means[i] += pixel.g / static_cast<double>(image.pixels.size());
   });
   Moments all;

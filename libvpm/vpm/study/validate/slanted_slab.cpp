@@ -3,7 +3,6 @@
 // kernel: what is missing before the ends of segments must come from beyond them, seen through as much of the slab.
 #include <fmt/format.h>
 
-#include "vpm/base/progress.h"
 #include "vpm/image/metrics.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/render/photon_pass.h"
@@ -57,7 +56,7 @@ Check check_slab(const std::string& name, bool voxels, GatherMode mode, const Ef
   settings.volume.radius = 0.4f;
   Moments means;
   for (int pass = 0; pass < static_cast<int>(effort.count(24, 400)); ++pass)
-    means.add(channel_means(render_photon_pass(scene, settings, pass, kNeverStopped).image).g);
+    means.add(channel_means(render_photon_pass(scene, settings, pass).image).g);
   const double exact = exact_radiance();
   return check_within(name, means, exact, 0.005 * exact);
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "vpm/base/progress.h"
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/image/metrics.h"
 #include "vpm/medium/make_grid.h"
@@ -96,8 +95,7 @@ std::vector<Moments> measure(const Change& change, const Effort& effort) {
             fluence(scene.media[0].majorant(), change.point({-0.3, 0.3, 0.2}), map).g * change.scale * change.scale;
         RenderSettings own = settings;
         own.seed = rng.bits();
-        out[seen] =
-            channel_means(render_photon_pass(scene, own, 0, kNeverStopped).image).g * change.scale * change.scale;
+        out[seen] = channel_means(render_photon_pass(scene, own, 0).image).g * change.scale * change.scale;
       });
 }
 
