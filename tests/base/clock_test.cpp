@@ -36,16 +36,18 @@ TEST(Cancel, OnlyInsideAScopeWhoseFlagIsSet) {
 
 TEST(Cancel, ReachesTheThreadsThatHelp) {
   std::atomic<bool> stop{false};
-  std::atomic<int> begun{0};
+  std::atomic<int> begun{0}, blind{0};
   const CancelScope scope(stop);
   const auto work = [&](size_t i, size_t, size_t) {
     parallel_for_chunks(4, 1, [&](size_t, size_t, size_t) {
       ++begun;
+      if (!cancel_flags) ++blind;
       if (i == 3) stop = true;
     });
   };
   EXPECT_THROW(parallel_for_chunks(10'000, 1, work), Cancelled);
   EXPECT_LT(begun, 4 * 10'000);
+  EXPECT_EQ(blind, 0) << "threads do not see the flags of the one that they help";
   EXPECT_NO_THROW(([&] {
     const CancelledWith finishing(nullptr);
     parallel_for_chunks(100, 1, [](size_t, size_t, size_t) { cancellation_point(); });

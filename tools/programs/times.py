@@ -67,10 +67,10 @@ OLD_RADIUS = slab(more="[volume]\nradius = 5.657\n")  # the default when slabs c
 
 
 def run(command, folder, wait=None):
-    """Runs a command in a folder, interrupted after `wait` s where that is given: seconds on the wall from the signal or
-    the start, the exit status, and what it said."""
-    process = subprocess.Popen([str(word) for word in command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               text=True)
+    """Runs a command in a folder, interrupted after `wait` s where that is given: seconds on the wall from the signal
+    or the start, the exit status, and what it said."""
+    process = subprocess.Popen([str(word) for word in command], cwd=folder, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True)
     begin = time.monotonic()
     if wait is not None:
         try:
@@ -91,7 +91,7 @@ def timed(program, name, scene, seconds, options):
         found = re.search(r": (\d+) pass(es)? in ", said)
         passes, stated = int(found[1]) if found else 0, said.strip().splitlines()[-1] if said.strip() else ""
         if status == 0:
-            found = re.search(r"relative MSE[^;]*", said)
+            found = re.search(r"relative MSE [^a][^;]*", said)
             stated = found[0] if found else f"{passes} passes: no error is stated"
         late = "no pass is finished after" in said
         limit = 2 * seconds + 1 if late else 1.1 * seconds + 0.5
@@ -102,7 +102,8 @@ def timed(program, name, scene, seconds, options):
 
 
 def interrupted(name, command, span, moments, kept=()):
-    """A line on interrupting a command at random moments of its first `span` s; whether it always ended in time."""
+    """A line on interrupting a command at random moments of its first `span` s; whether it always ended in time.
+    `kept`: files that may be left."""
     longest, unfinished, good = 0.0, 0, True
     for _ in range(moments):
         with tempfile.TemporaryDirectory() as folder:
@@ -111,7 +112,7 @@ def interrupted(name, command, span, moments, kept=()):
                 continue
             took, status, said = found
             left = sorted(path.name for path in pathlib.Path(folder).iterdir() if path.name not in kept)
-            picture = "after" in said.splitlines()[-1] if said.strip() else False
+            picture = "interrupted after" in said
             right = status in (130, -signal.SIGINT) and (bool(left) == picture)
             longest, unfinished = max(longest, took), unfinished + (not picture)
             if took > 1.0 or not right:

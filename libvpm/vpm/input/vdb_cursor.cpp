@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <filesystem>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 
 namespace vpm {
@@ -47,6 +48,7 @@ void VdbCursor::seek(uint64_t position) {
 }
 
 void VdbCursor::need(uint64_t count) const {
+  cancellation_point();
   if (count > remaining())
     throw InputError(
         fmt::format("{}: damaged or truncated: {} more bytes are needed at byte {}, the file ends at byte {}", path_,
