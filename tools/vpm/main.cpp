@@ -247,7 +247,7 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
       ->excludes(level)
       ->excludes(only);
   CLI::Option* quick = command->add_flag_callback(
-      "--quick", [&options] { options.full = false; }, "A minute on two cores (the default)");
+      "--quick", [&options] { options.full = false; }, "Two and a half minutes on two cores (the default)");
   command->add_flag("--full", options.full, "Tight errors, some 20 minutes")->excludes(quick);
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
   command->add_option("--rate", options.rate, "Probability that right code fails the run")
