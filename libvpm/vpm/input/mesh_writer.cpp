@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/surface/procedural_mesh.h"
 
@@ -40,11 +41,13 @@ std::string header(const TriangleMesh& mesh) {
 void write_ply(const TriangleMesh& mesh, const std::string& path) {
   std::string bytes = header(mesh);
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    cancellation_point();
     append_all(bytes, mesh.positions[i]);
     if (!mesh.normals.empty()) append_all(bytes, mesh.normals[i]);
     if (!mesh.uvs.empty()) append_all(bytes, mesh.uvs[i]);
   }
   for (const glm::uvec3& triangle : mesh.triangles) {
+    cancellation_point();
     bytes += '\3';  // corners
     append_all(bytes, triangle);
   }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "vpm/base/cancel.h"
+
 namespace vpm {
 namespace {
 
@@ -18,18 +20,22 @@ template <class VertexAt>
 void add_patch(TriangleMesh& mesh, int columns, int rows, const VertexAt& vertex_at) {
   const auto first = static_cast<uint32_t>(mesh.positions.size());
   const auto number = [&](int i, int j) { return first + static_cast<uint32_t>(j * (columns + 1) + i); };
-  for (int j = 0; j <= rows; ++j)
+  for (int j = 0; j <= rows; ++j) {
+    cancellation_point();
     for (int i = 0; i <= columns; ++i) {
       const Vertex vertex = vertex_at(i, j);
       mesh.positions.emplace_back(vertex.position);
       mesh.normals.emplace_back(vertex.normal);
       mesh.uvs.push_back(vertex.uv);
     }
-  for (int j = 0; j < rows; ++j)
+  }
+  for (int j = 0; j < rows; ++j) {
+    cancellation_point();
     for (int i = 0; i < columns; ++i) {
       mesh.triangles.emplace_back(number(i, j), number(i + 1, j), number(i + 1, j + 1));
       mesh.triangles.emplace_back(number(i, j), number(i + 1, j + 1), number(i, j + 1));
     }
+  }
 }
 
 // Ring
