@@ -33,7 +33,7 @@ TEST(Automatic, ChoosesTheSameOnAnyNumberOfThreads) {
   for (const int threads : {1, 2}) {
     set_threads(threads);
     RenderSettings settings;
-    chosen.push_back(choose_settings(scene, automatic, SimulatedClock(), settings).choices);
+    chosen.push_back(choose_settings(scene, automatic, {SimulatedClock(), kInfinity}, settings).choices);
     EXPECT_GT(settings.volume.radius.metres(), 0.0f);
     EXPECT_GT(settings.surface.radius.metres(), 0.0f);
   }
@@ -68,8 +68,8 @@ TEST(Automatic, ChangesNothingThatIsGiven) {
   given.photons_emitted = 12'345;
   given.distance.strategy = "delta";
   RenderSettings settings = given;
-  EXPECT_TRUE(choose_settings(scene, {}, SimulatedClock(), settings).choices.empty());
-  EXPECT_EQ(choose_settings(scene, {{"surface.radius"}}, SimulatedClock(), settings).choices.size(), 1u);
+  EXPECT_TRUE(choose_settings(scene, {}, {SimulatedClock(), kInfinity}, settings).choices.empty());
+  EXPECT_EQ(choose_settings(scene, {{"surface.radius"}}, {SimulatedClock(), kInfinity}, settings).choices.size(), 1u);
   EXPECT_EQ(settings.volume.radius.metres(), 0.3f);
   EXPECT_NE(settings.surface.radius.metres(), 0.4f);
   EXPECT_EQ(settings.caustics.radius.metres(), 0.5f);
@@ -86,7 +86,7 @@ TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
     if (setting.automatic) all.keys.insert(setting.key);
   EXPECT_EQ(all.keys.erase("render.integrator"), 1u);
   EXPECT_EQ(all.keys.size(), 7u);
-  const std::vector<Choice> choices = choose_settings(scene, all, SimulatedClock(), settings).choices;
+  const std::vector<Choice> choices = choose_settings(scene, all, {SimulatedClock(), kInfinity}, settings).choices;
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(settings.distance.strategy, "homogeneous");
   EXPECT_EQ(settings.photons_emitted, RenderSettings{}.photons_emitted);
@@ -199,16 +199,17 @@ TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMaps) {
   choose_records(scene, {{"volume.radius", "surface.radius"}}, kLimit, maps);
   EXPECT_EQ(combined.volume.radius, maps.volume.radius);
   EXPECT_EQ(combined.surface.radius, maps.surface.radius);
-  EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, SimulatedClock(), combined), InputError);
+  EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, {SimulatedClock(), kInfinity}, combined), InputError);
 }
 
 /// A gather that is given stays, and so does that of a scene without media.
 TEST(Automatic, KeepsGathersThatAreGiven) {
   RenderSettings settings;
   settings.volume.mode = GatherMode::nearest;
-  choose_settings(lit_evenly(0.01f), {{"volume.radius"}}, SimulatedClock(), settings);
+  choose_settings(lit_evenly(0.01f), {{"volume.radius"}}, {SimulatedClock(), kInfinity}, settings);
   EXPECT_EQ(settings.volume.mode, GatherMode::nearest);
-  EXPECT_TRUE(choose_settings(lit_evenly(0.0f), {{"volume.gather"}}, SimulatedClock(), settings).choices.empty());
+  EXPECT_TRUE(
+      choose_settings(lit_evenly(0.0f), {{"volume.gather"}}, {SimulatedClock(), kInfinity}, settings).choices.empty());
 }
 
 TEST(Automatic, TheLeastErrorIsTheFirstsUnlessAnotherIsClearlyLess) {

@@ -89,7 +89,8 @@ TEST(Automatic, APartOfAPassHasTheSharesOfTheWhole) {
 Choice chosen_integrator(const Scene& scene, RenderSettings settings) {
   settings.photons_emitted = 5'000;
   const AutomaticSettings automatic{{"render.integrator", "volume.radius", "surface.radius"}};
-  const std::vector<Choice> choices = choose_settings(scene, automatic, SimulatedClock(), settings).choices;
+  const std::vector<Choice> choices =
+      choose_settings(scene, automatic, {SimulatedClock(), kInfinity}, settings).choices;
   EXPECT_EQ(choices.at(0).key, "render.integrator");
   EXPECT_EQ(choices.at(0).value, word_of(settings.integrator));
   for (const char* part : {"least error in a pilot", "photon ", " path "})
@@ -133,7 +134,7 @@ TEST(Automatic, TechniquesAreChosen) {
   settings.photons_emitted = 2'000;
   settings.volume.radius = settings.surface.radius = 0.1f;
   const std::vector<Choice> choices =
-      choose_settings(scene, {{"combined.techniques"}}, SimulatedClock(), settings).choices;
+      choose_settings(scene, {{"combined.techniques"}}, {SimulatedClock(), kInfinity}, settings).choices;
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(choices[0].key, "combined.techniques");
   for (const char* part : {"least error in a pilot", " combined without short-beams ", " combined "})
@@ -150,7 +151,7 @@ TEST(Automatic, WhatDoesNotFitIntoTheTimeIsNotChosen) {
   settings.photons_emitted = 100'000'000;
   settings.volume.radius = settings.surface.radius = 0.1f;
   settings.until.seconds = 0.5;
-  choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, SimulatedClock(), settings);
+  choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, {SimulatedClock(), kInfinity}, settings);
   EXPECT_EQ(settings.integrator, Integrator::path);
 }
 
@@ -168,7 +169,8 @@ TEST(Automatic, FlightsThatAreAskedForAreGathered) {
     if (mode == GatherMode::photon_planes) settings.planes = 50;
     settings.photons_emitted = 500;
     const std::vector<Choice> choices =
-        choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, SimulatedClock(), settings).choices;
+        choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, {SimulatedClock(), kInfinity}, settings)
+            .choices;
     EXPECT_EQ(settings.integrator, Integrator::photon);
     EXPECT_EQ(settings.volume.mode, mode);
     const std::string why = "not combined, path: 'gather' of [volume] is \"" + word_of(mode) + "\"";
@@ -181,7 +183,7 @@ Choice chosen_gather(const Scene& scene, RenderSettings settings) {
   settings.photons_emitted = 20'000;
   settings.surface.radius = 0.1f;
   const std::vector<Choice> choices =
-      choose_settings(scene, {{"volume.gather", "volume.radius"}}, SimulatedClock(), settings).choices;
+      choose_settings(scene, {{"volume.gather", "volume.radius"}}, {SimulatedClock(), kInfinity}, settings).choices;
   EXPECT_EQ(choices.size(), 2u);
   EXPECT_EQ(choices.at(0).key, "volume.gather");
   EXPECT_EQ(choices.at(0).value, word_of(settings.volume.mode));

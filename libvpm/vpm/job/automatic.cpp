@@ -16,8 +16,6 @@
 namespace vpm {
 namespace {
 
-constexpr double kLeastTime = 0.01;  // s: where less is left, choosing is given up
-
 Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
   const bool grids = std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grid; });
   std::string reason = "no medium is a grid: exact there, and nothing to look up", strategy = "homogeneous";
@@ -35,29 +33,22 @@ Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
 
 }  // namespace
 
-Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, const Clock& clock,
+Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
                        RenderSettings& settings) {
-  constexpr double kShare = 0.25, kStrategyShare = 0.05;  // of what is left of the time
-  const double begin = clock.seconds(), asked = settings.until.seconds;
-  const double left = asked > 0.0 ? std::max(asked - begin, 0.0) : double{kInfinity};
-  RenderSettings hurried = settings;  // that know of no other time
-  if (asked > 0.0) hurried.until.seconds = std::max(left, kLeastTime);
+  constexpr size_t kParts = 5;  // of the time, one for the strategy
   Chosen chosen;
-  const auto strategy = [&] { chosen.choices.push_back(choose_strategy(scene, hurried)); };
+  const auto strategy = [&] { chosen.choices.push_back(choose_strategy(scene, settings)); };
   if (automatic.has("distance.strategy") && !scene.media.empty() &&
-      !clock.finish_by(begin + kStrategyShare * left, strategy))
+      !time.clock.finish_by(time.end_of_next(kParts), strategy))
     chosen.left_out = "the time does not allow to choose a distance strategy";
-  const ChoosingTime time{clock, begin + kShare * left};
   std::vector<Choice> more;
-  if (asks_for_trials(scene, automatic, hurried)) {
-    more = choose_by_trials(scene, automatic, time, hurried);
-  } else if (std::string left_out = choose_and_scale_records(scene, automatic, time, hurried, more);
+  if (asks_for_trials(scene, automatic, settings)) {
+    more = choose_by_trials(scene, automatic, time, settings);
+  } else if (std::string left_out = choose_and_scale_records(scene, automatic, time, settings, more);
              !left_out.empty()) {
     chosen.left_out = std::move(left_out);
   }
   for (Choice& choice : more) chosen.choices.push_back(std::move(choice));
-  settings = hurried;
-  settings.until.seconds = asked;
   return chosen;
 }
 

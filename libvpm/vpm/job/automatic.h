@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "vpm/base/clock.h"
 #include "vpm/job/choice.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
@@ -20,10 +19,9 @@ struct Chosen {
 /// Chooses what is asked for, after a short pilot, and puts it into the settings. What is chosen is a pure function of
 /// scene and settings, on any machine and number of threads: costs are counted, not timed. Only where a time is asked
 /// for, passes are timed: then the numbers of photons, the gather in media, the integrator, and the radii that go by
-/// these depend on the machine. Then the render has what is left of its seconds on the clock,
-/// and choosing a quarter of that. What the scene has no use for is left alone. Throws InputError where this program
-/// counts nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
-Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, const Clock& clock,
+/// these depend on the machine. What takes more than its part of `time` is given up. What the scene has no use for is
+/// left alone. Throws InputError where this program counts nothing (VPM_COUNTERS=OFF) and a strategy is asked for.
+Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
                        RenderSettings& settings);
 
 /// Puts a choice made earlier into the settings. Throws InputError where it is none: a setting that is not declared

@@ -1,9 +1,12 @@
 // Settings that a render is to choose, and those that it chose.
 #pragma once
 
+#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
+
+#include "vpm/base/clock.h"
 
 namespace vpm {
 
@@ -14,6 +17,18 @@ struct AutomaticSettings {
 
   bool any() const { return !keys.empty(); }
   bool has(std::string_view key) const { return keys.find(key) != keys.end(); }
+};
+
+/// When choosing is to have ended, s on a clock; infinite where it may take any time.
+struct ChoosingTime {
+  const Clock& clock;
+  double end;
+
+  /// When the next of so many parts is to have ended.
+  double end_of_next(size_t parts) const {
+    const double now = clock.seconds();
+    return now + (end - now) / static_cast<double>(parts);
+  }
 };
 
 /// A setting that was chosen.

@@ -23,6 +23,9 @@ double share_rendered(const Camera& camera) {
 /// The share of a time that is asked for which a look ahead may take, each.
 constexpr double kLookShare = 0.1;
 
+constexpr double kChoosingShare = 0.25;  // of what is left of that time
+constexpr double kLeastTime = 0.01;      // s: where less is left, choosing is given up
+
 /// What is left of the time that is asked for, s; infinite where none is.
 double time_left(const RenderJob& job, const Clock& clock) {
   const double seconds = job.settings.until.seconds;
@@ -63,7 +66,10 @@ void choose(RenderJob& job, const Clock& clock) {
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
   const double begin = clock.seconds();
-  Chosen chosen = choose_settings(job.scene, job.automatic, clock, job.settings);
+  const double asked = job.settings.until.seconds, left = time_left(job, clock);
+  if (asked > 0.0) job.settings.until.seconds = std::max(left, kLeastTime);
+  Chosen chosen = choose_settings(job.scene, job.automatic, {clock, begin + kChoosingShare * left}, job.settings);
+  job.settings.until.seconds = asked;
   job.choices = std::move(chosen.choices);
   if (!chosen.left_out.empty()) job.notes.push_back(std::move(chosen.left_out));
   if (!job.choices.empty())

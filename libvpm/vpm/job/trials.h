@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "vpm/base/clock.h"
 #include "vpm/job/choice.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"
@@ -20,18 +19,6 @@ double limit_of_scaling(const RenderSettings& settings);
 /// Are the integrator, the gather in media or the combined techniques to be chosen, where there are such? Throws
 /// InputError where a gather is to be chosen beside combined techniques, which have none.
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings);
-
-/// When choosing is to have ended, s on a clock; infinite where it may take any time.
-struct ChoosingTime {
-  const Clock& clock;
-  double end;
-
-  /// When the next of so many trials is to have ended.
-  double end_of_next(size_t trials) const {
-    const double now = clock.seconds();
-    return now + (end - now) / static_cast<double>(trials);
-  }
-};
 
 /// choose_records(), and then scale_records(), as far as the time allows. Returns what it does not allow: a sentence,
 /// or

@@ -8,6 +8,7 @@
 #include "vpm/base/cancel.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/stopwatch.h"
+#include "vpm/base/vec.h"
 #include "vpm/job/automatic.h"
 #include "vpm/job/render.h"
 #include "vpm/job/setting.h"
@@ -51,7 +52,7 @@ MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repet
   MethodRun run;
   if (job.automatic.any()) {
     settings.until = {.seconds = plan.budgets.back() / thread_count()};
-    run.choices = choose_settings(job.scene, job.automatic, WallClock(), settings).choices;
+    run.choices = choose_settings(job.scene, job.automatic, {WallClock(), kInfinity}, settings).choices;
   }
   settings.until = {.passes = kMostPasses};
   std::vector<Snapshot>& snapshots = run.snapshots;
