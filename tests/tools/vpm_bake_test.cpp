@@ -206,6 +206,13 @@ TEST_F(VpmBake, TellsAfterHowManyPassesItWasInterrupted) {
       << result.err;
 }
 
+TEST_F(VpmBake, WhereNotOnePassFitsIntoTheTimeItSaysSo) {
+  const ProcessResult result = vpm({"bake", "scene.toml", "--mesh", "floor", "-o", "a.exr", "--set",
+                                    "render.seconds=0.3", "--set", "photons.emitted=50_000_000"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_NE(result.err.find("no pass is finished within the 0.3 s asked for"), std::string::npos) << result.err;
+}
+
 TEST_F(VpmBake, RefusesSettingsOfOtherIntegrators) {
   refuses("floor", {"render.integrator is \"path\"", "--set render.integrator=photon"},
           {"--set", "render.integrator=path"});

@@ -5,6 +5,7 @@
 
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
+#include "vpm/job/render.h"
 
 namespace vpm::tools {
 
@@ -15,6 +16,8 @@ Failure failure_of(const std::exception_ptr& thrown) {
     return {kBadInput, error.what()};
   } catch (const Cancelled&) {
     return {kInterrupted, "interrupted"};
+  } catch (const NoPassFits& failure) {
+    return {kNoPassFits, failure.what()};
   } catch (const std::bad_alloc&) {
     return {kFailed, "out of memory"};
   } catch (const std::exception& error) {

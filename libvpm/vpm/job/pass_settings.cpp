@@ -39,7 +39,7 @@ std::vector<Setting> declare_render() {
        .member = at<&S::until, &StopRule::seconds>(),
        .domain = Numbers{kNotNegative},
        .meaning = "> 0: passes start until this time, from the start of the process on, is over, or one more would end "
-                  "after it; instead",
+                  "at over 1.05 times it and 0.25 s; instead",
        .unit = "s",
        .of_passes = true},
       {.key = "render.error",

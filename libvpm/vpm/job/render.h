@@ -60,8 +60,8 @@ class NoPassFits : public std::runtime_error {
 /// with, for the same scene and settings: passes go on where it ended.
 ///
 /// Where a time is asked for, it counts from the beginning of control.clock, and with that of earlier runs. No pass is
-/// begun that would end later if it took as long as the last one; one that does is dropped soon after. The first is
-/// finished if it is foreseen to end within twice the time.
+/// begun that would end after 1.05 times it and 0.25 s if it took as long as the last one; one that is under way then
+/// is dropped. The first is finished if it is foreseen to end within twice the time.
 ///
 /// Throws a SettingError where settings contradict themselves or the scene, InputError where the result is of another
 /// size than the camera's film, and NoPassFits.
