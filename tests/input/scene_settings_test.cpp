@@ -160,7 +160,7 @@ TEST(SceneFile, PhotonsFlyByNullCollisionsWhereNothingIsSaid) {
                    .automatic.has("distance.strategy"));
 }
 
-using Keys = decltype(AutomaticSettings::keys);
+using Keys = AutomaticSettings::Keys;
 
 TEST(SceneFile, AutoIsReadWhereItIsWritten) {
   const RenderJob loaded = load_with("[volume]\nradius = 'auto'\n[photons]\nemitted = 'auto'\n[surface]\nradius = 2\n");
@@ -169,7 +169,13 @@ TEST(SceneFile, AutoIsReadWhereItIsWritten) {
   EXPECT_EQ(loaded.settings.photons_emitted, RenderSettings{}.photons_emitted);
   EXPECT_EQ(load_with("", {"distance.strategy=auto", "caustics.radius=auto", "volume.gather=auto"}).automatic.keys,
             (Keys{"caustics.radius", "distance.strategy", "volume.gather"}));
-  EXPECT_FALSE(load_with("").automatic.any());
+  EXPECT_TRUE(load_with("").automatic.keys.empty());
+}
+
+TEST(SceneFile, RadiiThatAreLeftOutAreKnown) {
+  EXPECT_EQ(load_with("").automatic.left_out, (Keys{"caustics.radius", "surface.radius", "volume.radius"}));
+  const RenderJob loaded = load_with("[volume]\nradius = 'auto'\n[surface]\nradius = 2\n");
+  EXPECT_EQ(loaded.automatic.left_out, Keys{"caustics.radius"});
 }
 
 TEST(SceneFile, WhatIsLeftOutMayBeAutomatic) {

@@ -240,6 +240,22 @@ TEST(RenderJob, ChoosesAgainWhatWasChosen) {
   EXPECT_THROW(choose_again(again, {{"surface.kernel", "cone", ""}}), InputError);  // it is never chosen
 }
 
+TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
+  const auto radius_of = [](double seconds, GatherMode mode) {
+    RenderJob job = lit_floor();
+    job.automatic.left_out = {"surface.radius"};
+    job.settings.surface.mode = mode;
+    if (seconds > 0.0) job.settings.until = {.seconds = seconds};
+    choose(job);
+    EXPECT_EQ(job.choices.size(), mode == GatherMode::nearest ? 0u : 1u);
+    return job.settings.surface.radius.metres();
+  };
+  const float radius = radius_of(0.0, GatherMode::radius);
+  EXPECT_GT(radius, 0.0f);
+  EXPECT_EQ(radius_of(0.1, GatherMode::radius), radius);
+  EXPECT_EQ(radius_of(0.0, GatherMode::nearest), 0.0f);  // the largest radius keeps its default
+}
+
 TEST(RenderJob, ChoosesNothingForSettingsThatContradictThemselves) {
   RenderJob job = lit_floor();
   job.automatic.keys = {"surface.radius"};

@@ -105,8 +105,8 @@ void print_effort(const RenderJob& job) {
   }
   fmt::print("renders {}, in each {}\ngather radii of the first pass: {}\n", until_text(settings.until),
              photons_text(settings), radii_text(job.scene, settings));
-  if (job.automatic.any())
-    fmt::print("of these vpm render chooses {}, which are \"auto\"; defaults are told here\n",
+  if (!job.automatic.keys.empty())
+    fmt::print("vpm render chooses {}, which are \"auto\", and then the radii that are left out\n",
                fmt::join(job.automatic.keys, ", "));
 }
 
@@ -133,7 +133,8 @@ void print_stages(const RenderJob& job, bool all) {
 }
 
 void print_scene(const InfoOptions& options) {
-  const RenderJob job = load_scene(options.file, options.overrides);
+  RenderJob job = load_scene(options.file, options.overrides);
+  if (job.automatic.keys.empty()) choose(job);
   const Scene& scene = job.scene;
   const Box box = scene.geometry.bounds();
   fmt::print("scene {}, hash {}\n", options.file, job.hash);

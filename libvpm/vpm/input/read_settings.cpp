@@ -1,4 +1,5 @@
 // The sections about how to render: [camera] and [film], and those of the settings, which their declarations read.
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -150,6 +151,7 @@ void decide(const Setting& setting, RenderSettings& s, AutomaticSettings& automa
   const DecidedBy& rule = setting.decided_by;
   if (rule.value) setting.member.set(s, rule.value(s));
   if (automatic.has(rule.chosen_with)) automatic.keys.insert(setting.key);
+  if (setting.usually_chosen) automatic.left_out.insert(setting.key);
 }
 
 /// Tells the place of the key, or of the one that is given in its place.

@@ -13,10 +13,12 @@ namespace vpm {
 /// Which settings are to be chosen, by their keys; those that may be are declared Setting::automatic. What is not to be
 /// chosen is never changed.
 struct AutomaticSettings {
-  std::set<std::string, std::less<>> keys;
+  using Keys = std::set<std::string, std::less<>>;
+  Keys keys;      // those that are "auto"
+  Keys left_out;  // radii that nothing is said of: their defaults go by where photons lie
 
-  bool any() const { return !keys.empty(); }
-  bool has(std::string_view key) const { return keys.find(key) != keys.end(); }
+  bool any() const { return !keys.empty() || !left_out.empty(); }
+  bool has(std::string_view key) const { return keys.contains(key) || left_out.contains(key); }
 };
 
 /// When choosing is to have ended, s on a clock; infinite where it may take any time.

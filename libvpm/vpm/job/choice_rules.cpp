@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 
 #include "vpm/estimate/pass_map.h"
 #include "vpm/job/forecast.h"
@@ -13,7 +14,7 @@
 namespace vpm {
 namespace {
 
-constexpr double kLeastRadius = 0.5;   // pixels
+constexpr double kHalfPixel = 0.5;     // pixels: the least radius
 constexpr double kLeastShare = 0.125;  // of what the eye pass costs, for photons
 
 }  // namespace
@@ -26,16 +27,34 @@ double rounded(double value, int digits) {
 float rounded_radius(double radius) { return static_cast<float>(rounded(radius, 3)); }
 
 ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal) {
-  const double share = kPhotonsWithin / density.within * density.emitted / emitted;
-  const double wanted = density.reach * std::pow(share, 1.0 / density.dimension);
-  const double least = kLeastRadius * density.footprint, most = kLargestRadius * diagonal;
+  const auto holding = [&](double records) {  // the radius, m
+    const double share = records / density.within * density.emitted / emitted;
+    return density.reach * std::pow(share, 1.0 / density.dimension);
+  };
+  const auto within = [&](double records) {
+    return fmt::format("{:g} {} of the first pass are within it at a typical place of the picture", records,
+                       density.records);
+  };
+  const double wanted = holding(kPhotonsWithin), half_pixel = kHalfPixel * density.footprint;
   const std::string would = fmt::format("{:.3g} m would hold {:g} {} at a typical place of the picture", wanted,
                                         kPhotonsWithin, density.records);
-  if (wanted > most) return {rounded_radius(most), "a twentieth of the scene; " + would};
-  if (wanted < least) return {rounded_radius(least), "half a pixel; " + would};
-  return {rounded_radius(wanted),
-          fmt::format("{:g} {} of the first pass are within it at a typical place of the picture", kPhotonsWithin,
-                      density.records)};
+  double radius = wanted;
+  std::string reason = within(kPhotonsWithin);
+  if (radius < half_pixel) std::tie(radius, reason) = std::pair(half_pixel, "half a pixel; " + would);
+  const auto keep_below = [&](double bound, const std::string& name) {
+    if (radius > bound) std::tie(radius, reason) = std::pair(bound, name + "; " + would);
+  };
+  const auto keep_in_medium = [&](double bound, const std::string& name) {
+    const double least = holding(kLeastWithin);
+    if (bound < least)
+      keep_below(least, within(kLeastWithin) + ", and fewer within " + name);
+    else
+      keep_below(bound, name);
+  };
+  keep_in_medium(kShareOfMedium * density.extent, "a tenth of the medium's least extent");
+  keep_in_medium(density.free_path, "the mean free path there");
+  keep_below(kLargestRadius * diagonal, "a twentieth of the scene");
+  return {rounded_radius(radius), reason};
 }
 
 ChosenCount choose_count(const PassCost& cost, double seconds) {

@@ -11,6 +11,8 @@
 namespace vpm {
 namespace {
 
+constexpr uint64_t kPhotonsOfPilot = 100'000, kPhotonsOfDefaults = 20'000;  // that tell of densities
+
 /// A gather radius to be chosen.
 struct OpenRadius {
   const char* key;
@@ -31,12 +33,14 @@ std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& 
   const double emitted = photons_of_pass(s, densities.stored_per_photon);
   const double aimed = s.caustics_emitted > 0 ? static_cast<double>(s.caustics_emitted) : emitted;
   std::vector<OpenRadius> open;
-  if (automatic.has("volume.radius") && has("volume"))
-    open.push_back({"volume.radius", s.volume, densities.volume, emitted});
-  if (automatic.has("surface.radius") && has("surface"))
-    open.push_back({"surface.radius", s.surface, densities.surface, emitted});
-  if (automatic.has("caustics.radius") && has("caustics"))
-    open.push_back({"caustics.radius", s.caustics, densities.caustics, aimed});
+  const auto add = [&](const char* section, const char* key, AskedGather& gather,
+                       const std::optional<MapDensity>& density, double photons) {
+    const bool asked = gather.goes_by_count() ? automatic.keys.contains(key) : automatic.has(key);
+    if (asked && has(section)) open.push_back({key, gather, density, photons});
+  };
+  add("volume", "volume.radius", s.volume, densities.volume, emitted);
+  add("surface", "surface.radius", s.surface, densities.surface, emitted);
+  add("caustics", "caustics.radius", s.caustics, densities.caustics, aimed);
   return open;
 }
 
@@ -105,6 +109,17 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
   return {"photons.emitted", fmt::format("{}", chosen.count), reason};
 }
 
+/// What a pilot of so many photons says of densities; nothing where there is nothing to choose.
+std::optional<MapDensities> densities_by(uint64_t photons, const Scene& scene, const AutomaticSettings& automatic,
+                                         const RenderSettings& settings) {
+  if (settings.integrator == Integrator::path) return std::nullopt;
+  const bool asked = automatic.has("photons.emitted") || automatic.has("volume.radius") ||
+                     automatic.has("surface.radius") || automatic.has("caustics.radius");
+  const RenderSettings maps = as_maps(settings);
+  if (!asked || plan_estimators(scene, maps, 0).maps().empty()) return std::nullopt;
+  return map_densities(scene, maps, photons);
+}
+
 }  // namespace
 
 bool crosses_flights(const RenderSettings& settings) {
@@ -116,12 +131,15 @@ bool crosses_flights(const RenderSettings& settings) {
 
 std::optional<MapDensities> densities_for_records(const Scene& scene, const AutomaticSettings& automatic,
                                                   const RenderSettings& settings) {
-  if (settings.integrator == Integrator::path) return std::nullopt;
-  const bool asked = automatic.has("photons.emitted") || automatic.has("volume.radius") ||
-                     automatic.has("surface.radius") || automatic.has("caustics.radius");
-  const RenderSettings maps = as_maps(settings);
-  if (!asked || plan_estimators(scene, maps, 0).maps().empty()) return std::nullopt;
-  return map_densities(scene, maps);
+  return densities_by(in_a_hurry(kPhotonsOfPilot, settings), scene, automatic, settings);
+}
+
+std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSettings& automatic,
+                                         RenderSettings& settings) {
+  RenderSettings unhurried = settings;
+  unhurried.until = {};
+  const auto densities = densities_by(kPhotonsOfDefaults, scene, automatic, unhurried);
+  return densities ? choose_radii(scene, automatic, *densities, settings) : std::vector<Choice>();
 }
 
 std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic,

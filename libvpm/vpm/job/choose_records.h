@@ -17,6 +17,11 @@ namespace vpm {
 std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
                                    RenderSettings& settings);
 
+/// Gives radii that nothing is said of their defaults, which go by where photons lie: a pure function of scene and
+/// settings, also where a time is asked for. Largest radii of gathers by count keep theirs.
+std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSettings& automatic,
+                                         RenderSettings& settings);
+
 /// What choose_records() goes by; nothing where it has nothing to choose. It is the same for all sets of techniques
 /// that are combined.
 std::optional<MapDensities> densities_for_records(const Scene& scene, const AutomaticSettings& automatic,

@@ -5,11 +5,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
 #include "vpm/estimate/pass_map.h"
 #include "vpm/job/choice_rules.h"
+#include "vpm/job/eye_blocks.h"
+#include "vpm/job/pilot.h"
+#include "vpm/job/rays_of_pass.h"
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/photon_blocks.h"
 #include "vpm/render/plan.h"
@@ -69,6 +74,30 @@ void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& setting
                   paths * each * 1e-9, memory * 1e-9, photons_text(0.5 * memory / each)));
 }
 
+/// A thousand photons or light sub-paths, and nothing that guides them.
+RenderSettings few_photons(const RenderSettings& settings) {
+  constexpr uint64_t kFew = 1000;
+  const bool combined = settings.integrator == Integrator::combined;
+  RenderSettings few = combined ? with_light_paths(settings, kFew) : pilot_settings(settings, kFew);
+  few.caustics_emitted = std::min(few.caustics_emitted, kFew);
+  few.guide.importons = 0;
+  return few;
+}
+
+/// How many photons a ray gathers: the mean of rays all over the picture.
+double gathered_by_a_ray(const Scene& scene, const RenderSettings& settings, const RadianceOfRays& radiance) {
+  std::array<EyeCounters, kEyeBlocks> counters;
+  parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
+    EyeScratch scratch;
+    RaysOfBlock rays(scene.camera, block, BlockPixels::side_by_side, counters[block], scratch);
+    rays.add(0, Rng(settings.seed, rng_stream(RngUse::pilot, 1), block));
+    radiance(rays.all());
+  });
+  GatherCounters all;
+  for (const EyeCounters& each : counters) all.merge(each.gather);
+  return static_cast<double>(all.used) / kEyeBlocks;
+}
+
 }  // namespace
 
 std::string photons_that_fit(const PassCost& cost, const RenderSettings& settings, double seconds) {
@@ -94,6 +123,25 @@ std::string radius_that_fits(const Scene& scene, RenderSettings settings, double
       return fmt::format("{}.radius = {:.2g}", media ? "volume" : "surface", radius);
   }
   return "";
+}
+
+std::string wide_gather_text(const Scene& scene, const RenderSettings& settings) {
+  if (settings.integrator == Integrator::path) return "";
+  const RenderSettings few = few_photons(settings);
+  const RaysOfPass pass = rays_of_pass(scene, few, 0);
+  const RenderStatistics& s = pass.statistics;
+  double times = static_cast<double>(settings.photons_emitted) / static_cast<double>(few.photons_emitted);
+  if (settings.integrator == Integrator::photon) {
+    const auto emitted = static_cast<double>(std::max<uint64_t>(1, s.ledger.emitted_count));
+    times = photons_of_pass(settings, static_cast<double>(std::max(s.volume_photons, s.surface_photons)) / emitted) /
+            emitted;
+  }
+  const double photons = times * gathered_by_a_ray(scene, few, pass.radiance);
+  if (photons <= kMostGathered) return "";
+  return fmt::format(
+      "a ray from the eye gathers about {:.2g} photons of a pass: smaller radii, or fewer photons and "
+      "more passes, would be quicker",
+      photons);
 }
 
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory) {

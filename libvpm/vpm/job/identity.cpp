@@ -59,7 +59,7 @@ Identity identity_of(const RenderJob& job) {
   }
   identity.emplace_back("render.seed", std::to_string(job.settings.seed));
   for (const Field& field : estimate_fields(job.settings)) identity.emplace_back(field.key, value_of(field));
-  if (job.automatic.any())
+  if (!job.automatic.keys.empty())
     identity.emplace_back("left to be chosen", fmt::format("{}", fmt::join(job.automatic.keys, ",")));
   std::vector<std::string> keys;
   for (const Choice& choice : job.choices) keys.push_back(choice.key);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
@@ -16,8 +17,7 @@ namespace vpm {
 namespace {
 
 constexpr uint64_t kFlights = 20'000;      // photons that compare strategies
-constexpr uint64_t kPhotons = 100'000;     // that tell of densities
-constexpr uint64_t kStored = 1'000'000;    // of these, at the most
+constexpr uint64_t kStored = 1'000'000;    // of a pilot's photons, at the most
 constexpr size_t kEyePaths = 4096;         // that find where the eye gathers
 constexpr size_t kProbes = 512;            // places, of these
 constexpr size_t kFlightsAround = 32'000;  // that tell how near to these flights pass, at the most
@@ -29,8 +29,9 @@ constexpr double kCellCost = 0.85, kLookupCost = 1.0, kBrickCost = 0.5;
 
 /// A place at which the eye gathers.
 struct Probe {
-  Vec3 place{0.0f};    // m
-  float pixel = 0.0f;  // m, the edge of a pixel there
+  Vec3 place{0.0f};           // m
+  float pixel = 0.0f;         // m, the edge of a pixel there
+  MediumId medium = kVacuum;  // that scatters there
 };
 /// Probes of the maps.
 struct Probes {
@@ -53,7 +54,11 @@ void find_probe(const Scene& scene, const DistanceStrategy& strategy, uint64_t s
     length += glm::distance(from.ray.origin, at.ray.origin);
     const bool collision = event.kind == EventKind::collision;
     if (!collision && !is_rough(scene.material_of(event.hit))) return true;
-    (collision ? probes.volume : probes.surface).push_back({at.ray.origin, pixel_at(scene.camera, length)});
+    const float pixel = pixel_at(scene.camera, length);
+    if (collision)
+      probes.volume.push_back({at.ray.origin, pixel, at.medium});
+    else
+      probes.surface.push_back({at.ray.origin, pixel});
     return false;
   };
   const MediumId medium = medium_of_ray(scene, scene.camera_medium, seen);
@@ -69,26 +74,56 @@ std::vector<T> thinned(const std::vector<T>& all, size_t most) {
   return some;
 }
 
-double median(std::vector<double> values) {
+/// The median of what `value_of` makes of each.
+template <class T, class ValueOf>
+double median(const std::vector<T>& all, ValueOf&& value_of) {
+  std::vector<double> values(all.size());
+  std::transform(all.begin(), all.end(), values.begin(), value_of);
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
+/// The least edge of the boxes around a medium's grid and the shapes that hold it, m; infinite where it has no end.
+double least_extent(const Scene& scene, MediumId medium) {
+  const auto least_edge = [](const Box& box) {
+    return box.empty() ? double{kInfinity} : double{std::min({box.extent().x, box.extent().y, box.extent().z})};
+  };
+  const auto& grid = scene.media[medium].grid;
+  double least = grid ? least_edge(grid->bounds()) : kInfinity;
+  for (uint32_t i = 0; i < scene.shapes.size(); ++i)
+    if (scene.shapes[i].separates_media && scene.shapes[i].media.inside == medium)
+      least = std::min(least, least_edge(scene.geometry.bounds(i)));
+  return least;
+}
+
+/// What lies around the probes of a map, whose photons or flights are at these distances of theirs.
+MapDensity density_of(const Scene& scene, const std::vector<Probe>& probes, const std::vector<double>& reaches,
+                      double emitted, int dimension) {
+  MapDensity density{median(reaches, std::identity()), kNeighbours, emitted, dimension,
+                     median(probes, [](const Probe& probe) { return probe.pixel; })};
+  if (probes.front().medium == kVacuum) return density;  // on surfaces
+  density.extent = median(probes, [&](const Probe& probe) { return least_extent(scene, probe.medium); });
+  density.free_path = median(probes, [&](const Probe& probe) {
+    const Medium& medium = scene.media[probe.medium];
+    return 1.0 / (mean_channel(medium.sigma_t) * medium.density(probe.place));
+  });
+  return density;
+}
+
 /// How far from places the photons are; nothing where either are too few.
-std::optional<MapDensity> density_around(const std::vector<Probe>& all, const std::vector<Photon>& photons,
-                                         double emitted, int dimension) {
+std::optional<MapDensity> density_around(const Scene& scene, const std::vector<Probe>& all,
+                                         const std::vector<Photon>& photons, double emitted, int dimension) {
   const std::vector<Probe> probes = thinned(all, kProbes);
   if (probes.size() < kNeighbours || photons.size() < 2 * kNeighbours) return std::nullopt;
   const NearestMap map(photons, 1.0f);
   Neighbours neighbours;
-  std::vector<double> reaches, pixels;
+  std::vector<double> reaches;
   for (const Probe& probe : probes) {
     map.find(probe.place, kNeighbours, kInfinity, neighbours, [](const auto&, const auto&) { return true; });
     reaches.push_back(std::sqrt(neighbours.limit()));
-    pixels.push_back(probe.pixel);
   }
-  return MapDensity{median(reaches), kNeighbours, emitted, dimension, median(pixels)};
+  return density_of(scene, probes, reaches, emitted, dimension);
 }
 
 float distance2_from(const PhotonBeam& flight, const Vec3& place) {  // m^2
@@ -113,24 +148,36 @@ double reach_among(const std::vector<PhotonBeam>& flights, const Vec3& place) {
 
 /// How near to places flights pass; nothing where either are too few. As many pass within a radius as go through a disc
 /// of it: where flights are much shorter than the radius there are more, by the ends that lie within it.
-std::optional<MapDensity> density_of_flights(const std::vector<Probe>& all, const std::vector<PhotonBeam>& flights,
-                                             double emitted) {
+std::optional<MapDensity> density_of_flights(const Scene& scene, const std::vector<Probe>& all,
+                                             const std::vector<PhotonBeam>& flights, double emitted) {
   const std::vector<Probe> probes = thinned(all, kProbes);
   const std::vector<PhotonBeam> some = thinned(flights, kFlightsAround);
   if (probes.size() < kNeighbours || some.size() < 2 * kNeighbours) return std::nullopt;
-  std::vector<double> reaches(probes.size()), pixels;
+  std::vector<double> reaches(probes.size());
   parallel_for_chunks(probes.size(), 1,
                       [&](size_t i, size_t, size_t) { reaches[i] = reach_among(some, probes[i].place); });
-  for (const Probe& probe : probes) pixels.push_back(probe.pixel);
   const double share = static_cast<double>(some.size()) / static_cast<double>(flights.size());
-  return MapDensity{median(reaches), kNeighbours, share * emitted, 2, median(pixels), "flights"};
+  MapDensity density = density_of(scene, probes, reaches, share * emitted, 2);
+  density.records = "flights";
+  return density;
 }
 
-/// Places on caustics: where the photons are, seen straight.
-std::vector<Probe> places_of(const Camera& camera, const std::vector<Photon>& photons) {
+/// Where photons of a map are, seen straight: for caustics, and for what hardly a path from the eye comes to.
+std::vector<Probe> places_of(const Camera& camera, const std::vector<Photon>& photons, MediumId medium = kVacuum) {
   std::vector<Probe> places;
   for (const Photon& photon : thinned(photons, kProbes))
-    places.push_back({photon.position, pixel_at(camera, glm::distance(camera.position, photon.position))});
+    places.push_back({photon.position, pixel_at(camera, glm::distance(camera.position, photon.position)), medium});
+  return places;
+}
+
+/// The probes of a map, or, where they are too few, places of its photons.
+std::vector<Probe> probes_or_places(const Camera& camera, const std::vector<Probe>& probes, const MapInfo& map) {
+  if (probes.size() >= kNeighbours) return probes;
+  if (map.surfaces) return places_of(camera, *map.surfaces);
+  std::vector<Probe> places;
+  for (size_t medium = 0; medium < map.media->size(); ++medium)
+    for (const Probe& place : places_of(camera, (*map.media)[medium], static_cast<MediumId>(medium)))
+      places.push_back(place);
   return places;
 }
 
@@ -221,8 +268,8 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
   return costs;
 }
 
-MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
-  RenderSettings pilot = pilot_settings(settings, in_a_hurry(kPhotons, settings));
+MapDensities map_densities(const Scene& scene, const RenderSettings& settings, uint64_t photons) {
+  RenderSettings pilot = pilot_settings(settings, photons);
   pilot.caustics_emitted = std::min(pilot.caustics_emitted, pilot.photons_emitted);
   // Collisions end the tracing where they are many; flights do not.
   if (pilot.volume.mode == GatherMode::beams_points) pilot.volume.mode = GatherMode::photon_beams;
@@ -232,19 +279,20 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings) {
   for (uint64_t i = 0; i < kEyePaths; ++i) find_probe(scene, *strategy, settings.seed, i, probes);
   MapDensities densities;
   for (const MapInfo& map : pass.estimators.maps()) {
-    const std::vector<Photon> photons = photons_of(map);
+    const std::vector<Photon> stored = photons_of(map);
     const auto emitted = static_cast<double>(map.emitted > 0 ? map.emitted : pass.ledger.emitted_count);
     if (map.section == "caustics") {
-      densities.caustics = density_around(places_of(scene.camera, photons), photons, emitted, 2);
+      densities.caustics = density_around(scene, places_of(scene.camera, stored), stored, emitted, 2);
       continue;
     }
     densities.stored_per_photon =
         std::max(densities.stored_per_photon,
-                 static_cast<double>(photons.size()) / static_cast<double>(pass.ledger.emitted_count));
-    if (map.section == "volume")
-      densities.volume = map.flights ? density_of_flights(probes.volume, of_all_media(*map.flights), emitted)
-                                     : density_around(probes.volume, photons, emitted, 3);
-    if (map.section == "surface") densities.surface = density_around(probes.surface, photons, emitted, 2);
+                 static_cast<double>(stored.size()) / static_cast<double>(pass.ledger.emitted_count));
+    const bool media = map.section == "volume";
+    const std::vector<Probe> places = probes_or_places(scene.camera, media ? probes.volume : probes.surface, map);
+    std::optional<MapDensity>& density = media ? densities.volume : densities.surface;
+    density = media && map.flights ? density_of_flights(scene, places, of_all_media(*map.flights), emitted)
+                                   : density_around(scene, places, stored, emitted, media ? 3 : 2);
   }
   return densities;
 }

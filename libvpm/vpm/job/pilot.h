@@ -26,6 +26,9 @@ struct MapDensity {
   double emitted = 0.0;    // ... of this many photons emitted
   int dimension = 3;       // of what holds them: a ball; a disc on a surface, or across flights
   double footprint = 0.0;  // m: of a pixel at a typical place
+  // m: of what is around a typical place; infinite on surfaces
+  double extent = kInfinity;     // the least of the medium that lies there
+  double free_path = kInfinity;  // the mean of it there
   const char* records = "photons";
 };
 /// Of the maps that the render uses; none where the pilot says too little of one.
@@ -33,8 +36,9 @@ struct MapDensities {
   std::optional<MapDensity> volume, surface, caustics;
   double stored_per_photon = 0.0;  // by the volume maps or the surface map, whichever holds more
 };
-/// Where the eye gathers, how near the photons are: a pure function of scene and settings.
-MapDensities map_densities(const Scene& scene, const RenderSettings& settings);
+/// Where the eye gathers, or, where it does not come there, at the photons: how near others are. A pure function of
+/// scene and settings; `photons` are emitted at the most.
+MapDensities map_densities(const Scene& scene, const RenderSettings& settings, uint64_t photons);
 
 /// The photons that a pass emits: the settings', or as many as fill the maps, of which so many are stored each.
 double photons_of_pass(const RenderSettings& settings, double stored_per_photon);

@@ -7,6 +7,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/job/automatic.h"
+#include "vpm/job/choose_records.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/validate.h"
@@ -65,6 +66,12 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
 void choose(RenderJob& job, const Clock& clock) {
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
+  if (job.automatic.keys.empty()) {
+    job.choices = choose_default_radii(job.scene, job.automatic, job.settings);
+    for (const Choice& radius : job.choices)
+      job.notes.push_back(fmt::format("{} = {} m by default: {}", radius.key, radius.value, radius.reason));
+    return;
+  }
   const double begin = clock.seconds();
   const double asked = job.settings.until.seconds, left = time_left(job, clock);
   if (asked > 0.0) job.settings.until.seconds = std::max(left, kLeastTime);
@@ -96,10 +103,13 @@ void foresee(RenderJob& job, const Clock& clock) {
   validate(job.settings, facts_of(job.scene));
   check_memory(job.scene, job.settings, PassOf::picture, physical_memory());
   const double left = time_left(job, clock), looking = std::min(kLookShare * left, 1.0);
-  if (std::isinf(left)) return;
   const auto within = [&](double seconds, const std::function<void()>& look) {
     return clock.finish_by(clock.seconds() + seconds, look);
   };
+  std::string wide;
+  within(looking, [&] { wide = wide_gather_text(job.scene, job.settings); });
+  if (!wide.empty()) job.notes.push_back(std::move(wide));
+  if (std::isinf(left)) return;
   PassCost cost;
   if (!within(2.0 * looking, [&] { cost = time_pass(job.scene, job.settings, looking); })) {
     job.notes.push_back(fmt::format("a look of {:.2g} s does not tell how long a pass takes", 2.0 * looking));

@@ -25,7 +25,7 @@ namespace vpm {
 struct RenderJob {
   Scene scene;  // finished
   RenderSettings settings;
-  AutomaticSettings automatic;           // those of the settings that choose() is to choose; they hold defaults
+  AutomaticSettings automatic;           // those of the settings that choose() is to choose
   std::vector<Choice> choices{};         // what it chose
   std::vector<std::string> light_names;  // one for each of Scene::lights; "" where it has none
   std::vector<std::string> notes;        // what a user should know of, e.g. clamped densities
@@ -47,9 +47,10 @@ struct RenderJob {
 /// The job of a scene made in code.
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings = {});
 
-/// Chooses the settings that are left to it, after a short pilot, and tells so in the job's notes. Does nothing where
-/// there are none. Where a time is asked for, the render has what is left of it on the clock, and what takes more than
-/// its part of that is given up. Throws InputError as choose_settings().
+/// Chooses the settings that are left to it, after a short pilot, and tells so in the job's notes; where nothing is
+/// "auto", the radii alone that nothing is said of. Does nothing where there are none. Where a time is asked for, the
+/// render has what is left of it on the clock, and what takes more than its part of that is given up. Throws InputError
+/// as choose_settings().
 void choose(RenderJob& job, const Clock& clock = WallClock());
 /// The same with the choices of an earlier run, in the place of a pilot. Throws InputError as set_chosen().
 void choose_again(RenderJob& job, std::vector<Choice> choices);
@@ -57,9 +58,10 @@ void choose_again(RenderJob& job, std::vector<Choice> choices);
 /// Throws InputError where writing to `path` would replace a file that the scene is read from.
 void check_not_read(const std::filesystem::path& path, const RenderJob& job);
 
-/// Looks ahead at the first pass. Notes in the job where it will not fit into what is left on the clock of the seconds
-/// of the stop rule, and what would; for that it times a few photons and rays, for a tenth of these seconds and at most
-/// a second. Throws InputError where the photons of a pass will not fit into the memory of the machine.
+/// Looks ahead at the first pass. Notes in the job where a ray gathers very many photons, and where it will not fit
+/// into what is left on the clock of the seconds of the stop rule, and what would; for that it times a few photons and
+/// rays, for a tenth of these seconds and at most a second. Throws InputError where the photons of a pass will not fit
+/// into the memory of the machine.
 void foresee(RenderJob& job, const Clock& clock = WallClock());
 /// The same of a light map's memory alone: how long its passes take is not told.
 void foresee_light_map(const RenderJob& job);

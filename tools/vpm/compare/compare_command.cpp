@@ -52,13 +52,14 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
 /// Its settings, and those that each of its runs chooses.
 std::string settings_text(const RenderJob& loaded) {
   std::string text = settings_line(loaded.settings);
-  if (loaded.automatic.any()) text += fmt::format("; chosen by each run: {}", fmt::join(loaded.automatic.keys, " "));
+  if (!loaded.automatic.keys.empty())
+    text += fmt::format("; chosen by each run: {}", fmt::join(loaded.automatic.keys, " "));
   return text;
 }
 
 /// Only time tells what a pilot costs, and it chooses for some time; references have no end that is a time.
 void check_choices(const Entrant& entrant, CostUnit unit, const std::string& who) {
-  if (entrant.loaded.automatic.any() && unit != CostUnit::seconds)
+  if (!entrant.loaded.automatic.keys.empty() && unit != CostUnit::seconds)
     throw InputError(
         fmt::format("{}: settings are chosen for a time, but budgets are in {}: name a value of {}, or write "
                     "unit = \"seconds\"",
@@ -72,6 +73,8 @@ std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::str
     auto entrant = std::make_unique<Entrant>(Entrant{load_scene(scene.file, joined(scene.settings, settings)), ""});
     if (entrant->loaded.scene.camera.crop)
       throw InputError("whole pictures are compared; leave out film.crop, and make the film smaller");
+    if (entrant->loaded.automatic.keys.empty())
+      choose(entrant->loaded);  // default radii: all repetitions have the same
     entrant->identity = fmt::format("vpm {}; scene {}; {}; {}", version(), entrant->loaded.hash,
                                     settings_text(entrant->loaded), purpose);
     return entrant;

@@ -50,7 +50,7 @@ MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repet
   double cpu_begin = cpu_seconds();
   Stopwatch rendering;
   MethodRun run;
-  if (job.automatic.any()) {
+  if (!job.automatic.keys.empty()) {
     settings.until = {.seconds = plan.budgets.back() / thread_count()};
     run.choices = choose_settings(job.scene, job.automatic, {WallClock(), kInfinity}, settings).choices;
   }
