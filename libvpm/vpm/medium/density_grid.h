@@ -16,7 +16,6 @@
 
 #include "vpm/base/vec.h"
 #include "vpm/medium/brick_boxes.h"
-#include "vpm/medium/density_piece.h"
 #include "vpm/medium/density_stretch.h"
 
 namespace vpm {

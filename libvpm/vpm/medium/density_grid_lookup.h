@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "vpm/medium/density_grid.h"
-#include "vpm/medium/trilinear.h"
+#include "vpm/medium/density_stretch.h"
 
 namespace vpm {
 

@@ -7,7 +7,7 @@
 #include "vpm/base/overloads.h"
 #include "vpm/light/check_light.h"
 #include "vpm/light/of_surface.h"
-#include "vpm/medium/check_medium.h"
+#include "vpm/medium/medium.h"
 #include "vpm/surface/check_material.h"
 
 namespace vpm {

@@ -1,7 +1,12 @@
-// Weights of the channels over tentative collisions.
+// Tracking through null collisions: weights of the channels over tentative collisions, and the strategies, which differ
+// in their majorants.
 #include "vpm/medium/distance/null_collisions.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "vpm/medium/distance/strategies.h"
+#include "vpm/medium/majorant_of_lookups.h"
 
 namespace vpm {
 namespace {
@@ -66,6 +71,90 @@ Flight NullCollisionFlight::result(uint32_t bricks) const {
   if (grey_) return flight;
   flight.weight *= Rgb(flight.collided ? weight_ * coefficients_ / (chance_ * sigma_t_) : weight_);
   return flight;
+}
+
+// `delta`: tracking through null collisions under one majorant, the medium's largest density [Woodcock1965].
+//
+// Known failure: a few dense voxels in a thin medium make nearly all collisions null, at a look-up each.
+Flight Delta::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power, Rng& rng) const {
+  const Interval inside = medium.clip(ray, interval);
+  const double majorant = majorant_of_lookups(medium);
+  const DensityAlong along = medium.density_along(ray);
+  NullCollisionFlight flight(medium, interval, power, rng);
+  for (double t = inside.t0; flight.advance(t, inside.t1, majorant);)
+    if (flight.meet(t, along.at(t), majorant)) break;
+  return flight.result(0);
+}
+
+// `delta-local`: tracking through null collisions under the largest density of each brick on the way
+// [SzirmayKalos2011]. Empty bricks cost nothing. Without a grid no collision is null, and none is drawn to be.
+//
+// Known failure: where densities differ much within a brick of 8^3 cells most collisions are null still.
+Flight DeltaLocal::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
+                          Rng& rng) const {
+  if (medium.homogeneous()) return Homogeneous().sample(medium, ray, interval, power, rng);
+  return track_bricks(
+      medium, ray, interval, NullCollisionFlight(medium, interval, power, rng), [](float max) { return max; },
+      [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
+        return flight.meet(t, stretch, majorant);
+      });
+}
+
+// `progressive-null`: tracking through null collisions under majorants that need not bound. What exceeds one is cut to
+// it, and majorants grow from pass to pass until nothing does [Misso2023]. A pass is biased, without large weights; the
+// mean over passes is consistent.
+//
+// Known failure: the first passes see a medium too thin, and their error leaves the mean only as one over the passes.
+ProgressiveNull::ProgressiveNull(float majorant, uint64_t pass)
+    : share_(std::min(1.0, double{majorant} * std::exp2(static_cast<double>(pass)))) {}
+
+Flight ProgressiveNull::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
+                               Rng& rng) const {
+  const double most = share_ * static_cast<double>(medium.max_density());
+  return track_bricks(
+      medium, ray, interval, NullCollisionFlight(medium, interval, power, rng),
+      [&](float max) { return std::min<double>(max, most); },
+      [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
+        return flight.meet(t, stretch, majorant);
+      });
+}
+
+// `weighted`: tracking through null collisions under majorants that need not bound. Where the density exceeds one, null
+// collisions are of negative weight [Galtier2013; Novak2018]: unbiased, for paths from the eye alone, as the powers of
+// photons must not be negative.
+//
+// Known failure: where the density x exceeds the majorant 1 every tentative collision multiplies the weight by 2 x - 1
+// in magnitude, and the variance grows exponentially with their number [Misso2023].
+Flight Weighted::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
+                        Rng& rng) const {
+  const double most = double{majorant_} * static_cast<double>(medium.max_density());
+  return track_bricks(
+      medium, ray, interval, NullCollisionFlight(medium, interval, power, rng),
+      [&](float max) { return std::min<double>(max, most); },
+      [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
+        return flight.meet_weighted(t, stretch.density(t), majorant);
+      });
+}
+
+// `decomposition`: the extinction in each brick is the sum of a control part, its least density, whose collisions need
+// no look-up, and a residual that is tracked through null collisions [Kutz2017].
+//
+// The paper draws a distance for each part and takes the nearer one. Two Poisson processes are one, whose points are of
+// either kind with the shares of their rates: here one distance is drawn at the rate of both, the brick's largest
+// density, and one number tells whether its end is a collision of the control, a real one of the residual, or null.
+//
+// Known failure: where a brick's least density is far below the others it is `delta-local`; and who needs the density
+// at the collision makes up for the look-up saved.
+Flight Decomposition::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
+                             Rng& rng) const {
+  return track_bricks(
+      medium, ray, interval, NullCollisionFlight(medium, interval, power, rng), [](float max) { return max; },
+      [&](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
+        if (!flight.is_real(stretch.min / majorant)) return flight.meet(t, stretch, majorant);
+        if (needs_density_) flight.count_lookup();
+        flight.collide(t, needs_density_ ? stretch.density(t) : stretch.min);
+        return true;
+      });
 }
 
 }  // namespace vpm

@@ -1,4 +1,4 @@
-// Distance sampling: one interface, and the list of strategies. Each strategy has a file of its own in this folder.
+// Distance sampling: one interface, and the list of strategies. Strategies of one kind share a file of this folder.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The list of transmittance estimators.
+// The list of transmittance estimators, and the exact one.
 #include "vpm/medium/transmittance/estimator.h"
 
 #include <array>
@@ -54,6 +54,13 @@ std::unique_ptr<TransmittanceEstimator> make_transmittance_estimator(const Trans
   if (settings.estimator == "ray-march") return std::make_unique<RayMarchedTransmittance>(settings.step);
   if (settings.estimator == "jackknife") return std::make_unique<JackknifeTransmittance>(settings.step);
   return nullptr;
+}
+
+// `regular`: exact transmittance, from the exact density integral of the cells along the ray [Novak2018, sec. 4.1].
+TransmittanceEstimate RegularTransmittance::estimate(const Medium& medium, const Ray& ray, const Interval& interval,
+                                                     Rng&) const {
+  const DensityIntegral crossed = density_integral(medium, ray, interval);
+  return {transmittance(medium, crossed.value), crossed.lookups};
 }
 
 }  // namespace vpm

@@ -1,4 +1,4 @@
-// Transmittance estimation: one interface, and the list of estimators. Each has a file of its own in this folder.
+// Transmittance estimation: one interface, and the list of estimators. Those of one kind share a file of this folder.
 #pragma once
 
 #include <memory>
