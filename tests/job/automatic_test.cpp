@@ -8,9 +8,9 @@
 
 #include "job/pilot_scenes.h"
 #include "support/simulated_clock.h"
-#include "vpm/base/count.h"
+#include "vpm/base/clock.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/counted_cost.h"

@@ -20,7 +20,7 @@
 #include <thread>
 #include <vector>
 
-#include "vpm/base/stopwatch.h"
+#include "vpm/base/clock.h"
 
 namespace vpm {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "tools/rendered_fog.h"
-#include "vpm/image/crop.h"
 #include "vpm/image/exr.h"
+#include "vpm/image/image.h"
 
 namespace vpm {
 namespace {

@@ -2,8 +2,8 @@
 #include <sstream>
 
 #include "tools/plume.h"
-#include "vpm/image/crop.h"
 #include "vpm/image/exr.h"
+#include "vpm/image/image.h"
 #include "vpm/image/metrics.h"
 #include "vpm/image/png.h"
 

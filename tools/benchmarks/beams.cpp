@@ -9,7 +9,7 @@
 
 #include "benchmarks/beam_peers.h"
 #include "benchmarks/bench.h"
-#include "vpm/base/stopwatch.h"
+#include "vpm/base/clock.h"
 #include "vpm/photon/ray_lanes.h"
 
 namespace vpm::bench {

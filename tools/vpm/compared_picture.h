@@ -8,7 +8,7 @@
 
 #include "json.h"
 #include "vpm/image/exr.h"
-#include "vpm/image/noisy_difference.h"
+#include "vpm/image/metrics.h"
 
 namespace vpm::tools {
 

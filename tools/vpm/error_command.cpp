@@ -11,8 +11,8 @@
 #include "compared_picture.h"
 #include "error_series.h"
 #include "vpm/base/error.h"
-#include "vpm/image/crop.h"
 #include "vpm/image/exr.h"
+#include "vpm/image/image.h"
 #include "vpm/image/metrics.h"
 
 namespace vpm::tools {

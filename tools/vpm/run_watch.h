@@ -8,7 +8,7 @@
 
 #include "commands.h"
 #include "tev_display.h"
-#include "vpm/base/stopwatch.h"
+#include "vpm/base/clock.h"
 #include "vpm/job/render.h"
 
 namespace vpm::tools {

@@ -8,9 +8,9 @@
 #include "json.h"
 #include "oracles/oracle_command.h"
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/clock.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/base/version.h"
 #include "vpm/study/validate/ladder.h"
 

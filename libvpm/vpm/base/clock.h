@@ -1,12 +1,23 @@
 // The time of a run, and work that must end by then.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 
-#include "vpm/base/stopwatch.h"
-
 namespace vpm {
+
+/// How long something takes, in wall-clock time.
+class Stopwatch {
+ public:
+  /// Since it was made.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Clock::time_point start_ = Clock::now();
+};
 
 /// Tells how long a run has taken, and gives up what takes too long. Tests put one in its place that is told what work
 /// costs.

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "vpm/base/stopwatch.h"
+#include "vpm/base/clock.h"
 
 namespace vpm {
 

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/kernel_sum.h"
 #include "vpm/estimate/region_share.h"
 

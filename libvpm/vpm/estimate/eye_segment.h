@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/eye_work.h"
 #include "vpm/scene/scene.h"
 

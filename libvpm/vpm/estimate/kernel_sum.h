@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/photon/nearest_sums.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/region_share.h"
 
 namespace vpm {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "vpm/image/crop.h"
 #include "vpm/image/image.h"
 
 namespace vpm {

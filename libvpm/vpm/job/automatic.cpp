@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/error.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/declare.h"

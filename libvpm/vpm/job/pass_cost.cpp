@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "vpm/base/count.h"
+#include "vpm/base/clock.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/job/counted_cost.h"
 #include "vpm/job/eye_blocks.h"
 #include "vpm/job/forecast.h"

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -235,5 +236,9 @@ Rgb environment_radiance(const Light& light, const Vec3& direction);
 /// Radiance that the surface of an area light, with the outward normal `normal`, emits against `travel`, the direction
 /// of the ray that sees it, W/(m^2 sr). Black from behind, and for other lights.
 Rgb surface_radiance(const Light& light, const Vec3& normal, const Vec3& travel);
+
+/// The first number of a light that is out of its range, and that range, as a clause: "its radius must be positive and
+/// finite"; "" where there is none. A light that is black is wrong. The shape of an area light is not looked at.
+std::string problem_of(const Light& light);
 
 }  // namespace vpm

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/medium/density_grid.h"
 
 namespace vpm {

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/path/stretches.h"
 
 namespace vpm {

@@ -2,7 +2,7 @@
 #include "vpm/path/walk.h"
 
 #include "vpm/base/cancel.h"
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/medium/distance/mixture.h"
 #include "vpm/path/stretches.h"
 #include "vpm/surface/shading.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/vec.h"
 #include "vpm/photon/leaf_order.h"
 #include "vpm/photon/neighbours.h"

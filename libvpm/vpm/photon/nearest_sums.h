@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/photon/neighbours.h"
 #include "vpm/photon/node_groups.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "vpm/base/cancel.h"
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/floats.h"
 #include "vpm/photon/box_tree.h"
 #include "vpm/photon/photon_beam.h"

@@ -1,7 +1,7 @@
 // Two recorders that keep all.
 #include "vpm/photon/photon_lists.h"
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 
 namespace vpm {
 

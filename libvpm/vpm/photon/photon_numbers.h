@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "vpm/base/even_points.h"
 #include "vpm/base/rng.h"
-#include "vpm/base/sobol.h"
 #include "vpm/photon/photon_sequence.h"
 
 namespace vpm {

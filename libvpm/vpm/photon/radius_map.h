@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/vec.h"
 #include "vpm/photon/cell_lists.h"
 #include "vpm/photon/photon_batch.h"

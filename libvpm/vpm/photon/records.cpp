@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 
 namespace vpm {
 namespace {

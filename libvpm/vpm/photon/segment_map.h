@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/vec.h"
 #include "vpm/photon/box_tree.h"
 #include "vpm/photon/half_spaces.h"

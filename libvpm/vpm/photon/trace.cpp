@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/path/path_weight.h"

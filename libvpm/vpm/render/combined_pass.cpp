@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/estimate/pass_map.h"
 #include "vpm/render/plan.h"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/render/view_layers.h"
 
 namespace vpm {

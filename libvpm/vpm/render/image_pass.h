@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/eye_work.h"
 #include "vpm/render/pass.h"
 #include "vpm/render/settings.h"

@@ -3,9 +3,9 @@
 
 #include <cassert>
 
+#include "vpm/base/clock.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/render/photon_pass.h"
 
 namespace vpm {

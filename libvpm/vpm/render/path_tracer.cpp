@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/path/follow.h"
 #include "vpm/path/path_weight.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "vpm/base/stopwatch.h"
+#include "vpm/base/clock.h"
 #include "vpm/photon/photon_table.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"

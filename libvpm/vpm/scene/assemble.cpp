@@ -4,9 +4,8 @@
 #include "vpm/base/overloads.h"
 #include "vpm/light/of_surface.h"
 #include "vpm/scene/build.h"
-#include "vpm/scene/check_media.h"
 #include "vpm/scene/check_parts.h"
-#include "vpm/scene/notes.h"
+#include "vpm/scene/check_scene.h"
 
 namespace vpm {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "vpm/base/vec.h"
-#include "vpm/image/crop.h"
+#include "vpm/image/image.h"
 
 namespace vpm {
 

@@ -5,10 +5,10 @@
 #include <set>
 
 #include "vpm/base/overloads.h"
-#include "vpm/light/check_light.h"
+#include "vpm/light/light.h"
 #include "vpm/light/of_surface.h"
 #include "vpm/medium/medium.h"
-#include "vpm/surface/check_material.h"
+#include "vpm/surface/material.h"
 
 namespace vpm {
 namespace {

@@ -6,10 +6,9 @@
 #include <stdexcept>
 
 #include "vpm/base/cancel.h"
-#include "vpm/surface/disc.h"
 #include "vpm/surface/distance.h"
 #include "vpm/surface/embree.h"
-#include "vpm/surface/sphere.h"
+#include "vpm/surface/locate.h"
 
 namespace vpm {
 

@@ -8,12 +8,10 @@
 #include <variant>
 
 #include "vpm/surface/check_shapes.h"
-#include "vpm/surface/disc.h"
 #include "vpm/surface/embree_tree.h"
 #include "vpm/surface/few_triangles.h"
 #include "vpm/surface/locate.h"
 #include "vpm/surface/mesh.h"
-#include "vpm/surface/sphere.h"
 
 namespace vpm {
 

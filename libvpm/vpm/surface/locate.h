@@ -54,4 +54,25 @@ void locate(const DiscShape& disc, const Ray& ray, const Crossing& met, Hit& hit
 /// The same of a given point of a triangle: it lies in the plane.
 void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit);
 
+/// The smallest root t >= t_min > 0 of |origin + t direction - centre| = radius, in m; infinity where there is none.
+double intersect_sphere(const SphereShape& sphere, const Ray& ray, float t_min);
+/// The outward unit normal at the point of the sphere next to origin + t direction.
+Vec3d sphere_normal(const SphereShape& sphere, const Ray& ray, double t);
+/// The box around a sphere.
+inline Box bounds_of(const SphereShape& sphere) {
+  return {sphere.centre - sphere.radius, sphere.centre + sphere.radius};
+}
+
+/// The coordinates in a texture of the point of a sphere with that unit outward normal: u the angle about the y axis
+/// over 2 pi, from +z (0) over +x (1/4); v the height in angle over pi, from -y (0) to +y (1). As of a globe whose
+/// north is up and that is seen from outside, the map is not mirrored.
+Vec2 sphere_uv(const Vec3& normal);
+
+/// The t >= t_min > 0 at which the ray meets the disc, in m; infinity where it does not.
+double intersect_disc(const DiscShape& disc, const Ray& ray, float t_min);
+/// The point of the disc's plane next to origin + t direction.
+Vec3d disc_point(const DiscShape& disc, const Ray& ray, double t);
+/// The box around a disc.
+Box bounds_of(const DiscShape& disc);
+
 }  // namespace vpm

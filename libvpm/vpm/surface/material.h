@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "vpm/base/vec.h"
@@ -123,5 +124,9 @@ struct ScatterValue {
   float radiance_scale = 1.0f;
 };
 ScatterValue scatter_value(const Material& material, const Vec3& normal, const Vec3& travel, const Vec3& direction);
+
+/// The first number of a material that is out of its range, and that range, as a clause: "its reflectance must lie in
+/// [0, 1]"; "" where there is none.
+std::string problem_of(const Material& material);
 
 }  // namespace vpm

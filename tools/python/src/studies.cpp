@@ -10,7 +10,6 @@
 #include "exact_problems.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
-#include "vpm/image/noisy_difference.h"
 
 namespace vpm::python {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "vpm/base/cancel.h"
+#include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/base/vec.h"
 #include "vpm/job/automatic.h"
 #include "vpm/job/render.h"

@@ -10,8 +10,8 @@
 #include "oracles/read_folder.h"
 #include "oracles/tables.h"
 #include "vpm/base/atomic_file.h"
+#include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/stopwatch.h"
 #include "vpm/base/tails.h"
 #include "vpm/base/version.h"
 

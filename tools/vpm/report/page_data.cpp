@@ -10,7 +10,7 @@
 #include "report/shown_settings.h"
 #include "vpm/base/error.h"
 #include "vpm/estimate/combined/technique.h"
-#include "vpm/image/crop.h"
+#include "vpm/image/image.h"
 
 namespace vpm::tools {
 namespace {

@@ -1,6 +1,6 @@
 // Flights of photons that cross whole rays from the camera: short beams, as far as their photons come, and long ones,
 // as far as they could have come.
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/combined/crossing_light.h"
 
 namespace vpm {

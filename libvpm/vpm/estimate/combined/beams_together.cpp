@@ -1,6 +1,6 @@
 // The same flights and many rays that lie side by side: one search for all of them, and each beam taken to kBlock of
 // them at once.
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/combined/crossing_light.h"
 
 namespace vpm {

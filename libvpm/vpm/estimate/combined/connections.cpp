@@ -1,5 +1,5 @@
 // Eye sub-paths run into lights, sample them, and are connected to vertices of light sub-paths.
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/combined/eye_sub_path.h"
 
 namespace vpm {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <tuple>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/combined/ray_merges.h"
 #include "vpm/surface/shading.h"
 

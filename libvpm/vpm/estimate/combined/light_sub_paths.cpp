@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/path/stretches.h"
 #include "vpm/photon/recorder.h"

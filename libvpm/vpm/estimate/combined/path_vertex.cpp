@@ -1,7 +1,7 @@
 // Scattering at vertices.
 #include "vpm/estimate/combined/path_vertex.h"
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {

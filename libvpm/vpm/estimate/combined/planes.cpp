@@ -1,6 +1,6 @@
 // Photon planes that cross whole rays from the camera, see photon_plane.h. The crossing tells where the photon has
 // collided for the last but one time, so that neither this place nor the next one is drawn, and there is no kernel.
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/combined/eye_sub_path.h"
 #include "vpm/medium/distance/mixture.h"
 

@@ -1,5 +1,5 @@
 // Photons in media around whole rays from the camera: leaf by leaf around one ray, or photon by photon around many.
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/combined/photon_light.h"
 
 namespace vpm {

@@ -1,5 +1,5 @@
 // Photons in media around where an eye sub-path collides.
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/combined/eye_sub_path.h"
 #include "vpm/photon/stored_power.h"
 

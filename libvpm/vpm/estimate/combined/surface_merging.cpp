@@ -1,7 +1,7 @@
 // Photons on surfaces around where an eye sub-path meets these.
 #include <cmath>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/combined/around_place.h"
 #include "vpm/estimate/combined/eye_sub_path.h"
 #include "vpm/estimate/combined/merging_rays.h"

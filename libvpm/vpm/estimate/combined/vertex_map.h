@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vpm/base/below.h"
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/photon/box_tree.h"
 #include "vpm/photon/leaf_order.h"
 #include "vpm/photon/ray_bundle.h"

@@ -1,8 +1,8 @@
 // Maps, and rays that gather.
 #include "vpm/estimate/surface/final_gather.h"
 
-#include "vpm/base/count.h"
-#include "vpm/base/stopwatch.h"
+#include "vpm/base/clock.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/eye_segment.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/photon/caustics.h"

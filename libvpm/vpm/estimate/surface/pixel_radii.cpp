@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/estimate/surface_estimate.h"
 
 namespace vpm {

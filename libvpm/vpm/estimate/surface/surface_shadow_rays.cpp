@@ -1,7 +1,7 @@
 // Every light, on the side that is seen, and from behind where the material scatters through.
 #include "vpm/estimate/surface/surface_shadow_rays.h"
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/even_points.h"
 #include "vpm/light/emission_density.h"
 #include "vpm/surface/shading.h"

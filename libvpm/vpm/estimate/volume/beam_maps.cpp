@@ -1,7 +1,7 @@
 // What photons have left of their powers along their flights.
 #include "vpm/estimate/volume/beam_maps.h"
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/medium/distance/mixture.h"
 
 namespace vpm {

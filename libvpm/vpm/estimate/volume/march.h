@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "vpm/base/cancel.h"
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/rng.h"
 #include "vpm/medium/density_integrals_along.h"
 #include "vpm/photon/kernel_pair.h"

@@ -1,7 +1,7 @@
 // Flights by one draw from an exponential law: exact where the density is constant, weighed elsewhere.
 #include <cassert>
 
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/medium/distance/mixture.h"
 #include "vpm/medium/distance/strategies.h"
 

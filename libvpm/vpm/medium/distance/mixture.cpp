@@ -1,6 +1,6 @@
 // Weights of flights under the channel mixture.
 #include "vpm/medium/distance/mixture.h"
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 
 namespace vpm {
 namespace {

@@ -15,7 +15,7 @@
 #include <cmath>
 
 #include "vpm/base/cancel.h"
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/medium/distance/mixture.h"
 
 namespace vpm {

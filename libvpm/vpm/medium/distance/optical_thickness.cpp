@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "vpm/base/cancel.h"
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/medium/distance/mixture.h"
 #include "vpm/medium/distance/strategies.h"
 

@@ -1,7 +1,7 @@
 // Ratio tracking: look-ups in the points of a Poisson process along the ray, each of which leaves its share of the
 // light.
 #include "vpm/base/cancel.h"
-#include "vpm/base/count.h"
+#include "vpm/base/counters.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/majorant_of_lookups.h"

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "vpm/image/crop.h"
 #include "vpm/image/image.h"
 
 namespace vpm {

@@ -1,5 +1,5 @@
 // Rows of a rectangle.
-#include "vpm/image/crop.h"
+#include "vpm/image/image.h"
 
 #include <algorithm>
 

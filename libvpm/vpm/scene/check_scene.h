@@ -1,7 +1,10 @@
-// Do shapes agree with each other: the media on their two sides, and which of them light meets?
+// What is asked of a scene once it is put together: do its shapes agree with each other? And what a user should know of
+// it: possible, but more than single precision resolves.
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "vpm/scene/scene.h"
 
@@ -31,5 +34,9 @@ struct CommonFace {
 /// that does not name its media. A common face of a tenth of a box's surface is overlooked with a probability of about
 /// 1e-6.
 std::optional<CommonFace> find_common_face(const Scene& scene);
+
+/// Sentences about a finished scene: that it stands so far from the origin that the spacing of floats there shows in
+/// its shapes, and which media have free paths shorter than floats resolve positions.
+std::vector<std::string> notes_of(const Scene& scene);
 
 }  // namespace vpm

@@ -1,6 +1,4 @@
-// Memory of several processes.
-#include "vpm/base/shared_memory.h"
-
+// Memory on huge pages, tables in one piece of memory, and memory of several processes.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,14 +7,98 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
+
+#include "support/aligned_bytes.h"
+#include "vpm/base/huge_pages.h"
+#include "vpm/base/packed_tables.h"
+#include "vpm/base/shared_memory.h"
 
 namespace vpm {
 namespace {
+
+constexpr size_t kMega = size_t{1} << 20;
+
+/// The system's flags of the mapping that holds an address: its line "VmFlags:" in /proc/self/smaps.
+std::string flags_of(const void* address) {
+  const auto wanted = reinterpret_cast<uintptr_t>(address);
+  std::ifstream maps("/proc/self/smaps");
+  bool inside = false;
+  for (std::string line; std::getline(maps, line);) {
+    std::istringstream words(line);
+    uintptr_t from = 0, to = 0;
+    char dash = 0;
+    if (words >> std::hex >> from >> dash >> to && dash == '-') inside = from <= wanted && wanted < to;
+    if (inside && line.rfind("VmFlags:", 0) == 0) return line + " ";
+  }
+  return {};
+}
+
+TEST(HugePages, AreAskedForByLargeTablesAlone) {
+  std::ifstream known("/sys/kernel/mm/transparent_hugepage/enabled");
+  if (!known) GTEST_SKIP() << "this system has none";
+  const LargeTable<float> large(kMega), small(kMega - 1);  // 4 MiB, and less
+  EXPECT_EQ(reinterpret_cast<uintptr_t>(large.data()) % (2 * kMega), 0u);
+  EXPECT_NE(flags_of(large.data()).find(" hg "), std::string::npos);
+  EXPECT_NE(flags_of(large.data() + large.size() - 1).find(" hg "), std::string::npos);
+  EXPECT_EQ(flags_of(small.data()).find(" hg "), std::string::npos);
+}
+
+TEST(HugePages, TablesGrowAcrossTheLimit) {
+  LargeTable<uint32_t> table;
+  for (uint32_t i = 0; i < 3 * kMega; ++i) table.push_back(i);
+  const LargeTable<uint32_t> copy = table;
+  table.shrink_to_fit();
+  ASSERT_EQ(table.size(), 3 * kMega);
+  for (uint32_t i = 0; i < table.size(); ++i) ASSERT_EQ(table[i], i);
+  EXPECT_EQ(copy, table);
+}
+
+struct alignas(64) Wide {
+  uint8_t bytes[64] = {};
+};
+
+void pack(TablePacker& packer) {
+  const std::vector<float> floats{1.0f, 2.5f, -3.0f};
+  const std::vector<Wide> wide(2, Wide{{7}});
+  packer.add(std::span(floats));
+  packer.add_one(true);
+  packer.add(std::span<const double>());
+  packer.add(std::span(wide));
+  packer.add_one(-9);
+}
+
+TEST(PackedTables, AreReadWhereTheyLie) {
+  TablePacker counter(nullptr);
+  pack(counter);
+  AlignedBytes memory(counter.bytes());
+  ASSERT_EQ(memory.bytes().size(), counter.bytes());
+  TablePacker packer(memory.data());
+  pack(packer);
+  EXPECT_EQ(packer.bytes(), counter.bytes());
+
+  TableUnpacker packed(memory.bytes());
+  const std::span<const float> floats = packed.take<float>();
+  ASSERT_EQ(floats.size(), 3u);
+  EXPECT_EQ(floats[1], 2.5f);
+  EXPECT_EQ(floats[2], -3.0f);
+  EXPECT_GT(std::as_bytes(floats).data(), memory.data());
+  EXPECT_LT(std::as_bytes(floats).data(), memory.data() + counter.bytes());
+  EXPECT_TRUE(packed.take_one<bool>());
+  EXPECT_TRUE(packed.take<double>().empty());
+  const std::span<const Wide> wide = packed.take<Wide>();
+  ASSERT_EQ(wide.size(), 2u);
+  EXPECT_EQ(reinterpret_cast<uintptr_t>(wide.data()) % alignof(Wide), 0u);
+  EXPECT_EQ(wide[1].bytes[0], 7);
+  EXPECT_EQ(packed.take_one<int>(), -9);
+}
 
 TEST(SharedMemory, IsFoundByItsAddress) {
   SharedMemory own(10'000);

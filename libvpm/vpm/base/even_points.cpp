@@ -1,5 +1,5 @@
 // Direction numbers, and their scrambling.
-#include "vpm/base/sobol.h"
+#include "vpm/base/even_points.h"
 
 #include <bit>
 
