@@ -6,7 +6,7 @@
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/tails.h"
-#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/render/photon_pass.h"
 

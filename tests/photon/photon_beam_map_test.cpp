@@ -10,7 +10,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/photon/thinning.h"
+#include "vpm/photon/photon_beam.h"
 
 namespace vpm {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "support/scenes.h"
 #include "vpm/base/warp.h"
-#include "vpm/photon/photon_plane_list.h"
+#include "vpm/photon/photon_plane.h"
 
 namespace vpm {
 namespace {

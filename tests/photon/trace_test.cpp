@@ -1,5 +1,5 @@
 // Photon tracing: what is stored and told, by whom, and reproducibility.
-#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "benchmarks/bench.h"
 #include "benchmarks/room.h"
 #include "vpm/estimate/surface_estimate.h"
-#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 
 namespace vpm::bench {
 namespace {

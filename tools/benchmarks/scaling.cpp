@@ -6,8 +6,8 @@
 #include "benchmarks/photons.h"
 #include "vpm/base/parallel.h"
 #include "vpm/photon/nearest_map.h"
-#include "vpm/photon/photon_lists.h"
 #include "vpm/photon/radius_map.h"
+#include "vpm/photon/records.h"
 
 namespace vpm::bench {
 namespace {

@@ -1,7 +1,7 @@
 // How much of a kernel lies outside a region, along a line from the kernel's centre.
 #pragma once
 
-#include "vpm/photon/kernel_pair.h"
+#include "vpm/photon/kernel.h"
 
 namespace vpm {
 

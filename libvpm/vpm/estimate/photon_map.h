@@ -5,7 +5,6 @@
 
 #include "vpm/estimate/gather.h"
 #include "vpm/photon/nearest_map.h"
-#include "vpm/photon/neighbours.h"
 #include "vpm/photon/radius_map.h"
 
 namespace vpm {

@@ -9,7 +9,7 @@
 
 #include "vpm/estimate/eye_segment.h"
 #include "vpm/estimate/gather.h"
-#include "vpm/photon/kernel_pair.h"
+#include "vpm/photon/kernel.h"
 #include "vpm/photon/segment_map.h"
 
 namespace vpm {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "vpm/base/counters.h"
-#include "vpm/photon/neighbours.h"
+#include "vpm/photon/nearest_map.h"
 #include "vpm/photon/node_groups.h"
 
 namespace vpm {

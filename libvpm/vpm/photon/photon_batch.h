@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "vpm/base/below.h"
-#include "vpm/photon/kernel_pair.h"
+#include "vpm/photon/kernel.h"
 #include "vpm/photon/photon_table.h"
 
 namespace vpm {

@@ -7,7 +7,7 @@
 
 #include "vpm/base/even_points.h"
 #include "vpm/base/rng.h"
-#include "vpm/photon/photon_sequence.h"
+#include "vpm/photon/photon_settings.h"
 
 namespace vpm {
 

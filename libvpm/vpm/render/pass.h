@@ -7,7 +7,7 @@
 #include "vpm/base/progress.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/image/image.h"
-#include "vpm/photon/kernel_pair.h"
+#include "vpm/photon/kernel.h"
 
 namespace vpm {
 

@@ -9,8 +9,7 @@
 #include "vpm/estimate/gather.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
-#include "vpm/photon/guide_settings.h"
-#include "vpm/photon/photon_sequence.h"
+#include "vpm/photon/photon_settings.h"
 #include "vpm/render/view_layer.h"
 
 namespace vpm {

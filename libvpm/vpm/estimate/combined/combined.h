@@ -9,7 +9,7 @@
 #include "vpm/estimate/combined/light_sub_paths.h"
 #include "vpm/estimate/eye_work.h"
 #include "vpm/photon/photon_beam_map.h"
-#include "vpm/photon/photon_plane_list.h"
+#include "vpm/photon/photon_plane.h"
 
 namespace vpm {
 

@@ -6,8 +6,8 @@
 
 #include "vpm/estimate/beam_estimate.h"
 #include "vpm/estimate/volume/volume_maps.h"
+#include "vpm/photon/photon_beam.h"
 #include "vpm/photon/photon_beam_map.h"
-#include "vpm/photon/thinning.h"
 
 namespace vpm {
 

@@ -16,7 +16,7 @@
 #include "vpm/base/counters.h"
 #include "vpm/base/rng.h"
 #include "vpm/medium/density_integrals_along.h"
-#include "vpm/photon/kernel_pair.h"
+#include "vpm/photon/kernel.h"
 
 namespace vpm {
 

@@ -6,7 +6,7 @@
 
 #include "vpm/estimate/volume/pass_to_eye.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/photon/thinning.h"
+#include "vpm/photon/photon_beam.h"
 
 namespace vpm {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "vpm/estimate/volume/photon_beams.h"
 #include "vpm/medium/transmittance/estimator.h"
-#include "vpm/photon/photon_plane_list.h"
+#include "vpm/photon/photon_plane.h"
 
 namespace vpm {
 

@@ -3,7 +3,7 @@
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/path/follow.h"
-#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/estimates/irradiance.h"

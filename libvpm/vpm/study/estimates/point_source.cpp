@@ -8,7 +8,7 @@
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/path/follow.h"
-#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 

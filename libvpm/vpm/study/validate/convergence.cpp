@@ -12,7 +12,7 @@
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/medium/make_grid.h"
-#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 #include "vpm/render/film.h"
 #include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"

@@ -2,7 +2,7 @@
 // are those of independent samples.
 #pragma once
 
-#include "vpm/photon/photon_lists.h"
+#include "vpm/photon/records.h"
 
 namespace vpm {
 

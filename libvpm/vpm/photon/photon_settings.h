@@ -1,9 +1,13 @@
-// What is asked of the guiding of photons by importance.
+// What is asked of photons: where their first random numbers come from, and how they are guided by importance.
 #pragma once
 
 #include <cstdint>
 
 namespace vpm {
+
+/// The first random numbers of photon paths are points of Sobol's sequence, which lie more evenly, so that sums over
+/// many photons have less noise; or come from the generator, as all others.
+enum class PhotonSequence { sobol, random };
 
 /// How photons are guided. Whatever is chosen, results stay unbiased: importance decides how many photons go somewhere,
 /// and their powers make up for it.
