@@ -1,7 +1,7 @@
 // The combined estimator: its maps, and that its pictures depend on no threads.
 #include "vpm/estimate/combined/combined.h"
+#include "vpm/estimate/combined/merge_shares.h"
 #include "vpm/estimate/combined/merging_rays.h"
-#include "vpm/estimate/combined/shares_of_points.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What rank 0 tells: the render, and what came of it.
-#include "vpm/ranks/same_render.h"
+#include "vpm/ranks/messages.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include "vpm/job/named_fields.h"
 #include "vpm/job/pieces.h"
 #include "vpm/job/validate.h"
-#include "vpm/ranks/pass_bytes.h"
+#include "vpm/ranks/messages.h"
 
 namespace vpm {
 namespace {

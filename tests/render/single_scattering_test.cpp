@@ -1,6 +1,6 @@
 // Single scattering at drawn distances: densities that are what they are said to be, exact radiance, and the march's
 // answer for every light, in fog and in grids.
-#include "vpm/estimate/volume/distances.h"
+#include "vpm/estimate/volume/single_scattering.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,6 @@
 #include "light/lights.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/estimate/volume/single_equiangular.h"
-#include "vpm/estimate/volume/single_marched.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/study/exact/airlight.h"
 #include "vpm/study/sample_moments.h"

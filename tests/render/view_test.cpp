@@ -1,5 +1,5 @@
 // What rays from the camera see, against closed forms.
-#include "vpm/render/view.h"
+#include "vpm/render/view_layers.h"
 
 #include <gtest/gtest.h>
 

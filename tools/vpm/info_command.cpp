@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "vpm/base/error.h"
-#include "vpm/estimate/pass_map.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/input/grid_file.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/job/lost_light.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "vpm/render/pass_set.h"
+#include "vpm/render/pass.h"
 
 namespace vpm::tools {
 

@@ -21,7 +21,7 @@
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/report.h"
-#include "vpm/ranks/same_render.h"
+#include "vpm/ranks/messages.h"
 #include "vpm/ranks/together.h"
 
 namespace vpm::tools {

@@ -16,7 +16,7 @@
 #include "vpm/base/error.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/ranks/machine_grids.h"
-#include "vpm/ranks/same_render.h"
+#include "vpm/ranks/messages.h"
 #include "vpm/ranks/together.h"
 
 namespace vpm::tools {

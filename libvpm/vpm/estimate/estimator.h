@@ -1,13 +1,18 @@
-// What estimators of volumes and of surfaces have in common: they are made for one pass, say which photons they want,
-// sort them, and then answer rays without changing any more.
+// The open sets of estimators of the light that media and non-specular surfaces send towards the eye, by one virtual
+// call for each segment of an eye ray, or for each surface that one ends on. What both have in common: they are made
+// for one pass, say which photons they want, sort them, and then answer rays without changing any more.
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "vpm/estimate/eye_segment.h"
+#include "vpm/estimate/eye_work.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/photon/photon.h"
 #include "vpm/photon/trace.h"
+#include "vpm/scene/scene.h"
 
 namespace vpm {
 
@@ -43,6 +48,53 @@ class Estimator {
   virtual void trace_more(const TracedPass&, RenderStatistics&) {}
   /// Sorts what was deposited, of so many emitted photons, and counts that; once.
   virtual void build(uint64_t /*emitted*/, RenderStatistics&) {}
+};
+
+/// A non-specular surface as met by a path that travels along `travel` in `medium`.
+struct SurfaceView {
+  const Hit& hit;
+  const Material& material;
+  Vec3 travel{0.0f};  // unit
+  MediumId medium = kVacuum;
+};
+
+class SurfaceEstimator : public Estimator {
+ public:
+  /// Estimates the radiance that leaves the surface in the direction -`travel`, W/(m^2 sr), without its own emission.
+  virtual KernelEstimate sent(const SurfaceView& view, EyeWork& work) const = 0;
+  /// The number of photons found in the disc of each pixel, over its samples; empty where pixels have no discs of their
+  /// own.
+  virtual std::vector<uint64_t> take_found() { return {}; }
+};
+
+/// A part of the light that media scatter.
+struct ScatteredLight {
+  bool once = false;  // light that comes straight from a light source
+  bool more = false;  // all other light
+
+  bool overlaps(const ScatteredLight& other) const { return (once && other.once) || (more && other.more); }
+};
+
+/// A segment of one of several rays that lie side by side, and what is found along it.
+struct BundledSegment {
+  const EyeSegment* segment;
+  EyeWork* work;
+  KernelEstimate light{};  // W/(m^2 sr)
+};
+using SegmentBundle = std::span<BundledSegment>;
+
+class VolumeEstimator : public Estimator {
+ public:
+  /// The light that it estimates; all other it leaves to others.
+  virtual ScatteredLight finds() const = 0;
+  /// Estimates that light, scattered into the segment, as it is seen at the segment's start and times its throughput,
+  /// W/(m^2 sr).
+  virtual KernelEstimate along(const EyeSegment& segment, EyeWork& work) const = 0;
+  /// Adds the same to the light of up to kEyeRays segments, in one homogeneous medium, of rays that come straight from
+  /// `apex`. They may be gathered together: the result is that of along() up to rounding.
+  virtual void along_bundle([[maybe_unused]] const Vec3& apex, SegmentBundle bundle) const {
+    for (BundledSegment& of : bundle) of.light += along(*of.segment, *of.work);
+  }
 };
 
 }  // namespace vpm

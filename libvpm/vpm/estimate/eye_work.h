@@ -4,15 +4,28 @@
 #include <vector>
 
 #include "vpm/base/rng.h"
-#include "vpm/estimate/combined/ray_segment.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/estimate/volume/march.h"
 #include "vpm/medium/density_integrals_along.h"
 #include "vpm/path/walk.h"
 #include "vpm/photon/photon_beam_map.h"
+#include "vpm/scene/scene.h"
 
 namespace vpm {
+
+/// A part of a ray in a medium that scatters, along which light sub-paths are merged. The ray comes straight from the
+/// camera, or over mirrors and glass alone.
+struct RaySegment {
+  Ray ray;
+  Interval interval;  // the part, m from the ray's origin
+  MediumId medium = kVacuum;
+  Rgb passed{1.0f};       // the transmittance from the last vertex to the ray's origin
+  float before = 0.0f;    // from that vertex to there, m
+  double adjacent = 0.0;  // Departure::adjacent over Departure::forward of the vertex
+  Rgb throughput{1.0f};   // of what is found
+  size_t number = 0;      // of the ray among those that are followed together
+};
 
 class EyeSegment;
 

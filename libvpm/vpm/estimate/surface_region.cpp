@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "vpm/estimate/lost_along.h"
+#include "vpm/estimate/region_share.h"
 
 namespace vpm {
 namespace {

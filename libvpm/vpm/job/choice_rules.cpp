@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "vpm/estimate/pass_map.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/render.h"
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "vpm/estimate/pass_map.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/render/plan.h"
 

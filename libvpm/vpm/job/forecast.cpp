@@ -10,7 +10,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/estimate/pass_map.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/eye_blocks.h"
 #include "vpm/job/pilot.h"

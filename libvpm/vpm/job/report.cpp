@@ -8,7 +8,7 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
-#include "vpm/estimate/pass_map.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/job/found_by_techniques.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/setting.h"

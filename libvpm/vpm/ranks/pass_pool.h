@@ -7,7 +7,6 @@
 #include <mutex>
 
 #include "vpm/render/pass.h"
-#include "vpm/render/pass_set.h"
 
 namespace vpm {
 

@@ -10,7 +10,7 @@
 
 #include "vpm/base/cancel.h"
 #include "vpm/job/validate.h"
-#include "vpm/ranks/pass_bytes.h"
+#include "vpm/ranks/messages.h"
 #include "vpm/ranks/pass_pool.h"
 
 namespace vpm {

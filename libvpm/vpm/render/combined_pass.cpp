@@ -6,7 +6,7 @@
 
 #include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
-#include "vpm/estimate/pass_map.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {

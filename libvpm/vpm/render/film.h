@@ -7,7 +7,7 @@
 
 #include "vpm/base/exact_sums.h"
 #include "vpm/image/image.h"
-#include "vpm/render/pass_set.h"
+#include "vpm/render/pass.h"
 
 namespace vpm {
 

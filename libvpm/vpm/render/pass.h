@@ -1,7 +1,10 @@
-// What one pass over the pixels gives, and where it tells how far it is.
+// Passes over the pixels: what one gives, where it tells how far it is, and which there are, by number.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "vpm/base/progress.h"
@@ -30,6 +33,67 @@ struct Pass {
 struct PassProgress {
   bool stages = false;        // a bar for each stage of the pass
   Progress* tiles = nullptr;  // advanced by the pass's units of work in its course
+};
+
+/// Numbers first, first + 1, ... end - 1.
+struct PassRange {
+  int first = 0, end = 0;
+
+  bool operator==(const PassRange&) const = default;
+};
+
+/// A set of pass numbers >= 0, as the ranges that they make.
+class PassSet {
+ public:
+  PassSet() = default;
+  /// Ranges in rising order that neither overlap nor touch; see is_valid().
+  explicit PassSet(std::vector<PassRange> ranges) : ranges_(std::move(ranges)) {}
+  static bool is_valid(const std::vector<PassRange>& ranges) {
+    int least = 0;
+    for (const PassRange& range : ranges) {
+      if (range.first < least || range.end <= range.first) return false;
+      least = range.end + (range.end < std::numeric_limits<int>::max());
+    }
+    return true;
+  }
+
+  const std::vector<PassRange>& ranges() const { return ranges_; }
+  int count() const { return count_of(0, 1); }
+  /// Those that leave the rest `rest` when divided by `divisor` > rest.
+  int count_of(int rest, int divisor) const {
+    const auto below = [&](int end) { return end / divisor + (end % divisor > rest); };
+    int count = 0;
+    for (const PassRange& range : ranges_) count += below(range.end) - below(range.first);
+    return count;
+  }
+  bool overlaps(const PassRange& other) const {
+    return std::any_of(ranges_.begin(), ranges_.end(),
+                       [&](const PassRange& range) { return range.first < other.end && other.first < range.end; });
+  }
+  /// The least number >= `least` that is not in the set.
+  int first_missing(int least = 0) const {
+    for (const PassRange& range : ranges_)
+      if (range.first <= least && least < range.end) return range.end;
+    return least;
+  }
+  /// Adds numbers that are not in the set.
+  void add(const PassRange& range) {
+    const auto next = std::upper_bound(ranges_.begin(), ranges_.end(), range,
+                                       [](const PassRange& a, const PassRange& b) { return a.first < b.first; });
+    auto at = ranges_.insert(next, range);
+    if (at != ranges_.begin() && (at - 1)->end == at->first) {
+      (at - 1)->end = at->end;
+      at = ranges_.erase(at) - 1;
+    }
+    if (at + 1 != ranges_.end() && at->end == (at + 1)->first) {
+      at->end = (at + 1)->end;
+      ranges_.erase(at + 1);
+    }
+  }
+  bool operator==(const PassSet&) const = default;
+
+ private:
+  std::vector<PassRange> ranges_;
 };
 
 }  // namespace vpm

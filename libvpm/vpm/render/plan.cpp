@@ -6,15 +6,12 @@
 
 #include "vpm/estimate/surface/final_gather.h"
 #include "vpm/estimate/surface/pixel_radii.h"
-#include "vpm/estimate/surface/progressive.h"
-#include "vpm/estimate/surface/visualise.h"
+#include "vpm/estimate/surface/surface_map.h"
 #include "vpm/estimate/volume/beam_radiance.h"
 #include "vpm/estimate/volume/beams_around_points.h"
 #include "vpm/estimate/volume/photon_planes.h"
-#include "vpm/estimate/volume/points_at_photon.h"
-#include "vpm/estimate/volume/points_at_query.h"
-#include "vpm/estimate/volume/single_equiangular.h"
-#include "vpm/estimate/volume/single_marched.h"
+#include "vpm/estimate/volume/points_along_ray.h"
+#include "vpm/estimate/volume/single_scattering.h"
 #include "vpm/render/combined_pass.h"
 
 namespace vpm {

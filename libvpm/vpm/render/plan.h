@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "vpm/estimate/pass_map.h"
-#include "vpm/estimate/surface/estimator.h"
-#include "vpm/estimate/volume/estimator.h"
+#include "vpm/estimate/estimator.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/render/pixel_disc.h"
 #include "vpm/render/settings.h"
 #include "vpm/scene/scene.h"

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "vpm/estimate/combined/flight_terms.h"
-#include "vpm/estimate/combined/medium_photon.h"
-#include "vpm/estimate/combined/surface_photon.h"
+#include "vpm/estimate/combined/merge_photons.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/ledger.h"

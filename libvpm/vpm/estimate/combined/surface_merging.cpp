@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "vpm/base/counters.h"
-#include "vpm/estimate/combined/around_place.h"
 #include "vpm/estimate/combined/eye_sub_path.h"
+#include "vpm/estimate/combined/merge_photons.h"
 #include "vpm/estimate/combined/merging_rays.h"
 #include "vpm/estimate/surface_estimate.h"
 

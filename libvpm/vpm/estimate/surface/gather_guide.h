@@ -14,8 +14,8 @@
 #include <array>
 
 #include "vpm/base/rng.h"
+#include "vpm/estimate/estimator.h"
 #include "vpm/estimate/photon_map.h"
-#include "vpm/estimate/surface/estimator.h"
 
 namespace vpm {
 

@@ -1,8 +1,9 @@
-// The photon map of surfaces, as estimators gather from it.
+// The photon map of surfaces, as estimators gather from it, and the two estimators that need little more.
 #pragma once
 
-#include "vpm/estimate/pass_map.h"
-#include "vpm/estimate/surface/estimator.h"
+#include "vpm/estimate/estimator.h"
+#include "vpm/estimate/photon_map.h"
+#include "vpm/estimate/surface/surface_shadow_rays.h"
 #include "vpm/photon/records.h"
 
 namespace vpm {
@@ -37,6 +38,39 @@ class SurfaceMap {
   SurfaceMapSettings settings_;
   HitRecorder hits_;
   PhotonMap map_;
+};
+
+/// All light of surfaces from their photon map, seen straight: what the map holds is what is seen.
+class Visualise final : public SurfaceEstimator {
+ public:
+  Visualise(const Scene& scene, const SurfaceMapSettings& settings) : map_(scene, settings, any_photon) {}
+
+  std::vector<MapInfo> maps() const override { return {map_.info()}; }
+  Recorders recorders() override { return {map_.recorder()}; }
+  void build(uint64_t, RenderStatistics& statistics) override { map_.build(statistics); }
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override { return map_.gather(view, work); }
+
+ private:
+  SurfaceMap map_;
+};
+
+/// Direct light of surfaces by shadow rays, all other from their photon map, whose radius shrinks from pass to pass.
+class Progressive final : public SurfaceEstimator {
+ public:
+  Progressive(const Scene& scene, const SurfaceMapSettings& settings, SurfaceShadowRays direct)
+      : map_(scene, settings, indirect_photon), direct_(std::move(direct)) {}
+
+  std::vector<MapInfo> maps() const override { return {map_.info()}; }
+  Recorders recorders() override { return {map_.recorder()}; }
+  void build(uint64_t, RenderStatistics& statistics) override { map_.build(statistics); }
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override {
+    const Rgb direct = direct_.sent(view, work);
+    return map_.gather(view, work) + direct;
+  }
+
+ private:
+  SurfaceMap map_;
+  SurfaceShadowRays direct_;
 };
 
 }  // namespace vpm

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "vpm/estimate/surface/estimator.h"
+#include "vpm/estimate/estimator.h"
 #include "vpm/path/direct_light.h"
 
 namespace vpm {

@@ -1,8 +1,8 @@
 // Photons near rays, and the transmittance from their projections onto the ray to the eye.
 #include "vpm/estimate/volume/beam_radiance.h"
 
+#include "vpm/estimate/volume/bundle_lanes.h"
 #include "vpm/estimate/volume/pass_to_eye.h"
-#include "vpm/estimate/volume/photon_beside.h"
 #include "vpm/photon/stored_power.h"
 
 namespace vpm {

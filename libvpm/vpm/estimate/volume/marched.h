@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "vpm/estimate/volume/estimator.h"
+#include "vpm/estimate/estimator.h"
 #include "vpm/estimate/volume/points_of_segment.h"
 
 namespace vpm {

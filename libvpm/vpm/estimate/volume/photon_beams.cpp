@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "vpm/estimate/volume/beam_across.h"
+#include "vpm/estimate/volume/bundle_lanes.h"
 
 namespace vpm {
 namespace {

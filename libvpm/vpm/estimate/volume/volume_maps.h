@@ -1,8 +1,8 @@
 // The photons of media that an estimator gathers, one map for each medium.
 #pragma once
 
-#include "vpm/estimate/pass_map.h"
-#include "vpm/estimate/volume/estimator.h"
+#include "vpm/estimate/estimator.h"
+#include "vpm/estimate/photon_map.h"
 #include "vpm/photon/records.h"
 
 namespace vpm {

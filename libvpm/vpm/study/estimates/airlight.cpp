@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "vpm/base/warp.h"
-#include "vpm/estimate/volume/single_equiangular.h"
-#include "vpm/estimate/volume/single_marched.h"
+#include "vpm/estimate/volume/single_scattering.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/render/eye_path.h"
 #include "vpm/scene/build.h"

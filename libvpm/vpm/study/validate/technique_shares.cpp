@@ -8,8 +8,7 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/warp.h"
-#include "vpm/estimate/combined/shares_of_beams.h"
-#include "vpm/estimate/combined/shares_of_points.h"
+#include "vpm/estimate/combined/merge_shares.h"
 #include "vpm/scene/camera.h"
 #include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/lights.h"

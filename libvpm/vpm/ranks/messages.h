@@ -1,12 +1,21 @@
-// What rank 0 tells the others before a render and after it, so that all make passes of one picture, and all may have
-// it.
+// What ranks tell each other: a pass as bytes, and what rank 0 tells the others before a render and after it, so that
+// all make passes of one picture, and all may have it.
 #pragma once
+
+#include <string>
+#include <string_view>
 
 #include "vpm/job/identity.h"
 #include "vpm/job/render.h"
 #include "vpm/ranks/ranks.h"
+#include "vpm/render/pass.h"
 
 namespace vpm {
+
+std::string bytes_of(const Pass& pass);
+
+/// Back to the last bit. Throws FieldError where the bytes are no pass.
+Pass pass_of(std::string_view bytes);
 
 /// Tells all other ranks what is to be rendered, by rank 0.
 void tell_render(Ranks& ranks, const Identity& identity);

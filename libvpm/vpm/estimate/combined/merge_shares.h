@@ -1,10 +1,12 @@
-// The shares of beams that one ray from the camera crosses, or that many do.
+// The shares of beams that one ray from the camera crosses, or that many do, and of photons that are merged around such
+// rays.
 #pragma once
 
 #include <algorithm>
 
 #include "vpm/base/floats.h"
 #include "vpm/estimate/combined/flight_terms.h"
+#include "vpm/estimate/combined/merge_photons.h"
 
 namespace vpm {
 
@@ -55,6 +57,54 @@ class SharesOfBeams {
 
   float short_, long_, planes_, points_2d_, in_balls_;
   bool is_long_;
+};
+
+/// Photons and rays, a lane for each pair. What photons have is as it would be where the density is 1.
+struct PhotonsBesideRays {
+  Floats sine;               // of the angle between the photon's flight and the ray
+  Floats determinant;        // Angles::determinant, m
+  Floats passing, sent;      // OverColliding, m
+  Floats adjacent, further;  // BehindMerge, times behind_scale()
+  Floats phase;              // of scattering towards the eye, 1/sr
+  Floats density;            // of the medium at the place on the ray, > 0
+  Floats kept;               // Junction::kept
+  Floats colliding;          // extinction times transmittance to the eye over extinction, of means over channels
+  Floats splats;             // RaySegment::adjacent times the squared distance, over TechniqueCounts::points_2d
+};
+
+/// The share of points-2d in what a photon brings to a ray that comes straight from the camera, or over mirrors and
+/// glass alone. It is what merges_in_medium() has over all_at_merge(), where all terms are divided by that of the merge
+/// itself: the density of the medium then goes out of most of them. `kSquares` says whether the heuristic weighs by
+/// squares.
+template <bool kSquares>
+class SharesOfPoints {
+ public:
+  /// In a medium of that extinction at density 1, 1/m, a mean over channels, > 0.
+  SharesOfPoints(const TechniqueCounts& counts, float sigma_t)
+      : in_balls_(of_points(counts, counts.merges_points_3d(true) ? counts.points_3d * sigma_t : 0.0)),
+        short_beams_(of_points(counts, counts.short_beams)),
+        long_beams_(of_points(counts, counts.long_beams)),
+        planes_(of_points(counts, counts.planes)) {}
+
+  Floats of(const PhotonsBesideRays& at) const {
+    const Floats per_kept = 1.0f / at.kept;
+    const Floats flights = weigh(short_beams_ * at.sine * at.passing) + weigh(long_beams_ * at.sine * at.sent) +
+                           weigh(planes_ * at.determinant * at.sent);
+    Floats all = 1.0f + weigh(in_balls_ * at.density * at.colliding);
+    all += weigh(per_kept / at.density) * flights;
+    all += (at.adjacent + weigh(at.phase) * at.further) * weigh(at.colliding * per_kept);
+    all += weigh(at.splats * per_kept);
+    return 1.0f / all;
+  }
+
+ private:
+  /// Over TechniqueCounts::points_2d. Where it is more than a float holds, no share is left.
+  static float of_points(const TechniqueCounts& counts, double x) {
+    return static_cast<float>(std::min(x / counts.points_2d, 1e30));
+  }
+  static Floats weigh(const Floats& x) { return kSquares ? x * x : x; }
+
+  float in_balls_, short_beams_, long_beams_, planes_;
 };
 
 }  // namespace vpm
