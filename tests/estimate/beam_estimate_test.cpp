@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/photon_layouts.h"
+#include "support/photons.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/medium/density_integrals_along.h"

@@ -1,8 +1,7 @@
 // Irradiance computed beforehand: its brute-force twin, and where there is none.
 #include <gtest/gtest.h>
 
-#include "support/hits.h"
-#include "support/recorders.h"
+#include "support/photons.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface/irradiance_cache.h"

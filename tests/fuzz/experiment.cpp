@@ -1,6 +1,6 @@
 // Any bytes as an experiment. The files that it may name lie beside it; the scenes among them are not read.
+#include "vpm/study/compare/experiment.h"
 #include "fuzz/scratch.h"
-#include "vpm/study/compare/experiment_file.h"
 
 namespace vpm {
 namespace {

@@ -2,7 +2,7 @@
 // same flight by flight.
 #include <gtest/gtest.h>
 
-#include "support/flight_fields.h"
+#include "support/grids.h"
 #include "support/statistics.h"
 #include "vpm/base/tails.h"
 #include "vpm/medium/distance/strategy.h"

@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "vpm/base/rng.h"
-#include "vpm/medium/noise.h"
 
 namespace vpm {
 namespace {

@@ -2,7 +2,7 @@
 // which distance_test.cpp sees to, does not tell.
 #include <gtest/gtest.h>
 
-#include "support/flight_fields.h"
+#include "support/grids.h"
 #include "support/statistics.h"
 #include "vpm/base/tails.h"
 #include "vpm/medium/distance/null_collisions.h"

@@ -2,7 +2,7 @@
 // hole; and caustics that are aimed.
 #include <gtest/gtest.h>
 
-#include "support/recorders.h"
+#include "support/photons.h"
 #include "vpm/base/parallel.h"
 #include "vpm/medium/make_grid.h"
 #include "vpm/photon/caustics.h"

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/hits.h"
-#include "support/photon_layouts.h"
+#include "support/photons.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-#include "support/photon_layouts.h"
+#include "support/photons.h"
 
 namespace vpm {
 namespace {

@@ -1,8 +1,7 @@
 // Photon maps against their brute-force twins, on spread, flat, clustered and coinciding photons.
 #include <gtest/gtest.h>
 
-#include "support/hits.h"
-#include "support/photon_layouts.h"
+#include "support/photons.h"
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"

@@ -1,7 +1,7 @@
 // Final gathering: closed cavities, where it is exact, and what is left to the caustic map.
 #include <gtest/gtest.h>
 
-#include "support/recorders.h"
+#include "support/photons.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"

@@ -1,7 +1,7 @@
 // Rays of final gathering guided by photons: their weights, and less noise where light comes from one side.
 #include <gtest/gtest.h>
 
-#include "support/recorders.h"
+#include "support/photons.h"
 #include "support/statistics.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface/gather_guide.h"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <set>
 
-#include "support/normal.h"
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/tails.h"

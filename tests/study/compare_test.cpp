@@ -1,10 +1,8 @@
 // What comparisons of methods say, against problems whose answers are known by construction.
 #include <gtest/gtest.h>
 
-#include "support/normal.h"
 #include "support/statistics.h"
 #include "vpm/study/compare/summary.h"
-#include "vpm/study/compare/verdict.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // Experiment files: every key arrives where it belongs, products are whole, and mistakes are refused with their place.
-#include "vpm/study/compare/experiment_file.h"
+#include "vpm/study/compare/experiment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // What repetitions tell of means, ratios and differences, against problems whose answers are known by construction.
 #include <gtest/gtest.h>
 
-#include "support/normal.h"
 #include "support/statistics.h"
 #include "vpm/base/tails.h"
 #include "vpm/study/compare/resampling.h"

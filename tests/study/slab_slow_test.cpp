@@ -1,7 +1,7 @@
 // Slabs of strong forward scattering against reference numbers.
 #include <gtest/gtest.h>
 
-#include "study/slab_oracles.h"
+#include "study/oracles.h"
 
 namespace vpm::exact {
 namespace {

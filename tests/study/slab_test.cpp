@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "study/slab_oracles.h"
+#include "study/oracles.h"
 #include "vpm/base/vec.h"
 #include "vpm/study/exact/special_functions.h"
 

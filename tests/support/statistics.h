@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "vpm/base/rng.h"
 #include "vpm/base/tails.h"
+#include "vpm/base/vec.h"
 #include "vpm/study/validate/check.h"
 
 namespace vpm {
@@ -46,6 +48,12 @@ inline void expect_distribution(const std::vector<double>& counts, const std::ve
   const Check check = check_distribution(what, counts, probabilities);
   EXPECT_GE(check.p, false_alarm_rate) << what << ": chi-square " << check.value << " for " << check.exact << ", "
                                        << check.note;
+}
+
+/// A number of the standard normal distribution.
+inline double normal(Rng& rng) {
+  const double u = 1.0 - rng.uniform_double(), v = rng.uniform_double();
+  return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * kPiD * v);
 }
 
 }  // namespace vpm

@@ -8,7 +8,7 @@
 #include "vpm/image/exr.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/study/compare/exact_picture.h"
-#include "vpm/study/compare/experiment_file.h"
+#include "vpm/study/compare/experiment.h"
 
 namespace vpm {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "vpm/base/floats.h"
 #include "vpm/base/vec.h"
-#include "vpm/photon/half_spaces.h"
 #include "vpm/photon/photon.h"
+#include "vpm/photon/ray_bundle.h"
 
 namespace vpm {
 

@@ -9,9 +9,9 @@
 #include "vpm/base/counters.h"
 #include "vpm/base/vec.h"
 #include "vpm/photon/box_tree.h"
-#include "vpm/photon/half_spaces.h"
 #include "vpm/photon/leaf_order.h"
 #include "vpm/photon/photon_batch.h"
+#include "vpm/photon/ray_bundle.h"
 
 namespace vpm {
 

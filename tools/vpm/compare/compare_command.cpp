@@ -24,7 +24,7 @@
 #include "vpm/job/setting.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/study/compare/exact_picture.h"
-#include "vpm/study/compare/experiment_file.h"
+#include "vpm/study/compare/experiment.h"
 #include "vpm/study/validate/check.h"
 
 namespace vpm::tools {

@@ -7,7 +7,6 @@
 #include "vpm/input/scene_file.h"
 #include "vpm/job/found_by_techniques.h"
 #include "vpm/study/compare/summary.h"
-#include "vpm/study/compare/verdict.h"
 
 namespace vpm::tools {
 

@@ -9,7 +9,7 @@
 #include "vpm/job/choice.h"
 #include "vpm/job/found_by_techniques.h"
 #include "vpm/job/render.h"
-#include "vpm/study/compare/plan.h"
+#include "vpm/study/compare/experiment.h"
 
 namespace vpm::tools {
 

@@ -2,7 +2,7 @@
 // sight.
 #pragma once
 
-#include "vpm/study/exact/bounded.h"
+#include "vpm/study/exact/quadrature.h"
 
 namespace vpm::exact {
 

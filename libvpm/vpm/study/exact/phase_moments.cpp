@@ -1,7 +1,11 @@
+
 #include "vpm/study/exact/phase_moments.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+
+#include "vpm/base/vec.h"
 
 namespace vpm::exact {
 
@@ -15,5 +19,44 @@ PhaseMoments henyey_greenstein_moments(double g) {
 }
 
 PhaseMoments rayleigh_moments() { return {1.0, 0.0, 0.1}; }
+
+namespace {
+
+/// sum (2l+1) chi_l P_l(x) / (4 pi).
+double phase_sum(const PhaseMoments& moments, double x) {
+  double sum = 0.0, p = 1.0, before = 0.0;
+  for (size_t l = 0; l < moments.size(); ++l) {
+    sum += (2.0 * l + 1.0) * moments[l] * p;
+    const double next = ((2.0 * l + 1.0) * x * p - l * before) / (l + 1.0);
+    before = p;
+    p = next;
+  }
+  return sum / (4.0 * kPiD);
+}
+
+}  // namespace
+
+TruncatedSlab truncate_forward_peak(double albedo, const PhaseMoments& phase, int orders) {
+  const auto kept = static_cast<size_t>(orders);
+  if (phase.size() <= kept) return {1.0, albedo, phase, {}};
+  // Moments that fall off without changing sign belong to a forward peak; else nothing passes for unscattered light.
+  const double peak = std::max(0.0, std::min(phase[kept - 1], phase[kept]));
+  TruncatedSlab slab{1.0 - albedo * peak, 1.0, {}, phase};
+  if (albedo < 1.0) slab.albedo = albedo * (1.0 - peak) / slab.depth_scale;
+  for (size_t l = 0; l < kept; ++l) {
+    slab.phase.push_back((phase[l] - peak) / (1.0 - peak));
+    slab.missing[l] = peak;
+  }
+  for (double& moment : slab.missing) moment /= 1.0 - peak;
+  return slab;
+}
+
+double missing_single_scattering(const TruncatedSlab& truncated, double tau, double cosine) {
+  if (truncated.missing.empty()) return 0.0;
+  const double mu = std::fabs(cosine), source = truncated.albedo * phase_sum(truncated.missing, cosine);
+  if (cosine < 0.0) return source * -std::expm1(-tau * (1.0 + 1.0 / mu)) / (1.0 + mu);
+  const double away = 1.0 / mu - 1.0;  // int_0^tau exp(-t - (tau - t) / mu) dt / mu
+  return source * std::exp(-tau) * (away == 0.0 ? tau : -std::expm1(-tau * away) / (away * mu));
+}
 
 }  // namespace vpm::exact

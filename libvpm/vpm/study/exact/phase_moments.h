@@ -14,4 +14,22 @@ PhaseMoments henyey_greenstein_moments(double g);
 /// 3 (1 + cos^2) / (16 pi).
 PhaseMoments rayleigh_moments();
 
+/// Phase functions with forward peaks too narrow for a number of ordinates: what is cut off passes for unscattered
+/// light, and comes back where light that scattered once is seen.
+/// A slab without the peak: its optical depths are `depth_scale` times the true ones [Wiscombe1977].
+struct TruncatedSlab {
+  double depth_scale = 1.0;
+  double albedo = 1.0;
+  PhaseMoments phase;
+  PhaseMoments missing;  // added to `phase`: the true one, in its new normalisation
+};
+
+/// Keeps `orders` moments.
+TruncatedSlab truncate_forward_peak(double albedo, const PhaseMoments& phase, int orders);
+
+/// What `truncated` lacks in the radiance that a beam along the normal, of irradiance 1, makes by scattering once: back
+/// at depth 0 (cosine < 0) or out at `tau` (cosine > 0), the cosine to the beam; `tau` is the truncated one
+/// [Nakajima1988].
+double missing_single_scattering(const TruncatedSlab& truncated, double tau, double cosine);
+
 }  // namespace vpm::exact

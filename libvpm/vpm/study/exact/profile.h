@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "vpm/base/vec.h"
-#include "vpm/study/exact/bounded.h"
+#include "vpm/study/exact/quadrature.h"
 
 namespace vpm::exact {
 

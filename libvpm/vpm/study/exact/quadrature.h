@@ -7,9 +7,19 @@
 #include <functional>
 #include <vector>
 
-#include "vpm/study/exact/bounded.h"
-
 namespace vpm::exact {
+
+/// |truth - value| <= error; the unit is the value's.
+struct Bounded {
+  double value = 0.0;
+  double error = 0.0;
+};
+
+/// Values of one quantity at several places, with one bound for all of them.
+struct BoundedSeries {
+  std::vector<double> values;
+  double error = 0.0;
+};
 
 /// sum_i weights[i] f(nodes[i]) stands for an integral of f; nodes ascend.
 struct GaussRule {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "vpm/base/vec.h"
-#include "vpm/study/exact/forward_peak.h"
 #include "vpm/study/exact/ordinates.h"
+#include "vpm/study/exact/phase_moments.h"
 #include "vpm/study/exact/quadrature.h"
 #include "vpm/study/exact/special_functions.h"
 

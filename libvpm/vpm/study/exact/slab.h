@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "vpm/study/exact/bounded.h"
 #include "vpm/study/exact/phase_moments.h"
+#include "vpm/study/exact/quadrature.h"
 
 namespace vpm::exact {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "vpm/study/exact/bounded.h"
+#include "vpm/study/exact/quadrature.h"
 
 namespace vpm::exact {
 

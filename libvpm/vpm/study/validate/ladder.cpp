@@ -1,12 +1,42 @@
-// The list of levels.
+// The list of levels, and the lists of groups that make them.
 #include "vpm/study/validate/ladder.h"
 
 #include <array>
 #include <cassert>
 
 #include "vpm/base/rng.h"
+#include "vpm/study/validate/groups.h"
 
 namespace vpm {
+
+// Level 0: single draws follow their laws.
+std::vector<Experiment> distribution_experiments() {
+  std::vector<Experiment> all;
+  for (const auto& group : {flight_experiments(), transmittance_experiments(), phase_experiments(),
+                            outcome_experiments(), material_experiments(), filter_experiments(), emission_experiments(),
+                            irradiance_experiments(), photon_map_experiments(), border_experiments(),
+                            guide_experiments(), pane_experiments(), technique_experiments()})
+    all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+// Level 1: identities that hold in whole scenes and need no reference.
+std::vector<Experiment> identity_experiments() {
+  std::vector<Experiment> all;
+  for (const auto& group : {furnace_experiments(), slanted_slab_experiments(), convex_body_experiments(),
+                            infinite_medium_experiments(), track_length_experiments(), balance_experiments(),
+                            symmetry_experiments(), medium_experiments(), picture_experiments()})
+    all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+// Level 2: reflection, transmission, absorption, radiance and fluence against exact solutions of transport theory.
+std::vector<Experiment> transport_experiments() {
+  std::vector<Experiment> all;
+  for (const auto& group : {slab_experiments(), slab_radiance_experiments(), source_experiments()})
+    all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
 
 uint64_t Effort::seed_of(std::string_view name) const {
   // Each character turns the seed into an unrelated one: Rng hashes its address.

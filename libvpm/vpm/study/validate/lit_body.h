@@ -1,4 +1,5 @@
-// Convex bodies of one medium in a vacuum, under light of the same radiance from everywhere.
+// Convex bodies of one medium in a vacuum, and scenes of white surfaces in a medium, under light of the same radiance
+// from everywhere.
 #pragma once
 
 #include <string>
@@ -25,6 +26,16 @@ LitBody lit_sphere(std::string name, const Medium& medium);
 LitBody lit_glass(std::string name, const Medium& medium, float ior);
 /// The box of the test fields.
 LitBody lit_box(std::string name, const Medium& medium);
+
+/// White surfaces in the box: a sphere that scatters, one that mirrors, one of glass.
+Scene furnished_box(const Medium& medium);
+/// A large white ball in the box, and a bubble in it whose wall is glass.
+Scene box_around_balls(const Medium& medium);
+/// A room whose walls glow evenly, six lights of three sizes, and reflect half of what they get; in it a white ball.
+/// Shadow rays and paths that run into walls share what they find, by the lights' densities and probabilities.
+Scene glowing_room(const Medium& medium);
+/// A room and a box in it, both glowing, as one mesh: points of it stand in each other's light.
+Scene glowing_mesh(const Medium& medium);
 
 /// The extinction coefficient (1/m) under which a strategy is tested in a grid. Weights without bound, up to the ratio
 /// of the largest density to the mean, multiply from event to event: that ratio and the events must not both be large,

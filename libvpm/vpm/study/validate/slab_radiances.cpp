@@ -1,6 +1,10 @@
 // Radiance that leaves slabs, by the path tracer and by photons gathered along rays, and fluence inside.
 #include <fmt/format.h>
 
+#include "vpm/image/metrics.h"
+#include "vpm/medium/make_grid.h"
+#include "vpm/render/photon_pass.h"
+#include "vpm/scene/build.h"
 #include "vpm/study/estimates/slab_radiance.h"
 #include "vpm/study/exact/slab.h"
 #include "vpm/study/validate/groups.h"
@@ -83,6 +87,76 @@ std::vector<Check> radiances_by_photons(const Effort& effort) {
 std::vector<Experiment> slab_radiance_experiments() {
   return {{2, "radiance of slabs, by the path tracer", radiances},
           {2, "radiance of slabs, by photons along rays", radiances_by_photons}};
+}
+
+// A slab that light enters straight from above, seen at a slant through kernels as wide as it is deep. It hardly
+// scatters twice, so that its radiance is known in closed form. Light falls off with depth, and both faces cut every
+// kernel: what is missing before the ends of segments must come from beyond them, seen through as much of the slab.
+namespace {
+
+constexpr double kDepth = 0.4, kExtinction = 5.0;  // m, 1/m
+constexpr double kAlbedo = 1e-4;                   // so much of the light is scattered twice
+constexpr double kCosine = 0.6;                    // of the view to the normal
+
+Medium hardly_scattering(bool voxels) {
+  Medium medium{.name = "", .sigma_s = Rgb(0.0f), .sigma_t = Rgb(0.0f), .phase = Isotropic{}, .grid = nullptr};
+  medium.sigma_t = Rgb(static_cast<float>(kExtinction));
+  medium.sigma_s = medium.sigma_t * static_cast<float>(kAlbedo);
+  if (voxels) medium.grid = make_grid(centred_frame(24, 0.2), [](int, int, int) { return 1.0; });
+  return medium;
+}
+
+Scene slab(bool voxels) {
+  Scene scene;
+  scene.media.push_back(hardly_scattering(voxels));
+  const Interface media{0, kVacuum};
+  const double half = 0.5 * kDepth;
+  add_shape(scene, box_mesh(Vec3d(-1.5, -half, -1.5), Vec3d(1.5, half, 1.5)), Boundary{}, &media);
+  scene.lights.push_back(DirectionalLight{Vec3(0.0f, -1.0f, 0.0f), Rgb(1.0f)});
+  const float sine = static_cast<float>(std::sqrt(1.0 - kCosine * kCosine));
+  scene.camera =
+      make_camera(20.0f * Vec3(sine, static_cast<float>(kCosine), 0.0f), Vec3(0.0f), Vec3(0, 1, 0), 0.3f, {4, 4});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
+/// The integral, along the ray, of what is scattered once at the depth z = cos t: sigma_s / (4 pi) exp(-sigma_t (z +
+/// t)).
+double exact_radiance() {
+  const double optical = kExtinction * kDepth * (1.0 + 1.0 / kCosine);
+  return -kAlbedo / (4.0 * kPiD) * std::expm1(-optical) / (1.0 + kCosine);
+}
+
+Check check_slab(const std::string& name, bool voxels, GatherMode mode, const Effort& effort) {
+  const Scene scene = slab(voxels);
+  RenderSettings settings;
+  settings.seed = effort.seed_of(name);
+  settings.photons_emitted = 40'000;
+  settings.radii = RadiusSchedule::constant;
+  settings.volume.mode = mode;
+  settings.volume.radius = 0.4f;
+  Moments means;
+  for (int pass = 0; pass < static_cast<int>(effort.count(24, 400)); ++pass)
+    means.add(channel_means(render_photon_pass(scene, settings, pass).image).g);
+  const double exact = exact_radiance();
+  return check_within(name, means, exact, 0.005 * exact);
+}
+
+std::vector<Check> check_slabs(const Effort& effort) {
+  return {check_slab("balls", false, GatherMode::radius, effort),
+          check_slab("discs", false, GatherMode::beam, effort),
+          check_slab("voxels, discs", true, GatherMode::beam, effort),
+          check_slab("photon beams", false, GatherMode::photon_beams, effort),
+          check_slab("voxels, photon beams", true, GatherMode::photon_beams, effort),
+          check_slab("photon beams around points", false, GatherMode::beams_points, effort),
+          check_slab("voxels, photon beams around points", true, GatherMode::beams_points, effort)};
+}
+
+}  // namespace
+
+std::vector<Experiment> slanted_slab_experiments() {
+  return {{1, "a slab seen at a slant through kernels as wide as it is deep", check_slabs}};
 }
 
 }  // namespace vpm

@@ -1,4 +1,5 @@
-// Photons on which maps are compared with their brute-force twins.
+// Photons for tests: on which maps are compared with their brute-force twins, traced into recorders of a test's own,
+// and hits that no ray has made.
 #pragma once
 
 #include <vector>
@@ -6,6 +7,8 @@
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
 #include "vpm/photon/photon.h"
+#include "vpm/photon/trace.h"
+#include "vpm/surface/geometry.h"
 
 namespace vpm {
 
@@ -32,5 +35,20 @@ inline std::vector<Photon> photons(Layout layout, size_t count) {
 
 inline constexpr Layout kLayouts[] = {Layout::spread,     Layout::flat, Layout::clustered,
                                       Layout::coinciding, Layout::line, Layout::endless};
+
+/// By the default strategy, without showing progress.
+inline Ledger trace_into(const Scene& scene, const TraceSettings& settings, const Recorders& recorders) {
+  Progress silent("photons", 0, false);
+  return trace_photons(scene, *make_distance_strategy({}), settings, recorders, silent);
+}
+
+inline Hit hit_at(const Vec3& position, const Vec3& normal, const Vec3& shading_normal) {
+  Hit hit;
+  hit.position = position;
+  hit.normal = normal;
+  hit.shading_normal = shading_normal;
+  return hit;
+}
+inline Hit hit_at(const Vec3& position, const Vec3& normal) { return hit_at(position, normal, normal); }
 
 }  // namespace vpm

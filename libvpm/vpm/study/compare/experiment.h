@@ -1,4 +1,5 @@
-// What a comparison of methods is told: which scenes, which methods, how much each may cost, how often.
+// What a comparison of methods is told: which scenes, which methods, how much each may cost, how often. Its TOML file
+// becomes an Experiment; scenes/experiments/README.md describes the format.
 #pragma once
 
 #include <cstdint>
@@ -111,5 +112,10 @@ inline double cost_in(CostUnit unit, const RunCost& cost) {
   }
   return static_cast<double>(cost.lookups);
 }
+
+/// Reads an experiment. `overrides` are `key.path=value` options that change keys of the file first, as those of
+/// load_scene(). Paths in the file are relative to its folder. The scenes it names are not read. Throws InputError for
+/// anything that is not right, telling file:line:column, or the option.
+ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace vpm

@@ -1,7 +1,8 @@
 // The sections of an experiment's file, and the product of its settings.
-#include "vpm/study/compare/experiment_file.h"
+#include "vpm/study/compare/experiment.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
