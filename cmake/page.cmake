@@ -19,7 +19,7 @@ if(page MATCHES "[)]${delimiter}\"")
   message(FATAL_ERROR "the page has the end of the string in it that it becomes")
 endif()
 file(WRITE "${OUTPUT}" "// ${PAGE} and what it names. Written by cmake/page.cmake.
-#include \"page/templates.h\"
+#include \"page/embedded.h\"
 
 namespace vpm::tools {
 

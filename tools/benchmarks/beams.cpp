@@ -7,8 +7,8 @@
 #include <span>
 #include <stdexcept>
 
-#include "benchmarks/beam_peers.h"
 #include "benchmarks/bench.h"
+#include "benchmarks/room.h"
 #include "vpm/base/clock.h"
 #include "vpm/photon/ray_lanes.h"
 

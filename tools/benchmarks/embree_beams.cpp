@@ -3,7 +3,7 @@
 // once.
 #include <fmt/format.h>
 
-#include "benchmarks/beam_peers.h"
+#include "benchmarks/room.h"
 #include "vpm/surface/embree.h"
 
 namespace vpm::bench {

@@ -1,5 +1,5 @@
 // Embree's point queries.
-#include "benchmarks/point_peers.h"
+#include "benchmarks/photons.h"
 #include "vpm/surface/embree.h"
 
 namespace vpm::bench {

@@ -1,5 +1,5 @@
 // nanoflann's kd-tree.
-#include "benchmarks/point_peers.h"
+#include "benchmarks/photons.h"
 
 #ifdef VPM_BENCH_NANOFLANN
 #include <nanoflann.hpp>

@@ -1,5 +1,5 @@
 // NanoVDB's look-ups, and free flights by its hierarchical DDA.
-#include "benchmarks/density_peers.h"
+#include "benchmarks/cloud.h"
 
 #ifdef VPM_BENCH_NANOVDB
 #if __has_include(<nanovdb/tools/GridBuilder.h>)  // since OpenVDB 11.1

@@ -2,7 +2,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
-#include "benchmarks/density_peers.h"
+#include "benchmarks/cloud.h"
 
 namespace vpm::bench {
 namespace {

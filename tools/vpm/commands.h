@@ -117,6 +117,9 @@ struct ErrorOptions {
 };
 /// Prints how far pictures are from a reference; of a series also how fast that falls with passes.
 int error_command(const ErrorOptions& options);
+/// The same of a series (ErrorOptions::series): prints how far pictures are from the last of them, and how that falls
+/// with passes.
+int compare_series(const ErrorOptions& options);
 
 struct ReportOptions {
   std::string report;  // .json, as render_command() writes it beside its image
@@ -155,6 +158,9 @@ struct ValidateOptions {
 /// Runs the ladder of validation, or all cases of a folder of reference numbers, and prints every check with its
 /// verdict. 1 where one fails.
 int validate_command(const ValidateOptions& options);
+/// Runs all cases of a folder of reference numbers and prints their checks. 1 where a check fails, or where a case was
+/// not checked, except the known limits of the framework.
+int oracle_command(const ValidateOptions& options);
 
 struct ExactOptions {
   std::string problem;                 // empty: list them with their keys

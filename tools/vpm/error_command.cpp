@@ -9,7 +9,6 @@
 
 #include "commands.h"
 #include "compared_picture.h"
-#include "error_series.h"
 #include "vpm/base/error.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/image.h"

@@ -1,12 +1,11 @@
 // Several pictures against one reference: a line each, and the slope of their errors over passes.
-#include "error_series.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "commands.h"
 #include "compared_picture.h"
 #include "vpm/base/error.h"
 #include "vpm/base/line_fit.h"

@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "commands.h"
-#include "exit_status.h"
 #include "option_checks.h"
 #include "this_process.h"
 #include "vpm/base/cancel.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "exit_status.h"
+#include "this_process.h"
 #include "vpm/image/image.h"
 #include "vpm/job/render_job.h"
 

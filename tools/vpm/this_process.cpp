@@ -1,9 +1,14 @@
-// The clock on the wall, and signals.
+// The clock on the wall, signals, and from exceptions to words.
 #include "this_process.h"
 
 #include <csignal>
 #include <cstdint>
 #include <ctime>
+#include <new>
+
+#include "vpm/base/cancel.h"
+#include "vpm/base/error.h"
+#include "vpm/job/render.h"
 
 namespace vpm::tools {
 namespace {
@@ -46,6 +51,22 @@ const std::atomic<bool>& stop_on_signals() {
   if (std::signal(SIGHUP, request_stop) == SIG_IGN)
     std::signal(SIGHUP, SIG_IGN);  // by nohup: the terminal's end is no end
   return stop_requested;
+}
+
+Failure failure_of(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const InputError& error) {
+    return {kBadInput, error.what()};
+  } catch (const Cancelled&) {
+    return {kInterrupted, "interrupted"};
+  } catch (const NoPassFits& failure) {
+    return {kNoPassFits, failure.what()};
+  } catch (const std::bad_alloc&) {
+    return {kFailed, "out of memory"};
+  } catch (const std::exception& error) {
+    return {kFailed, error.what()};
+  }
 }
 
 }  // namespace vpm::tools

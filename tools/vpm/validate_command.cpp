@@ -6,7 +6,6 @@
 #include "check_report.h"
 #include "commands.h"
 #include "json.h"
-#include "oracles/oracle_command.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/clock.h"
 #include "vpm/base/error.h"

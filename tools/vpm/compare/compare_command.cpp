@@ -11,7 +11,6 @@
 #include "compare/results.h"
 #include "compare/run.h"
 #include "compare/store.h"
-#include "compare/techniques.h"
 #include "pass_run.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/cancel.h"

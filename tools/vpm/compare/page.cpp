@@ -6,7 +6,6 @@
 
 #include "json.h"
 #include "page/embedded.h"
-#include "page/templates.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 

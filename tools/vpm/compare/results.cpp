@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "compare/store.h"
-#include "compare/techniques.h"
 #include "json.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"

@@ -1,14 +1,12 @@
 // From a folder to verdicts.
-#include "oracles/oracle_command.h"
-
 #include <fmt/format.h>
 #include <algorithm>
 #include <cstdio>
 
 #include "check_report.h"
+#include "commands.h"
 #include "json.h"
 #include "oracles/read_folder.h"
-#include "oracles/tables.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"

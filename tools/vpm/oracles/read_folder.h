@@ -1,4 +1,4 @@
-// The files of a folder of reference numbers.
+// The files of a folder of reference numbers, and tables that repeat cases of JSON files.
 #pragma once
 
 #include <deque>
@@ -18,5 +18,9 @@ struct OracleFolder {
 
 /// Throws InputError where a file cannot be read, is not JSON, or holds no list of cases.
 OracleFolder read_oracle_folder(const std::string& path);
+
+/// Compares a table's rows with the cases of the same id in the files of the same problem (s1_, s2_, ...), number by
+/// number. Rows without such a case go to `alone`, to be checked as cases themselves.
+CaseResult compare_table(const OracleList& table, const std::vector<OracleList>& lists, OracleList& alone);
 
 }  // namespace vpm::tools

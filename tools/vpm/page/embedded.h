@@ -1,4 +1,5 @@
-// Data in pages: JSON in the places that a template has for it, pictures as text.
+// The pages before anything is in them, which cmake/page.cmake writes: a page.html with the files that it names. And
+// data in pages: JSON in the places that a template has for it, pictures as text.
 #pragma once
 
 #include <string>
@@ -8,6 +9,12 @@
 #include "vpm/image/image.h"
 
 namespace vpm::tools {
+
+/// HTML, with @results@, @about@ and @pictures@, in this order, where JSON belongs.
+std::string_view compare_template();
+
+/// HTML, with @report@ and @pictures@, in this order, where JSON belongs.
+std::string_view report_template();
 
 /// A picture as half floats, 8 bytes of text to a pixel: what to_half() makes of it, its halves with the lower byte
 /// first and as base64.

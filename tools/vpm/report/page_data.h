@@ -1,4 +1,5 @@
-// The page of a render: report, settings and pictures as data, in its template.
+// The page of a render: report, settings and pictures as data, in its template; what a reader is told of the settings:
+// what each is, and commands that render it again.
 #pragma once
 
 #include <string>
@@ -6,6 +7,13 @@
 #include "report/read_report.h"
 
 namespace vpm::tools {
+
+/// A row for each setting of the report: its `key`, `value` and `usual` value, whether `is_usual`, `meaning` and
+/// allowed `values` in Markdown, and the `reason` of its choice where the render chose it.
+Json shown_settings(const RenderReport& report);
+
+/// Commands with what each `does`: one renders the same picture again, with what was chosen as it was chosen.
+Json commands_again(const Json& report);
 
 /// The most pixels that a picture has in the page, and that all of them have together: 8 bytes of text each.
 inline constexpr size_t kMostPixels = size_t{1} << 20;
