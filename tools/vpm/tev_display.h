@@ -16,6 +16,7 @@ class SendError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Bytes to a TCP server.
 class TcpSender {
  public:
   using Deadline = std::chrono::steady_clock::time_point;
@@ -35,9 +36,10 @@ class TcpSender {
   int socket_ = -1;
 };
 
-/// The packets that the viewer tev takes over TCP [Mueller2025, Ipc.h, Ipc.cpp]: a length in bytes, which counts
-/// itself, an operation, and its fields. Numbers are little-endian, texts end with a 0. Makes a black image with the
-/// channels R, G and B, shown at once; it replaces one of that name.
+// The packets that the viewer tev takes over TCP [Mueller2025, Ipc.h, Ipc.cpp]: a length in bytes, which counts itself,
+// an operation, and its fields. Numbers are little-endian, texts end with a 0.
+
+/// Makes a black image with the channels R, G and B, shown at once; it replaces one of that name.
 std::string tev_create_image(const std::string& name, int width, int height);
 
 /// Gives `rows` > 0 rows of the picture, from row `first` on, to the image of that name, which is as wide. A packet

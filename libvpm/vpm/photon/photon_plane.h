@@ -1,5 +1,5 @@
 // Photon planes: flights of photons, each with a direction in which its photon might have been scattered from anywhere
-// along it. Planes reach so far that a ray crosses a good part of them: they are a list.
+// along it. And those of a pass, as a list.
 #pragma once
 
 #include <cmath>
@@ -31,9 +31,6 @@ struct PhotonPlane {
 std::vector<PhotonPlane> planes_of(const std::vector<std::vector<PhotonBeam>>& flights, const Scene& scene, float scale,
                                    Rng& rng);
 
-// The photon planes of a pass, met by rays. Planes reach so far that a ray crosses a good part of them, and asks for a
-// shadow ray at each of these. So it looks at all of them.
-
 /// Where a ray crosses a plane.
 struct PlaneCrossing {
   const PhotonPlane& plane;
@@ -44,6 +41,8 @@ struct PlaneCrossing {
   size_t number;       // of the plane in the list
 };
 
+/// The photon planes of a pass, met by rays. Planes reach so far that a ray crosses a good part of them, and asks for a
+/// shadow ray at each of these. So it looks at all of them.
 class PhotonPlaneList {
  public:
   PhotonPlaneList() = default;

@@ -18,13 +18,13 @@
 
 namespace vpm {
 
-// Which list the photons of a cell are in, where a grid may have more cells than there are lists.
-//
-// A grid with a cell of its own for each list has wide cells where a few photons lie far away. So cells keep their
-// size, and cells far apart share a list, as in spatial hashing [Teschner2003]: who scans a list for one of its cells
-// finds photons of others, too, which are in the mean no more than photons over lists. The rule is linear. So cells
-// side by side along x have lists side by side, and cells near each other never share one.
-
+/// Which list the photons of a cell are in, where a grid may have more cells than there are lists.
+///
+/// A grid with a cell of its own for each list has wide cells where a few photons lie far away. So cells keep their
+/// size, and cells far apart share a list, as in spatial hashing [Teschner2003]: who scans a list for one of its cells
+/// finds photons of others, too, which are in the mean no more than photons over lists. The rule is linear. So cells
+/// side by side along x have lists side by side, and cells near each other never share one.
+///
 /// The list of cell (x, y, z) is x + `stride_y` y + `stride_z` z modulo the number of lists.
 class CellLists {
  public:

@@ -9,7 +9,7 @@
 
 namespace vpm {
 
-/// One that collided or, where a grid is thin, flew past (thin_places.h).
+/// A photon in a medium: one that collided or, where a grid is thin, flew past (thin_places.h).
 struct MediumPhoton {
   Vec3 travel{0.0f};  // unit
   Rgb power{0.0f};    // W over the density relative to the medium's largest, see stored_power()
@@ -57,6 +57,7 @@ struct alignas(64) MediumPhotonLeaf : LeafPlaces {
   float passing[kBlock], sent[kBlock], adjacent[kBlock], further[kBlock];
 };
 
+/// A photon on a surface.
 struct SurfacePhoton {
   Vec3 point{0.0f};    // m
   Vec3 travel{0.0f};   // unit

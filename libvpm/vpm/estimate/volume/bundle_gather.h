@@ -12,7 +12,7 @@
 
 namespace vpm {
 
-/// Lanes that no segment is in find nothing.
+/// Segments of rays, a lane for each. Lanes that no segment is in find nothing.
 class SegmentLanes {
  public:
   /// `region` is that of the segment, and `near` the part of its ray that perpendiculars of photons or beams may stand

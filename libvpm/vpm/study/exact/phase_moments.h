@@ -14,8 +14,9 @@ PhaseMoments henyey_greenstein_moments(double g);
 /// 3 (1 + cos^2) / (16 pi).
 PhaseMoments rayleigh_moments();
 
-/// Phase functions with forward peaks too narrow for a number of ordinates: what is cut off passes for unscattered
-/// light, and comes back where light that scattered once is seen.
+// Phase functions with forward peaks too narrow for a number of ordinates: what is cut off passes for unscattered
+// light, and comes back where light that scattered once is seen.
+
 /// A slab without the peak: its optical depths are `depth_scale` times the true ones [Wiscombe1977].
 struct TruncatedSlab {
   double depth_scale = 1.0;
