@@ -187,30 +187,6 @@ TEST_F(VpmReport, HasTheWarningsOfTheRender) {
   EXPECT_NE(warnings[0].get<std::string>().find("photons were cut at render.max_events"), std::string::npos);
 }
 
-TEST_F(VpmReport, RefusesWhatIsNoReport) {
-  vpm_refuses({"report", "none.json"}, {"none.json", "cannot be read"});
-  vpm_refuses({"report", "fog.exr"}, {"fog.exr", ".json"});
-  vpm_refuses({"report", "fog.json", "-o", "fog.exr"}, {"fog.exr", "must end in .html"});
-  write("text.json", "{");
-  vpm_refuses({"report", "text.json"}, {"text.json", "is not JSON"});
-  for (const char* other : {"[]", "{}", "{\"program\": 3}", "{\"program\": \"pbrt 4\"}"}) {
-    write("other.json", other);
-    vpm_refuses({"report", "other.json"}, {"other.json", "is no report of vpm"});
-  }
-  json map = report("fog.json");
-  map["light_map"] = json::object();
-  write("map.json", map.dump());
-  vpm_refuses({"report", "map.json"}, {"map.json", "light map"});
-  json part = report("fog.json");
-  part.erase("energy");
-  write("part.json", part.dump());
-  vpm_refuses({"report", "part.json"}, {"part.json", "has no 'energy'", "render again"});
-  json damaged = report("fog.json");
-  damaged["chosen"] = 3;
-  write("fog.json", damaged.dump());
-  vpm_refuses({"report", "fog.json"}, {"fog.json", "damaged"});
-}
-
 TEST_F(VpmReport, RefusesThePictureOfAnotherRender) {
   const std::string text = read("fog.json");
   const auto refuses = [&](const char* key, const json& value, const std::vector<std::string>& words) {
