@@ -1,5 +1,6 @@
 // The tour of README.md, line by line as a newcomer types it: each line succeeds, and none writes over what another has
-// made. The scenes that the lines name are the project's own, made small; the lines are as they are.
+// made. The scenes that the lines name are the project's own, made small; the lines are as they are, but for their
+// times, of which each second is a twentieth, and errors, which are ten times as large.
 #include <map>
 #include <regex>
 #include <sstream>
@@ -76,9 +77,20 @@ class SlowVpmTour : public VpmBinary {
     return all;
   }
 
+  /// The line, in less time.
+  static std::string hurried(const std::string& line) {
+    std::smatch found;
+    std::string quick = line;
+    if (std::regex_search(quick, found, std::regex("--time (\\d+)")))
+      quick.replace(found.position(1), found.length(1), std::to_string(std::stod(found[1]) / 20.0));
+    if (std::regex_search(quick, found, std::regex("--error ([\\d.]+)")))
+      quick.replace(found.position(1), found.length(1), std::to_string(std::stod(found[1]) * 10.0));
+    return quick;
+  }
+
   void run(const std::string& line) const {
     const auto before = times();
-    Process process({"/bin/sh", "-c", line}, {300.0, 0, folder_.string()});
+    Process process({"/bin/sh", "-c", hurried(line)}, {300.0, 0, folder_.string()});
     const ProcessResult result = process.wait();
     EXPECT_EQ(result.status, 0) << result.out << result.err;
     const auto after = times();
