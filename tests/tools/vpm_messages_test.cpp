@@ -138,6 +138,10 @@ TEST_F(VpmWarnings, PlanesAloneHaveInfiniteVariance) {
   EXPECT_EQ(warnings({planes}).find(word), std::string::npos);
 }
 
+TEST_F(VpmWarnings, DensitiesAboveTheMajorantAreCounted) {
+  expect_words(warnings({"distance.strategy=progressive-null"}), {" densities were larger than the majorant"});
+}
+
 TEST_F(VpmWarnings, CombinedTechniquesHaveNoUseForAGather) {
   const std::string combined = "render.integrator=combined", word = "is of no use where techniques are combined";
   expect_words(warnings({combined, "volume.gather=photon-beams", "volume.beams=long"}), {word});

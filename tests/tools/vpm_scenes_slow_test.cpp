@@ -1,4 +1,4 @@
-// Every scene of the project renders, small, and its energy ledger closes; so do all distance strategies.
+// Every scene of the project renders, small, and its energy ledger closes; every experiment can be loaded.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -62,6 +62,20 @@ class VpmScenes : public VpmBinary {
     return options;
   }
 
+  /// The options that give the scene one small grid for each of its own, and its meshes.
+  std::vector<std::string> stand_ins(const std::string& scene) const {
+    std::vector<std::string> options;
+    for (const FileSource& source : kFiles) {
+      if (source.scene != scene) continue;
+      const bool mesh = source.command == "mesh";
+      const std::string file = path(mesh ? source.name + ".ply" : "small.vdb");
+      if (!std::filesystem::exists(file))
+        vpm_succeeds({mesh ? "mesh" : "media", mesh ? source.name : "smoke", "--resolution", "12", "-o", file});
+      options.insert(options.end(), {"--set", source.key + "=" + file});
+    }
+    return options;
+  }
+
   /// The values of such options.
   static std::vector<std::string> overrides(const std::vector<std::string>& options) {
     std::vector<std::string> values;
@@ -69,9 +83,8 @@ class VpmScenes : public VpmBinary {
     return values;
   }
 
-  /// Renders a scene of the project, small, and returns its report. Nothing but the warning is to be told.
-  Json render(const std::string& scene, const std::vector<std::string>& options,
-              const std::string& warning = "") const {
+  /// Renders a scene of the project, small, and returns its report. Nothing is to be told.
+  Json render(const std::string& scene, const std::vector<std::string>& options) const {
     std::vector<std::string> arguments{"render",   scene_folder() + scene + ".toml",
                                        "-o",       path("a.exr"),
                                        "--passes", "2",
@@ -79,9 +92,7 @@ class VpmScenes : public VpmBinary {
                                        "--set",    "film.height=48",
                                        "--set",    "photons.emitted=100_000"};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    const std::string told = vpm_succeeds(arguments).err;
-    EXPECT_EQ(told.empty(), warning.empty()) << told;
-    EXPECT_NE(told.find(warning), std::string::npos) << told;
+    EXPECT_EQ(vpm_succeeds(arguments).err, "");
     return report("a.json");
   }
 };
@@ -135,54 +146,16 @@ TEST_P(VpmEveryScene, RendersAndItsEnergyLedgerCloses) {
 INSTANTIATE_TEST_SUITE_P(Scenes, VpmEveryScene, ::testing::ValuesIn(scene_names()),
                          [](const auto& test) { return test.param; });
 
-/// A strategy, and what keeps its weights even enough for a z-test: thin smoke, for weights that grow with the optical
-/// thickness.
-struct Strategy {
-  std::string name;
-  std::vector<std::string> options;
-  std::string warning = "";
-};
-void PrintTo(const Strategy& strategy, std::ostream* out) { *out << strategy.name; }
-
-class VpmEveryStrategy : public VpmScenes, public ::testing::WithParamInterface<Strategy> {};
-
-TEST_P(VpmEveryStrategy, ClosesTheLedgerOfTheSmoke) {
-  std::vector<std::string> options = *file_options("smoke");
-  options.insert(options.end(), {"--set", "distance.strategy=" + GetParam().name});
-  for (const std::string& option : GetParam().options) options.insert(options.end(), {"--set", option});
-  const Json report = render("smoke", options, GetParam().warning);
-  EXPECT_EQ(report["settings"]["distance.strategy"], GetParam().name);
-  EXPECT_GE(report["photons"]["effective_sample_size"].get<double>(), 1000.0);
-  EXPECT_GE(report["photons"]["largest_weight"].get<double>(), 0.99);
-  expect_closed_ledger(report);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Strategies, VpmEveryStrategy,
-    ::testing::Values(Strategy{"regular", {}}, Strategy{"ray-march", {}}, Strategy{"ray-march-adaptive", {}},
-                      Strategy{"delta", {}}, Strategy{"delta-local", {}},
-                      Strategy{"progressive-null", {}, "densities were larger than the majorant"},
-                      Strategy{"decomposition", {}},
-                      Strategy{"local-extinction",
-                               {"media.smoke.sigma_t=10", "distance.extinction_floor=2", "photons.emitted=200_000"}},
-                      Strategy{"mean-extinction", {"media.smoke.sigma_t=2", "photons.emitted=2_000_000"}}),
-    [](const auto& test) {
-      std::string name = test.param.name;
-      std::replace(name.begin(), name.end(), '-', '_');
-      return name;
-    });
-
-// Every key and value of the experiments is one that its scenes know.
+// Every key and value of the experiments is one that its scenes know, whatever their grids hold.
 TEST_F(VpmScenes, OfAllExperimentsCanBeLoaded) {
   size_t loaded = 0;
   for (const auto& entry : std::filesystem::directory_iterator(scene_folder() + "experiments")) {
     if (entry.path().extension() != ".toml") continue;
     const ComparisonPlan plan = load_comparison_plan(entry.path().string());
     for (const ComparedScene& scene : plan.scenes) {
-      const auto made = file_options(std::filesystem::path(scene.file).stem().string());
-      if (!made) continue;
       std::vector<std::string> of_scene = scene.settings;
-      for (const std::string& value : overrides(*made)) of_scene.push_back(value);
+      for (const std::string& value : overrides(stand_ins(std::filesystem::path(scene.file).stem().string())))
+        of_scene.push_back(value);
       const auto load = [&](std::vector<std::string> settings) {
         settings.insert(settings.begin(), of_scene.begin(), of_scene.end());
         EXPECT_NO_THROW(load_scene(scene.file, settings)) << entry.path() << ", " << scene.name;
