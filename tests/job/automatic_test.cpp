@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "job/pilot_scenes.h"
 #include "support/simulated_clock.h"
 #include "vpm/base/clock.h"
@@ -157,30 +155,9 @@ TEST(Automatic, TimesNoPhotonsWhereThereIsNoMap) {
   RenderSettings settings;
   settings.photons_emitted = 0;
   settings.photons_stored = 100'000;
-  const Stopwatch timing;
   const PassCost cost = time_pass(scene, settings, 10.0);
-  EXPECT_LT(timing.seconds(), 2.0);  // where others work beside
   EXPECT_EQ(cost.photon, 0.0);
   EXPECT_GT(cost.eye, 0.0);
-}
-
-/// A measurement of time, which depends on the machine and on what else it does: run where it is asked for. Where other
-/// work comes and goes, a pass takes now longer, now shorter than the pilot's: one try of three is to do.
-TEST(SlowAutomatic, BeamsLeaveTimeForPasses) {
-  if (!std::getenv("VPM_MEASURE_TIME")) GTEST_SKIP() << "VPM_MEASURE_TIME=1 runs this measurement of time";
-  constexpr double kSeconds = 4.0;
-  bool fits = false;
-  for (int attempt = 0; attempt < 3 && !fits; ++attempt) {
-    RenderJob job = make_job(foggy_room(0.5f));
-    job.settings.volume.mode = GatherMode::photon_beams;
-    job.settings.until.seconds = kSeconds;
-    job.automatic.keys = {"photons.emitted", "volume.radius", "surface.radius"};
-    const auto clock = std::make_shared<WallClock>();
-    choose(job, *clock);
-    const RenderResult result = render(job.scene, job.settings, nothing_rendered(job.scene.camera), {.clock = clock});
-    fits = result.seconds < longest_time(kSeconds) && result.film.passes() >= kLeastPasses;
-  }
-  EXPECT_TRUE(fits);
 }
 
 /// Combined techniques take radii as photon maps by points have them, for the light sub-paths that are chosen.
@@ -266,9 +243,7 @@ TEST(Automatic, TimesAPassInTheSecondsThatItIsGiven) {
   const Scene scene = cloud_over_floor(false);
   RenderSettings settings;
   settings.photons_emitted = 100'000'000;
-  const Stopwatch timing;
   const PassCost cost = time_pass(scene, settings, 0.2);
-  EXPECT_LT(timing.seconds(), 2.0);  // of 0.2 s, where others work beside
   EXPECT_GT(cost.photon, 0.0);
   EXPECT_GT(cost.eye, 0.0);
   EXPECT_NEAR(cost.stored_per_photon, time_pass(scene, settings, 0.4).stored_per_photon, 0.3 * cost.stored_per_photon);
