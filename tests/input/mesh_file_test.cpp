@@ -131,11 +131,12 @@ TEST(MeshFile, RefusesOtherFiles) {
   EXPECT_NE(message_of([] { load_mesh("no_such.ply"); }).find("no_such.ply: cannot open"), std::string::npos);
 }
 
-TEST(MeshFile, RefusesDamagedFiles) {
-  for (const std::string& path : bad_files({".ply", ".obj"})) {
-    SCOPED_TRACE(path);
-    expect_message(path, message_of([&] { load_mesh(path); }));
-  }
+TEST_F(BadInput, MeshesAreRefused) {
+  for (const char* kind : {".ply", ".obj"})
+    for (const Row& row : rows(kind)) {
+      SCOPED_TRACE(row.path);
+      expect_message(row, message_of([&] { load_mesh(row.path); }));
+    }
 }
 
 /// A file cut anywhere is refused, or read up to whole faces; it never crashes.

@@ -23,11 +23,12 @@ std::string option_message(const std::string& option) {
   return message_of([&] { load_with(kGrey + ball + fog, {option}); });
 }
 
-TEST(SceneFile, RefusesBadFiles) {
-  for (const std::string& path : bad_files({".toml"})) {
+TEST_F(BadInput, ScenesAreRefused) {
+  for (const Row& row : rows(".toml")) {
+    const std::string& path = row.path;
     SCOPED_TRACE(path);
     const std::string message = message_of([&] { load_scene(path); });
-    expect_message(path, message);
+    expect_message(row, message);
     std::istringstream lines(message);
     std::string first, source, caret;
     std::getline(lines, first);
