@@ -51,7 +51,7 @@ class VpmRender : public VpmBinary {
  protected:
   VpmRender() {
     write("scene.toml", kScene);
-    vpm_succeeds({"media", "smoke", "--resolution", "16", "-o", "smoke.vdb"});
+    made_once({"smoke.vdb"}, [&] { vpm_succeeds({"media", "smoke", "--resolution", "16", "-o", "smoke.vdb"}); });
   }
 };
 

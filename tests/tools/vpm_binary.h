@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -53,6 +54,19 @@ class VpmBinary : public ::testing::Test {
       names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
+  }
+
+  /// The files of these names that `make` makes in the folder: by the first test of the process that asks, for all.
+  template <class Make>
+  void made_once(const std::vector<std::string>& names, Make make) const {
+    static std::map<std::vector<std::string>, std::vector<std::string>> made;
+    std::vector<std::string>& contents = made[names];
+    if (contents.empty()) {
+      make();
+      for (const std::string& name : names) contents.push_back(read(name));
+    } else {
+      for (size_t i = 0; i < names.size(); ++i) write(names[i], contents[i]);
+    }
   }
 
   static std::vector<std::string> command(std::vector<std::string> arguments) {

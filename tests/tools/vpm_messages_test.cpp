@@ -57,7 +57,7 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
 }
 
 TEST_F(VpmRender, InfoRefusesWhatRenderRefuses) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+  const std::vector<std::pair<std::vector<std::string>, std::string>> all{
       {{"volume.kernel=order-4", "surface.kernel=order-4", "render.radii=per-pixel"}, ""},
       {{"photons.emitted=0"}, "make one of them positive"},
       {{"transmittance.estimator=ratio", "surface.direct=photons"}, "write direct = \"shadow-rays\""},
@@ -65,16 +65,17 @@ TEST_F(VpmRender, InfoRefusesWhatRenderRefuses) {
       {{"volume.count=7"}, ""},
       {{"media.smoke.grid=fog"}, "the file holds: density"},
       {{"shapes.0.inside=smoke"}, ""}};
-  for (const auto& [settings, mend] : refused) {
+  for (const auto& [settings, mend] : all) {
     std::vector<std::string> info{"info", "scene.toml"}, render{"render", "scene.toml"};
     for (std::vector<std::string>* command : {&info, &render})
       for (const std::string& setting : settings) {
         command->push_back("--set");
         command->push_back(setting);
       }
-    const std::string why = vpm(render).err;
-    vpm_refuses(info, {why, mend});
-    vpm_refuses(render, {why, mend});
+    const ProcessResult refused = vpm(render);
+    EXPECT_EQ(refused.status, 2);
+    expect_words(refused.err, {mend});
+    vpm_refuses(info, {refused.err});
   }
 }
 

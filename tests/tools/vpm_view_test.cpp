@@ -110,8 +110,8 @@ TEST_F(VpmRender, SizeAndSamplesAreThoseOfTheOptions) {
 }
 
 TEST_F(VpmRender, QuietSaysNothing) {
-  const ProcessResult result =
-      vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--quiet", "--auto", "--progress", "always"});
+  const ProcessResult result = vpm_succeeds(
+      {"render", "scene.toml", "-o", "a.exr", "--quiet", "--set", "volume.radius=auto", "--progress", "always"});
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "");
 }
