@@ -38,7 +38,8 @@ class BadInput : public ::testing::Test {
   BadInput() {
     namespace fs = std::filesystem;
     const fs::path folder = fs::path(test_file("bad/scene.toml")).parent_path();
-    fs::copy(source_ + "textures", folder.parent_path() / "textures", fs::copy_options::overwrite_existing);
+    fs::copy(source_ + "textures", folder.parent_path() / "textures",
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     folder_ = folder.string() + "/";
     for (const char* table : {"scenes", "ply", "obj"}) read(table);
   }

@@ -1,6 +1,6 @@
 // The tour of README.md, line by line as a newcomer types it: each line succeeds, and none writes over what another has
 // made. The scenes that the lines name are the project's own, made small; the lines are as they are, but for their
-// times, of which each second is a twentieth, and errors, which are ten times as large.
+// times and errors.
 #include <map>
 #include <regex>
 #include <sstream>
@@ -77,12 +77,10 @@ class SlowVpmTour : public VpmBinary {
     return all;
   }
 
-  /// The line, in less time.
+  /// The line with two passes for its seconds, which is quicker and the same on busy machines, and ten times its error.
   static std::string hurried(const std::string& line) {
     std::smatch found;
-    std::string quick = line;
-    if (std::regex_search(quick, found, std::regex("--time (\\d+)")))
-      quick.replace(found.position(1), found.length(1), std::to_string(std::stod(found[1]) / 20.0));
+    std::string quick = std::regex_replace(line, std::regex("--time \\d+"), "--passes 2");
     if (std::regex_search(quick, found, std::regex("--error ([\\d.]+)")))
       quick.replace(found.position(1), found.length(1), std::to_string(std::stod(found[1]) * 10.0));
     return quick;
