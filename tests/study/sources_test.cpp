@@ -173,7 +173,7 @@ TEST(ExactSphere, IsAsTheOracleSays) {
     expect_all_near(ours.image.values, oracle.at("image_radiance"), 3e-7);
     EXPECT_LT(ours.image.error, 1e-11);
   }
-  EXPECT_EQ(compared, 12);
+  EXPECT_EQ(compared, 7);
 }
 
 TEST(ExactSphere, IsInvisibleWithoutAbsorption) {
