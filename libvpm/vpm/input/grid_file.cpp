@@ -82,7 +82,9 @@ ValueRange active_range(const Tree& tree) {
   ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0.0};
   double sum = 0.0;
   double voxels = 0.0;
+  uint32_t seen = 0;
   for (auto it = tree.cbeginValueOn(); it; ++it) {
+    if (++seen % (1u << 16) == 0) cancellation_point();
     const double value = static_cast<double>(*it);
     const double count = static_cast<double>(it.getVoxelCount());
     range.min = std::min(range.min, value);  // passes over a NaN, which shows in the mean
