@@ -19,19 +19,19 @@ constexpr float kOwn = 1e-3f;
 /// The most surfaces looked at, one below the other: more within reach of the plane hide those below them.
 constexpr int kLayers = 4;
 
-constexpr int kLines = 32, kFirstLines = 8;
+constexpr int kSpokes = 32, kFirstSpokes = 8;
 
-/// Unit vectors around a circle, the first kFirstLines of them evenly, too.
-std::array<Vec2, kLines> circle() {
-  std::array<Vec2, kLines> lines;
-  constexpr int kBetween = kLines / kFirstLines;
-  for (int i = 0; i < kLines; ++i) {
-    const double phi = 2.0 * kPiD * ((i % kFirstLines) * kBetween + i / kFirstLines + 0.5) / kLines;
-    lines[i] = Vec2(std::cos(phi), std::sin(phi));
+/// Unit vectors around a circle, the first kFirstSpokes of them evenly, too.
+std::array<Vec2, kSpokes> circle() {
+  std::array<Vec2, kSpokes> spokes;
+  constexpr int kBetween = kSpokes / kFirstSpokes;
+  for (int i = 0; i < kSpokes; ++i) {
+    const double phi = 2.0 * kPiD * ((i % kFirstSpokes) * kBetween + i / kFirstSpokes + 0.5) / kSpokes;
+    spokes[i] = Vec2(std::cos(phi), std::sin(phi));
   }
-  return lines;
+  return spokes;
 }
-const std::array<Vec2, kLines> kLine = circle();
+const std::array<Vec2, kSpokes> kSpoke = circle();
 
 }  // namespace
 
@@ -51,12 +51,12 @@ RegionShare SurfaceRegion::share(float radius) const {
   make_frame(near_.normal, s, t);
   const auto within = [&](float way) { return kernel_within(kernel_, 2, double{way} / radius); };
   KernelPair<double> lost;
-  for (int i = 0; i < kLines; ++i) {
-    const Vec3 direction = kLine[i].x * s + kLine[i].y * t;
+  for (int i = 0; i < kSpokes; ++i) {
+    const Vec3 direction = kSpoke[i].x * s + kSpoke[i].y * t;
     lost += lost_along(radius, within, [&](float way) { return covers(way * direction); });
-    if (i + 1 == kFirstLines && lost.value == 0.0) return {};
+    if (i + 1 == kFirstSpokes && lost.value == 0.0) return {};
   }
-  return {1.0 - lost.value / kLines, true, -lost.correction / kLines};
+  return {1.0 - lost.value / kSpokes, true, -lost.correction / kSpokes};
 }
 
 /// Does a place of a surface at this offset, or a photon there, belong to the region? Looks down to it, and along the

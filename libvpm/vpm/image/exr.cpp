@@ -35,7 +35,7 @@ constexpr int kMostPixels = 65536;         // a side
 constexpr int64_t kMostBytes = 1ll << 30;  // of one file in memory, as planes and as pixels
 constexpr int64_t kMostLinesAtOnce = 256;  // that a compression packs together
 
-[[noreturn]] void refuse(const path& file, const std::string& why) {
+[[noreturn]] void refuse_picture(const path& file, const std::string& why) {
   throw InputError("cannot read '" + file.string() + "': " + why);
 }
 
@@ -65,13 +65,14 @@ Imf::Header header_of(const Image& image, const std::optional<ExrWindow>& part) 
 
 /// Throws unless the pixels of `names` can be had in memory.
 void check_header(const path& file, const Imf::Header& header, const Names& names) {
-  if (header.hasType() && Imf::isDeepData(header.type())) refuse(file, "it holds deep data; flatten it first");
+  if (header.hasType() && Imf::isDeepData(header.type())) refuse_picture(file, "it holds deep data; flatten it first");
   int64_t channels = 0;
   for (auto i = header.channels().begin(); i != header.channels().end(); ++i) ++channels;
   for (const std::string& name : names) {
     const Imf::Channel& channel = header.channels()[name];
-    if (channel.type == Imf::UINT) refuse(file, "channel '" + name + "' is of integers; half or float are read");
-    if (channel.xSampling != 1 || channel.ySampling != 1) refuse(file, "channel '" + name + "' is subsampled");
+    if (channel.type == Imf::UINT)
+      refuse_picture(file, "channel '" + name + "' is of integers; half or float are read");
+    if (channel.xSampling != 1 || channel.ySampling != 1) refuse_picture(file, "channel '" + name + "' is subsampled");
   }
   const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
   const auto side = [](int lo, int hi) { return int64_t{hi} - lo + 1; };
@@ -85,8 +86,8 @@ void check_header(const path& file, const Imf::Header& header, const Names& name
                     width * height * std::max<int64_t>(3, static_cast<int64_t>(names.size())) <= kMostBytes / 8 &&
                     line * lines <= kMostBytes / (8 * std::max<int64_t>(channels, 1));
   if (!sane) {
-    refuse(file, "its " + std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
-                     std::to_string(channels) + " channels need more than 1 GiB");
+    refuse_picture(file, "its " + std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
+                             std::to_string(channels) + " channels need more than 1 GiB");
   }
 }
 
@@ -119,9 +120,9 @@ void read_rows(Imf::InputPart& part, const Names& names, ExrChannels& result) {
 /// Reads the channels that `choose` picks from the names of all channels.
 ExrChannels read_channels(const path& file, const std::function<Names(const Names&)>& choose) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) refuse(file, "there is no such file");
+  if (!std::filesystem::is_regular_file(file, error)) refuse_picture(file, "there is no such file");
   std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(file, "permission denied");
+  if (!in) refuse_picture(file, "permission denied");
   check_exr_header(file);
   try {
     Imf::StdIFStream stream(in, file.c_str());
@@ -149,7 +150,7 @@ ExrChannels read_channels(const path& file, const std::function<Names(const Name
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& failure) {
-    refuse(file, failure.what());
+    refuse_picture(file, failure.what());
   }
 }
 
@@ -161,7 +162,7 @@ std::array<std::string, 3> colour_channels(const path& file, const Names& all) {
   if (all.size() == 1) return {all[0], all[0], all[0]};
   std::string list;
   for (const std::string& name : all) list += (list.empty() ? "" : ", ") + name;
-  refuse(file, "it needs the channels R, G, B, or Y, or one channel only; it has: " + list);
+  refuse_picture(file, "it needs the channels R, G, B, or Y, or one channel only; it has: " + list);
 }
 
 }  // namespace
