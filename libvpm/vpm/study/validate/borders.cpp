@@ -189,8 +189,8 @@ Hit on_square(const Scene& scene, const Vec3& point) {
 }
 
 /// Fluence over sigma_t = 1/m in the volume, irradiance on the plane; each may count what it corrects.
-using Estimator = std::function<double(const PhotonMap&, GatherCounters&)>;
-Estimator estimator(bool flat, const Scene& scene, const Vec3& point, const GatherSettings& settings) {
+using MapEstimate = std::function<double(const PhotonMap&, GatherCounters&)>;
+MapEstimate estimator(bool flat, const Scene& scene, const Vec3& point, const GatherSettings& settings) {
   if (!flat)
     return [&scene, point, settings](const PhotonMap& map, GatherCounters& counters) {
       const VolumeRegion region(scene, 0, point, settings.kernel);
@@ -223,7 +223,7 @@ std::vector<Check> check_place(bool flat, const Place& place, GatherMode mode, c
                                 nearest ? KernelKind::constant : KernelKind::epanechnikov};
   const std::string name = fmt::format("{}, {}, {}", place.name, flat ? "on a square" : "in a cube",
                                        nearest ? "12 nearest" : "fixed radius");
-  const Estimator estimate = estimator(flat, scene, place.point, settings);
+  const MapEstimate estimate = estimator(flat, scene, place.point, settings);
   const Shares shares = shares_of(flat, scene, place, settings);
   std::atomic<uint64_t> too_small{0};
   const auto samples = sample_moments(1, effort.count(1'200, 15'000), effort.seed_of(name), [&](Rng& rng, double* out) {

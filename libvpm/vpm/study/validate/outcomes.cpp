@@ -127,7 +127,7 @@ std::vector<Experiment> outcome_experiments() {
 // send on, and where they send it, and what goes on and what is absorbed make up what came.
 namespace {
 
-const Vec3 kUp(0.0f, 0.0f, 1.0f);
+const Vec3 kFacing(0.0f, 0.0f, 1.0f);
 constexpr size_t kGuideRings = 4;  // of directions, of equal solid angle about the z axis
 constexpr size_t kGuideCells = kGuideRings * kSectors;
 const Rgb kArrivingPower(1.0f, 0.6f, 0.3f);  // W
@@ -158,8 +158,8 @@ std::vector<Check> compare(const std::string& name, const DirectionGuide& guide,
     return sample_moments(kGuideCells + 1, events, seed, [&](Rng& rng, double* out) {
       const Outcome after = scatter(by, rng);
       const double power = sum_channels(after.power);
-      out[cell_of(0.5 * away_from(kUp, after.direction), kGuideRings) * kSectors + sector_about(kUp, after.direction)] =
-          power;
+      out[cell_of(0.5 * away_from(kFacing, after.direction), kGuideRings) * kSectors +
+          sector_about(kFacing, after.direction)] = power;
       out[kGuideCells] = power + sum_channels(after.absorbed - kArrivingPower);
     });
   };
