@@ -151,13 +151,13 @@ TEST(SharedMemory, OfAnotherMakerIsNotTakenForIt) {
 }
 
 TEST(SharedMemory, LiesOnWholeHugePagesAndKeepsWhatIsInItOnceItIsFinished) {
-  constexpr size_t kMega = size_t{1} << 20;
-  SharedMemory own(5 * kMega);
+  constexpr size_t kMegabyte = size_t{1} << 20;
+  SharedMemory own(5 * kMegabyte);
   for (size_t i = 0; i < own.bytes().size(); ++i) own.data()[i] = static_cast<std::byte>(i % 251);
   own.finish();
   const SharedMemory found(own.address());
   for (const SharedMemory* memory : {&std::as_const(own), &found}) {
-    EXPECT_EQ(reinterpret_cast<uintptr_t>(memory->bytes().data()) % (2 * kMega), 0u);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(memory->bytes().data()) % (2 * kMegabyte), 0u);
     for (size_t i = 0; i < memory->bytes().size(); ++i) ASSERT_EQ(memory->bytes()[i], static_cast<std::byte>(i % 251));
   }
 }

@@ -14,11 +14,11 @@
 namespace vpm {
 namespace {
 
-constexpr int kReach = 20;
+constexpr int kHalfWidth = 20;
 
 /// Voxels of noise, some of them 0, in one box or in two that lie far apart.
 std::shared_ptr<const DensityGrid> grid_of(Interpolation interpolation, float background, bool two_boxes) {
-  GridFrame frame = centred_frame(kReach, 0.1, interpolation);
+  GridFrame frame = centred_frame(kHalfWidth, 0.1, interpolation);
   frame.background = background;
   std::vector<IndexBox> clouds{{frame.lo, frame.hi}};
   if (two_boxes) {

@@ -48,13 +48,13 @@ std::shared_ptr<const DensityGrid> grid_of(const std::vector<IndexBox>& clouds, 
   return std::make_shared<const DensityGrid>(frame_of(clouds, interpolation, background), fill, clouds);
 }
 
-struct Walked {
+struct WideWalk {
   double integral = 0.0, length = 0.0;
   uint32_t read = 0;
 };
 
-Walked walk(const DensityGrid& grid, const Ray& ray, const Interval& interval) {
-  Walked all;
+WideWalk walk_wide(const DensityGrid& grid, const Ray& ray, const Interval& interval) {
+  WideWalk all;
   double reached = interval.t0;
   all.read = grid.visit_pieces(ray, interval, [&](const DensityPiece& piece) {
     EXPECT_GE(piece.t0, reached - 1e-9);
@@ -103,7 +103,7 @@ TEST_P(WideGrid, MayHoldOneCloudInACornerOfItsFrame) {
   EXPECT_EQ(one.density(middle), 1.0f);
   EXPECT_EQ(one.density(Vec3(20e-6f)), background_);
   EXPECT_EQ(one.density(Vec3(900.0f)), background_);
-  const Walked along = walk(one, {middle - Vec3(1e-3f, 0.0f, 0.0f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 500.0f});
+  const WideWalk along = walk_wide(one, {middle - Vec3(1e-3f, 0.0f, 0.0f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 500.0f});
   EXPECT_NEAR(along.integral - background_ * along.length, 48e-6 * (1.0 - background_), 9e-6);
 }
 
@@ -115,7 +115,7 @@ TEST_P(WideGrid, IsWalkedThroughLikeACloudByItself) {
     const Vec3 origin = target - 1e-4f * uniform_sphere(rng.uniform2());
     const Ray aimed{origin, glm::normalize(target - origin)};
     const Interval interval{0.0f, 2e-4f};
-    const Walked a = walk(*wide_, aimed, interval), b = walk(*alone_, aimed, interval);
+    const WideWalk a = walk_wide(*wide_, aimed, interval), b = walk_wide(*alone_, aimed, interval);
     ASSERT_NEAR(a.integral, b.integral, 1e-12);
     ASSERT_NEAR(a.length, b.length, 1e-12);
     double majorants[2] = {0.0, 0.0};
@@ -132,9 +132,9 @@ TEST_P(WideGrid, IsCrossedInAFewSteps) {
   // Through the first cloud and the third, 1.4 km away.
   const Vec3 middle(Vec3d(1e-6 * 0.5 * kSize));
   const Ray ray{middle - 1e-3f * glm::normalize(Vec3(0, 1, 1)), glm::normalize(Vec3(0, 1, 1))};
-  const Walked all = walk(*wide_, ray, {0.0f, 2000.0f});
+  const WideWalk all = walk_wide(*wide_, ray, {0.0f, 2000.0f});
   EXPECT_LT(all.read, 500u);
-  const Walked one = walk(*alone_, ray, {0.0f, 1.0f});
+  const WideWalk one = walk_wide(*alone_, ray, {0.0f, 1.0f});
   EXPECT_GT(one.integral - background_ * one.length, 1e-5);
   EXPECT_NEAR(all.integral - background_ * all.length, 2.0 * (one.integral - background_ * one.length), 1e-9);
   EXPECT_NEAR(all.length, background_ > 0.0f ? 2000.0 : all.length, 1e-3);

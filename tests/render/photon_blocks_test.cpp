@@ -14,7 +14,7 @@
 namespace vpm {
 namespace {
 
-constexpr uint64_t kPhotons = 4001, kBlock = 600;  // 7 blocks, of 571 and 572 photons
+constexpr uint64_t kPhotons = 4001, kPhotonsOfBlock = 600;  // 7 blocks, of 571 and 572 photons
 
 /// What a pass in blocks and one in one piece may be apart by, of the largest value of the picture. A map keeps the
 /// power of a photon, which is over another number of photons in a block, to 4e-6.
@@ -50,7 +50,7 @@ RenderSettings in_one_piece() {
 }
 
 RenderSettings in_blocks(RenderSettings settings) {
-  settings.photons_block = kBlock;
+  settings.photons_block = kPhotonsOfBlock;
   return settings;
 }
 

@@ -15,7 +15,7 @@
 namespace vpm::exact {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kHalfSpace = std::numeric_limits<double>::infinity();
 
 /// The oracle's slab as ours.
 Slab slab_of(const nlohmann::json& oracle) {
@@ -170,7 +170,7 @@ TEST(ExactSlab, IsotropicHalfSpacesFollowTheHFunction) {
   for (const double albedo : {0.01, 0.5, 0.9, 0.999, 1.0}) {
     SCOPED_TRACE(albedo);
     const std::vector<double> mus{0.01, 0.2, 0.7, 1.0};
-    const SlabSolution half = solve_slab({kInfinite, albedo, isotropic_moments()}, {{}, mus, {}});
+    const SlabSolution half = solve_slab({kHalfSpace, albedo, isotropic_moments()}, {{}, mus, {}});
     const double h1 = chandrasekhar_h(albedo, 1.0).value;
     EXPECT_NEAR(half.reflected.value, 1.0 - std::sqrt(1.0 - albedo) * h1, 1e-11);
     EXPECT_EQ(half.transmitted.value, 0.0);
@@ -186,7 +186,7 @@ TEST(ExactSlab, ThickSlabsBecomeHalfSpaces) {
     const PhaseMoments phase = henyey_greenstein_moments(g);
     const SlabPlaces places{{0.0, 0.5, 5.0}, {0.1, 0.8}, {0.0, 0.5, 1.0}};
     const SlabSolution slab = solve_slab({2000.0, 0.95, phase}, places);
-    const SlabSolution half = solve_slab({kInfinite, 0.95, phase}, places);
+    const SlabSolution half = solve_slab({kHalfSpace, 0.95, phase}, places);
     EXPECT_NEAR(slab.reflected.value, half.reflected.value, 1e-12);
     for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(slab.fluence.values[i], half.fluence.values[i], 1e-11);
     for (size_t i = 0; i < 2; ++i)
