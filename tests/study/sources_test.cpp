@@ -16,12 +16,12 @@
 namespace vpm::exact {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 TEST(ExactAirlight, IsAsTheOracleSays) {
   for (const auto& oracle : oracle_cases("s3_airlight")) {
     SCOPED_TRACE(oracle.at("id"));
-    const double t1 = oracle.at("t1").is_string() ? kInfinite : oracle.at("t1").get<double>();
+    const double t1 = oracle.at("t1").is_string() ? kEndless : oracle.at("t1").get<double>();
     const AirlightSolution ours = solve_airlight({oracle.at("sigma_t"), oracle.at("albedo"), oracle.at("g"),
                                                   oracle.at("d"), oracle.at("t_l"), oracle.at("t0"), t1});
     const double error = oracle.at("rel_err").get<double>() + 2e-13, log10_l = oracle.at("log10_L");
@@ -35,7 +35,7 @@ TEST(ExactAirlight, IsAsTheOracleSays) {
 // (4 pi d), psi0 the angle at which the source sees the camera.
 TEST(ExactAirlight, ThinMediaHaveAClosedForm) {
   const double d = 0.7, closest = 2.0, sigma_t = 1e-14;
-  const AirlightSolution ours = solve_airlight({sigma_t, 1.0, 0.0, d, closest, 0.0, kInfinite});
+  const AirlightSolution ours = solve_airlight({sigma_t, 1.0, 0.0, d, closest, 0.0, kEndless});
   const double psi0 = std::atan2(d, closest);
   EXPECT_NEAR(ours.radiance.value, sigma_t * (kPiD - psi0) / (4.0 * kPiD * d), 1e-11 * ours.radiance.value);
 }
@@ -73,7 +73,7 @@ TEST(ExactAirlight, OfABeamIsTheIntegralOverTheChord) {
 }
 
 TEST(ExactAirlight, StretchesAddUp) {
-  Airlight whole{2.0, 0.9, 0.99, 1e-3, 1.0, 0.0, kInfinite}, near = whole, far = whole;
+  Airlight whole{2.0, 0.9, 0.99, 1e-3, 1.0, 0.0, kEndless}, near = whole, far = whole;
   near.t1 = far.t0 = 1.0005;
   const double sum = solve_airlight(near).radiance.value + solve_airlight(far).radiance.value;
   EXPECT_NEAR(sum, solve_airlight(whole).radiance.value, 1e-12 * sum);
