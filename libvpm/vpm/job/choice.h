@@ -14,8 +14,8 @@ namespace vpm {
 /// chosen is never changed.
 struct AutomaticSettings {
   using Keys = std::set<std::string, std::less<>>;
-  Keys keys;      // those that are "auto"
-  Keys left_out;  // radii that nothing is said of: their defaults go by where photons lie
+  Keys keys{};      // those that are "auto"
+  Keys left_out{};  // radii that nothing is said of: their defaults go by where photons lie
 
   bool any() const { return !keys.empty() || !left_out.empty(); }
   bool has(std::string_view key) const { return keys.contains(key) || left_out.contains(key); }
