@@ -35,16 +35,17 @@ TEST(Automatic, RadiusStaysBetweenHalfAPixelAndATwentiethOfTheScene) {
 }
 
 TEST(Automatic, RadiusStaysWithinTheMediumUnlessTooFewPhotonsWouldBeWithin) {
-  MapDensity thin = density(3);
+  MapDensity thin = density(3);  // 0.1 m hold two of 100,000, 0.09 m hold 1.458
   thin.extent = 1.0;
-  EXPECT_FLOAT_EQ(choose_radius(thin, kPhotonsWithin / 16.0 * 8.0 * 1e5, 10.0).radius, 0.1f);  // holds 50, without it
-  const ChosenRadius tenth = choose_radius(thin, 3.0 * 1e5, 10.0);                             // 0.1 m hold 6, times 3
+  const ChosenRadius tenth = choose_radius(thin, 6.0 * 1e5, 10.0);
   EXPECT_FLOAT_EQ(tenth.radius, 0.1f);
-  EXPECT_EQ(tenth.reason.substr(0, 41), "a tenth of the medium's least extent; 0.2");
+  EXPECT_EQ(tenth.reason.substr(0, 43), "a tenth of the medium's least extent; 0.161");
   thin.free_path = 0.09;
-  EXPECT_FLOAT_EQ(choose_radius(thin, 8.0 * 1e5, 10.0).radius, 0.09f);
-  EXPECT_EQ(choose_radius(thin, 8.0 * 1e5, 10.0).reason.substr(0, 24), "the mean free path there");
-  const ChosenRadius few = choose_radius(thin, 5.0 * 1e5, 10.0);  // 0.1 m hold 10, 0.09 m 7.3
+  const ChosenRadius path = choose_radius(thin, 8.0 * 1e5, 10.0);
+  EXPECT_FLOAT_EQ(path.radius, 0.09f);
+  EXPECT_EQ(path.reason.substr(0, 24), "the mean free path there");
+  thin.extent = kInfinity;
+  const ChosenRadius few = choose_radius(thin, 5.0 * 1e5, 10.0);
   EXPECT_FLOAT_EQ(few.radius, 0.1f);
   EXPECT_EQ(few.reason.substr(0, 3), "10 ");
   EXPECT_NE(few.reason.find("fewer within the mean free path"), std::string::npos) << few.reason;

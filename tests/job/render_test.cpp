@@ -244,6 +244,7 @@ TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
   const auto radius_of = [](double seconds, GatherMode mode) {
     RenderJob job = lit_floor();
     job.automatic.left_out = {"surface.radius"};
+    job.settings.surface.radius = {};
     job.settings.surface.mode = mode;
     if (seconds > 0.0) job.settings.until = {.seconds = seconds};
     choose(job);
