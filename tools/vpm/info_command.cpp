@@ -139,6 +139,8 @@ void print_scene(const InfoOptions& options) {
   const Box box = scene.geometry.bounds();
   fmt::print("scene {}, hash {}\n", options.file, job.hash);
   print_effort(job);
+  for (const Choice& radius : job.choices)
+    fmt::print("{} = {} m by default: {}\n", radius.key, radius.value, radius.reason);
   for (const std::string& note : job.notes) fmt::print("note: {}\n", note);
   print_stages(job, options.all);
   for (const Medium& m : scene.media) print_medium(m);

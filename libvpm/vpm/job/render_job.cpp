@@ -68,8 +68,6 @@ void choose(RenderJob& job, const Clock& clock) {
   validate(job.settings, facts_of(job.scene));
   if (job.automatic.keys.empty()) {
     job.choices = choose_default_radii(job.scene, job.automatic, job.settings);
-    for (const Choice& radius : job.choices)
-      job.notes.push_back(fmt::format("{} = {} m by default: {}", radius.key, radius.value, radius.reason));
     return;
   }
   const double begin = clock.seconds();
@@ -87,7 +85,7 @@ void choose(RenderJob& job, const Clock& clock) {
 void choose_again(RenderJob& job, std::vector<Choice> choices) {
   job.choices = std::move(choices);
   for (const Choice& choice : job.choices) set_chosen(job.settings, choice.key, choice.value);
-  note_choices(job);
+  if (!job.automatic.keys.empty()) note_choices(job);
 }
 
 void check_not_read(const std::filesystem::path& path, const RenderJob& job) {
