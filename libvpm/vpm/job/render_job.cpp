@@ -10,6 +10,8 @@
 #include "vpm/job/choose_records.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/pilot.h"
+#include "vpm/job/render.h"
+#include "vpm/job/setting.h"
 #include "vpm/job/validate.h"
 
 namespace vpm {
@@ -67,7 +69,11 @@ void choose(RenderJob& job, const Clock& clock) {
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
   if (job.automatic.keys.empty()) {
-    job.choices = choose_default_radii(job.scene, job.automatic, job.settings);
+    const double asked = job.settings.until.seconds;
+    RenderSettings chosen = job.settings;
+    const auto look = [&] { job.choices = choose_default_radii(job.scene, job.automatic, chosen); };
+    if (!clock.finish_by(asked > 0.0 ? asked : double{kInfinity}, look)) throw NoPassFits(asked, 0.0);
+    job.settings = chosen;
     return;
   }
   const double begin = clock.seconds();
@@ -83,6 +89,11 @@ void choose(RenderJob& job, const Clock& clock) {
 }
 
 void choose_again(RenderJob& job, std::vector<Choice> choices) {
+  // A radius that was left out then may be given now.
+  std::erase_if(choices, [&](const Choice& choice) {
+    const Setting* const setting = find_setting(choice.key, job.settings);
+    return setting && setting->usually_chosen && !job.automatic.has(choice.key);
+  });
   job.choices = std::move(choices);
   for (const Choice& choice : job.choices) set_chosen(job.settings, choice.key, choice.value);
   if (!job.automatic.keys.empty()) note_choices(job);

@@ -50,9 +50,10 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings = {}
 /// Chooses the settings that are left to it, after a short pilot, and tells so in the job's notes; where nothing is
 /// "auto", the radii alone that nothing is said of, without a note. Does nothing where there are none. Where a time is
 /// asked for, the render has what is left of it on the clock, and what takes more than its part of that is given up.
-/// Throws InputError as choose_settings().
+/// Throws InputError as choose_settings(), and NoPassFits where the time is over before the radii are known.
 void choose(RenderJob& job, const Clock& clock = WallClock());
-/// The same with the choices of an earlier run, in the place of a pilot. Throws InputError as set_chosen().
+/// The same with the choices of an earlier run, in the place of a pilot, but for radii that are given now. Throws
+/// InputError as set_chosen().
 void choose_again(RenderJob& job, std::vector<Choice> choices);
 
 /// Throws InputError where writing to `path` would replace a file that the scene is read from.
