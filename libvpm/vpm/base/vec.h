@@ -73,7 +73,7 @@ inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinit
 
 /// Two unit vectors that form a right-handed orthonormal frame with the unit vector `n`
 /// [Duff2017, listing 3].
-inline void make_frame(const Vec3& n, Vec3& s, Vec3& t) {
+[[gnu::always_inline]] inline void make_frame(const Vec3& n, Vec3& s, Vec3& t) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z);
   const float b = n.x * n.y * a;

@@ -59,12 +59,14 @@ class DensityGrid {
   struct LatticeRay {
     Vec3d origin, direction;
   };
-  LatticeRay lattice_ray(const Ray& ray) const {
+  [[gnu::always_inline]] LatticeRay lattice_ray(const Ray& ray) const {
     const auto [origin, direction] = to_index(ray);
     return {origin - lattice_lo_, direction};
   }
   /// Density at a point of a ray.
-  float density(const LatticeRay& ray, double t) const { return density_at(ray.origin + t * ray.direction); }
+  [[gnu::always_inline]] float density(const LatticeRay& ray, double t) const {
+    return density_at(ray.origin + t * ray.direction);
+  }
   /// Densities at up to kAtOnce points of a ray: at t, t + step, ... (m). This is quicker than one by one, except where
   /// bricks lie in several boxes.
   void densities(const LatticeRay& ray, double t, double step, std::span<float> densities) const;

@@ -88,7 +88,7 @@ struct DensityStretch {
 
   /// The density at t in [t0, t1]. It is clamped to [min, max], and the point to the brick, as rounding may take either
   /// slightly outside.
-  float density(double t) const {
+  [[gnu::always_inline]] float density(double t) const {
     if (uniform()) return min;
     const Vec3d p = place(t);
     const Vec3i cell = cell_at(p);

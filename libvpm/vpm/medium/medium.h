@@ -18,7 +18,7 @@ namespace vpm {
 class DensityAlong {
  public:
   /// `grid` null: density 1.
-  DensityAlong(const DensityGrid* grid, const Ray& ray) : grid_(grid) {
+  [[gnu::always_inline]] DensityAlong(const DensityGrid* grid, const Ray& ray) : grid_(grid) {
     if (grid) ray_ = grid->lattice_ray(ray);
   }
   /// The density at the distance t, m.
