@@ -130,7 +130,7 @@ class DensityGrid {
   struct IndexRay {
     Vec3d origin, direction;
   };
-  IndexRay to_index(const Ray& ray) const {
+  [[gnu::always_inline]] IndexRay to_index(const Ray& ray) const {
     return {Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.origin), 1.0)),
             Vec3d(world_to_index_ * glm::dvec4(Vec3d(ray.direction), 0.0))};
   }
