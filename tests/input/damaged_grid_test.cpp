@@ -72,7 +72,7 @@ TEST_F(GridFile, DamagedBytesAreRefusedOrHarmless) {
 }
 
 TEST_F(GridFile, ATileIsActiveOrNot) {
-  auto grid = FloatGrid::create(0.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
   grid->setName("density");
   grid->tree().addTile(3, Coord(0), 1.0f, true);
   write({grid});

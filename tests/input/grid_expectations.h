@@ -30,7 +30,7 @@ void expect_same_as_sampler(const Grid& grid, const GridRequest& request, float 
     r.interpolation = interpolation;
     const auto density = load_grid(r).grid;
     const auto accessor = grid.getConstAccessor();
-    openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+    openvdb::CoordBBox box = static_cast<const openvdb::GridBase&>(grid).evalActiveVoxelBoundingBox();
     box.expand(3);
     Rng rng(4, 5, 6);
     for (int i = 0; i < 20000; ++i) {

@@ -61,19 +61,19 @@ TEST_F(GridFile, ReadsDoubleHalfAndUnclassedGrids) {
 }
 
 TEST_F(GridFile, ReadsTilesAndPrunedGrids) {
-  auto grid = FloatGrid::create(0.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
   grid->setName("density");
   grid->fill(CoordBBox(Coord(-16, -8, 0), Coord(31, 39, 15)), 0.5f);
   grid->fill(CoordBBox(Coord(40, 3, 5), Coord(44, 11, 9)), 0.25f);
   grid->pruneGrid();
-  ASSERT_GT(grid->activeVoxelCount(), 0u);
+  ASSERT_GT(static_cast<const openvdb::GridBase&>(*grid).activeVoxelCount(), 0u);
   write({grid});
   ASSERT_GT(list_grids(path_)[0].active_tiles, 0u);
   expect_same_as_sampler(*grid, request());
 }
 
 TEST_F(GridFile, InactiveValuesCountInsideTheBoxAndNotOutside) {
-  auto grid = FloatGrid::create(0.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
   grid->setName("density");
   grid->fill(CoordBBox(Coord(0), Coord(4)), 1.0f);
   grid->tree().setValueOff(Coord(2, 2, 2), 0.5f);
@@ -85,7 +85,7 @@ TEST_F(GridFile, InactiveValuesCountInsideTheBoxAndNotOutside) {
 }
 
 TEST_F(GridFile, AnInactiveTileCountsWhereTheBoxCrossesIt) {
-  auto grid = FloatGrid::create(0.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
   grid->setName("density");
   grid->tree().addTile(2, Coord(0), 0.5f, false);  // 128^3 voxels
   grid->tree().setValue(Coord(-1, 0, 0), 1.0f);
@@ -118,7 +118,7 @@ TEST_F(GridFile, AppliesTheObjectTransformAfterTheGridsOwn) {
 TEST_F(GridFile, FindsGridsByNameAndRepeatedOnesByNumber) {
   openvdb::GridPtrVec grids;
   for (const float value : {1.0f, 2.0f, 3.0f}) {
-    auto grid = FloatGrid::create(0.0f);
+    auto grid = new_grid<openvdb::FloatGrid>();
     grid->setName(value == 3.0f ? "heat" : "density");
     grid->fill(CoordBBox(Coord(0), Coord(3)), value);
     grids.push_back(grid);
@@ -137,7 +137,7 @@ TEST_F(GridFile, FindsGridsByNameAndRepeatedOnesByNumber) {
 
 TEST_F(GridFile, OneGridNeedsNoName) {
   const auto named = [](const std::string& name, float value) {
-    auto grid = FloatGrid::create(0.0f);
+    auto grid = new_grid<openvdb::FloatGrid>();
     grid->setName(name);
     grid->fill(CoordBBox(Coord(0), Coord(3)), value);
     return grid;
@@ -181,14 +181,14 @@ TEST_F(GridFile, RefusesLevelSetsUnlessAskedToConvertThem) {
 }
 
 TEST_F(GridFile, RefusesOtherTypesEmptyGridsAndNonlinearTransforms) {
-  auto vectors = openvdb::Vec3SGrid::create();
+  auto vectors = new_grid<openvdb::Vec3SGrid>();
   vectors->setName("density");
   vectors->fill(CoordBBox(Coord(0), Coord(3)), openvdb::Vec3f(1.0f));
   write({vectors});
   EXPECT_NE(refusal(request()).find("holds vec3s values"), std::string::npos);
   EXPECT_NE(refusal(request()).find("the file holds: density (vec3s, "), std::string::npos);
   EXPECT_EQ(list_grids(path_)[0].active_voxels, 64u);
-  auto empty = FloatGrid::create(0.0f);
+  auto empty = new_grid<openvdb::FloatGrid>();
   empty->setName("density");
   write({empty});
   EXPECT_NE(refusal(request()).find("no active voxels"), std::string::npos);
@@ -274,7 +274,7 @@ TEST_F(GridFile, StoresWhatASparseGridHoldsWhereATableWouldBeNearlyEmpty) {
 }
 
 TEST_F(GridFile, RefusesBoxesThatWouldNotFitInMemory) {
-  auto grid = FloatGrid::create(0.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
   grid->setName("density");
   grid->sparseFill(openvdb::CoordBBox(Coord(0), Coord(5 * 4096 - 1)), 1.0f);
   write({grid});
@@ -287,7 +287,7 @@ TEST_F(GridFile, RefusesBoxesThatWouldNotFitInMemory) {
 }
 
 TEST_F(GridFile, SummarizesGrids) {
-  auto grid = FloatGrid::create(0.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
   grid->setName("density");
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   grid->setTransform(Transform::createLinearTransform(0.5));
@@ -314,7 +314,7 @@ TEST_F(GridFile, SummarizesGrids) {
 }
 
 TEST_F(GridFile, SummarizesWhatIsNotANumber) {
-  auto grid = FloatGrid::create(0.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
   const float values[] = {2.0f, std::numeric_limits<float>::quiet_NaN(), 3.0f};
   for (int x = 0; x < 3; ++x) grid->tree().setValue(Coord(x, 0, 0), values[x]);
   write({grid});

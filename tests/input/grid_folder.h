@@ -2,12 +2,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <openvdb/openvdb.h>
 #include <filesystem>
 #include <string>
 
 #include "vpm/base/rng.h"
 #include "vpm/input/grid_file.h"
+#include "vpm/input/vdb_grid.h"
 
 namespace vpm {
 
@@ -37,7 +37,8 @@ class GridFile : public ::testing::Test {
 /// Random values in a box of voxels, some of them left empty.
 template <class Grid>
 typename Grid::Ptr random_grid(const openvdb::Coord& lo, const openvdb::Coord& hi, float background = 0.0f) {
-  auto grid = Grid::create(background);
+  auto grid = new_grid<Grid>();
+  grid->tree().root().setBackground(background, true);
   grid->setName("density");
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   Rng rng(1, 2, 3);

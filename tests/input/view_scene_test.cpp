@@ -15,7 +15,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 /// A cube of such voxels, each a tenth of a metre wide, with a margin of zeros around it.
 openvdb::FloatGrid::Ptr cube_grid(const std::string& name, int voxels, int margin, float density = 1.0f) {
-  auto grid = openvdb::FloatGrid::create(0.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
   grid->setName(name);
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
@@ -56,7 +56,7 @@ TEST_F(ViewOfGrid, HasTheOpticalDepthAcrossThatIsWished) {
 // A sheet of one voxel in 300 is between the points of any lattice that is not much finer than the grid.
 TEST_F(ViewOfGrid, HasTheOpticalDepthOfThinSheetsToo) {
   for (const int place : {100, 101, 102, 103}) {
-    auto grid = openvdb::FloatGrid::create(0.0f);
+    auto grid = new_grid<openvdb::FloatGrid>();
     grid->setName("density");
     grid->fill(openvdb::CoordBBox({0, 0, place}, {15, 15, place}), 3.0f);
     for (const int end : {0, 299}) grid->getAccessor().setValueOn({0, 0, end}, 1e-6f);
@@ -106,7 +106,7 @@ TEST_F(ViewOfGrid, RefusesWhereSeveralGridsOrNoneCouldBeMeant) {
   EXPECT_TRUE(contains(refusal_of(), "several grids could be meant; name one with --grid"));
   EXPECT_TRUE(contains(refusal_of(), "smoke (float, fog volume), dust (float, fog volume)"));
   EXPECT_TRUE(contains(refusal_of({.grid = "fog"}), "there is no grid 'fog'; there are: smoke"));
-  auto vectors = openvdb::Vec3SGrid::create();
+  auto vectors = new_grid<openvdb::Vec3SGrid>();
   vectors->setName("Cd");
   write({vectors});
   EXPECT_TRUE(contains(refusal_of(), "no grid can be a density"));
@@ -123,7 +123,8 @@ TEST_F(ViewOfGrid, ReadsNegativeNoiseAsNothingAndSaysSo) {
 }
 
 TEST_F(ViewOfGrid, EndsABackgroundAtTheBoxOfTheVoxels) {
-  auto grid = openvdb::FloatGrid::create(2.0f);
+  auto grid = new_grid<openvdb::FloatGrid>();
+  grid->tree().root().setBackground(2.0f, true);
   grid->setName("density");
   grid->fill(openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(15)), 1.0f);
   write({grid});

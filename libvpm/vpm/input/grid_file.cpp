@@ -2,7 +2,6 @@
 #include "vpm/input/grid_file.h"
 
 #include <fmt/format.h>
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetUtil.h>
 
 #include "vpm/base/cancel.h"
@@ -15,6 +14,8 @@ namespace {
 
 using openvdb::Coord;
 using openvdb::CoordBBox;
+using openvdb::FloatGrid;
+using openvdb::FloatTree;
 
 /// A file with its table of contents.
 struct VdbFile {
@@ -31,13 +32,6 @@ struct VdbFile {
     throw InputError(fmt::format("{}: grid '{}' {}; {}", cursor.path(), grid, why, layout.listing()));
   }
 };
-
-/// Calls use(typename Grid::Ptr) with an empty grid of the entry's type, which is scalar.
-template <class Use>
-auto with_grid_type(const VdbGridEntry& entry, Use&& use) {
-  if (entry.type == openvdb::FloatGrid::gridType()) return use(openvdb::FloatGrid::create());
-  return use(openvdb::DoubleGrid::create());
-}
 
 /// Reads an entry's transform, which is affine, and leaves the cursor behind it, where the tree begins.
 openvdb::math::Transform::Ptr read_transform(VdbFile& file, const VdbGridEntry& entry) {
@@ -57,9 +51,35 @@ Mat4d index_to_world(const openvdb::math::Transform& transform) {
   return columns;
 }
 
-/// Reads the entry's tree into `grid`. Throws InputError where its bytes are damaged.
-template <class Grid>
-void read_tree(VdbFile& file, const VdbGridEntry& entry, Grid& grid) {
+/// The values of a double grid as floats. Throws InputError where one is beyond them.
+FloatGrid::Ptr rounded(const openvdb::DoubleGrid& wide, const VdbFile& file, const VdbGridEntry& entry) {
+  const auto round = [&](double value, const Coord& voxel) {
+    const auto narrow = static_cast<float>(value);
+    if (std::isinf(narrow) && std::isfinite(value))
+      file.refuse(entry.name, fmt::format("has a value ({}) at voxel ({}, {}, {}) that is beyond floats", value,
+                                          voxel.x(), voxel.y(), voxel.z()));
+    return narrow;
+  };
+  const FloatGrid::Ptr grid = new_grid<FloatGrid>();
+  FloatTree& tree = grid->tree();
+  tree.root().setBackground(static_cast<float>(wide.background()), false);
+  auto tile = wide.tree().cbeginValueAll();
+  tile.setMaxDepth(openvdb::DoubleTree::ValueAllCIter::LEAF_DEPTH - 1);
+  for (; tile; ++tile) tree.addTile(tile.getLevel(), tile.getCoord(), round(*tile, tile.getCoord()), tile.isValueOn());
+  for (auto from = wide.tree().cbeginLeaf(); from; ++from) {
+    cancellation_point();
+    FloatTree::LeafNodeType& to = *tree.touchLeaf(from->origin());
+    for (openvdb::Index i = 0; i < from->SIZE; ++i) {
+      to.setValueOnly(i, round(from->getValue(i), from->offsetToGlobalCoord(i)));
+      to.setActiveState(i, from->isValueOn(i));
+    }
+  }
+  return grid;
+}
+
+/// Reads the values of an entry, which is scalar and affine; doubles are rounded to floats. Throws InputError where its
+/// bytes are damaged.
+FloatGrid::Ptr read_values(VdbFile& file, const VdbGridEntry& entry) {
   const VdbGridEntry* source = entry.tree_of.empty() ? &entry : file.layout.find(entry.tree_of);
   if (!source || source->type != entry.type || !source->tree_of.empty() || !source->affine())
     file.refuse(entry.name, fmt::format("shares the tree of '{}', which cannot be read", entry.tree_of));
@@ -68,17 +88,18 @@ void read_tree(VdbFile& file, const VdbGridEntry& entry, Grid& grid) {
   std::istream& stream = file.cursor.stream();
   openvdb::io::setDataCompression(stream, source->compression);
   openvdb::io::setGridBackgroundValuePtr(stream, nullptr);
-  grid.tree().readTopology(stream, source->stored_half);
-  grid.tree().readBuffers(stream, source->stored_half);
+  const openvdb::GridBase::Ptr grid = openvdb::GridBase::createGrid(entry.type);
+  grid->setSaveFloatAsHalf(source->stored_half);
+  grid->readTopology(stream);
+  grid->readBuffers(stream);
+  if (const auto floats = openvdb::gridPtrCast<FloatGrid>(grid)) return floats;
+  return rounded(*openvdb::gridPtrCast<openvdb::DoubleGrid>(grid), file, entry);
 }
 
 // Summaries
 // ----------------------------------------------------------------------------------------------------
 
-Vec3i to_vec(const Coord& c) { return {c.x(), c.y(), c.z()}; }
-
-template <class Tree>
-ValueRange active_range(const Tree& tree) {
+ValueRange active_range(const FloatTree& tree) {
   ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0.0};
   double sum = 0.0;
   double voxels = 0.0;
@@ -104,14 +125,14 @@ Box world_box(const Mat4d& m, const Vec3i& lo, const Vec3i& hi) {
   return box;
 }
 
-template <class Tree>
-void summarize_values(const Tree& tree, GridSummary& summary) {
-  summary.active_voxels = tree.activeVoxelCount();
-  summary.active_tiles = tree.activeTileCount();
+void summarize_values(const FloatTree& tree, GridSummary& summary) {
+  const openvdb::TreeBase& base = tree;
+  summary.active_voxels = base.activeVoxelCount();
+  summary.active_tiles = base.activeTileCount();
   summary.background = static_cast<double>(tree.background());
-  summary.memory_bytes = tree.memUsage();
+  summary.memory_bytes = base.memUsage();
   CoordBBox box;
-  if (!tree.evalActiveVoxelBoundingBox(box)) return;
+  if (!base.evalActiveVoxelBoundingBox(box)) return;
   summary.lo = to_vec(box.min());
   summary.hi = to_vec(box.max());
   if (summary.index_to_world) summary.world_box = world_box(*summary.index_to_world, summary.lo, summary.hi);
@@ -137,11 +158,7 @@ GridSummary summarize(VdbFile& file, const VdbGridEntry& entry) {
   summary.active_voxels = entry.stated_voxels;
   try {
     if (entry.affine()) summarize_transform(index_to_world(*read_transform(file, entry)), summary);
-    if (entry.scalar() && entry.affine())
-      with_grid_type(entry, [&](auto grid) {
-        read_tree(file, entry, *grid);
-        summarize_values(grid->tree(), summary);
-      });
+    if (entry.scalar() && entry.affine()) summarize_values(read_values(file, entry)->tree(), summary);
   } catch (const std::exception& e) {
     summary.problem = e.what();
   }
@@ -155,9 +172,9 @@ GridSummary summarize(VdbFile& file, const VdbGridEntry& entry) {
 struct Fault {
   uint64_t count = 0;
   Coord first;
-  double value = 0.0;  // at `first`
+  float value = 0.0f;  // at `first`
 
-  void add(uint64_t voxels, const Coord& where, double what) {
+  void add(uint64_t voxels, const Coord& where, float what) {
     if (count == 0) {
       first = where;
       value = what;
@@ -167,33 +184,30 @@ struct Fault {
 };
 
 /// Counts the voxels of the box, active or not, with bad(value).
-template <class Tree, class Bad>
-Fault find_faults(const Tree& tree, const CoordBBox& box, Bad&& bad) {
+template <class Bad>
+Fault find_faults(const FloatTree& tree, const CoordBBox& box, Bad&& bad) {
   Fault fault;
   auto tile = tree.cbeginValueAll();
-  tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
+  tile.setMaxDepth(FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) {
     if (!bad(*tile)) continue;
     CoordBBox shared;
     tile.getBoundingBox(shared);
     shared.intersect(box);
-    if (!shared.empty()) fault.add(shared.volume(), shared.min(), static_cast<double>(*tile));
+    if (!shared.empty()) fault.add(shared.volume(), shared.min(), *tile);
   }
   for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
     cancellation_point();
     for (openvdb::Index i = 0; i < leaf->SIZE; ++i) {
       if (!bad(leaf->getValue(i))) continue;
       const Coord where = leaf->offsetToGlobalCoord(i);
-      if (box.isInside(where)) fault.add(1, where, static_cast<double>(leaf->getValue(i)));
+      if (box.isInside(where)) fault.add(1, where, leaf->getValue(i));
     }
   }
   return fault;
 }
 
-template <class Value>
-bool not_finite(Value value) {
-  return !std::isfinite(static_cast<float>(value));
-}
+bool not_finite(float value) { return !std::isfinite(value); }
 
 /// What a caller needs to refuse or accept values: where they are, and in which file.
 struct DensitySource {
@@ -213,23 +227,20 @@ struct DensitySource {
 };
 
 /// Turns a level set into the fog volume of its inside.
-template <class Grid>
-void convert_level_set(const DensitySource& source, Grid& grid) {
+void convert_level_set(const DensitySource& source, FloatGrid& grid) {
   if (source.entry.grid_class == "fog volume") source.refuse("is a fog volume already; leave out from_level_set");
-  if (!(grid.background() > 0) || not_finite(grid.background()))
+  if (!(grid.background() > 0.0f) || not_finite(grid.background()))
     source.refuse(fmt::format("is not a level set: its background is {}, not the positive width of a narrow band",
                               grid.background()));
-  const Fault fault = find_faults(grid.tree(), CoordBBox::inf(), not_finite<typename Grid::ValueType>);
+  const Fault fault = find_faults(grid.tree(), CoordBBox::inf(), not_finite);
   if (fault.count) source.refuse(fault, "NaN or infinite", "");
   openvdb::tools::sdfToFogVolume(grid);
 }
 
 /// The box of the active voxels.
-template <class Grid>
-CoordBBox active_box(const DensitySource& source, const Grid& grid) {
+CoordBBox active_box(const DensitySource& source, const openvdb::TreeBase& tree) {
   CoordBBox box;
-  if (!grid.tree().evalActiveVoxelBoundingBox(box) || grid.tree().activeVoxelCount() == 0)
-    source.refuse("has no active voxels");
+  if (!tree.evalActiveVoxelBoundingBox(box) || tree.activeVoxelCount() == 0) source.refuse("has no active voxels");
   constexpr int kFarthest = 1 << 30;
   if (std::min(box.min().x(), std::min(box.min().y(), box.min().z())) < -kFarthest ||
       std::max(box.max().x(), std::max(box.max().y(), box.max().z())) > kFarthest)
@@ -238,9 +249,7 @@ CoordBBox active_box(const DensitySource& source, const Grid& grid) {
 }
 
 /// The density outside the box.
-template <class Grid>
-float outside_density(const DensitySource& source, const Grid& grid, uint64_t& clamped) {
-  auto background = static_cast<float>(grid.background());
+float outside_density(const DensitySource& source, float background, uint64_t& clamped) {
   if (!std::isfinite(background)) source.refuse(fmt::format("has the background {}", background));
   if (background < 0.0f) {
     if (!source.request.clamp_negative)
@@ -254,22 +263,20 @@ float outside_density(const DensitySource& source, const Grid& grid, uint64_t& c
   return background;
 }
 
-template <class Grid>
-LoadedGrid make_density(const DensitySource& source, Grid& grid) {
-  if (source.request.from_level_set) convert_level_set(source, grid);
+LoadedGrid make_density(const DensitySource& source, const FloatTree& tree) {
   LoadedGrid loaded;
-  const CoordBBox box = active_box(source, grid);
-  const float background = outside_density(source, grid, loaded.clamped_values);
-  const Fault broken = find_faults(grid.tree(), box, not_finite<typename Grid::ValueType>);
+  const CoordBBox box = active_box(source, tree);
+  const float background = outside_density(source, tree.background(), loaded.clamped_values);
+  const Fault broken = find_faults(tree, box, not_finite);
   if (broken.count) source.refuse(broken, "NaN or infinite", "");
-  const Fault negative = find_faults(grid.tree(), box, [](auto value) { return value < 0; });
+  const Fault negative = find_faults(tree, box, [](float value) { return value < 0.0f; });
   if (negative.count && !source.request.clamp_negative)
     source.refuse(negative, "negative", "; clamp_negative = true reads them as 0");
   loaded.clamped_values += negative.count;
   const GridFrame frame{source.index_to_world, to_vec(box.min()), to_vec(box.max()), source.request.interpolation,
                         background};
   try {
-    loaded.grid = density_of(grid, frame);
+    loaded.grid = density_of(tree, frame);
   } catch (const InputError& e) {
     source.refuse(fmt::format("is too large: {}", e.what()));
   }
@@ -319,10 +326,9 @@ LoadedGrid load_grid(const GridRequest& request) {
   const VdbGridEntry& entry = find_density(file, request);
   try {
     const DensitySource source{file, entry, request, world_matrix(file, entry, request)};
-    return with_grid_type(entry, [&](auto grid) {
-      read_tree(file, entry, *grid);
-      return make_density(source, *grid);
-    });
+    const FloatGrid::Ptr grid = read_values(file, entry);
+    if (request.from_level_set) convert_level_set(source, *grid);
+    return make_density(source, grid->tree());
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

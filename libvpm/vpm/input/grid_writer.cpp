@@ -2,7 +2,6 @@
 #include "vpm/input/grid_writer.h"
 
 #include <fmt/format.h>
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
 #include <algorithm>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
 #include "vpm/base/parallel.h"
+#include "vpm/input/vdb_grid.h"
 #include "vpm/input/vdb_layout.h"
 #include "vpm/medium/procedural.h"
 
@@ -50,7 +50,7 @@ struct Lattice {
 /// Samples the field, a slab of leaves at a time.
 openvdb::FloatGrid::Ptr sample(const Lattice& lattice) {
   constexpr int kSlab = 8;
-  auto grid = openvdb::FloatGrid::create(0.0f);
+  const auto grid = new_grid<openvdb::FloatGrid>();
   auto accessor = grid->getAccessor();
   const Vec3i& count = lattice.count;
   std::vector<float> slab(static_cast<size_t>(kSlab) * count.x * count.y);
@@ -105,7 +105,7 @@ void check_written(const std::string& path) {
 
 /// The values other than 0.
 openvdb::FloatGrid::Ptr sparse_grid(const GridValues& values) {
-  auto grid = openvdb::FloatGrid::create(0.0f);
+  const auto grid = new_grid<openvdb::FloatGrid>();
   auto accessor = grid->getAccessor();
   for (Vec3i p(0); p.x < values.count.x; ++p.x)
     for (p.y = 0; p.y < values.count.y; ++p.y)

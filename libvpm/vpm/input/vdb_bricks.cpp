@@ -1,8 +1,6 @@
 // The values of bricks, leaf by leaf, and where a sparse grid has any.
 #include "vpm/input/vdb_bricks.h"
 
-#include <openvdb/openvdb.h>
-
 #include <algorithm>
 #include <vector>
 
@@ -11,16 +9,15 @@ namespace {
 
 using openvdb::Coord;
 using openvdb::CoordBBox;
+using openvdb::FloatTree;
 
-Vec3i to_vec(const Coord& c) { return {c.x(), c.y(), c.z()}; }
 Coord to_coord(const Vec3i& v) { return {v.x, v.y, v.z}; }
 
 /// Writes the 9^3 values of a brick: whole leaves and tiles, since a brick begins where a leaf does.
-template <class Grid>
 class BrickFiller {
  public:
-  BrickFiller(const Grid& grid, const CoordBBox& box, float background)
-      : accessor_(grid.getConstAccessor()), box_(box), background_(background) {}
+  BrickFiller(const FloatTree& tree, const CoordBBox& box, float background)
+      : accessor_(tree), box_(box), background_(background) {}
 
   void operator()(const Vec3i& origin, float* values) {
     if (fill_at_once(origin, values)) return;
@@ -76,23 +73,22 @@ class BrickFiller {
   }
 
   /// Negative values are read as 0.
-  static float density(typename Grid::ValueType value) { return std::max(0.0f, static_cast<float>(value)); }
+  static float density(float value) { return std::max(0.0f, value); }
 
-  typename Grid::ConstAccessor accessor_;
+  openvdb::tree::ValueAccessor<const FloatTree> accessor_;
   CoordBBox box_;
   float background_;
 };
 
 /// Boxes of voxels around all in the box whose value is not the background's: leaves and tiles.
-template <class Tree>
-std::vector<IndexBox> occupied_boxes(const Tree& tree, const CoordBBox& box) {
+std::vector<IndexBox> occupied_boxes(const FloatTree& tree, const CoordBBox& box) {
   std::vector<IndexBox> occupied;
   const auto add = [&](CoordBBox voxels) {
     voxels.intersect(box);
     if (!voxels.empty()) occupied.push_back({to_vec(voxels.min()), to_vec(voxels.max())});
   };
   auto tile = tree.cbeginValueAll();
-  tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
+  tile.setMaxDepth(FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) {
     CoordBBox voxels;
     if (*tile != tree.background() && tile.getBoundingBox(voxels)) add(voxels);
@@ -103,14 +99,10 @@ std::vector<IndexBox> occupied_boxes(const Tree& tree, const CoordBBox& box) {
 
 }  // namespace
 
-template <class Grid>
-std::shared_ptr<const DensityGrid> density_of(const Grid& grid, const GridFrame& frame) {
+std::shared_ptr<const DensityGrid> density_of(const FloatTree& tree, const GridFrame& frame) {
   const CoordBBox box(to_coord(frame.lo), to_coord(frame.hi));
-  return std::make_shared<const DensityGrid>(frame, BrickFiller<Grid>(grid, box, frame.background),
-                                             occupied_boxes(grid.tree(), box));
+  return std::make_shared<const DensityGrid>(frame, BrickFiller(tree, box, frame.background),
+                                             occupied_boxes(tree, box));
 }
-
-template std::shared_ptr<const DensityGrid> density_of(const openvdb::FloatGrid&, const GridFrame&);
-template std::shared_ptr<const DensityGrid> density_of(const openvdb::DoubleGrid&, const GridFrame&);
 
 }  // namespace vpm

@@ -3,13 +3,13 @@
 
 #include <memory>
 
+#include "vpm/input/vdb_grid.h"
 #include "vpm/medium/density_grid.h"
 
 namespace vpm {
 
-/// The densities of a FloatGrid or DoubleGrid of OpenVDB's in the frame's box; negative values are read as 0. Throws
-/// InputError where that takes more memory than a grid may.
-template <class Grid>
-std::shared_ptr<const DensityGrid> density_of(const Grid& grid, const GridFrame& frame);
+/// The densities of a tree of OpenVDB's in the frame's box; negative values are read as 0. Throws InputError where that
+/// takes more memory than a grid may.
+std::shared_ptr<const DensityGrid> density_of(const openvdb::FloatTree& tree, const GridFrame& frame);
 
 }  // namespace vpm
