@@ -5,8 +5,7 @@
 #include <numeric>
 
 #include "vpm/base/exp_negative.h"
-#include "vpm/estimate/kernel_sum.h"
-#include "vpm/phase/phase.h"
+#include "vpm/estimate/volume_estimate.h"
 #include "vpm/photon/segment_map.h"
 
 namespace vpm {
@@ -68,36 +67,33 @@ template <class Along>
 BeamSum beam_sum(const Phase& phase, const BesideRay& there, Along&& along, const BeamMap& map,
                  GatherCounters& counters) {
   const KernelKind kernel = map.settings.kernel;
+  const bool own_radii = map.settings.beam_count > 0;
   count(counters.searches);
-  const auto sum = [&](const auto& p, auto profile) {
-    KernelPair<Rgbd> sum_of_photons;
-    double radii = 0.0;  // m
-    uint32_t used = 0;
-    const auto visit = [&](const PhotonsNearRay& near) {
-      const PhotonBatch& batch = near.batch;
-      Passed passed;
-      along(near, passed);
+  KernelPair<Rgbd> sum;
+  double radii = 0.0;  // m
+  uint32_t used = 0;
+  const auto visit = [&](const PhotonsNearRay& near) {
+    const PhotonBatch& batch = near.batch;
+    Passed passed;
+    along(near, passed);
+    sum += with_phase_and_kernel<2>(phase, kernel, [&](const auto& p, auto profile) {
       const auto weight = [&](size_t i) {
         const float inverse = 1.0f / (near.radius[i] * near.radius[i]);
         const KernelPair<float> spread = profile(batch.distance2(i) * inverse) * inverse;
         const Rgb kept(passed.r[i], passed.g[i], passed.b[i]);
         return KernelPair<Rgb>(kept * spread.value, kept * spread.correction);
       };
-      const auto scattered = [&](const Vec3& travel, const Rgb& power) {
+      return sum_photons(batch, weight, [&](const Vec3& travel, const Rgb& power) {
         return power * p.value(travel, -there.ray.direction);
-      };
-      sum_of_photons += sum_photons(batch, weight, scattered);
-      used += batch.number();
-      if (map.settings.beam_count > 0) radii += std::accumulate(near.radius, near.radius + batch.number(), 0.0f);
-    };
-    count(counters.visited, map.photons.visit_near_ray(there, visit));
-    counters.used += used;
-    const float mean =
-        map.settings.beam_count > 0 ? static_cast<float>(radii / std::max(1u, used)) : map.settings.radius;
-    return BeamSum{normed(sum_of_photons, kernel_norm_2d(kernel, 1.0f)), used > 0 ? mean : 0.0f};
+      });
+    });
+    used += batch.number();
+    if (own_radii) radii += std::accumulate(near.radius, near.radius + batch.number(), 0.0f);
   };
-  return std::visit(
-      [&](const auto& p) { return with_kernel<2>(kernel, [&](auto profile) { return sum(p, profile); }); }, phase);
+  count(counters.visited, map.photons.visit_near_ray(there, visit));
+  counters.used += used;
+  const float mean = own_radii ? static_cast<float>(radii / std::max(1u, used)) : map.settings.radius;
+  return {normed(sum, kernel_norm_2d(kernel, 1.0f)), used > 0 ? mean : 0.0f};
 }
 
 /// The brute-force twin: looks at every photon of a plain list.

@@ -81,25 +81,32 @@ struct AnyPhoton {
   bool operator()(const PackedDirection&, const Vec3&) const { return true; }
 };
 
+/// The sum over a batch; relative(distance^2) is (distance / radius)^2. The kernel's type is chosen here and not around
+/// the search, which would be compiled for each.
+template <int Dimension, class Relative, class Value>
+KernelPair<Rgbd> weighted_sum(const PhotonBatch& batch, KernelKind kernel, Relative&& relative, Value&& value) {
+  return with_kernel<Dimension>(kernel, [&](auto profile) {
+    return sum_photons(
+        batch, [&](size_t i) { return profile(relative(batch.distance2(i))); }, value);
+  });
+}
+
 /// The sum over the photons within the radius that `accept`(travel, offset) takes.
 template <int Dimension, class Accept, class Value>
 KernelEstimate kernel_sum(const Gathering<RadiusMap>& map, const Vec3& point, Accept&& accept, Value&& value) {
-  const float r = map.settings.radius;
-  const float inverse = 1.0f / (r * r);
-  return with_kernel<Dimension>(map.settings.kernel, [&](auto profile) {
-    KernelPair<Rgbd> sum;
-    const auto visit = [&](NearPhotons& near) {
-      if constexpr (!std::is_same_v<std::decay_t<Accept>, AnyPhoton>) near.keep(map.index.photons(), point, accept);
-      map.work.counters.used += near.size();
-      if (near.size() == 0) return;
-      const PhotonBatch batch(map.index.photons(), near.photons(), near.distances2(), near.size());
-      sum += sum_photons(
-          batch, [&](size_t i) { return profile(batch.distance2(i) * inverse); }, value);
-    };
-    count(map.work.counters.searches);
-    count(map.work.counters.visited, map.index.visit_near(point, r, visit));
-    return normed(sum, kernel_norm<Dimension>(map.settings.kernel, r));
-  });
+  const float r = map.settings.radius, inverse = 1.0f / (r * r);
+  const auto relative = [=](float distance2) { return distance2 * inverse; };
+  KernelPair<Rgbd> sum;
+  const auto visit = [&](NearPhotons& near) {
+    if constexpr (!std::is_same_v<std::decay_t<Accept>, AnyPhoton>) near.keep(map.index.photons(), point, accept);
+    map.work.counters.used += near.size();
+    if (near.size() == 0) return;
+    const PhotonBatch batch(map.index.photons(), near.photons(), near.distances2(), near.size());
+    sum += weighted_sum<Dimension>(batch, map.settings.kernel, relative, value);
+  };
+  count(map.work.counters.searches);
+  count(map.work.counters.visited, map.index.visit_near(point, r, visit));
+  return normed(sum, kernel_norm<Dimension>(map.settings.kernel, r));
 }
 
 /// The k nearest photons that `accept`(travel, offset) takes, among those within the largest radius. The result is
@@ -121,17 +128,14 @@ KernelEstimate neighbour_sum(const Gathering<NearestMap>& map, const Neighbours&
   const float r2 = neighbours.limit();
   const size_t first = neighbours.full() ? 1 : 0;  // the farthest
   map.work.counters.used += neighbours.size() - first;
-  return with_kernel<Dimension>(map.settings.kernel, [&](auto profile) {
-    KernelPair<Rgbd> sum;
-    for (size_t begin = first; begin < neighbours.size(); begin += PhotonBatch::kMost) {
-      const size_t number = std::min(PhotonBatch::kMost, neighbours.size() - begin);
-      const PhotonBatch batch(map.index.photons(), neighbours.photons() + begin, neighbours.distances2() + begin,
-                              number);
-      sum += sum_photons(
-          batch, [&](size_t i) { return profile(batch.distance2(i) / r2); }, value);
-    }
-    return normed(sum, kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2)));
-  });
+  const auto relative = [=](float distance2) { return distance2 / r2; };
+  KernelPair<Rgbd> sum;
+  for (size_t begin = first; begin < neighbours.size(); begin += PhotonBatch::kMost) {
+    const size_t number = std::min(PhotonBatch::kMost, neighbours.size() - begin);
+    const PhotonBatch batch(map.index.photons(), neighbours.photons() + begin, neighbours.distances2() + begin, number);
+    sum += weighted_sum<Dimension>(batch, map.settings.kernel, relative, value);
+  }
+  return normed(sum, kernel_norm<Dimension>(map.settings.kernel, std::sqrt(r2)));
 }
 
 /// The `value` of photons whose powers alone count.

@@ -105,6 +105,13 @@ KernelEstimate scattered_radiance(const Material& material, const Hit& hit, cons
   return kernel_sum<2>(photons..., hit.position, arrives, scattered) * Rgb(1.0f / std::abs(shading));
 }
 
+// Each takes seconds to compile: there is one copy, in surface_map.cpp.
+extern template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const PhotonMap&);
+extern template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const CountedMap&);
+extern template KernelEstimate shaded_irradiance(const Hit&, const Vec3&, const CountedMap&);
+extern template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&, const PhotonMap&);
+extern template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&, const CountedMap&);
+
 /// The radius of the disc, m, that scattered_radiance() gathers over.
 inline float scattered_radius(const Material& material, const Hit& hit, const Vec3& towards_eye,
                               const CountedMap& map) {

@@ -42,4 +42,9 @@ class SurfaceRegion {
   KernelKind kernel_;
 };
 
+// As those of surface_estimate.h.
+extern template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const BoundedMap<SurfaceRegion>&);
+extern template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&,
+                                                  const BoundedMap<SurfaceRegion>&);
+
 }  // namespace vpm

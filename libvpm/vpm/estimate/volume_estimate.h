@@ -6,6 +6,14 @@
 
 namespace vpm {
 
+/// Calls use(phase function, profile of the kernel), each of a type that loops can inline.
+template <int Dimension, class Use>
+auto with_phase_and_kernel(const Phase& phase, KernelKind kernel, Use&& use) {
+  return std::visit(
+      [&](const auto& p) { return with_kernel<Dimension>(kernel, [&](auto profile) { return use(p, profile); }); },
+      phase);
+}
+
 /// volume_sum() of the photons that accept(travel, offset from the point) takes.
 template <class Accept, class... Photons>
 KernelEstimate volume_sum_of(Accept&& accept, const Phase& phase, const Vec3& point, const Vec3& towards,
@@ -38,5 +46,10 @@ Rgb fluence(const Rgb& majorant, const Vec3& point, const Photons&... photons) {
   const auto power_of = [](const Vec3&, const Rgb& power) { return power; };
   return kernel_sum<3>(photons..., point, AnyPhoton{}, power_of).value / majorant;
 }
+
+// Each takes seconds to compile: there is one copy, in points_of_segment.cpp.
+extern template KernelEstimate volume_sum(const Phase&, const Vec3&, const Vec3&, const PhotonMap&);
+extern template KernelEstimate volume_sum(const Phase&, const Vec3&, const Vec3&, const CountedMap&);
+extern template Rgb fluence(const Rgb&, const Vec3&, const PhotonMap&);
 
 }  // namespace vpm

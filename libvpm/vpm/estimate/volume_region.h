@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "vpm/estimate/bounded_map.h"
+#include "vpm/estimate/volume_estimate.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {
@@ -39,5 +40,9 @@ class VolumeRegion {
   KernelKind kernel_;
   VolumeForm form_;
 };
+
+// As those of volume_estimate.h.
+extern template KernelEstimate volume_sum(const Phase&, const Vec3&, const Vec3&, const BoundedMap<VolumeRegion>&);
+extern template Rgb fluence(const Rgb&, const Vec3&, const BoundedMap<VolumeRegion>&);
 
 }  // namespace vpm

@@ -8,7 +8,7 @@
 #include "vpm/estimate/combined/ray_merges.h"
 #include "vpm/estimate/extinction.h"
 #include "vpm/estimate/eye_segment.h"
-#include "vpm/estimate/kernel_sum.h"
+#include "vpm/estimate/volume_estimate.h"
 #include "vpm/photon/ray_bundle.h"
 #include "vpm/photon/ray_lanes.h"
 #include "vpm/photon/stored_power.h"
@@ -65,12 +65,7 @@ auto with_types_of_merge(const CombinedContext& context, const Medium& medium, U
     if (context.counts.heuristic == Heuristic::power) return use(phase, profile, std::true_type());
     return use(phase, profile, std::false_type());
   };
-  return std::visit(
-      [&](const auto& phase) {
-        return with_kernel<Dimension>(context.kernels.volume_kernel,
-                                      [&](auto profile) { return with(phase, profile); });
-      },
-      medium.phase);
+  return with_phase_and_kernel<Dimension>(medium.phase, context.kernels.volume_kernel, with);
 }
 
 /// What merges add up to, without the kernel's norm: with shares, and without.

@@ -8,6 +8,14 @@
 
 namespace vpm {
 
+template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const PhotonMap&);
+template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const CountedMap&);
+template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const BoundedMap<SurfaceRegion>&);
+template KernelEstimate shaded_irradiance(const Hit&, const Vec3&, const CountedMap&);
+template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&, const PhotonMap&);
+template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&, const CountedMap&);
+template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&, const BoundedMap<SurfaceRegion>&);
+
 KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work) {
   count(work.counters.surface_queries);
   if (map.settings.boundary == BoundaryRule::none)

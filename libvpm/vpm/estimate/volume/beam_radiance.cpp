@@ -3,6 +3,7 @@
 
 #include "vpm/estimate/volume/bundle_lanes.h"
 #include "vpm/estimate/volume/pass_to_eye.h"
+#include "vpm/estimate/volume_estimate.h"
 #include "vpm/photon/stored_power.h"
 
 namespace vpm {
@@ -39,18 +40,17 @@ LaneTotals sum_beside(const Medium& medium, const BeamMap& map, const GatherLane
                       GatherCounters& counters) {
   const float radius = map.settings.radius, norm = kernel_norm_2d(map.settings.kernel, radius);
   LaneTotals totals;
-  const auto sum = [&](const auto& phase, auto profile) {
-    const PhotonBeside beside{lanes.segments(), phase, profile, Extinction(medium.sigma_t), radius, balance};
-    const auto visit = [&](const BundledPhotons& photons) {
-      LaneEstimates sums;
+  const Extinction extinction(medium.sigma_t);
+  const auto visit = [&](const BundledPhotons& photons) {
+    LaneEstimates sums;
+    with_phase_and_kernel<2>(medium.phase, map.settings.kernel, [&](const auto& phase, auto profile) {
+      const PhotonBeside beside{lanes.segments(), phase, profile, extinction, radius, balance};
       for (size_t p = 0; p < photons.size; ++p) beside.add(photons, p, sums);
-      totals.add(sums, norm);
-      count(counters.visited, photons.size * lanes.size());
-    };
-    count(counters.visited, map.photons.visit_near_bundle(lanes.rays(), visit));
+    });
+    totals.add(sums, norm);
+    count(counters.visited, photons.size * lanes.size());
   };
-  std::visit([&](const auto& p) { with_kernel<2>(map.settings.kernel, [&](auto profile) { sum(p, profile); }); },
-             medium.phase);
+  count(counters.visited, map.photons.visit_near_bundle(lanes.rays(), visit));
   counters.used += totals.used();
   return totals;
 }

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "vpm/estimate/volume/march.h"
+#include "vpm/estimate/volume_estimate.h"
 
 namespace vpm {
 namespace {
@@ -93,31 +94,26 @@ KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const Sight& sight, Eye
   GatherCounters& counters = work.counters.gather;
   count(work.counters.volume_queries);
   count(counters.searches);
-  const auto sum_for = [&](const auto& phase, auto profile) {
-    KernelPair<Rgbd> light;
-    const auto visit = [&](const BeamPlaces& found) {
-      Passed passed;
-      float along[BeamPlaces::kMost], share[BeamPlaces::kMost];
-      for (size_t i = 0; i < found.size; ++i) {
-        const Vec3 place = from_origin + Vec3(found.x[i], found.y[i], found.z[i]);
-        const float t = glm::dot(place, ray.direction);
-        const bool counts = t >= region.reach().t0 && t < region.reach().t1 && region.within().hold(place);
-        share[i] = counts ? 1.0f : 0.0f;
-        counters.used += counts ? 1 : 0;
-        along[i] = distances.of(place);
-      }
-      sight.pass({along, found.size}, passed);
-      multiply_by_left(medium, beams_.settings(), point, found, passed, work.counters.walk);
-      light += sum_beams(found, passed, share, phase, towards_eye, profile, inverse);
-    };
-    count(counters.visited, map.beams.visit_near(point, visit));
-    return normed(light, kernel_norm_2d(map.settings.kernel, radius));
+  KernelPair<Rgbd> light;
+  const auto visit = [&](const BeamPlaces& found) {
+    Passed passed;
+    float along[BeamPlaces::kMost], share[BeamPlaces::kMost];
+    for (size_t i = 0; i < found.size; ++i) {
+      const Vec3 place = from_origin + Vec3(found.x[i], found.y[i], found.z[i]);
+      const float t = glm::dot(place, ray.direction);
+      const bool counts = t >= region.reach().t0 && t < region.reach().t1 && region.within().hold(place);
+      share[i] = counts ? 1.0f : 0.0f;
+      counters.used += counts ? 1 : 0;
+      along[i] = distances.of(place);
+    }
+    sight.pass({along, found.size}, passed);
+    multiply_by_left(medium, beams_.settings(), point, found, passed, work.counters.walk);
+    light += with_phase_and_kernel<2>(medium.phase, map.settings.kernel, [&](const auto& phase, auto profile) {
+      return sum_beams(found, passed, share, phase, towards_eye, profile, inverse);
+    });
   };
-  return std::visit(
-      [&](const auto& phase) {
-        return with_kernel<2>(map.settings.kernel, [&](auto profile) { return sum_for(phase, profile); });
-      },
-      medium.phase);
+  count(counters.visited, map.beams.visit_near(point, visit));
+  return normed(light, kernel_norm_2d(map.settings.kernel, radius));
 }
 
 }  // namespace vpm

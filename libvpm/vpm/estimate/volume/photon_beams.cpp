@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "vpm/estimate/volume/bundle_lanes.h"
+#include "vpm/estimate/volume_estimate.h"
 
 namespace vpm {
 namespace {
@@ -102,27 +103,21 @@ LaneTotals PhotonBeams::sum_in_lanes(const Medium& medium, const Map& map, const
                                      const GatherLanes& lanes, GatherCounters& counters) const {
   const float radius = map.settings.radius, norm = kernel_norm_1d(map.settings.kernel, radius);
   LaneTotals totals;
-  const auto sum = [&](const auto& phase, auto profile) {
-    const BeamAcross across{lanes.segments(),
-                            phase,
-                            profile,
-                            Extinction(medium.sigma_t),
-                            radius,
-                            map.balance,
-                            beams_.settings().long_beams};
-    const auto visit = [&](const BundledBeams& beams) {
-      LaneEstimates sums;
+  const Extinction extinction(medium.sigma_t);
+  const auto visit = [&](const BundledBeams& beams) {
+    LaneEstimates sums;
+    with_phase_and_kernel<1>(medium.phase, map.settings.kernel, [&](const auto& phase, auto profile) {
+      const BeamAcross across{
+          lanes.segments(), phase, profile, extinction, radius, map.balance, beams_.settings().long_beams};
       for (size_t p = 0; p < beams.size; ++p) {
         const Begin begin = map.begins.empty() ? Begin{Vec3(0.0f), 0.0f} : map.begins[beams.beam[p]];
         across.add(beams, p, begin.from, begin.sigma_s, sums);
       }
-      totals.add(sums, norm);
-      count(counters.visited, beams.size * lanes.size());
-    };
-    count(counters.visited, near.visit_near_bundle(lanes.rays(), visit));
+    });
+    totals.add(sums, norm);
+    count(counters.visited, beams.size * lanes.size());
   };
-  std::visit([&](const auto& p) { with_kernel<1>(map.settings.kernel, [&](auto profile) { sum(p, profile); }); },
-             medium.phase);
+  count(counters.visited, near.visit_near_bundle(lanes.rays(), visit));
   counters.used += totals.used();
   return totals;
 }
@@ -169,24 +164,18 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
   count(work.counters.volume_queries);
   count(counters.searches);
   const Vec3 towards_eye = -segment.ray.direction;
-  const auto sum = [&](const auto& phase, auto profile) {
-    KernelPair<Rgbd> sum_of_beams;
-    const auto visit = [&](const BeamCrossings& found) {
-      Passed passed;
-      float share[BeamCrossings::kMost];  // over the sine
-      counters.used += pass_beams(segment, region, map, pass, found, passed, share, work.counters.walk);
-      sum_of_beams += sum_beams(found, passed, share, phase, towards_eye, profile, inverse);
-    };
-    count(counters.visited, map.beams.visit_crossings(segment.ray, near, visit));
-    return normed(sum_of_beams, kernel_norm_1d(map.settings.kernel, radius));
+  KernelPair<Rgbd> sum;
+  const auto visit = [&](const BeamCrossings& found) {
+    Passed passed;
+    float share[BeamCrossings::kMost];  // over the sine
+    counters.used += pass_beams(segment, region, map, pass, found, passed, share, work.counters.walk);
+    sum += with_phase_and_kernel<1>(medium.phase, map.settings.kernel, [&](const auto& phase, auto profile) {
+      return sum_beams(found, passed, share, phase, towards_eye, profile, inverse);
+    });
   };
+  count(counters.visited, map.beams.visit_crossings(segment.ray, near, visit));
   const KernelEstimate light =
-      segment.throughput * scattering_of_beams(medium, form) *
-      std::visit(
-          [&](const auto& phase) {
-            return with_kernel<1>(map.settings.kernel, [&](auto profile) { return sum(phase, profile); });
-          },
-          medium.phase);
+      segment.throughput * scattering_of_beams(medium, form) * normed(sum, kernel_norm_1d(map.settings.kernel, radius));
   if (region.whole() || is_black(light.value)) return light;
   const SeenAlong seen(medium.sigma_t, segment.interval, pass.integrals());
   return over_share(light, region.share(radius, seen, work.rng), counters);

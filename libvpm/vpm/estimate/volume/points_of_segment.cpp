@@ -8,6 +8,13 @@
 #include "vpm/estimate/volume_region.h"
 
 namespace vpm {
+
+template KernelEstimate volume_sum(const Phase&, const Vec3&, const Vec3&, const PhotonMap&);
+template KernelEstimate volume_sum(const Phase&, const Vec3&, const Vec3&, const CountedMap&);
+template KernelEstimate volume_sum(const Phase&, const Vec3&, const Vec3&, const BoundedMap<VolumeRegion>&);
+template Rgb fluence(const Rgb&, const Vec3&, const PhotonMap&);
+template Rgb fluence(const Rgb&, const Vec3&, const BoundedMap<VolumeRegion>&);
+
 namespace {
 
 /// What the region of a segment goes by.
@@ -72,32 +79,28 @@ KernelEstimate PointsOfSegment::sum_of_seen(const Vec3& point, EyeWork& work) co
   count(work.counters.volume_queries);
   count(counters.searches);
   const KernelKind kernel = map_.settings.kernel;
-  const auto sum = [&](const auto& phase, auto profile) {
-    KernelPair<Rgbd> sum_of_photons;
-    const auto visit = [&](NearPhotons& near) {
-      near.keep(map.photons(), point, accept);
-      counters.used += near.size();
-      if (near.size() == 0) return;
-      const PhotonBatch batch(map.photons(), near.photons(), near.distances2(), near.size());
-      float along[PhotonBatch::kMost] = {};  // m, from the segment's start
-      for (size_t i = 0; i < near.size(); ++i)
-        along[i] = distances.of(map.photons().position(near.photons()[i]) - ray.origin);
+  KernelPair<Rgbd> sum;
+  const auto visit = [&](NearPhotons& near) {
+    near.keep(map.photons(), point, accept);
+    counters.used += near.size();
+    if (near.size() == 0) return;
+    const PhotonBatch batch(map.photons(), near.photons(), near.distances2(), near.size());
+    float along[PhotonBatch::kMost] = {};  // m, from the segment's start
+    for (size_t i = 0; i < near.size(); ++i)
+      along[i] = distances.of(map.photons().position(near.photons()[i]) - ray.origin);
+    sum += with_phase_and_kernel<3>(medium.phase, kernel, [&](const auto& phase, auto profile) {
       const auto weight = [&](size_t i) {
         const KernelPair<float> spread = profile(batch.distance2(i) * inverse);
         const Rgb kept = beam_transmittance(sigma_t, mirrored(along[i]) - mirrored.t0);
         return KernelPair<Rgb>(kept * spread.value, kept * spread.correction);
       };
-      sum_of_photons += sum_photons(batch, weight, [&](const Vec3& travel, const Rgb& power) {
+      return sum_photons(batch, weight, [&](const Vec3& travel, const Rgb& power) {
         return power * phase.value(travel, -ray.direction);
       });
-    };
-    count(counters.visited, map.visit_near(point, radius, visit));
-    return normed(sum_of_photons, kernel_norm_3d(kernel, radius));
+    });
   };
-  const auto by_kernel = [&](const auto& phase) {
-    return with_kernel<3>(kernel, [&](auto profile) { return sum(phase, profile); });
-  };
-  return std::visit(by_kernel, medium.phase);
+  count(counters.visited, map.visit_near(point, radius, visit));
+  return normed(sum, kernel_norm_3d(kernel, radius));
 }
 
 KernelEstimate PointsOfSegment::march_seen(EyeWork& work) const {
