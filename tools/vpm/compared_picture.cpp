@@ -22,7 +22,7 @@ std::optional<uint64_t> passes_of(const std::string& text) {
 
 }  // namespace
 
-Origin origin_of(const ExrChannels& file) {
+PictureOrigin origin_of(const ExrChannels& file) {
   const auto told = [&](const char* name) {
     const auto found = file.metadata.find(name);
     return found == file.metadata.end() ? std::string() : found->second;

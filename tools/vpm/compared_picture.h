@@ -25,14 +25,14 @@ void check_same_size(const Image& image, const std::string& path, const Image& r
 Errors errors_of(const Image& image, const std::string& path, const Image& reference, const std::string& to);
 
 /// What a file tells of where its picture is from; empty where it does not.
-struct Origin {
+struct PictureOrigin {
   std::string scene, settings, seed;  // vpm.sceneHash, vpm.settings, vpm.seed
   std::optional<uint64_t> passes;     // vpm.passes
 
   /// The first of the settings: with which of the integrators it was rendered.
   std::string integrator() const { return settings.substr(0, settings.find(' ')); }
 };
-Origin origin_of(const ExrChannels& file);
+PictureOrigin origin_of(const ExrChannels& file);
 
 /// The picture of a file with what it tells of its noise. Variances that are not finite are told of on stderr and not
 /// used.

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 Json rgb(const Rgbd& c) { return Json::array({number(c.r), number(c.g), number(c.b)}); }
 
 /// Do they draw the same random numbers for the same things, so that part of their noise is the same?
-bool share_noise(const Origin& one, const Origin& other) {
+bool share_noise(const PictureOrigin& one, const PictureOrigin& other) {
   return !one.seed.empty() && one.seed == other.seed && one.integrator() == other.integrator();
 }
 

@@ -29,7 +29,7 @@ ReferenceNoise noise_of(const NoisyImage& reference) {
 /// A picture of a series.
 struct Member {
   std::string path;
-  Origin origin;
+  PictureOrigin origin;
   Errors errors;
 
   double mse_less(const ReferenceNoise& noise) const { return errors.mse - noise.mse; }
@@ -46,7 +46,7 @@ Convergence convergence_of(const std::vector<Member>& series, const ReferenceNoi
                            double (Member::*error)(const ReferenceNoise&) const) {
   std::vector<double> x, y;
   for (const Member& member : series) {
-    const Origin &origin = member.origin, &first = series[0].origin;
+    const PictureOrigin &origin = member.origin, &first = series[0].origin;
     if (!origin.passes) return {std::nullopt, fmt::format("{} does not tell its passes (vpm.passes)", member.path)};
     if (origin.scene != first.scene || origin.settings != first.settings)
       return {std::nullopt, fmt::format("{} has another scene or other settings than {}", member.path, series[0].path)};

@@ -11,7 +11,7 @@
 namespace vpm::tools {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of reference numbers, at most
+constexpr double kReferenceRounding = 1e-6;  // of reference numbers, at most
 
 /// The whole of a text as a number; NaN where it is none.
 double parse_number(const std::string& text) {
@@ -79,13 +79,13 @@ double OracleCase::number_in(std::string_view field, double lo, double hi) const
 }
 
 double OracleCase::share(std::string_view field) const {
-  return std::clamp(number_in(field, -kRounding, 1.0 + kRounding), 0.0, 1.0);
+  return std::clamp(number_in(field, -kReferenceRounding, 1.0 + kReferenceRounding), 0.0, 1.0);
 }
 
 std::vector<double> OracleCase::shares(std::string_view field, size_t size) const {
   std::vector<double> result = numbers(field, size);
   for (double& x : result) {
-    if (!(x >= -kRounding && x <= 1.0 + kRounding))
+    if (!(x >= -kReferenceRounding && x <= 1.0 + kReferenceRounding))
       refuse(fmt::format("\"{}\" holds {}, it must be from 0 to 1", field, x));
     x = std::clamp(x, 0.0, 1.0);
   }

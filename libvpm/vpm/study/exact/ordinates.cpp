@@ -125,7 +125,8 @@ Modes make_modes(double albedo, const PhaseMoments& phase, const Ordinates& ordi
   const MatrixXd m_b = b_root.matrixL().solve(MatrixXd(mu.asDiagonal())).transpose();  // M L_B^-T
   const Eigen::LLT<MatrixXd> root_shifted(a + m_b * m_b.transpose());
   assert(b_root.info() == Eigen::Success && root_shifted.info() == Eigen::Success);
-  const Eigen::BDCSVD<MatrixXd> svd(root_shifted.matrixL().solve(m_b), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(root_shifted.matrixL().solve(m_b),
+                                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
   const VectorXd& s = svd.singularValues();
 
   Modes modes;

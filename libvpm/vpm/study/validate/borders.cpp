@@ -240,7 +240,7 @@ std::vector<Check> check_place(bool flat, const Place& place, GatherMode mode, c
   return checks;
 }
 
-std::vector<Check> check_borders(bool flat, const Effort& effort) {
+std::vector<Check> check_kernels(bool flat, const Effort& effort) {
   std::vector<Check> checks;
   for (const Place& place : flat ? places_on_square() : places_in_cube())
     for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest})
@@ -252,8 +252,8 @@ std::vector<Check> check_borders(bool flat, const Effort& effort) {
 
 std::vector<Experiment> border_experiments() {
   return {{0, "even photons at borders, estimates corrected", [](const Effort& effort) {
-             std::vector<Check> checks = check_borders(false, effort);
-             append(checks, check_borders(true, effort));
+             std::vector<Check> checks = check_kernels(false, effort);
+             append(checks, check_kernels(true, effort));
              return checks;
            }}};
 }

@@ -12,7 +12,7 @@ namespace vpm {
 
 namespace {
 
-const Vec3 kUp(0.0f, 1.0f, 0.0f);  // the receiver's normal
+const Vec3 kNormal(0.0f, 1.0f, 0.0f);  // the receiver's normal
 
 /// What a light of unit radiance, intensity, ... sends to a point.
 struct Received {
@@ -79,7 +79,7 @@ Received from_quad() {
   const Vec3 point(0.3f, 0.1f, -0.2f);
   const Polygon c = corners(light, point);
   const double angle = polygon_angle(c);
-  return {"quad", light, point, angle, polygon_irradiance(c, Vec3d(kUp)), angle};
+  return {"quad", light, point, angle, polygon_irradiance(c, Vec3d(kNormal)), angle};
 }
 
 Received from_disc() {
@@ -87,7 +87,7 @@ Received from_disc() {
   const Vec3 point(0.4f, 0.1f, -0.1f);
   const Polygon c = corners(light, point);
   const double angle = polygon_angle(c);
-  return {"disc", light, point, angle, polygon_irradiance(c, Vec3d(kUp)), angle};
+  return {"disc", light, point, angle, polygon_irradiance(c, Vec3d(kNormal)), angle};
 }
 
 /// A tetrahedron. Of a convex body what faces the point is what is seen from it.
@@ -100,7 +100,7 @@ Received from_mesh() {
     if (glm::dot(glm::cross(b - a, c - a), Vec3d(point) - a) <= 0.0) continue;
     const Polygon face = seen_from(point, {a, b, c});
     angle += polygon_angle(face);
-    plane += polygon_irradiance(face, Vec3d(kUp));
+    plane += polygon_irradiance(face, Vec3d(kNormal));
   }
   return {"mesh", MeshLight{std::make_shared<EmittingMesh>(mesh), Rgb(1.0f)}, point, angle, plane, angle};
 }
@@ -155,7 +155,7 @@ std::vector<Check> check_received(const Received& from, const Effort& effort) {
                                         const std::optional<Incident> in = sample_towards(from.light, from.point, rng);
                                         if (!in) return;
                                         out[0] = in->irradiance.g;
-                                        out[1] = in->irradiance.g * std::max(0.0f, glm::dot(in->direction, kUp));
+                                        out[1] = in->irradiance.g * std::max(0.0f, glm::dot(in->direction, kNormal));
                                         out[2] = in->pdf > 0.0f ? 1.0 / in->pdf : 0.0;
                                       });
   if (from.angle == 0.0)

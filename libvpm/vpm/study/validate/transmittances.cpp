@@ -133,16 +133,16 @@ std::vector<Check> estimates_by(const EstimatorInfo& info, float comb, const Eff
 /// where the transmittance falls below 1 % and marches go on by roulette. It glows less than marches thin out, so that
 /// what they bring has a variance.
 std::vector<Check> check_march(const Effort& effort) {
-  constexpr double kRise = 0.4, kDepth = 20.0;  // 1/m and m, where sigma_t is 1/m
+  constexpr double kRise = 0.4, kLength = 20.0;  // 1/m and m, where sigma_t is 1/m
   const Medium medium = make_medium(nullptr, Rgb(1.0f));
   const Ray ray{Vec3(0.0f), Vec3(0.0f, 0.0f, 1.0f)};
   const StepLimits limits{.length = kInfinity, .optical = 0.5f};
   const auto samples =
       sample_moments(1, effort.count(20'000, 2'000'000), effort.seed_of("march"), [&](Rng& rng, double* out) {
-        Marcher().march(medium, ray, {0.0f, static_cast<float>(kDepth)}, limits, rng,
+        Marcher().march(medium, ray, {0.0f, static_cast<float>(kLength)}, limits, rng,
                         [&](const Vec3& point, const Rgb& weight) { out[0] += weight.g * std::exp(kRise * point.z); });
       });
-  const double exact = -std::expm1((kRise - 1.0) * kDepth) / (1.0 - kRise);
+  const double exact = -std::expm1((kRise - 1.0) * kLength) / (1.0 - kRise);
   return {check_weighted_mean("light from deep inside", samples[0], exact)};
 }
 
