@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/statistics.h"
 #include "vpm/base/error.h"
 #include "vpm/base/tails.h"

@@ -1,6 +1,7 @@
 // Lights above a plane; photons and paths in closed cavities.
 #include "vpm/study/estimates/irradiance.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "vpm/base/warp.h"

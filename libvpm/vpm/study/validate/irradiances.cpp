@@ -1,4 +1,5 @@
 // Light sampled from a point: irradiance, radiance integrated over directions, and solid angle, against closed forms.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -1,6 +1,8 @@
 // Integrals over the lobes of rough materials, and draws from them.
 #include "vpm/study/validate/lobes.h"
 
+#include <algorithm>
+
 #include "vpm/base/warp.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/directions.h"

@@ -1,6 +1,7 @@
 // Directions after a surface: by the cosine law, the mirror's and Snell's, and in the lobes of rough materials; and
 // what refraction does to radiance.
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
