@@ -207,6 +207,19 @@ TEST(Render, DropsThePassUnderWayWhenItIsStopped) {
   EXPECT_EQ(result.film.passes(), 2);
 }
 
+// It is finished, and the picture that it joins is whole.
+TEST(Render, KeepsThePassAtWhoseEndItIsStopped) {
+  const RenderJob job = lit_floor();
+  std::atomic<bool> stop{false};
+  const auto make = [&](int, const RenderResult& so_far, const PassProgress&) {
+    stop = so_far.film.passes() == 2;
+    return Pass(12, 12);
+  };
+  const CancelScope scope(stop);
+  const RenderResult result = run_passes({.passes = 5}, {make, 1}, nothing_rendered(job.scene.camera), {});
+  EXPECT_EQ(result.film.passes(), 3);
+}
+
 TEST(Render, MakesThePassesOfAPieceByTheirNumbers) {
   std::vector<int> made;
   const auto make = [&](int number, const RenderResult&, const PassProgress&) {

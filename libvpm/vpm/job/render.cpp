@@ -169,14 +169,17 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
   Progress bar("render", counted ? passes.work * passes.blocks * static_cast<uint64_t>(missing) : 1000,
                shown && !single, counted ? passes.work : 1);
   ProgressNote note(until);
-  estimate_errors(until, result);  // of a render that goes on
+  {
+    const CancelledWith nothing(nullptr);  // what a render had that goes on is kept
+    estimate_errors(until, result);
+  }
   for (double last = 0.0; !is_cancelled() && share_done(until, result) < 1.0 && time.allows(result, last);) {
     const double begin = control.clock->seconds();
     const int number = result.film.sums().passes.first_missing(until.first);
     const std::optional<Pass> done = time.make(number, result, {shown && single, counted ? &bar : nullptr});
     if (!done) break;
+    const CancelledWith nothing(nullptr);  // what follows belongs to the pass, which is finished
     add(result, number, *done);
-    const CancelledWith nothing(nullptr);  // what follows belongs to the pass
     estimate_errors(until, result);
     result.seconds = earlier + control.clock->seconds();
     if (control.finished) control.finished(result);
