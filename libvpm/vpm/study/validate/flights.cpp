@@ -76,7 +76,8 @@ double adaptively_marched_integral(const Medium& medium, double t, const Distanc
 }
 
 /// By how much the law of a march is off in each cell, in probability.
-std::vector<double> march_bias(const Medium& medium, const Law& law, const DistanceSettings& settings, double sigma_t) {
+std::vector<double> marched_bias(const Medium& medium, const Law& law, const DistanceSettings& settings,
+                                 double sigma_t) {
   Law marched = law;
   for (size_t i = 0; i < kCells; ++i)
     marched.integrals[i] =
@@ -135,7 +136,7 @@ void check_flights(std::vector<Check>& checks, const TestField& field, const Rgb
   for (int c = 0; c < (medium.grey() ? 1 : 3); ++c) {
     std::vector<double> probabilities, bias;
     for (size_t cell = 0; cell <= kCells; ++cell) probabilities.push_back(law.probability(sigma_t[c], cell));
-    if (marches) bias = march_bias(medium, law, settings, sigma_t[c]);
+    if (marches) bias = marched_bias(medium, law, settings, sigma_t[c]);
     const auto first = cells.begin() + c * static_cast<ptrdiff_t>(kCells + 1);
     checks.push_back(check_weights(name + (medium.grey() ? "" : kOfChannel[static_cast<size_t>(c)]),
                                    {first, first + kCells + 1}, probabilities, bias));
