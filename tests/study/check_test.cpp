@@ -9,6 +9,7 @@
 #include <set>
 
 #include "support/statistics.h"
+#include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/tails.h"
 #include "vpm/study/sample_moments.h"
