@@ -52,6 +52,11 @@ TEST_F(GridFile, ReadsDoubleHalfAndUnclassedGrids) {
   auto wide = random_grid<DoubleGrid>(Coord(-3), Coord(12));
   write({wide});
   expect_same_as_sampler(*wide, request());
+  wide->tree().addTile(1, Coord(16, 0, 0), 0.5, true);
+  wide->tree().addTile(1, Coord(0, 16, 0), 0.25, false);
+  write({wide});
+  EXPECT_EQ(list_grids(path_)[0].active_tiles, 1u);
+  expect_same_as_sampler(*wide, request());
   auto half = random_grid<FloatGrid>(Coord(-3), Coord(12));
   half->setSaveFloatAsHalf(true);
   half->setGridClass(openvdb::GRID_UNKNOWN);

@@ -34,7 +34,7 @@ struct GridSummary {
   Box world_box;                     // m, around the positions of those voxels
   std::optional<ValueRange> values;  // of float and double grids with active voxels; NaN or infinity show in it
   std::optional<double> background;  // of float and double grids
-  uint64_t memory_bytes = 0;         // of float and double grids, as OpenVDB holds them
+  uint64_t memory_bytes = 0;         // of float and double grids, as OpenVDB holds them in floats
 };
 
 /// The grids of a file, in its order. The values of float and double grids are read, of others only the heading. Throws
