@@ -220,6 +220,9 @@ TEST_F(GridFile, RefusesValuesThatAreNotNumbersAndSaysWhere) {
   wide->tree().setValue(Coord(1, 1, 1), 1e39);
   write({wide});
   EXPECT_NE(refusal(request()).find("(1e+39) at voxel (1, 1, 1)"), std::string::npos) << refusal(request());
+  wide->tree().setValue(Coord(1, 1, 1), -1e-60);
+  write({wide});
+  EXPECT_NE(refusal(request()).find("has 1 negative value"), std::string::npos) << refusal(request());
 }
 
 TEST_F(GridFile, ClampsNegativeValuesOnlyOnRequestAndCountsThem) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <openvdb/tools/LevelSetUtil.h>
+#include <limits>
 
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
@@ -58,7 +59,8 @@ FloatGrid::Ptr rounded(const openvdb::DoubleGrid& wide, const VdbFile& file, con
     if (std::isinf(narrow) && std::isfinite(value))
       file.refuse(entry.name, fmt::format("has a value ({}) at voxel ({}, {}, {}) that is beyond floats", value,
                                           voxel.x(), voxel.y(), voxel.z()));
-    return narrow;
+    // A negative value stays one, however small, so that it is refused or counted.
+    return value < 0.0 && narrow == 0.0f ? -std::numeric_limits<float>::denorm_min() : narrow;
   };
   const FloatGrid::Ptr grid = new_grid<FloatGrid>();
   FloatTree& tree = grid->tree();
