@@ -92,14 +92,14 @@ TEST(Clock, TellsItsOwnEndFromThatOfWorkAroundIt) {
 
 TEST(WallClock, EndsWorkThatNeverEnds) {
   const WallClock clock;
-  int asked = 0;
   const auto never_ends = [] {
     for (;; std::this_thread::yield()) cancellation_point();
   };
   EXPECT_FALSE(clock.finish_by(0.02, never_ends));
   EXPECT_GE(clock.seconds(), 0.02);
-  EXPECT_FALSE(clock.finish_by(0.0, never_ends, [&] { return ++asked < 3 ? clock.seconds() + 1e-3 : 0.0; }));
-  EXPECT_EQ(asked, 3);
+  // Each new end is over as soon as it is told, or hardly later.
+  int asked = 0;
+  EXPECT_FALSE(clock.finish_by(0.0, never_ends, [&] { return ++asked < 1000 ? clock.seconds() + 1e-7 : 0.0; }));
   EXPECT_TRUE(clock.finish_by(kNever, [] {}));
 }
 

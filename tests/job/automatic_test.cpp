@@ -179,6 +179,36 @@ TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMaps) {
   EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, {SimulatedClock(), kInfinity}, combined), InputError);
 }
 
+/// Also those that are "auto", where choosing is given up.
+TEST(Automatic, RadiiHaveTheirDefaultsWhereTheTimeDoesNotAllowMore) {
+  const Scene scene = cloud_over_floor(true);
+  const AutomaticSettings automatic{{"photons.emitted", "volume.radius", "surface.radius"}};
+  RenderSettings usual;
+  usual.until.seconds = 1.0;
+  RenderSettings settings = usual;
+  choose_default_radii(scene, automatic, usual);
+  const HastyClock clock;
+  const Chosen chosen = choose_settings(scene, automatic, {clock, 1.0}, settings);
+  EXPECT_EQ(chosen.left_out, "the time does not allow to choose photons and radii");
+  EXPECT_EQ(chosen.choices.size(), 2u);
+  EXPECT_EQ(settings.volume.radius, usual.volume.radius);
+  EXPECT_EQ(settings.surface.radius, usual.surface.radius);
+  EXPECT_EQ(settings.photons_emitted, usual.photons_emitted);
+}
+
+TEST(Automatic, TheFirstOfAllIsTakenWhereTheTimeAllowsNoTrial) {
+  const Scene scene = cloud_over_floor(true);
+  RenderSettings settings;
+  settings.until.seconds = 1.0;
+  const HastyClock clock;
+  const std::vector<Choice> choices =
+      choose_settings(scene, {{"render.integrator", "volume.radius"}}, {clock, 1.0}, settings).choices;
+  ASSERT_EQ(choices.size(), 2u);
+  EXPECT_EQ(choices[0].value, "photon");
+  EXPECT_EQ(choices[0].reason.substr(0, 22), "the first of all; not ") << choices[0].reason;
+  EXPECT_TRUE(settings.volume.radius.is_given());
+}
+
 /// A gather that is given stays, and so does that of a scene without media.
 TEST(Automatic, KeepsGathersThatAreGiven) {
   RenderSettings settings;
@@ -239,7 +269,7 @@ TEST(Automatic, CountsLessOfManyNearestPhotons) {
 }
 
 /// A timing in a hurry asks for fewer photons, and tells about the same of each; and paths have a pass to time, too.
-TEST(Automatic, TimesAPassInTheSecondsThatItIsGiven) {
+TEST(Automatic, TellsTheSameOfEachPhotonInAHurry) {
   const Scene scene = cloud_over_floor(false);
   RenderSettings settings;
   settings.photons_emitted = 100'000'000;

@@ -20,6 +20,7 @@ struct TimedRender {
   double photons_share = 0.0;  // of a pass, before its first tile
   std::vector<std::string> notes{};
   double foreseen = 0.0;
+  std::string what_fits{};
 
   RenderResult until(double asked, double earlier = 0.0) {
     const auto make = [&](int number, const RenderResult&, const PassProgress& progress) {
@@ -33,7 +34,7 @@ struct TimedRender {
     };
     const auto note = [&](const std::string& text) { notes.push_back(text); };
     return run_passes({.seconds = asked}, {make, kTiles}, {Film(2, 2), {}, earlier, {}},
-                      {.clock = clock, .foreseen = foreseen, .note = note});
+                      {.clock = clock, .foreseen = foreseen, .what_fits = what_fits, .note = note});
   }
 };
 
@@ -91,6 +92,18 @@ TEST(PassTime, EndsWhereNotOnePassFits) {
   EXPECT_NEAR(end_of_pass_that_does_not_fit({.seconds = {40.0}, .photons_share = 0.5, .foreseen = 40.0}), 4.0, 1e-9);
   // That its tiles are slow is seen only after the time that was asked for, and photons count for them in part.
   EXPECT_NEAR(end_of_pass_that_does_not_fit({.seconds = {40.0}, .photons_share = 0.12}, 0.5), 7.2, 1e-9);
+}
+
+/// The words are of the time that was asked for, also where earlier runs, or choosing, have taken a part of it.
+TEST(PassTime, SaysWhatWasAskedForAndWhatWouldFit) {
+  TimedRender render{.seconds = {40.0}, .photons_share = 0.5, .foreseen = 40.0, .what_fits = "less would fit"};
+  try {
+    render.until(4.0, 1.0);
+    ADD_FAILURE() << "it fits";
+  } catch (const NoPassFits& failure) {
+    EXPECT_STREQ(failure.what(), "no pass is finished within the 4 s asked for: one takes about 40 s; less would fit");
+  }
+  EXPECT_NEAR(render.clock->seconds(), 3.0, 1e-9);
 }
 
 }  // namespace

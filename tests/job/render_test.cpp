@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "support/simulated_clock.h"
 #include "vpm/base/cancel.h"
 #include "vpm/base/progress.h"
 #include "vpm/image/exr.h"
@@ -67,8 +68,10 @@ TEST(Render, ACropTellsAJobFromAnother) {
 TEST(Render, TellsThatAnErrorIsNotReached) {
   RenderJob job = lit_floor();
   job.settings.until = {.seconds = 0.1, .error = 1e-12};
-  const std::vector<std::string> warnings =
-      warnings_of(job, render(job.scene, job.settings, nothing_rendered(job.scene.camera)));
+  const auto clock = std::make_shared<SimulatedClock>();
+  const auto finished = [&](const RenderResult&) { clock->work(0.03); };
+  const std::vector<std::string> warnings = warnings_of(
+      job, render(job.scene, job.settings, nothing_rendered(job.scene.camera), {.finished = finished, .clock = clock}));
   ASSERT_FALSE(warnings.empty());
   EXPECT_NE(warnings.back().find("below 1e-12 is not reached after "), std::string::npos) << warnings.back();
 }
@@ -260,7 +263,7 @@ TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
     job.settings.surface.radius = {};
     job.settings.surface.mode = mode;
     if (seconds > 0.0) job.settings.until = {.seconds = seconds};
-    choose(job);
+    choose(job, SimulatedClock());
     EXPECT_EQ(job.choices.size(), mode == GatherMode::nearest ? 0u : 1u);
     return job.settings.surface.radius.metres();
   };
@@ -268,6 +271,31 @@ TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
   EXPECT_GT(radius, 0.0f);
   EXPECT_EQ(radius_of(0.1, GatherMode::radius), radius);
   EXPECT_EQ(radius_of(0.0, GatherMode::nearest), 0.0f);  // the largest radius keeps its default
+}
+
+/// A default radius belongs to the first pass, which may take twice the time: what is over then is the render.
+TEST(RenderJob, EndsWhereTheTimeDoesNotAllowADefaultRadius) {
+  RenderJob job = lit_floor();
+  job.automatic.left_out = {"surface.radius"};
+  job.settings.surface.radius = {};
+  job.settings.until = {.seconds = 2.0};
+  const HastyClock clock;
+  EXPECT_THROW(choose(job, clock), NoPassFits);
+  EXPECT_EQ(clock.seconds(), 4.0);
+  EXPECT_FALSE(job.settings.surface.radius.is_given());
+  choose_default_radii(job);
+  EXPECT_TRUE(job.settings.surface.radius.is_given()) << "it depends on no time";
+}
+
+TEST(RenderJob, OfScenesMadeInCodeRadiiAreChosenThatNobodyGives) {
+  const AutomaticSettings::Keys others{"caustics.radius", "volume.radius"};
+  EXPECT_EQ(lit_floor().automatic.left_out, others);
+  RenderJob job = make_job({.scene = lit_floor().scene});
+  EXPECT_TRUE(job.automatic.left_out.contains("surface.radius"));
+  job.settings = lit_floor().settings;  // a radius that is given later stays
+  choose(job);
+  EXPECT_EQ(job.automatic.left_out, others);
+  EXPECT_EQ(job.settings.surface.radius, lit_floor().settings.surface.radius);
 }
 
 TEST(RenderJob, ChoosesNothingForSettingsThatContradictThemselves) {

@@ -118,6 +118,13 @@ def test_ctrl_c_keeps_the_passes_that_are_finished():
     assert np.array_equal(more.radiance, vpm.render(scene, passes=result.passes + 1).radiance)
 
 
+def test_a_time_in_which_no_pass_fits_is_refused():
+    # The words are of the time asked for, of which choosing the radii takes a part.
+    with pytest.raises(vpm.NoPassFits, match="no pass is finished within the 0.02 s asked for") as error:
+        vpm.render(BALL, overrides={"photons.emitted": 1_000_000_000, "photons.block": 1_000_000}, seconds=0.02)
+    assert isinstance(error.value, TimeoutError)
+
+
 def test_ctrl_c_ends_an_iteration_over_passes():
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     last = None

@@ -54,7 +54,6 @@ TEST_F(VpmRender, OptionsOverruleTheScene) {
   vpm_succeeds({"render", "scene.toml", "-o", "b.exr", "--set", "render.passes=3", "--set", "render.seed=5"});
   EXPECT_TRUE(same_pixels(read_exr(path("a.exr")), read_exr(path("b.exr"))));
   vpm_succeeds({"render", "scene.toml", "-o", "c.exr", "--time", "1"});
-  EXPECT_GE(report("c.json")["times"]["total"], 0.9);
   EXPECT_EQ(report("c.json")["eye"]["camera_rays"], report("c.json")["passes"].get<int>() * 40 * 24);
 }
 

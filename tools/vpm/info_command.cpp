@@ -134,7 +134,7 @@ void print_stages(const RenderJob& job, bool all) {
 
 void print_scene(const InfoOptions& options) {
   RenderJob job = load_scene(options.file, options.overrides);
-  if (job.automatic.keys.empty()) choose(job);
+  choose_default_radii(job);
   const Scene& scene = job.scene;
   const Box box = scene.geometry.bounds();
   fmt::print("scene {}, hash {}\n", options.file, job.hash);

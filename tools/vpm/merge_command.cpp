@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "picture_run.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
@@ -78,6 +79,7 @@ int merge_command(const MergeOptions& options) {
       options.checkpoint ? lock_checkpoint(outputs.checkpoint, options.overwrite) : nullptr;
   result.errors = errors_of(result);
   print_warnings(warnings_of(job, result));
+  const CancelledWith nothing(nullptr);  // all files are written, or none
   write_outputs(outputs, options.exposure, job, result);
   if (options.checkpoint) write_checkpoint(outputs.checkpoint, merged.whole.identity, merged.whole.origin, result);
   print_summary(outputs, job, result);

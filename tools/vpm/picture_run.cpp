@@ -62,11 +62,11 @@ void look_ahead(const RenderOptions& options, RenderJob& job, const RenderResult
     fmt::print(stderr, "note: the checkpoint has {} already, and none is added\n", passes_text(begun.film.passes()));
 }
 
-/// The exit status; of several ranks, which may be gone, this ends them all.
-int interrupted(Ranks& ranks, const StopRule& until, int passes) {
+/// Of several ranks, which may be gone, this ends them all.
+RenderEnd interrupted(Ranks& ranks, const StopRule& until, int passes) {
   const int status = say_interrupted(until, passes);
   if (ranks.size() > 1) ranks.abort(status);
-  return status;
+  return {status, passes};
 }
 
 /// From now on the settings ask for those passes alone.
@@ -149,7 +149,7 @@ RenderJob load_for_render(const RenderOptions& options, const GridLoader& load) 
 namespace {
 
 /// All but what is said where there is no picture.
-int render_finished_picture(const RenderOptions& options, const Outputs& outputs, RenderJob& job, Ranks& ranks) {
+RenderEnd render_finished_picture(const RenderOptions& options, const Outputs& outputs, RenderJob& job, Ranks& ranks) {
   const bool checkpoint = options.checkpoint || options.resume;
   const Camera& camera = job.scene.camera;
   const PixelRect rendered = camera.rendered();
@@ -173,9 +173,10 @@ int render_finished_picture(const RenderOptions& options, const Outputs& outputs
     watch.finished(so_far);
   };
   const auto note = [&](const std::string& text) {
-    if (!options.quiet) fmt::print(stderr, "note: {}\n", text);
+    const char* const after_bar = progress_enabled(progress) ? "\n" : "";
+    if (!options.quiet) fmt::print(stderr, "{}note: {}\n", after_bar, text);
   };
-  const RunControl control{progress, finished, clock_of_process(), job.foreseen_pass, note};
+  const RunControl control{progress, finished, clock_of_process(), job.foreseen_pass, job.what_fits, note};
   const RenderResult result = lead_render(ranks, job.scene, job.settings, std::move(begun), control);
   if (result.film.passes() == 0) return interrupted(ranks, job.settings.until, 0);
   const bool stopped = is_cancelled();
@@ -185,20 +186,17 @@ int render_finished_picture(const RenderOptions& options, const Outputs& outputs
   watch.finish(result);
   write_outputs(outputs, options.exposure, job, result);
   if (!options.quiet) print_summary(outputs, job, result);
-  return stopped ? interrupted(ranks, job.settings.until, result.film.passes()) : 0;
+  const int passes = result.film.passes();
+  return stopped ? interrupted(ranks, job.settings.until, passes) : RenderEnd{0, passes};
 }
 
 }  // namespace
 
-int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job, Ranks& ranks) {
+RenderEnd render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job, Ranks& ranks) {
   try {
     return render_finished_picture(options, outputs, job, ranks);
   } catch (const Cancelled&) {
     return interrupted(ranks, job.settings.until, 0);
-  } catch (const NoPassFits& failure) {
-    fmt::print(stderr, "vpm: {}{}\n", failure.what(), job.what_fits.empty() ? "" : "; " + job.what_fits);
-    if (ranks.size() > 1) ranks.abort(kNoPassFits);
-    return kNoPassFits;
   }
 }
 

@@ -37,8 +37,12 @@ void apply_run_options(const RenderOptions& options, RenderJob& job);
 /// The job of a scene file with these options; its grids are loaded by `load`, as load_scene() does.
 RenderJob load_for_render(const RenderOptions& options, const GridLoader& load = {});
 
-/// Renders a job as the options say, which have changed its scene already, with the other ranks. Returns the exit
-/// status.
-int render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job, Ranks& ranks);
+/// How a render ended: where there is no pass, it has written nothing.
+struct RenderEnd {
+  int status;  // of the process
+  int passes;
+};
+/// Renders a job as the options say, which have changed its scene already, with the other ranks. Throws NoPassFits.
+RenderEnd render_picture(const RenderOptions& options, const Outputs& outputs, RenderJob job, Ranks& ranks);
 
 }  // namespace vpm::tools

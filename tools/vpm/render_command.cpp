@@ -142,7 +142,7 @@ int render_command(const RenderOptions& options) {
     const Outputs outputs = output_paths(options.output, std::filesystem::path(options.scene).stem().string());
     JobOfRank loaded = load_as_rank(*ranks, options);
     say_not_shared(*ranks, options, loaded.not_shared);
-    return render_picture(options, outputs, std::move(loaded.job), *ranks);
+    return render_picture(options, outputs, std::move(loaded.job), *ranks).status;
   });
 }
 

@@ -48,22 +48,24 @@ Outcome climb(const ValidateOptions& options) {
   const Effort effort{options.seed, options.full};
   const std::vector<Experiment> all = asked_for(options);
   Outcome outcome;
-  Progress bar("validate", all.size(), progress_enabled(options.progress));
-  for (size_t i = 0; i < all.size(); ++i) {
-    for (Check& check : all[i].run(effort)) {
-      outcome.checks.push_back(std::move(check));
-      outcome.lines.push_back({all[i].level, all[i].name});
+  for (auto first = all.begin(), last = first; first != all.end(); first = last) {
+    const int level = first->level;
+    last = std::find_if(first, all.end(), [&](const Experiment& e) { return e.level != level; });
+    Progress bar(fmt::format("level {}", level), static_cast<uint64_t>(last - first),
+                 progress_enabled(options.progress));
+    for (auto experiment = first; experiment != last; ++experiment) {
+      for (Check& check : experiment->run(effort)) {
+        outcome.checks.push_back(std::move(check));
+        outcome.lines.push_back({level, experiment->name});
+      }
+      bar.advance();
     }
-    bar.advance();
+    bar.finish();
     // Verdicts depend on how many checks there are, so they come at the end: that it goes on is said before, also in a
     // pipe.
-    if (i + 1 == all.size() || all[i + 1].level != all[i].level) {
-      fmt::print("level {} done: {} checks so far, {:.1f} s\n", all[i].level, outcome.checks.size(),
-                 climbing.seconds());
-      std::fflush(stdout);
-    }
+    fmt::print("level {} done: {} checks so far, {:.1f} s\n", level, outcome.checks.size(), climbing.seconds());
+    std::fflush(stdout);
   }
-  bar.finish();
   outcome.threshold = judge(outcome.checks, options.rate);
   outcome.seconds = climbing.seconds();
   return outcome;

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <filesystem>
 #include <optional>
+#include <system_error>
+#include <vector>
 
 #include "commands.h"
 #include "pass_run.h"
@@ -55,9 +57,23 @@ std::vector<std::string> overrides_of_view(const ViewOptions& options) {
   return overrides;
 }
 
+/// Files that are written before there is a picture: they go where there is none in the end.
+class EarlyFiles {
+ public:
+  ~EarlyFiles() {
+    for (const fs::path& path : written_) fs::remove(path, ignored_);
+  }
+  void add(const fs::path& path) { written_.push_back(path); }
+  void keep() { written_.clear(); }
+
+ private:
+  std::vector<fs::path> written_;
+  std::error_code ignored_;
+};
+
 /// One pass of few photons, before anything is chosen: a picture to look at while a pilot runs. None where it would
 /// take more than its part of the time.
-void show_first_picture(const ViewOptions& options, const Outputs& outputs, const RenderJob& job) {
+void show_first_picture(const ViewOptions& options, const Outputs& outputs, const RenderJob& job, EarlyFiles& early) {
   RenderSettings settings = job.settings;
   settings.until = {.passes = 1};
   settings.photons_emitted = 50'000;
@@ -69,7 +85,9 @@ void show_first_picture(const ViewOptions& options, const Outputs& outputs, cons
     cancellation_point();
     first = made.film.mean();
   });
-  if (first) write_preview(outputs, options.exposure, *first);
+  if (!first) return;
+  early.add(outputs.png);
+  write_preview(outputs, options.exposure, *first);
 }
 
 }  // namespace
@@ -86,12 +104,18 @@ int view_command(const ViewOptions& options) {
     job.notes.push_back(fmt::format("{} as passes are counted: choosing would take longer than few", kFewPasses));
   const PixelRect rendered = job.scene.camera.rendered();
   check_outputs(outputs, static_cast<uint64_t>(rendered.width()) * rendered.height(), false, job);
-  if (!options.scene_output.empty()) write_text(name, made.text);
-  show_first_picture(options, outputs, job);
+  EarlyFiles early;
+  if (!options.scene_output.empty()) {
+    early.add(name);
+    write_text(name, made.text);
+  }
+  show_first_picture(options, outputs, job, early);
   RenderOptions watched = options;
   if (!watched.watch.preview) watched.watch.preview = kRewritten;
   Alone alone;
-  return render_picture(watched, outputs, std::move(job), alone);
+  const RenderEnd end = render_picture(watched, outputs, std::move(job), alone);
+  if (end.passes > 0) early.keep();
+  return end.status;
 }
 
 }  // namespace vpm::tools

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -15,12 +16,16 @@
 namespace vpm {
 
 bool Clock::finish_by(double end, const std::function<void()>& work, const std::function<double()>& later) const {
-  if (std::isinf(end)) return work(), true;
+  if (std::isinf(end)) {
+    work();
+    return true;
+  }
   std::atomic<bool> late{false};
   const auto ring = [&] {
     const double new_end = later ? later() : 0.0;
-    late = new_end <= seconds();
-    return new_end;
+    if (new_end > seconds()) return new_end;
+    late = true;
+    return std::numeric_limits<double>::infinity();
   };
   const std::unique_ptr<Alarm> alarm_at_end = alarm(end, ring);
   try {
@@ -40,10 +45,7 @@ std::unique_ptr<Clock::Alarm> WallClock::alarm(double at, std::function<double()
    public:
     Waiting(const WallClock& clock, double at, std::function<double()> ring)
         : thread_([this, &clock, at, ring = std::move(ring)](const std::stop_token& over) {
-            for (double next = at; !over.stop_requested() && wait(clock, next, over);) {
-              next = ring();
-              if (next <= clock.seconds()) return;
-            }
+            for (double next = at; wait(clock, next, over);) next = ring();
           }) {}
 
    private:

@@ -11,12 +11,12 @@ namespace vpm {
 class Stopwatch {
  public:
   /// Since it was made.
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double seconds() const { return std::chrono::duration<double>(Steady::now() - start_).count(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Steady = std::chrono::steady_clock;
 
-  Clock::time_point start_ = Clock::now();
+  Steady::time_point start_ = Steady::now();
 };
 
 /// Tells how long a run has taken, and gives up what takes too long. Tests put one in its place that is told what work
@@ -34,8 +34,7 @@ class Clock {
   bool finish_by(double end, const std::function<void()>& work, const std::function<double()>& later = {}) const;
 
  protected:
-  /// Until it is destroyed, or `ring` returns a time that is over, calls that once seconds() has reached `at`, and
-  /// again at each time that it returns.
+  /// Until it is destroyed, calls `ring` once seconds() has reached `at`, and again at each time that this returns.
   struct Alarm {
     virtual ~Alarm() = default;
   };

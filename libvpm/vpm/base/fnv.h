@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "vpm/base/cancel.h"
+
 namespace vpm {
 
 /// FNV-1a of 64 bits [Noll2026], 1 to 2 ns a byte.
@@ -19,8 +21,10 @@ class Fnv1a {
   /// What is left of a stream.
   void add(std::istream& stream) {
     std::vector<char> block(1 << 16);
-    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())), stream.gcount() > 0)
+    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())), stream.gcount() > 0) {
+      cancellation_point();
       add({block.data(), static_cast<size_t>(stream.gcount())});
+    }
   }
   uint64_t value() const { return hash_; }
   /// 16 hexadecimal digits.

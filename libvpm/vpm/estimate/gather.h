@@ -20,8 +20,8 @@ enum class GatherMode { radius, nearest, beam, photon_beams, photon_planes, beam
 /// GatherRule::corrects_each_ball().
 enum class BoundaryRule { none, corrected, ends };
 
-/// A gather radius as a render asks for it: a length, or the default, which first_radius() derives from the size of the
-/// medium or the scene.
+/// A gather radius as a render asks for it: a length, or the default, which choose() derives from where photons lie,
+/// and first_radius() from the size of the medium or the scene where nobody has chosen.
 class AskedRadius {
  public:
   /// The default.

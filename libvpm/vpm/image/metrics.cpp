@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/statistics.h"
 
@@ -28,6 +29,7 @@ double mean_error(const Image& image, const Image& reference, const Error& error
   assert(!image.pixels.empty());
   Sum sum;
   for (size_t i = 0; i < image.pixels.size(); ++i) {
+    cancellation_point();
     for (int c = 0; c < 3; ++c) sum.add(error(c, double{image.pixels[i][c]}, double{reference.pixels[i][c]}));
   }
   return sum.value() / (3.0 * static_cast<double>(image.pixels.size()));
@@ -131,6 +133,7 @@ Image weighted(const Image& image, int width, int height, int power) {
   Image result(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
+      cancellation_point();
       Rgbd sum(0.0);
       for (size_t v = 0; v < rows[y].shares.size(); ++v)
         for (size_t u = 0; u < columns[x].shares.size(); ++u)
@@ -147,6 +150,7 @@ double standard_error_by_squares(const std::vector<double>& values, int width, i
   Moments squares;
   for (int y = 0; y + edge <= height; y += edge)
     for (int x = 0; x + edge <= width; x += edge) {
+      cancellation_point();
       Sum sum;
       for (int v = y; v < y + edge; ++v)
         for (int u = x; u < x + edge; ++u) sum.add(values[static_cast<size_t>(v) * width + u]);
@@ -195,6 +199,7 @@ NoisyDifference noisy_difference(const NoisyImage& picture, const NoisyImage& re
   std::vector<double> rest;  // of each pixel: the square of the difference less that of noise
   Sum noise, of_reference;
   for (size_t i = 0; i < image.pixels.size(); ++i) {
+    cancellation_point();
     const Rgb& r = truth.pixels[i];
     const Rgbd off = Rgbd(image.pixels[i]) - Rgbd(r);
     const double own = picture.variance ? relative(Rgbd(picture.variance->pixels[i]), r, means) : 0.0;

@@ -54,20 +54,25 @@ Mat4d index_to_world(const openvdb::math::Transform& transform) {
 
 /// The values of a double grid as floats. Throws InputError where one is beyond them.
 FloatGrid::Ptr rounded(const openvdb::DoubleGrid& wide, const VdbFile& file, const VdbGridEntry& entry) {
-  const auto round = [&](double value, const Coord& voxel) {
-    const auto narrow = static_cast<float>(value);
-    if (std::isinf(narrow) && std::isfinite(value))
-      file.refuse(entry.name, fmt::format("has a value ({}) at voxel ({}, {}, {}) that is beyond floats", value,
-                                          voxel.x(), voxel.y(), voxel.z()));
+  const auto narrow = [&](double value, auto&& where) {
+    const auto rounded = static_cast<float>(value);
+    if (std::isinf(rounded) && std::isfinite(value))
+      file.refuse(entry.name, fmt::format("has a value ({}){} that is beyond floats", value, where()));
     // A negative value stays one, however small, so that it is refused or counted.
-    return value < 0.0 && narrow == 0.0f ? -std::numeric_limits<float>::denorm_min() : narrow;
+    return value < 0.0 && rounded == 0.0f ? -std::numeric_limits<float>::denorm_min() : rounded;
+  };
+  const auto round = [&](double value, const Coord& voxel) {
+    return narrow(value, [&] { return fmt::format(" at voxel ({}, {}, {})", voxel.x(), voxel.y(), voxel.z()); });
   };
   const FloatGrid::Ptr grid = new_grid<FloatGrid>();
   FloatTree& tree = grid->tree();
-  tree.root().setBackground(static_cast<float>(wide.background()), false);
+  tree.root().setBackground(narrow(wide.background(), [] { return ", its background,"; }), false);
   auto tile = wide.tree().cbeginValueAll();
   tile.setMaxDepth(openvdb::DoubleTree::ValueAllCIter::LEAF_DEPTH - 1);
-  for (; tile; ++tile) tree.addTile(tile.getLevel(), tile.getCoord(), round(*tile, tile.getCoord()), tile.isValueOn());
+  for (; tile; ++tile) {
+    cancellation_point();
+    tree.addTile(tile.getLevel(), tile.getCoord(), round(*tile, tile.getCoord()), tile.isValueOn());
+  }
   for (auto from = wide.tree().cbeginLeaf(); from; ++from) {
     cancellation_point();
     FloatTree::LeafNodeType& to = *tree.touchLeaf(from->origin());
@@ -192,6 +197,7 @@ Fault find_faults(const FloatTree& tree, const CoordBBox& box, Bad&& bad) {
   auto tile = tree.cbeginValueAll();
   tile.setMaxDepth(FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) {
+    cancellation_point();
     if (!bad(*tile)) continue;
     CoordBBox shared;
     tile.getBoundingBox(shared);

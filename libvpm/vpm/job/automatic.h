@@ -10,7 +10,7 @@
 
 namespace vpm {
 
-/// What was chosen, and what was not for want of time, which keeps its default: a sentence, or "".
+/// What was chosen, and what was not for want of time and has its default: a sentence, or "".
 struct Chosen {
   std::vector<Choice> choices;
   std::string left_out;

@@ -22,6 +22,7 @@
 namespace vpm {
 namespace {
 
+constexpr double kMostGathered = 100'000.0;    // photons a ray, without a word
 constexpr uint64_t kSafePhotons = 10'000'000;  // that fit everywhere, unless each is stored hundreds of times
 constexpr double kMostIndexed = 0x1p32;        // photons of a map, or pieces of beams: their numbers have 32 bits
 constexpr double kPiecesOfBeam = 9.0;          // in the mean, at the most

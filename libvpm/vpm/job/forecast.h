@@ -16,10 +16,9 @@ std::string photons_that_fit(const PassCost& cost, const RenderSettings& setting
 /// none, or no radius decides what is gathered. Passes are timed for `looking` s in all, or a little longer.
 std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking);
 
-/// "a ray from the eye gathers about 430000 photons, ...": where it gathers more than kMostGathered within the radii of
+/// "a ray from the eye gathers about 430000 photons, ...": where it gathers more than 100,000 within the radii of
 /// the first pass; else "". A few photons and rays tell.
 std::string wide_gather_text(const Scene& scene, const RenderSettings& settings);
-inline constexpr double kMostGathered = 100'000.0;
 
 /// Throws InputError where the photons that a pass, or a block of it, stores take more than `memory` bytes. Only where
 /// they may be many does it trace some.

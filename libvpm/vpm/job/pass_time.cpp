@@ -11,13 +11,14 @@ namespace vpm {
 namespace {
 
 constexpr double kFirstLook = 0.9;  // of a time, to see how quick tiles are by then
-constexpr double kMost = 2.0;       // times the limit, for a first pass
 
 }  // namespace
 
 PassTime::PassTime(const StopRule& until, const PassMaker& passes, const RunControl& control, double earlier)
     : passes_(passes),
       control_(control),
+      asked_(until.seconds),
+      earlier_(earlier),
       limit_(until.seconds > 0.0 ? std::max(0.0, until.seconds - earlier) : double{kInfinity}),
       latest_(0.5 * (limit_ + longest_time(limit_))),
       tiles_("", 0, false) {}
@@ -38,20 +39,20 @@ std::optional<Pass> PassTime::make(int number, const RenderResult& so_far, PassP
     begin_ = seen_at_ = control_.clock->seconds();
     if (control_.clock->finish_by(std::max(begin_, kFirstLook * limit_), work, [&] { return look_at_first(); }))
       return pass;
-    throw NoPassFits(limit_, pass_);
+    throw NoPassFits(asked_, pass_, control_.what_fits);
   } catch (const Cancelled&) {
     return std::nullopt;
   }
 }
 
 double PassTime::look_at_first() {
-  const double now = control_.clock->seconds(), last = kMost * limit_, before_last = kFirstLook * last;
+  const double now = control_.clock->seconds(), last = kMostOfFirst * limit_, before_last = kFirstLook * last;
   pass_ = whole_pass(now);
   if (now < limit_) return limit_;
   if (now >= last || begin_ + pass_ > last) return now;
   if (now >= before_last) return last;
   if (control_.note)
-    control_.note(fmt::format("no pass is finished after {:.2g} s{}", now,
+    control_.note(fmt::format("no pass is finished after {:.2g} s{}", earlier_ + now,
                               pass_ > 0.0 ? fmt::format("; the first, of about {:.2g} s, goes on", pass_)
                                           : fmt::format("; the first goes on, for {:.2g} s at the most", limit_)));
   return before_last;

@@ -7,9 +7,12 @@
 
 namespace vpm {
 
-/// A render that is asked for so many seconds ends within so many, with all that it writes.
+/// A render that is asked for so many seconds ends within so many, with all that it writes; but for one whose first
+/// pass takes longer, with the choice of its radii: that may go on for kMostOfFirst times the seconds.
 inline double longest_time(double seconds) { return 1.1 * seconds + 0.5; }
+inline constexpr double kMostOfFirst = 2.0;
 
+/// The time of the passes of one run: no pass is begun, and none goes on, that would end too late.
 class PassTime {
  public:
   /// After runs that took `earlier` seconds. All must live as long.
@@ -30,8 +33,10 @@ class PassTime {
 
   const PassMaker& passes_;
   const RunControl& control_;
-  const double limit_;   // s on the clock; infinite where there is none
-  const double latest_;  // when passes are to have ended: what is left of longest_time() is for what follows
+  const double asked_;    // s, of all runs
+  const double earlier_;  // s, of those before
+  const double limit_;    // s on the clock; infinite where there is none
+  const double latest_;   // when passes are to have ended: what is left of longest_time() is for what follows
   // Of the first pass:
   double begin_ = 0.0;       // s on the clock
   double pass_ = 0.0;        // s that it takes; 0: not known

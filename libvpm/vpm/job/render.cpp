@@ -101,9 +101,10 @@ void add(RenderResult& result, int number, const Pass& pass) {
 
 std::string passes_text(int passes) { return passes == 1 ? "1 pass" : fmt::format("{} passes", passes); }
 
-NoPassFits::NoPassFits(double asked, double pass)
-    : std::runtime_error(fmt::format("no pass is finished within the {:.3g} s asked for", asked) +
-                         (pass > 0.0 ? fmt::format(": one takes about {:.2g} s", pass) : "")),
+NoPassFits::NoPassFits(double asked, double pass, const std::string& what_fits)
+    : std::runtime_error(fmt::format("no pass is finished within the {:.3g} s asked for{}{}{}", asked,
+                                     pass > 0.0 ? fmt::format(": one takes about {:.2g} s", pass) : "",
+                                     what_fits.empty() ? "" : "; ", what_fits)),
       pass_(pass) {}
 
 RenderResult nothing_rendered(const Camera& camera) {

@@ -41,14 +41,15 @@ struct RunControl {
   std::function<void(const RenderResult&)> finished = {};              // is told of each further pass
   std::shared_ptr<const Clock> clock = std::make_shared<WallClock>();  // of the run, which may have begun before
   double foreseen = 0.0;                                               // s that a pass takes; 0: not known
-  std::function<void(const std::string&)> note = {};                   // is told of a first pass that ends late
+  std::string what_fits = {};                         // in the place of a pass that does not fit; or ""
+  std::function<void(const std::string&)> note = {};  // is told of a first pass that ends late, on another thread
 };
 
 /// The time that was asked for is over, and not one pass is finished.
 class NoPassFits : public std::runtime_error {
  public:
-  /// Of `asked` s; a pass takes `pass` s, 0 where that is not known.
-  NoPassFits(double asked, double pass);
+  /// Of `asked` s; a pass takes `pass` s, 0 where that is not known; `what_fits` as in RunControl.
+  NoPassFits(double asked, double pass, const std::string& what_fits = "");
   double pass() const { return pass_; }
 
  private:

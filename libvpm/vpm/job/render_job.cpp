@@ -9,6 +9,7 @@
 #include "vpm/job/automatic.h"
 #include "vpm/job/choose_records.h"
 #include "vpm/job/forecast.h"
+#include "vpm/job/pass_time.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/render.h"
 #include "vpm/job/setting.h"
@@ -27,7 +28,7 @@ double share_rendered(const Camera& camera) {
 constexpr double kLookShare = 0.1;
 
 constexpr double kChoosingShare = 0.25;  // of what is left of that time
-constexpr double kLeastTime = 0.01;      // s: where less is left, choosing is given up
+constexpr double kLeastTime = 0.01;      // s: pilots for less are as for this
 
 /// What is left of the time that is asked for, s; infinite where none is.
 double time_left(const RenderJob& job, const Clock& clock) {
@@ -43,6 +44,14 @@ std::string fitting_text(const std::string& photons, const std::string& radius, 
   return fmt::format("{}{}{} would fit", photons, photons.empty() || radius.empty() ? "" : ", or ", radius);
 }
 
+/// The keys of radii that the settings do not give.
+AutomaticSettings::Keys radii_left_out(const RenderSettings& settings) {
+  AutomaticSettings::Keys keys;
+  for (const Setting& setting : all_settings())
+    if (setting.usually_chosen && setting.member.get(settings) == setting.member.get({})) keys.insert(setting.key);
+  return keys;
+}
+
 /// What was chosen, and how to have it again.
 void note_choices(RenderJob& job) {
   if (job.choices.empty()) return;
@@ -54,38 +63,50 @@ void note_choices(RenderJob& job) {
   job.notes.push_back("the same settings again without choosing:" + again);
 }
 
+/// Chooses what is "auto", by what is left of the time that is asked for.
+void choose_automatic(RenderJob& job, const Clock& clock) {
+  const double begin = clock.seconds(), left = time_left(job, clock);
+  const double asked = job.settings.until.seconds;
+  RenderSettings settings = job.settings;
+  if (asked > 0.0) settings.until.seconds = std::max(left, kLeastTime);
+  Chosen chosen = choose_settings(job.scene, job.automatic, {clock, begin + kChoosingShare * left}, settings);
+  settings.until.seconds = asked;
+  job.settings = settings;
+  job.choices = std::move(chosen.choices);
+  if (!chosen.left_out.empty()) job.notes.push_back(std::move(chosen.left_out));
+  if (!job.choices.empty())
+    job.notes.push_back(fmt::format("choosing settings took {:.2g} s", clock.seconds() - begin));
+  note_choices(job);
+}
+
 }  // namespace
 
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
   return {.scene = std::move(assembled.scene),
           .settings = settings,
-          .automatic = {},
+          .automatic = {.left_out = radii_left_out(settings)},
           .light_names = std::move(assembled.light_names),
           .notes = std::move(assembled.notes),
           .kernel_light = {}};
 }
 
 void choose(RenderJob& job, const Clock& clock) {
+  // Of scenes made in code radii may have been given since.
+  const AutomaticSettings::Keys left_out = radii_left_out(job.settings);
+  std::erase_if(job.automatic.left_out, [&](const std::string& key) { return !left_out.contains(key); });
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
-  if (job.automatic.keys.empty()) {
-    const double asked = job.settings.until.seconds;
-    RenderSettings chosen = job.settings;
-    const auto look = [&] { job.choices = choose_default_radii(job.scene, job.automatic, chosen); };
-    if (!clock.finish_by(asked > 0.0 ? asked : double{kInfinity}, look)) throw NoPassFits(asked, 0.0);
-    job.settings = chosen;
-    return;
-  }
-  const double begin = clock.seconds();
-  const double asked = job.settings.until.seconds, left = time_left(job, clock);
-  if (asked > 0.0) job.settings.until.seconds = std::max(left, kLeastTime);
-  Chosen chosen = choose_settings(job.scene, job.automatic, {clock, begin + kChoosingShare * left}, job.settings);
-  job.settings.until.seconds = asked;
-  job.choices = std::move(chosen.choices);
-  if (!chosen.left_out.empty()) job.notes.push_back(std::move(chosen.left_out));
-  if (!job.choices.empty())
-    job.notes.push_back(fmt::format("choosing settings took {:.2g} s", clock.seconds() - begin));
-  note_choices(job);
+  const double asked = job.settings.until.seconds;
+  const auto all = [&] { job.automatic.keys.empty() ? choose_default_radii(job) : choose_automatic(job, clock); };
+  if (!clock.finish_by(asked > 0.0 ? kMostOfFirst * asked : double{kInfinity}, all)) throw NoPassFits(asked, 0.0);
+}
+
+void choose_default_radii(RenderJob& job) {
+  if (!job.automatic.keys.empty()) return;
+  validate(job.settings, facts_of(job.scene));
+  RenderSettings settings = job.settings;
+  job.choices = choose_default_radii(job.scene, job.automatic, settings);
+  job.settings = settings;
 }
 
 void choose_again(RenderJob& job, std::vector<Choice> choices) {
@@ -116,7 +137,8 @@ void foresee(RenderJob& job, const Clock& clock) {
     return clock.finish_by(clock.seconds() + seconds, look);
   };
   std::string wide;
-  within(looking, [&] { wide = wide_gather_text(job.scene, job.settings); });
+  if (!within(looking, [&] { wide = wide_gather_text(job.scene, job.settings); }))
+    wide = fmt::format("a look of {:.2g} s does not tell how many photons a ray gathers", looking);
   if (!wide.empty()) job.notes.push_back(std::move(wide));
   if (std::isinf(left)) return;
   PassCost cost;
@@ -128,7 +150,7 @@ void foresee(RenderJob& job, const Clock& clock) {
   cost.eye *= share;
   cost.gathered *= share;
   job.foreseen_pass = cost.seconds(photons_of_pass(job.settings, cost.stored_per_photon));
-  const double fits = left - looking;
+  const double fits = time_left(job, clock);
   if (job.foreseen_pass <= fits) return;
   std::string radius;
   within(looking, [&] { radius = radius_that_fits(job.scene, job.settings, fits / share, looking); });

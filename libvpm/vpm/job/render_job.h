@@ -2,7 +2,7 @@
 // one, and so do parts put together in code; every front end runs it by the same few calls:
 //
 //   RenderJob job = load_scene("fog.toml");                    // or make_job(assemble(parts))
-//   choose(job);                                               // what is "auto"
+//   choose(job);                                               // what is "auto", and radii that are left out
 //   const RenderResult result = render(job.scene, job.settings, nothing_rendered(job.scene.camera));
 //   write_picture("fog.exr", job, result);
 //   write_text("fog.json", render_report(job, "fog.exr", result));
@@ -44,14 +44,17 @@ struct RenderJob {
   uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
 };
 
-/// The job of a scene made in code.
+/// The job of a scene made in code. Radii that the settings do not give are left to choose(); without that they are 1 %
+/// of the scene's diagonal.
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings = {});
 
 /// Chooses the settings that are left to it, after a short pilot, and tells so in the job's notes; where nothing is
 /// "auto", the radii alone that nothing is said of, without a note. Does nothing where there are none. Where a time is
 /// asked for, the render has what is left of it on the clock, and what takes more than its part of that is given up.
-/// Throws InputError as choose_settings(), and NoPassFits where the time is over before the radii are known.
+/// Throws InputError as choose_settings(), and NoPassFits where twice the time is over before the radii are known.
 void choose(RenderJob& job, const Clock& clock = WallClock());
+/// The same where nothing is "auto", however long that takes; else nothing.
+void choose_default_radii(RenderJob& job);
 /// The same with the choices of an earlier run, in the place of a pilot, but for radii that are given now. Throws
 /// InputError as set_chosen().
 void choose_again(RenderJob& job, std::vector<Choice> choices);
@@ -60,9 +63,9 @@ void choose_again(RenderJob& job, std::vector<Choice> choices);
 void check_not_read(const std::filesystem::path& path, const RenderJob& job);
 
 /// Looks ahead at the first pass. Notes in the job where a ray gathers very many photons, and where it will not fit
-/// into what is left on the clock of the seconds of the stop rule, and what would; for that it times a few photons and
-/// rays, for a tenth of these seconds and at most a second. Throws InputError where the photons of a pass will not fit
-/// into the memory of the machine.
+/// into what is left on the clock of the seconds of the stop rule, and what would; or that a look does not tell. Of
+/// four looks at a few photons and rays each may take a tenth of these seconds, and at most a second. Throws InputError
+/// where the photons of a pass will not fit into the memory of the machine.
 void foresee(RenderJob& job, const Clock& clock = WallClock());
 /// The same of a light map's memory alone: how long its passes take is not told.
 void foresee_light_map(const RenderJob& job);

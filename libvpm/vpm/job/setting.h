@@ -81,7 +81,7 @@ struct Setting {
   std::string_view unit = "";                  // "": none
   std::string_view default_text = "";          // for people, where the default's value says little
   bool automatic = false;                      // may it be kAuto?
-  bool usually_chosen = false;                 // is its default chosen, see default_radii()?
+  bool usually_chosen = false;                 // is its default chosen, see choose_default_radii()?
   LeftOutStays left_out = {};                  // of those that may be kAuto
   bool of_passes = false;                      // does it say which passes are rendered, not what each estimates?
   Need need = {};                              // by default none

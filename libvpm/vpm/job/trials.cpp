@@ -133,6 +133,18 @@ OpenTrials open_trials(const Scene& scene, const AutomaticSettings& automatic, c
   return open;
 }
 
+/// How long a timing of a pass may take where one way is timed alone, s.
+double limit_of_timing(const RenderSettings& settings) {
+  const double seconds = settings.until.seconds;
+  return seconds > 0.0 ? kTimingShare * seconds : kInfinity;
+}
+
+/// The same of each of the four that tell how to scale records.
+double limit_of_scaling(const RenderSettings& settings) {
+  constexpr double kPart = 0.5, kUnlimited = 0.25;
+  return std::min(kPart * limit_of_timing(settings), kUnlimited);
+}
+
 /// How long each timing of several trials may take, s.
 double limit_of_trial(const RenderSettings& settings, size_t trials) {
   constexpr double kUnhurried = 0.25;  // where the time is not limited
@@ -167,7 +179,8 @@ void run_trial(const Scene& scene, const AutomaticSettings& automatic, Densities
   trial.factors = trial.passes->best_factors();
 }
 
-/// Runs all, and leaves those that came to an end, or else the first. Returns "; not NAME: ..." of the others.
+/// Runs all, and leaves those that came to an end, or else the first with default radii. Returns "; not NAME: ..." of
+/// the others.
 std::string run_trials(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
                        std::vector<Trial>& trials) {
   const double limit = limit_of_trial(trials.front().settings, trials.size());
@@ -182,7 +195,11 @@ std::string run_trials(const Scene& scene, const AutomaticSettings& automatic, c
     else
       others += fmt::format("; not {}: the time does not allow to measure it", trial.name);
   }
-  if (measured.empty()) measured.push_back(trials.front());
+  if (measured.empty()) {
+    measured.push_back(trials.front());
+    Trial& first = measured.front();
+    first.choices = choose_default_radii(scene, automatic, first.settings);
+  }
   trials = std::move(measured);
   return others;
 }
@@ -270,16 +287,6 @@ std::vector<Choice> choices_of(const Scene& scene, const AutomaticSettings& auto
 
 }  // namespace
 
-double limit_of_timing(const RenderSettings& settings) {
-  const double seconds = settings.until.seconds;
-  return seconds > 0.0 ? kTimingShare * seconds : kInfinity;
-}
-
-double limit_of_scaling(const RenderSettings& settings) {
-  constexpr double kPart = 0.5, kUnlimited = 0.25;
-  return std::min(kPart * limit_of_timing(settings), kUnlimited);
-}
-
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   if (automatic.has(kIntegratorKey)) return true;
   if (settings.integrator == Integrator::combined && automatic.has(kGatherKey))
@@ -294,7 +301,10 @@ std::string choose_and_scale_records(const Scene& scene, const AutomaticSettings
   RenderSettings tried = settings;
   std::vector<Choice> found;
   const auto choose = [&] { found = choose_records(scene, automatic, limit_of_timing(settings), tried); };
-  if (!time.clock.finish_by(time.end, choose)) return "the time does not allow to choose photons and radii";
+  if (!time.clock.finish_by(time.end, choose)) {
+    choices = choose_default_radii(scene, automatic, settings);
+    return "the time does not allow to choose photons and radii";
+  }
   settings = tried;
   choices = found;
   const auto scale = [&] { scale_records(scene, limit_of_scaling(settings), tried, found); };

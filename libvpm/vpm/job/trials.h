@@ -10,19 +10,12 @@
 
 namespace vpm {
 
-/// How long a timing of a pass may take where one way is timed alone, s.
-double limit_of_timing(const RenderSettings& settings);
-
-/// The same of each of the four that tell how to scale records.
-double limit_of_scaling(const RenderSettings& settings);
-
 /// Are the integrator, the gather in media or the combined techniques to be chosen, where there are such? Throws
 /// InputError where a gather is to be chosen beside combined techniques, which have none.
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings);
 
-/// choose_records(), and then scale_records(), as far as the time allows. Returns what it does not allow: a sentence,
-/// or
-/// "".
+/// choose_records(), and then scale_records(), as far as the time allows; where it allows neither, default radii.
+/// Returns what it does not allow: a sentence, or "".
 std::string choose_and_scale_records(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
                                      RenderSettings& settings, std::vector<Choice>& choices);
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/huge_pages.h"
 #include "vpm/base/packed_tables.h"
@@ -181,6 +182,7 @@ double DensityGrid::fill_bricks(const FillBrick& fill) {
       }
     });
     for (size_t i = 0; i < count; ++i) {
+      cancellation_point();
       Brick& brick = bricks[wave + i];
       if (!brick.uniform()) brick.first = distinct.add(&values[i * kBrickValues]);
       max_density_ = std::max(max_density_, brick.max);
@@ -191,8 +193,10 @@ double DensityGrid::fill_bricks(const FillBrick& fill) {
   bricks_ = bricks;
   values_ = tables->values;
   tables->blocks.resize(values_.size() / kBrickValues);
-  for (const Brick& brick : bricks_)
+  for (const Brick& brick : bricks_) {
+    cancellation_point();
     if (!brick.uniform()) tables->blocks[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
+  }
   blocks_ = tables->blocks;
   memory_ = tables;
   return sum;

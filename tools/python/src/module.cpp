@@ -12,6 +12,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
+#include "vpm/job/render.h"
 
 namespace vpm::python {
 
@@ -65,6 +66,8 @@ PYBIND11_MODULE(_vpm, module) {
   using namespace vpm;
   pybind11::register_exception<InputError>(module, "InputError", PyExc_ValueError).doc() =
       "Wrong input. The text is that of the command line: where, what is wrong, and what would be right.";
+  pybind11::register_exception<NoPassFits>(module, "NoPassFits", PyExc_TimeoutError).doc() =
+      "Not even one pass ends within twice the seconds that were asked for. The text says what would fit.";
   module.def("version", [] { return std::string(version()); });
   module.def("set_threads", &set_threads, pybind11::arg("count"));
   module.def("thread_count", &thread_count);

@@ -121,15 +121,11 @@ std::pair<std::shared_ptr<Passes>, py::object> advance(const Passes& before, boo
   if (one_pass) finished = [&](const RenderResult&) { enough = true; };
   RunControl control{progress ? ProgressMode::automatic : ProgressMode::never, finished};
   control.foreseen = before.state.foreseen_pass;
+  control.what_fits = before.state.what_fits;
   auto raised = run(after->together, [&] {
     with_job(*after->scene, after->state, [&](RenderJob& job) {
       const CancelScope one(enough);
-      try {
-        after->result = render_with(after->together, job, std::move(after->result), control);
-      } catch (const NoPassFits& failure) {
-        if (job.what_fits.empty()) throw;
-        throw std::runtime_error(fmt::format("{}; {}", failure.what(), job.what_fits));
-      }
+      after->result = render_with(after->together, job, std::move(after->result), control);
     });
   });
   if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw *std::move(raised);

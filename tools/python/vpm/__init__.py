@@ -11,10 +11,10 @@ how good pictures are. Lengths are in m, coefficients in 1/m, radiance in W/(m^2
 from ._render import Interrupted, Result, passes, render
 from ._scene import Grid, Mesh, Scene
 from ._study import (Comparison, Errors, Picture, Quantity, error, exact, exact_problems, read_comparison, read_exr)
-from ._vpm import InputError, set_threads, thread_count, version
+from ._vpm import InputError, NoPassFits, set_threads, thread_count, version
 
 __all__ = [
-    "Comparison", "Errors", "Grid", "InputError", "Interrupted", "Mesh", "Picture", "Quantity", "Result", "Scene",
+    "Comparison", "Errors", "Grid", "InputError", "Interrupted", "Mesh", "NoPassFits", "Picture", "Quantity", "Result", "Scene",
     "error", "exact", "exact_problems", "passes", "read_comparison", "read_exr", "render", "set_threads",
     "thread_count", "version",
 ]

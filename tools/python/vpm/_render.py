@@ -140,7 +140,7 @@ def render(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrid
 
     scene: a `Scene`, or what makes one: a path or a dict, then with `overrides` and `auto`.
     passes: how many; or
-    seconds: passes start until that time is over; and, or,
+    seconds: no pass is begun that would end much later, and one that is under way then is dropped; and, or,
     error: until the estimated relative MSE is no more than that. Without any of the three, the scene says.
     seed: of all random numbers; without one, the scene says.
     progress: show a bar on a terminal.
@@ -151,7 +151,8 @@ def render(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrid
         for it. Takes a vpm that is built with MPI.
 
     Other threads of Python run meanwhile. Ctrl-C raises `Interrupted`, a KeyboardInterrupt whose `result` has the
-    passes that were finished. Raises InputError for what the command line refuses.
+    passes that were finished. Raises InputError for what the command line refuses, and NoPassFits, a TimeoutError,
+    where not even one pass ends within twice `seconds`.
     """
     return _finish(_begin(scene, overrides, auto, _limits(passes, seconds, error), seed, together), progress)
 

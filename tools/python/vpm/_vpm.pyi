@@ -7,6 +7,9 @@ from numpy.typing import NDArray
 class InputError(ValueError):
     """Wrong input. The text is that of the command line: where, what is wrong, and what would be right."""
 
+class NoPassFits(TimeoutError):
+    """Not even one pass ends within twice the seconds that were asked for. The text says what would fit."""
+
 def version() -> str:
     """The release, and the git commit it was built from."""
 

@@ -72,8 +72,7 @@ std::unique_ptr<Entrant> make_entrant(const ComparedScene& scene, const std::str
     auto entrant = std::make_unique<Entrant>(Entrant{load_scene(scene.file, joined(scene.settings, settings)), ""});
     if (entrant->loaded.scene.camera.crop)
       throw InputError("whole pictures are compared; leave out film.crop, and make the film smaller");
-    if (entrant->loaded.automatic.keys.empty())
-      choose(entrant->loaded);  // default radii: all repetitions have the same
+    choose_default_radii(entrant->loaded);  // all repetitions have the same
     entrant->identity = fmt::format("vpm {}; scene {}; {}; {}", version(), entrant->loaded.hash,
                                     settings_text(entrant->loaded), purpose);
     return entrant;
