@@ -18,6 +18,7 @@
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
 #include "vpm/job/setting.h"
+#include "vpm/render/combined_pass.h"
 
 namespace vpm {
 namespace {
@@ -177,6 +178,22 @@ TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMaps) {
   EXPECT_EQ(combined.volume.radius, maps.volume.radius);
   EXPECT_EQ(combined.surface.radius, maps.surface.radius);
   EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, {SimulatedClock(), kInfinity}, combined), InputError);
+}
+
+/// Few photons want wide radii, within which merges at borders would lose light.
+TEST(Automatic, MergesAreByDefaultNoWiderThanWhereNobodyChooses) {
+  const Scene scene = cloud_over_floor(true);
+  const AutomaticSettings automatic{.left_out = {"volume.radius", "surface.radius"}};
+  RenderSettings maps, combined;
+  maps.photons_emitted = combined.photons_emitted = 2000;
+  combined.integrator = Integrator::combined;
+  choose_default_radii(scene, automatic, maps);
+  for (const Choice& choice : choose_default_radii(scene, automatic, combined))
+    EXPECT_EQ(choice.reason.substr(0, 34), "1 % of the scene's or the grid's d") << choice.reason;
+  const float merges = first_radius_of_merges({}, scene);
+  EXPECT_GT(maps.volume.radius.metres(), merges);
+  EXPECT_EQ(combined.volume.radius.metres(), merges);
+  EXPECT_EQ(combined.surface.radius.metres(), first_radius({}, scene));
 }
 
 /// Also those that are "auto", where choosing is given up.

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <string_view>
 
 #include "vpm/estimate/photon_map.h"
 #include "vpm/job/choice_rules.h"
+#include "vpm/render/combined_pass.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
@@ -53,6 +55,19 @@ RenderSettings as_maps(const RenderSettings& settings) {
   return maps;
 }
 
+/// Merges of combined techniques lose light within a radius of borders, and other techniques find what few photons do
+/// not: by default they are no wider than what is taken where nobody chooses.
+ChosenRadius narrow(const ChosenRadius& chosen, const OpenRadius& open, const Scene& scene) {
+  AskedGather usual = open.gather;
+  usual.radius = {};
+  const bool media = open.key == std::string_view("volume.radius");
+  const float most = media ? first_radius_of_merges(usual, scene) : first_radius(usual, scene);
+  if (chosen.radius <= most) return chosen;
+  return {most, fmt::format("1 % of the scene's or the grid's diagonal, as merges are not corrected at "
+                            "borders; photon maps would have {:.3g} m: {}",
+                            chosen.radius, chosen.reason)};
+}
+
 /// Sets the radii that are chosen, for the settings' number of photons.
 std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
                                  RenderSettings& settings) {
@@ -67,6 +82,8 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
       chosen = {rounded_radius(kLargestRadius * diagonal), "a twentieth of the scene: the pilot met too few photons"};
     else
       chosen = choose_radius(*open.density, open.emitted, diagonal);
+    if (settings.integrator == Integrator::combined && automatic.left_out.contains(open.key))
+      chosen = narrow(chosen, open, scene);
     open.gather.radius = chosen.radius;
     choices.push_back({open.key, fmt::format("{}", chosen.radius), chosen.reason});
   }

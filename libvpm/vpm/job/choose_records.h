@@ -18,7 +18,8 @@ std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& 
                                    RenderSettings& settings);
 
 /// Gives radii that nothing is said of their defaults, which go by where photons lie: a pure function of scene and
-/// settings, also where a time is asked for. Largest radii of gathers by count keep theirs.
+/// settings, also where a time is asked for. Largest radii of gathers by count keep theirs; where techniques are
+/// combined, radii are no wider than those that nobody chooses.
 std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSettings& automatic,
                                          RenderSettings& settings);
 

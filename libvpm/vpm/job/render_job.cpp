@@ -37,7 +37,7 @@ double time_left(const RenderJob& job, const Clock& clock) {
 }
 
 /// "about 210000 photons.emitted, or volume.radius = 0.12 would fit"; either may be missing.
-std::string fitting_text(const std::string& photons, const std::string& radius, const PassCost& cost) {
+std::string what_fits_text(const std::string& photons, const std::string& radius, const PassCost& cost) {
   if (photons.empty() && radius.empty())
     return fmt::format("the eye's rays alone take {:.2g} s; fewer pixels or samples_per_pixel take less",
                        cost.eye - cost.gathered);
@@ -154,7 +154,7 @@ void foresee(RenderJob& job, const Clock& clock) {
   if (job.foreseen_pass <= fits) return;
   std::string radius;
   within(looking, [&] { radius = radius_that_fits(job.scene, job.settings, fits / share, looking); });
-  job.what_fits = fitting_text(photons_that_fit(cost, job.settings, fits), radius, cost);
+  job.what_fits = what_fits_text(photons_that_fit(cost, job.settings, fits), radius, cost);
   job.notes.push_back(fmt::format("one pass takes about {:.2g} s, longer than the {:.2g} s that are left: {}",
                                   job.foreseen_pass, fits, job.what_fits));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vpm/base/cancel.h"
 #include "vpm/medium/distance/mixture.h"
 #include "vpm/path/walk.h"
 #include "vpm/photon/stored_power.h"
@@ -29,6 +30,7 @@ void visit_thin_places(const Medium& medium, const Track& track, const ThinParts
   medium.visit_majorants(track.ray, {0.0f, track.length}, [&](const DensityStretch& stretch) {
     if (relative_density(medium, stretch.min) >= floor) return true;
     for (double i = std::ceil((stretch.t0 - first) / spacing); first + i * spacing < stretch.t1; ++i) {
+      cancellation_point();
       const double t = first + i * spacing;
       const float density = relative_density(medium, stretch.density(t));
       if (density == 0.0f && !thin.where_empty) continue;

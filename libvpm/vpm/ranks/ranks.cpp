@@ -7,6 +7,8 @@
 #include <string_view>
 #include <thread>
 
+#include "vpm/base/cancel.h"
+
 namespace vpm {
 
 int started_ranks() {
@@ -22,6 +24,7 @@ int started_ranks() {
 
 Message wait_for_message(Ranks& ranks) {
   for (;;) {
+    cancellation_point();
     if (std::optional<Message> message = ranks.poll()) return std::move(*message);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the library's own wait would keep a core busy
   }

@@ -40,7 +40,7 @@ std::unique_ptr<Ranks> join_ranks();
 /// How many ranks this process was started with, as those who start them tell it.
 int started_ranks();
 
-/// Waits for the next message, for milliseconds at a time.
+/// Waits for the next message, for milliseconds at a time. It can be given up.
 Message wait_for_message(Ranks& ranks);
 
 }  // namespace vpm

@@ -24,6 +24,7 @@ constexpr char kLeave = 'l';  // there is no more to make
 constexpr char kLeft = 'd';   // no more messages will come
 
 constexpr std::chrono::microseconds kBetweenPolls{500};
+constexpr std::chrono::milliseconds kBetweenLooks{20};  // at whether what waits is to be given up
 
 int number_in(std::string_view text) {
   int number = -1;
@@ -151,7 +152,7 @@ class Orders {
   /// The number of the next pass, once it is told; nothing where there is no more.
   std::optional<int> next() {
     std::unique_lock lock(mutex_);
-    told_.wait(lock, [this] { return leave_ || number_; });
+    while (!told_.wait_for(lock, kBetweenLooks, [this] { return leave_ || number_; })) cancellation_point();
     return leave_ ? std::nullopt : std::exchange(number_, std::nullopt);
   }
 
