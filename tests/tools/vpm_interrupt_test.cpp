@@ -74,15 +74,17 @@ TEST_F(VpmRender, ARenderIsInterruptedInTheMidstOfAPass) {
 /// Also where it has shown a first picture, and written its scene.
 TEST_F(VpmRender, AViewInterruptedInItsFirstPassLeavesNothing) {
   const std::vector<std::string> before = files();
-  Process process(command({"view", "smoke.vdb", "-o", "a.exr", "--scene", "a.toml", "--passes", "2", "--set",
-                           "photons.emitted=100_000_000"}),
-                  {60.0, 0, folder_.string()});
-  while (!std::filesystem::exists(path("a.png"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  process.signal(SIGINT);
-  const ProcessResult result = process.wait();
+  const auto view = command({"view", "smoke.vdb", "-o", "a.exr", "--scene", "a.toml", "--passes", "2", "--set",
+                             "photons.emitted=100_000_000", "--progress", "always"});
+  Process process(view, {60.0, 0, folder_.string()});
+  const ProcessResult result = interrupt(process, SIGINT, "render  [");
   EXPECT_EQ(result.status, 130) << result.err;
   expect_words(result.err, {"no picture is written"});
   EXPECT_EQ(files(), before);
+  write("a.png", "of an earlier render");
+  Process again(view, {60.0, 0, folder_.string()});
+  EXPECT_EQ(interrupt(again, SIGINT, "render  [").status, 130);
+  EXPECT_EQ(read("a.png"), "of an earlier render");
 }
 
 // --- Time

@@ -72,7 +72,7 @@ class EarlyFiles {
 };
 
 /// One pass of few photons, before anything is chosen: a picture to look at while a pilot runs. None where it would
-/// take more than its part of the time.
+/// take more than its part of the time, or in the place of an earlier one, which stays until there is a better one.
 void show_first_picture(const ViewOptions& options, const Outputs& outputs, const RenderJob& job, EarlyFiles& early) {
   RenderSettings settings = job.settings;
   settings.until = {.passes = 1};
@@ -85,7 +85,7 @@ void show_first_picture(const ViewOptions& options, const Outputs& outputs, cons
     cancellation_point();
     first = made.film.mean();
   });
-  if (!first) return;
+  if (!first || fs::exists(outputs.png)) return;
   early.add(outputs.png);
   write_preview(outputs, options.exposure, *first);
 }
