@@ -36,15 +36,15 @@ TEST(Automatic, RadiusStaysBetweenHalfAPixelAndATwentiethOfTheScene) {
 
 TEST(Automatic, RadiusStaysWithinTheMediumUnlessTooFewPhotonsWouldBeWithin) {
   MapDensity thin = density(3);  // 0.1 m hold two of 100,000, 0.09 m hold 1.458
-  thin.extent = 1.0;
+  thin.thickness = 1.0;
   const ChosenRadius tenth = choose_radius(thin, 6.0 * 1e5, 10.0);
   EXPECT_FLOAT_EQ(tenth.radius, 0.1f);
-  EXPECT_EQ(tenth.reason.substr(0, 43), "a tenth of the medium's least extent; 0.161");
+  EXPECT_EQ(tenth.reason.substr(0, 40), "a tenth of the medium's thickness; 0.161");
   thin.free_path = 0.09;
   const ChosenRadius path = choose_radius(thin, 8.0 * 1e5, 10.0);
   EXPECT_FLOAT_EQ(path.radius, 0.09f);
   EXPECT_EQ(path.reason.substr(0, 24), "the mean free path there");
-  thin.extent = kInfinity;
+  thin.thickness = kInfinity;
   const ChosenRadius few = choose_radius(thin, 5.0 * 1e5, 10.0);
   EXPECT_FLOAT_EQ(few.radius, 0.1f);
   EXPECT_EQ(few.reason.substr(0, 3), "10 ");

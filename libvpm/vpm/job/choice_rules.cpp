@@ -51,7 +51,7 @@ ChosenRadius choose_radius(const MapDensity& density, double emitted, double dia
     else
       keep_below(bound, name);
   };
-  keep_in_medium(kShareOfMedium * density.extent, "a tenth of the medium's least extent");
+  keep_in_medium(kShareOfMedium * density.thickness, "a tenth of the medium's thickness");
   keep_in_medium(density.free_path, "the mean free path there");
   keep_below(kLargestRadius * diagonal, "a twentieth of the scene");
   return {rounded_radius(radius), reason};

@@ -21,12 +21,12 @@ struct ChosenRadius {
   std::string reason;
 };
 /// The radius within which kPhotonsWithin of `emitted` photons or of their flights lie, but no less than half a pixel,
-/// as finer kernels show as noise. These bounds go before that: in media no more than a tenth of their least extent and
+/// as finer kernels show as noise. These bounds go before that: in media no more than a tenth of their thickness and
 /// than the mean free path, as wider ones take in photons that have little to do with the place, unless less than
 /// kLeastWithin were within; and no more than a twentieth of `diagonal` (m), as wider ones blur the scene.
 ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal);
 inline constexpr double kPhotonsWithin = 50.0, kLeastWithin = 10.0;
-inline constexpr double kLargestRadius = 0.05, kShareOfMedium = 0.1;  // of the diagonal, of a medium's least extent
+inline constexpr double kLargestRadius = 0.05, kShareOfMedium = 0.1;  // of the diagonal, of a medium's thickness
 
 struct ChosenCount {
   uint64_t count = 0;  // of two digits

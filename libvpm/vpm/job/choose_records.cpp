@@ -56,7 +56,7 @@ RenderSettings as_maps(const RenderSettings& settings) {
 }
 
 /// Merges of combined techniques lose light within a radius of borders, and other techniques find what few photons do
-/// not: by default they are no wider than what is taken where nobody chooses.
+/// not: they are no wider than what is taken where nobody chooses.
 ChosenRadius narrow(const ChosenRadius& chosen, const OpenRadius& open, const Scene& scene) {
   AskedGather usual = open.gather;
   usual.radius = {};
@@ -82,8 +82,7 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
       chosen = {rounded_radius(kLargestRadius * diagonal), "a twentieth of the scene: the pilot met too few photons"};
     else
       chosen = choose_radius(*open.density, open.emitted, diagonal);
-    if (settings.integrator == Integrator::combined && automatic.left_out.contains(open.key))
-      chosen = narrow(chosen, open, scene);
+    if (settings.integrator == Integrator::combined) chosen = narrow(chosen, open, scene);
     open.gather.radius = chosen.radius;
     choices.push_back({open.key, fmt::format("{}", chosen.radius), chosen.reason});
   }

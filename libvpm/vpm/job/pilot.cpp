@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
 #include "vpm/path/follow.h"
+#include "vpm/path/walk.h"
 #include "vpm/photon/nearest_map.h"
 #include "vpm/photon/photon_beam.h"
 #include "vpm/photon/trace.h"
@@ -84,17 +86,40 @@ double median(const std::vector<T>& all, ValueOf&& value_of) {
   return *middle;
 }
 
-/// The least edge of the boxes around a medium's grid and the shapes that hold it, m; infinite where it has no end.
-double least_extent(const Scene& scene, MediumId medium) {
-  const auto least_edge = [](const Box& box) {
-    return box.empty() ? double{kInfinity} : double{std::min({box.extent().x, box.extent().y, box.extent().z})};
+/// How thick the medium is at a place in it, m: the shortest of the thirteen lines through it to the corners, edges and
+/// faces of a cube, each up to the next boundary or surface and the end of its grid; infinite where it has no end.
+double thickness_at(const Scene& scene, const Probe& probe) {
+  WalkCounters counters;
+  const auto length = [&](const Vec3& direction) {
+    MediumId medium = probe.medium;
+    const Ray ray{probe.place, direction};
+    const Encounter met = meet(scene, ray, kInfinity, medium, counters);
+    const Interval within{0.0f, met ? met.hits[0].t : kInfinity};
+    const auto& grid = scene.media[probe.medium].grid;
+    return double{grid ? grid->clip(ray, within).t1 : within.t1};
   };
-  const auto& grid = scene.media[medium].grid;
-  double least = grid ? least_edge(grid->bounds()) : kInfinity;
-  for (uint32_t i = 0; i < scene.shapes.size(); ++i)
-    if (scene.shapes[i].separates_media && scene.shapes[i].media.inside == medium)
-      least = std::min(least, least_edge(scene.geometry.bounds(i)));
+  double least = kInfinity;
+  for (int i = 0; i < 13; ++i) {  // of 27 steps of -1, 0 or 1 along each axis those before the middle one
+    const Vec3 direction = glm::normalize(Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+    least = std::min(least, length(direction) + length(-direction));
+  }
   return least;
+}
+
+/// Of each medium in which a sixteenth of the places lie at least, the least.
+void bound_by_media(const Scene& scene, const std::vector<Probe>& probes, MapDensity& density) {
+  for (size_t number = 0; number < scene.media.size(); ++number) {
+    std::vector<Probe> inside;
+    std::copy_if(probes.begin(), probes.end(), std::back_inserter(inside),
+                 [&](const Probe& probe) { return probe.medium == number; });
+    if (inside.empty() || 16 * inside.size() < probes.size()) continue;
+    const Medium& medium = scene.media[number];
+    const double thickness = median(inside, [&](const Probe& probe) { return thickness_at(scene, probe); });
+    const double free_path = median(
+        inside, [&](const Probe& probe) { return 1.0 / (mean_channel(medium.sigma_t) * medium.density(probe.place)); });
+    density.thickness = std::min(density.thickness, thickness);
+    density.free_path = std::min(density.free_path, free_path);
+  }
 }
 
 /// What lies around the probes of a map, whose photons or flights are at these distances of theirs.
@@ -102,12 +127,7 @@ MapDensity density_of(const Scene& scene, const std::vector<Probe>& probes, cons
                       double emitted, int dimension) {
   MapDensity density{median(reaches, std::identity()), kNeighbours, emitted, dimension,
                      median(probes, [](const Probe& probe) { return probe.pixel; })};
-  if (probes.front().medium == kVacuum) return density;  // on surfaces
-  density.extent = median(probes, [&](const Probe& probe) { return least_extent(scene, probe.medium); });
-  density.free_path = median(probes, [&](const Probe& probe) {
-    const Medium& medium = scene.media[probe.medium];
-    return 1.0 / (mean_channel(medium.sigma_t) * medium.density(probe.place));
-  });
+  bound_by_media(scene, probes, density);
   return density;
 }
 

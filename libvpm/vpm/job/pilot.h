@@ -26,9 +26,9 @@ struct MapDensity {
   double emitted = 0.0;    // ... of this many photons emitted
   int dimension = 3;       // of what holds them: a ball; a disc on a surface, or across flights
   double footprint = 0.0;  // m: of a pixel at a typical place
-  // m: of what is around a typical place; infinite on surfaces
-  double extent = kInfinity;     // the least of the medium that lies there
-  double free_path = kInfinity;  // the mean of it there
+  // m: of media, at typical places in them, the least of them; infinite on surfaces
+  double thickness = kInfinity;
+  double free_path = kInfinity;
   const char* records = "photons";
 };
 /// Of the maps that the render uses; none where the pilot says too little of one.
