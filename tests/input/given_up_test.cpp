@@ -19,6 +19,7 @@ namespace {
 
 TEST(GivenUp, FilesAreReadAndWrittenNoFurther) {
   const std::string ply = test_file("ring.ply"), obj = test_file("one.obj"), never = test_file("never.ply");
+  std::filesystem::remove(never);
   const TriangleMesh mesh = find_procedural_mesh("ring")->make(8);
   write_ply(mesh, ply);
   std::ofstream(obj) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
