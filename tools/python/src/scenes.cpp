@@ -1,5 +1,6 @@
 // Scenes from files, from text with arrays, and arrays into files.
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,10 +49,17 @@ using GivenMesh = std::tuple<size_t, Floats, Indices, std::optional<Floats>, std
 
 LeftOut left_out(bool automatic) { return automatic ? LeftOut::automatic : LeftOut::usual; }
 
+/// The scene that load_job() loads. What a signal's handler raises meanwhile ends that.
+std::shared_ptr<SceneJob> load(const std::function<RenderJob()>& load_job) {
+  std::shared_ptr<SceneJob> loaded;
+  if (auto raised = run_interruptibly([&] { loaded = std::make_shared<SceneJob>(load_job()); }))
+    throw *std::move(raised);
+  return loaded;
+}
+
 std::shared_ptr<SceneJob> load_file(const std::string& path, const std::vector<std::string>& overrides,
                                     bool automatic) {
-  const py::gil_scoped_release others_run;
-  return std::make_shared<SceneJob>(load_scene(path, overrides, left_out(automatic)));
+  return load([&] { return load_scene(path, overrides, left_out(automatic)); });
 }
 
 std::shared_ptr<SceneJob> load_text(const std::string& name, const std::string& text,
@@ -62,8 +70,7 @@ std::shared_ptr<SceneJob> load_text(const std::string& name, const std::string& 
     scene.given.grids.emplace(medium, grid_values(array, index_to_world));
   for (const auto& [shape, vertices, faces, normals, uvs] : meshes)
     scene.given.meshes.emplace(shape, triangle_mesh(vertices, faces, normals, uvs));
-  const py::gil_scoped_release others_run;
-  return std::make_shared<SceneJob>(load_scene(scene, overrides, left_out(automatic)));
+  return load([&] { return load_scene(scene, overrides, left_out(automatic)); });
 }
 
 void write_array(const std::string& path, const py::array_t<float>& array, const Doubles& index_to_world) {
