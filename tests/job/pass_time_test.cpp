@@ -106,5 +106,19 @@ TEST(PassTime, SaysWhatWasAskedForAndWhatWouldFit) {
   EXPECT_NEAR(render.clock->seconds(), 3.0, 1e-9);
 }
 
+TEST(PassTime, SaysWhereLoadingTookMuchOfTheTime) {
+  EXPECT_EQ(spent_text(0.9, 4.0), "");
+  TimedRender render{.seconds = {40.0}, .photons_share = 0.5, .foreseen = 40.0};
+  render.clock->work(1.5);
+  try {
+    render.until(4.0);
+    ADD_FAILURE() << "it fits";
+  } catch (const NoPassFits& failure) {
+    EXPECT_STREQ(failure.what(),
+                 "no pass is finished within the 4 s asked for: one takes about 40 s; 1.5 s were over before the first "
+                 "pass, by loading and choosing");
+  }
+}
+
 }  // namespace
 }  // namespace vpm

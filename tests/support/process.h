@@ -80,8 +80,9 @@ class Process {
   }
 
  private:
-  /// The child's part: limits, output, and the program in this one's place.
+  /// The child's part: limits, signals as at a terminal, output, and the program in this one's place.
   [[noreturn]] void become(char* const* argv) const {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
     if (limits_.address_space > 0) {
       const rlimit limit{limits_.address_space, limits_.address_space};
       setrlimit(RLIMIT_AS, &limit);

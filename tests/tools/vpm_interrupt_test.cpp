@@ -42,6 +42,19 @@ TEST_F(VpmRender, AnInterruptedRenderKeepsItsFinishedPasses) {
   }
 }
 
+/// As those that nohup and a shell's background start.
+TEST_F(VpmRender, SignalsThatAreIgnoredAtItsStartStaySo) {
+  std::vector<std::string> shell = {"/bin/sh", "-c", "trap '' INT TERM HUP; exec \"$@\"", "sh"};
+  for (const std::string& word :
+       command({"render", "scene.toml", "-o", "a.exr", "--passes", "3", "--progress", "always"}))
+    shell.push_back(word);
+  Process process(shell, {60.0, 0, folder_.string()});
+  EXPECT_TRUE(process.wait_for_error_output("render  ["));
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) process.signal(signal);
+  EXPECT_EQ(process.wait().status, 0);
+  EXPECT_EQ(report("a.json")["passes"], 3);
+}
+
 TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
   const std::vector<std::string> before = files();
   for (const char* slow : {"render.samples_per_pixel=64", "photons.emitted=100_000_000"}) {

@@ -69,6 +69,9 @@ TEST_F(VpmRender, ACheckpointTakesMorePassesButNoOtherScene) {
   const ProcessResult fewer = vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "2", "--resume"});
   EXPECT_NE(fewer.err.find("the checkpoint has 5 passes already"), std::string::npos) << fewer.err;
   EXPECT_TRUE(read("a.exr") == read("whole.exr"));
+  const ProcessResult late = vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--time", "1e-6", "--resume"});
+  EXPECT_NE(late.err.find("the checkpoint has 5 passes already"), std::string::npos) << late.err;
+  EXPECT_TRUE(read("a.exr") == read("whole.exr"));
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--seed", "9"},
               {"another render", "render.seed: 1 in the checkpoint, 9 asked for"});
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume", "--set", "film.width=20"}, {"another render"});

@@ -71,7 +71,9 @@ void add_scene(CLI::App* command, std::string& scene) {
 /// What all are told that render a picture.
 void add_picture_options(CLI::App* command, RenderOptions& options, const std::string& usual_name) {
   CLI::Option* passes = add_pass_options(command, options, usual_name);
-  command->add_option("--time", options.seconds, "Render passes until this many seconds are over")
+  command
+      ->add_option("--time", options.seconds,
+                   "End within this many seconds from the start of the process; the first pass may take twice as long")
       ->check(check_seconds)
       ->excludes(passes);
   command

@@ -58,8 +58,12 @@ void look_ahead(const RenderOptions& options, RenderJob& job, const RenderResult
   }
   if (options.quiet) return;
   print_notes(job);
-  if (const StopRule& until = job.settings.until; until.counts_passes() && begun.film.passes() >= until.passes)
-    fmt::print(stderr, "note: the checkpoint has {} already, and none is added\n", passes_text(begun.film.passes()));
+  const StopRule& until = job.settings.until;
+  const bool enough = until.counts_passes() ? begun.film.passes() >= until.passes
+                                            : until.seconds > 0.0 && begun.seconds >= until.seconds;
+  if (enough)
+    fmt::print(stderr, "note: the checkpoint has {} already, of {:.3g} s, and none is added\n",
+               passes_text(begun.film.passes()), begun.seconds);
 }
 
 /// Of several ranks, which may be gone, this ends them all.

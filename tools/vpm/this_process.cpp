@@ -46,10 +46,9 @@ std::shared_ptr<const Clock> clock_of_process() {
 }
 
 const std::atomic<bool>& stop_on_signals() {
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
-  if (std::signal(SIGHUP, request_stop) == SIG_IGN)
-    std::signal(SIGHUP, SIG_IGN);  // by nohup: the terminal's end is no end
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(number, request_stop) == SIG_IGN)
+      std::signal(number, SIG_IGN);  // as by nohup, to which the terminal's end is no end, and of a shell's background
   return stop_requested;
 }
 

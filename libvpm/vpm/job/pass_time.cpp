@@ -14,6 +14,12 @@ constexpr double kFirstLook = 0.9;  // of a time, to see how quick tiles are by 
 
 }  // namespace
 
+std::string spent_text(double spent, double asked) {
+  constexpr double kMuch = 0.25;  // of the time
+  return spent > kMuch * asked ? fmt::format("{:.2g} s were over before the first pass, by loading and choosing", spent)
+                               : "";
+}
+
 PassTime::PassTime(const StopRule& until, const PassMaker& passes, const RunControl& control, double earlier)
     : passes_(passes),
       control_(control),
@@ -39,7 +45,7 @@ std::optional<Pass> PassTime::make(int number, const RenderResult& so_far, PassP
     begin_ = seen_at_ = control_.clock->seconds();
     if (control_.clock->finish_by(std::max(begin_, kFirstLook * limit_), work, [&] { return look_at_first(); }))
       return pass;
-    throw NoPassFits(asked_, pass_, control_.what_fits);
+    throw NoPassFits(asked_, pass_, control_.what_fits.empty() ? spent_text(begin_, asked_) : control_.what_fits);
   } catch (const Cancelled&) {
     return std::nullopt;
   }

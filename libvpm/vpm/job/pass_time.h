@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "vpm/job/render.h"
 
@@ -11,6 +12,9 @@ namespace vpm {
 /// pass takes longer, with the choice of its radii: that may go on for kMostOfFirst times the seconds.
 inline double longest_time(double seconds) { return 1.1 * seconds + 0.5; }
 inline constexpr double kMostOfFirst = 2.0;
+
+/// "3.1 s were over before the first pass, by loading and choosing": where that is much of the `asked` s; else "".
+std::string spent_text(double spent, double asked);
 
 /// The time of the passes of one run: no pass is begun, and none goes on, that would end too late.
 class PassTime {

@@ -98,7 +98,8 @@ void choose(RenderJob& job, const Clock& clock) {
   validate(job.settings, facts_of(job.scene));
   const double asked = job.settings.until.seconds;
   const auto all = [&] { job.automatic.keys.empty() ? choose_default_radii(job) : choose_automatic(job, clock); };
-  if (!clock.finish_by(asked > 0.0 ? kMostOfFirst * asked : double{kInfinity}, all)) throw NoPassFits(asked, 0.0);
+  if (!clock.finish_by(asked > 0.0 ? kMostOfFirst * asked : double{kInfinity}, all))
+    throw NoPassFits(asked, 0.0, spent_text(clock.seconds(), asked));
 }
 
 void choose_default_radii(RenderJob& job) {
