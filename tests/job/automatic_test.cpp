@@ -136,11 +136,30 @@ TEST(Automatic, MediaAreAsThickAsTheThinnestIsAcross) {
   EXPECT_NEAR(found.volume->free_path, 0.2, 1e-6);
 }
 
-/// A grid of 1 m in a box of 1.8 m.
+/// A grid of 2 m in a box of 8 m.
 TEST(Automatic, MediaEndWithTheirGrids) {
-  const MapDensities found = map_densities(cloud_over_floor(true), {}, 2000);
-  EXPECT_GT(found.volume->thickness, 0.3);
-  EXPECT_LT(found.volume->thickness, 1.07);
+  Scene scene;
+  scene.media.push_back(make_medium(make_grid(centred_frame(16, 1.0 / 16.0), lattice_noise), Rgb(2.0f), 0.9f));
+  const Interface media{0, kVacuum};
+  add_shape(scene, box_mesh(Vec3d(-4.0), Vec3d(4.0)), Boundary{}, &media);
+  scene.lights.push_back(PointLight{Vec3(0.0f, 3.0f, 0.0f), Rgb(10.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 0.0f, 5.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 10.0f, {16, 16});
+  scene.geometry.commit();
+  finish(scene);
+  const MapDensities found = map_densities(scene, {}, 20'000);
+  EXPECT_GT(found.volume->thickness, 0.6);
+  EXPECT_LT(found.volume->thickness, 2.1);
+}
+
+/// Though a pilot that is in a hurry stores fewer photons than these.
+TEST(Automatic, DefaultRadiiAreTheSameWhateverTimeIsAskedFor) {
+  const AssembledScene room = foggy_room(4.0f);
+  RenderSettings unhurried, hurried;
+  hurried.until.seconds = 0.1;
+  const AutomaticSettings automatic{.left_out = {"volume.radius"}};
+  choose_default_radii(room.scene, automatic, unhurried);
+  choose_default_radii(room.scene, automatic, hurried);
+  EXPECT_EQ(hurried.volume.radius, unhurried.volume.radius);
 }
 
 /// Flights pass within the radius chosen as the rule says: all through the same box, along one direction.

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
+#include "support/simulated_clock.h"
 #include "vpm/base/statistics.h"
 #include "vpm/image/metrics.h"
 #include "vpm/job/lost_light.h"
 #include "vpm/job/render.h"
+#include "vpm/job/render_job.h"
 #include "vpm/render/combined_pass.h"
 
 namespace vpm {
@@ -94,6 +96,16 @@ TEST(KernelLight, IsNoneWhereOtherTechniquesFindAll) {
   merging.combined.techniques.set(Technique::connections, false);
   EXPECT_FALSE(kernel_light_of(floor_under_glass(kLamp), merging)) << "nothing is said of what was left out";
   EXPECT_FALSE(kernel_light_of(floor_under_glass(kLamp), without_kernels(settings)));
+}
+
+TEST(KernelLight, ThatTheTimeDoesNotAllowToLookIsSaid) {
+  RenderSettings settings = settings_of(Heuristic::balance);
+  settings.until = {.seconds = 2.0};
+  RenderJob job = make_job({floor_under_glass(kLamp), {}, {}}, settings);
+  look_for_kernel_light(job, HastyClock());
+  EXPECT_FALSE(job.kernel_light);
+  EXPECT_EQ(job.notes,
+            (std::vector<std::string>{"the time does not allow to look for light that is found by kernels alone"}));
 }
 
 TEST(KernelLight, IsToldWithTheNamesOfLights) {

@@ -57,6 +57,12 @@ TEST(PassTime, DropsAPassThatTakesLongerThanThoseBefore) {
   EXPECT_GE(render.clock->seconds(), 10.0) << "given up too early";
 }
 
+TEST(PassTime, BeginsNoPassThatWouldEndTooLate) {
+  TimedRender render{.seconds = {1.0}};
+  EXPECT_EQ(render.until(10.0).film.passes(), 10);  // an eleventh would end at 11 s, and is dropped after 10.75 s
+  EXPECT_NEAR(render.clock->seconds(), 10.0, 1e-9);
+}
+
 TEST(PassTime, CountsWhatCameBeforeThePassesAndEarlierRuns) {
   TimedRender render{.seconds = {1.0}};
   render.clock->work(4.0);  // of loading

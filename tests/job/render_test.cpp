@@ -256,6 +256,17 @@ TEST(RenderJob, ChoosesAgainWhatWasChosen) {
   EXPECT_THROW(choose_again(again, {{"surface.kernel", "cone", ""}}), InputError);  // it is never chosen
 }
 
+TEST(RenderJob, ChoosingByTheTimeThatIsLeftLeavesTheTimeThatIsAskedFor) {
+  RenderJob job = lit_floor();
+  job.automatic.keys = {"surface.radius"};
+  job.settings.until = {.seconds = 100.0};
+  const SimulatedClock clock;
+  clock.work(60.0);
+  choose(job, clock);
+  EXPECT_EQ(job.choices.size(), 1u);
+  EXPECT_EQ(job.settings.until.seconds, 100.0);
+}
+
 TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
   const auto radius_of = [](double seconds, GatherMode mode) {
     RenderJob job = lit_floor();
@@ -290,7 +301,7 @@ TEST(RenderJob, EndsWhereTheTimeDoesNotAllowADefaultRadius) {
 TEST(RenderJob, OfScenesMadeInCodeRadiiAreChosenThatNobodyGives) {
   const AutomaticSettings::Keys others{"caustics.radius", "volume.radius"};
   EXPECT_EQ(lit_floor().automatic.left_out, others);
-  RenderJob job = make_job({.scene = lit_floor().scene});
+  RenderJob job = make_job({lit_floor().scene, {}, {}});
   EXPECT_TRUE(job.automatic.left_out.contains("surface.radius"));
   job.settings = lit_floor().settings;  // a radius that is given later stays
   choose(job);
