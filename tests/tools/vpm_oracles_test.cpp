@@ -117,6 +117,10 @@ TEST_F(VpmOracles, WhatACaseRefusesLeavesItAloneUnchecked) {
   const ProcessResult result = check();
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.out.find("\"g\" is 0.9999"), std::string::npos) << result.out;
+  std::filesystem::remove(folder_ / "oracles" / "s2_source.json");
+  oracle("s7_surface.json", R"({"irradiance": [{"id": "lamp", "light": "point", "receiver": [0, null, 0]}]})");
+  const std::string out = check().out;
+  EXPECT_NE(out.find("\"receiver\" holds null, it must hold finite numbers"), std::string::npos) << out;
 }
 
 }  // namespace
