@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/warp.h"
 #include "vpm/medium/make_grid.h"
@@ -78,6 +79,34 @@ TEST(DirectionGuide, DrawsWhatItsDensitySays) {
     }
     expect_distribution(counts, probabilities, kFalseAlarms);
   }
+}
+
+/// The guide asks for directions into the floor, which stand for their mirror images, and for others.
+TEST(GuidedScatter, KeepsThePowerAtSurfacesInTheMean) {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
+            Lambertian{Rgb(1.0f)});
+  scene.geometry.commit();
+  finish(scene);
+  DirectionGuide guide({Vec3(-1.0f), Vec3(1.0f)}, 1);
+  guide.add_track({Vec3(0.0f), glm::normalize(Vec3(0.2f, 1.0f, 0.1f))}, 1.0f, 2.0f);
+  guide.add_track({Vec3(0.0f), glm::normalize(Vec3(0.5f, -1.0f, 0.3f))}, 1.0f, 1.0f);
+  guide.finish();
+  const Ray down{Vec3(0.0f, 1.0f, 0.0f), Vec3(0.0f, -1.0f, 0.0f)};
+  MediumId medium = kVacuum;
+  WalkCounters counters;
+  const Encounter met = meet(scene, down, kInfinity, medium, counters);
+  ASSERT_TRUE(met);
+  Moments powers;
+  for (uint64_t i = 0; i < 100'000; ++i) {
+    Rng rng(1, rng_stream(RngUse::test, 51), i);
+    PathState state{down, kVacuum, Rgb(1.0f)};
+    Scatter scatter;
+    powers.add(scatter_at_surface(guide, scene, met.hits[0], state, rng, scatter) ? state.throughput.g : 0.0);
+    EXPECT_GT(scatter.direction.y, 0.0f);
+    EXPECT_LE(state.throughput.g, 1.12f);
+  }
+  expect_mean(powers, 1.0, 1e-6);
 }
 
 /// However wrong the guide.
