@@ -111,7 +111,7 @@ void bound_by_media(const Scene& scene, const std::vector<Probe>& probes, MapDen
   for (size_t number = 0; number < scene.media.size(); ++number) {
     std::vector<Probe> inside;
     std::copy_if(probes.begin(), probes.end(), std::back_inserter(inside),
-                 [&](const Probe& probe) { return probe.medium == number; });
+                 [&](const Probe& probe) { return probe.medium == static_cast<MediumId>(number); });
     if (inside.empty() || 16 * inside.size() < probes.size()) continue;
     const Medium& medium = scene.media[number];
     const double thickness = median(inside, [&](const Probe& probe) { return thickness_at(scene, probe); });
