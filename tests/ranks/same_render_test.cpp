@@ -27,6 +27,21 @@ TEST(SameRender, IsToldByRank0AndCheckedByTheOthers) {
   EXPECT_NE(words.find("render.seed: 7 of rank 0, 8 here"), std::string::npos) << words;
 }
 
+/// What is left to choose is chosen by rank 0 alone, and taken by the others.
+TEST(SameRender, WhatRank0ChoseIsTaken) {
+  Post post(2);
+  RankInMemory leader(post, 0), other(post, 1);
+  RenderJob led = job_of_seed(7), job = job_of_seed(7);
+  for (RenderJob* each : {&led, &job}) each->automatic.left_out = {"volume.radius"};
+  led.choices = {{"volume.radius", "0.25", ""}};
+  led.settings.volume.radius = 0.25f;
+  tell_render(leader, identity_of(led));
+  render_as_told(job, told_render(other));
+  EXPECT_EQ(job.settings.volume.radius, led.settings.volume.radius);
+  ASSERT_EQ(job.choices.size(), 1u);
+  EXPECT_EQ(job.choices[0].value, "0.25");
+}
+
 TEST(SameRender, AnotherMessageIsAnotherProgram) {
   Post post(2);
   RankInMemory leader(post, 0), other(post, 1);
