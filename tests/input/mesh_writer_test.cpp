@@ -20,7 +20,7 @@ void expect_round_trip(const TriangleMesh& mesh) {
   const std::string path = test_file("mesh.ply");
   write_ply(mesh, path);
   const LoadedMesh loaded = load_mesh(path);
-  EXPECT_EQ(loaded.degenerate_triangles, 0u);
+  EXPECT_EQ(loaded.notes.without_area, 0u);
   EXPECT_EQ(loaded.mesh.positions, mesh.positions);
   EXPECT_EQ(loaded.mesh.normals, mesh.normals);
   EXPECT_EQ(loaded.mesh.uvs, mesh.uvs);

@@ -120,7 +120,10 @@ TEST(Assemble, TheBoxOfAWideGridHasAMargin) {
     GridFrame frame = centred_frame(0, 1.0 / 24.0);  // its faces have no coordinates in single precision
     frame.lo = Vec3i(0);
     frame.hi = Vec3i(apart + 15, 15, 15);
-    const auto fill = [](const Vec3i&, float* values) { std::fill_n(values, DensityGrid::kBrickValues, 1.0f); };
+    const auto fill = [](const Vec3i&, float* values) {
+      values[0] = 1.0f;
+      return DensityGrid::Filled::one;
+    };
     const std::vector<IndexBox> ends{{Vec3i(0), Vec3i(15)}, {Vec3i(apart, 0, 0), frame.hi}};
     parts.media = {
         {make_medium(std::make_shared<const DensityGrid>(frame, fill, ends), Rgb(1)), GridBoundary::automatic, {}}};

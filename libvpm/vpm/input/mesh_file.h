@@ -4,24 +4,27 @@
 #include <cstdint>
 #include <string>
 
+#include "vpm/scene/parts.h"
 #include "vpm/surface/geometry.h"
 
 namespace vpm {
 
 struct LoadedMesh {
   TriangleMesh mesh;
-  uint64_t degenerate_triangles = 0;  // without area: dropped
+  MeshNotes notes;
 };
 
-/// Reads the mesh in a .ply (ascii, binary of either byte order) or .obj file. Polygons are split into fans from their
-/// first corner, right for convex ones. Read are positions, faces, and of vertices normals (PLY: nx, ny, nz) and
-/// texture coordinates (PLY: u and v, s and t, or texture_u and texture_v); all else is skipped. Throws InputError
-/// where the file is damaged, holds no face with an area, names vertices, normals or texture coordinates that it does
-/// not have or has for a part of its corners only, has values of them that are not finite, or normals of length zero.
+/// Reads the mesh in a .ply (ascii, binary of either byte order) or .obj file. Read are positions, faces (also strips
+/// of triangles), normals (PLY: nx, ny, nz of vertices) and texture coordinates (PLY: u and v, s and t, or texture_u
+/// and texture_v of vertices); all else is skipped. Polygons are split as split_polygon() does. Where some corners have
+/// no normal, or one that is zero or not finite, that is the normal of their triangle, and where some have no texture
+/// coordinates, these are zero; the notes count it. Values that no face with an area uses do not matter. Throws
+/// InputError where the file is damaged, holds no face with an area, a face crosses itself, names vertices, normals or
+/// texture coordinates that the file does not have, or positions that are not finite.
 LoadedMesh load_mesh(const std::string& path);
 
 /// A mesh from elsewhere, without its triangles that have no area. Throws InputError, "name: ...", where it holds no
-/// face with an area, or faces name vertices that it does not have; `first` is the number of the first vertex.
-LoadedMesh checked_mesh(const std::string& name, TriangleMesh mesh, uint64_t first = 0);
+/// face with an area, or faces name vertices that it does not have.
+LoadedMesh checked_mesh(const std::string& name, TriangleMesh mesh);
 
 }  // namespace vpm

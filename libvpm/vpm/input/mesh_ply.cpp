@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "vpm/base/cancel.h"
+#include "vpm/input/mesh_numbers.h"
 #include "vpm/input/mesh_parts.h"
 
 namespace vpm {
@@ -71,30 +72,42 @@ struct Element {
 
 class PlyReader {
  public:
-  PlyReader(const std::string& name, std::string_view text) : name_(name), rest_(text) {}
+  PlyReader(const std::string& name, std::string_view text) : name_(name), rest_(without_mark(name, text)) {
+    const size_t end = rest_.find_first_of("\r\n");
+    if (end < rest_.size() && !rest_.substr(end).starts_with("\r\n")) line_end_ = rest_[end];
+  }
 
-  TriangleMesh read() {
+  PolygonMesh read() {
     read_header();
     for (const Element& element : elements_) {
       check_count(element);
       if (element.name == "vertex")
         read_vertices(element);
       else if (element.name == "face")
-        read_faces(element);
+        read_faces(element, [this](const Property& property, uint64_t face) { read_polygon(property, face); });
+      else if (element.name == "tristrips")
+        read_faces(element, [this](const Property& property, uint64_t) { read_strips(property); });
       else
         skip(element);
+    }
+    mesh_.values_of_vertices = has_uvs_ || uvs_of_corners_.empty();
+    if (!has_uvs_) mesh_.uvs = std::move(uvs_of_corners_);
+    for (MeshCorner& corner : mesh_.corners) {  // vertices may stand behind faces
+      if (has_uvs_) corner.uv = corner.position;
+      if (has_normals_) corner.normal = corner.position;
     }
     return std::move(mesh_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& wrong) const { fail_in_mesh(name_, binary_ ? 0 : line_, wrong); }
+  [[noreturn]] void fail(const std::string& wrong) const { fail_in_mesh(name_, line_in_text(), wrong); }
+  uint32_t line_in_text() const { return binary_ ? 0 : line_; }
 
   // The header ----------------------------------------------------------------------------------------------------
 
   std::vector<std::string> next_header_line() {
     ++line_;
-    const size_t end = rest_.find('\n');
+    const size_t end = rest_.find(line_end_);
     if (end == std::string_view::npos) fail("the file ends within its header");
     std::string_view line = rest_.substr(0, end);
     rest_.remove_prefix(end + 1);
@@ -126,6 +139,8 @@ class PlyReader {
       }
     }
     if (!format) fail("the header has no format");
+    const auto is_vertex = [](const Element& element) { return element.name == "vertex"; };
+    if (std::count_if(elements_.begin(), elements_.end(), is_vertex) > 1) fail("two elements are called vertex");
     binary_ = binary_body_;
     ++line_;
   }
@@ -192,18 +207,15 @@ class PlyReader {
   double next_word(const ScalarType& type) {
     constexpr std::string_view kSpace = " \t\r\n";
     const std::string_view space = rest_.substr(0, rest_.find_first_not_of(kSpace));
-    line_ += static_cast<size_t>(std::count(space.begin(), space.end(), '\n'));
+    line_ += static_cast<uint32_t>(std::count(space.begin(), space.end(), line_end_));
     rest_.remove_prefix(space.size());
     if (rest_.empty()) fail("the file ends too early");
     const std::string_view word = rest_.substr(0, rest_.find_first_of(kSpace));
-    const size_t plus = word.starts_with('+') ? 1 : 0;
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data() + plus, word.data() + word.size(), value);
-    const bool clean = error == std::errc() && end == word.data() + word.size();
-    if (!clean || (type.integer && value != std::floor(value)))
+    const std::optional<double> value = number_in<double>(word);
+    if (!value || (type.integer && *value != std::floor(*value)))
       fail("'" + std::string(word.substr(0, 40)) + "' is not " + (type.integer ? "an integer" : "a number"));
     rest_.remove_prefix(word.size());
-    return value;
+    return *value;
   }
 
   uint64_t next_length(const Property& property) {
@@ -249,8 +261,8 @@ class PlyReader {
   void read_vertices(const Element& element) {
     const std::vector<int> slots = slots_of(element);
     if (!has_slots(slots, 0, 2, "x, y and z once each")) fail("a vertex needs the properties x, y and z once each");
-    const bool normals = has_slots(slots, 3, 5, "nx, ny and nz once each, or none of them");
-    const bool uvs = has_slots(slots, 6, 7, "u and v (or s and t, texture_u and texture_v) once each, or none of them");
+    has_normals_ = has_slots(slots, 3, 5, "nx, ny and nz once each, or none of them");
+    has_uvs_ = has_slots(slots, 6, 7, "u and v (or s and t, texture_u and texture_v) once each, or none of them");
     mesh_.positions.reserve(element.count);
     for (uint64_t i = 0; i < element.count; ++i) {
       cancellation_point();
@@ -261,64 +273,116 @@ class PlyReader {
         else
           value[static_cast<size_t>(slots[p])] = static_cast<float>(next(*element.properties[p].type));
       }
-      add_vertex(value, normals, uvs);
+      add_vertex(value);
     }
   }
 
-  void add_vertex(const std::array<float, kSlots>& value, bool normals, bool uvs) {
-    const auto refuse = [&](const std::string& what, const std::string& wrong) {
-      fail("the " + what + " of vertex " + std::to_string(mesh_.positions.size()) + " is " + wrong);
-    };
-    const Vec3 position(value[0], value[1], value[2]), normal(value[3], value[4], value[5]);
-    if (!is_finite(position)) refuse("position", "not finite");
-    if (!is_finite(normal)) refuse("normal", "not finite");
-    if (normals && normal == Vec3(0.0f)) refuse("normal", "the zero vector");
-    if (!std::isfinite(value[6]) || !std::isfinite(value[7])) refuse("texture coordinate", "not finite");
+  void add_vertex(const std::array<float, kSlots>& value) {
+    const Vec3 position(value[0], value[1], value[2]);
+    if (!is_finite(position))
+      mesh_.bad_positions.emplace(static_cast<uint32_t>(mesh_.positions.size()), line_in_text());
     mesh_.positions.push_back(position);
-    if (normals) mesh_.normals.push_back(normal);
-    if (uvs) mesh_.uvs.emplace_back(value[6], value[7]);
+    if (has_normals_) mesh_.normals.emplace_back(value[3], value[4], value[5]);
+    if (has_uvs_) mesh_.uvs.emplace_back(value[6], value[7]);
   }
 
-  void read_faces(const Element& element) {
+  /// Calls read_one(property, number) for the list of corners of each.
+  template <class ReadOne>
+  void read_faces(const Element& element, ReadOne read_one) {
     const auto is_corners = [](const Property& p) {
       return p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index");
     };
     if (std::count_if(element.properties.begin(), element.properties.end(), is_corners) != 1)
-      fail("a face needs one list property vertex_indices");
+      fail("the element '" + element.name + "' needs one list property vertex_indices");
     for (uint64_t i = 0; i < element.count; ++i) {
       cancellation_point();
+      const size_t before = mesh_.corners.size();
+      std::vector<Vec2> uvs;
       for (const Property& property : element.properties) {
         if (is_corners(property))
-          read_corners(property, i);
+          read_one(property, i);
+        else if (property.count_type && property.name == "texcoord")
+          uvs = next_uvs(property);
         else
           skip(property);
       }
+      add_uvs(uvs, before, i);
     }
   }
 
-  void read_corners(const Property& property, uint64_t face) {
-    if (!property.type->integer) fail("the list '" + property.name + "' must be of an integer type");
-    std::vector<uint32_t> corners(next_length(property));
-    if (corners.size() < 3) fail("face " + std::to_string(face) + " has fewer than three corners");
-    for (uint32_t& corner : corners) {
-      const double index = next(*property.type);
-      if (!(index >= 0.0 && index <= std::numeric_limits<uint32_t>::max()))
-        fail("face " + std::to_string(face) + " names a vertex of negative or huge number");
-      corner = static_cast<uint32_t>(index);
+  /// Texture coordinates of the corners of a face, as MeshLab writes them.
+  std::vector<Vec2> next_uvs(const Property& property) {
+    const uint64_t length = next_length(property);
+    if (length % 2 != 0) fail("a list texcoord has an odd length: two numbers make a coordinate");
+    std::vector<Vec2> uvs(length / 2);
+    for (Vec2& uv : uvs)
+      for (int axis = 0; axis < 2; ++axis) uv[axis] = static_cast<float>(next(*property.type));
+    return uvs;
+  }
+
+  void add_uvs(const std::vector<Vec2>& uvs, size_t first_corner, uint64_t face) {
+    if (uvs.empty()) return;
+    if (uvs.size() != mesh_.corners.size() - first_corner)
+      fail("face " + std::to_string(face) + " has " + std::to_string(mesh_.corners.size() - first_corner) +
+           " corners and " + std::to_string(uvs.size()) + " texture coordinates");
+    for (size_t i = 0; i < uvs.size(); ++i) {
+      mesh_.corners[first_corner + i].uv = static_cast<uint32_t>(uvs_of_corners_.size());
+      uvs_of_corners_.push_back(uvs[i]);
     }
-    add_fan(corners, mesh_);
+  }
+
+  uint64_t next_count_of_corners(const Property& property) {
+    if (!property.type->integer) fail("the list '" + property.name + "' must be of an integer type");
+    return next_length(property);
+  }
+
+  void add_corner(double index) { mesh_.corners.push_back({.position = static_cast<uint32_t>(index)}); }
+  void end_face() { mesh_.faces.push_back({mesh_.corners.size(), line_in_text()}); }
+
+  void read_polygon(const Property& property, uint64_t face) {
+    const uint64_t count = next_count_of_corners(property);
+    for (uint64_t i = 0; i < count; ++i) {
+      const double index = next(*property.type);
+      if (!(index >= 0.0 && index < MeshCorner::kMissing))
+        fail("face " + std::to_string(face) + " names a vertex of negative or huge number");
+      add_corner(index);
+    }
+    end_face();
+  }
+
+  /// Strips of triangles, each of a corner and the two before it, turning left and right by turns; -1 ends a strip.
+  void read_strips(const Property& property) {
+    const uint64_t count = next_count_of_corners(property);
+    std::array<double, 2> before{};
+    uint64_t in_strip = 0;
+    for (uint64_t i = 0; i < count; ++i) {
+      const double index = next(*property.type);
+      if (!(index < MeshCorner::kMissing)) fail("a strip of triangles names a vertex of huge number");
+      if (index < 0.0) {
+        in_strip = 0;
+        continue;
+      }
+      if (++in_strip > 2) {
+        for (const double corner : {before[1 - in_strip % 2], before[in_strip % 2], index}) add_corner(corner);
+        end_face();
+      }
+      before = {before[1], index};
+    }
   }
 
   const std::string& name_;
   std::string_view rest_;
-  size_t line_ = 0;
+  uint32_t line_ = 0;
+  char line_end_ = '\n';  // the last character of a line
   bool binary_ = false, binary_body_ = false, swap_ = false;
+  bool has_normals_ = false, has_uvs_ = false;  // of the vertices
   std::vector<Element> elements_;
-  TriangleMesh mesh_;
+  std::vector<Vec2> uvs_of_corners_;
+  PolygonMesh mesh_;
 };
 
 }  // namespace
 
-TriangleMesh parse_ply(const std::string& name, std::string_view text) { return PlyReader(name, text).read(); }
+PolygonMesh parse_ply(const std::string& name, std::string_view text) { return PlyReader(name, text).read(); }
 
 }  // namespace vpm

@@ -47,7 +47,7 @@ TriangleMesh read_mesh(TableReader& table, ShapePart& part, const TriangleMesh* 
   const std::string source = given ? table.string(key) : table.path(key);
   try {
     LoadedMesh loaded = given ? checked_mesh(source, *given) : load_mesh(source);
-    part.degenerate_triangles = loaded.degenerate_triangles;
+    part.notes = loaded.notes;
     return std::move(loaded.mesh);
   } catch (const InputError& error) {
     table.fail(key, error.what());
@@ -60,7 +60,7 @@ TriangleMesh read_triangles(TableReader& table, TriangleMesh mesh, ShapePart& pa
   for (const Vec3& p : mesh.positions)
     if (!is_finite(p))
       table.fail("transform", "the transform moves a point of " + table.title() + " out of single precision");
-  part.degenerate_triangles += drop_flat_triangles(mesh);
+  part.notes.without_area += drop_flat_triangles(mesh);
   if (mesh.triangles.empty())
     table.fail(table.has("transform") ? "transform" : "type",
                "no triangle of " + table.title() + " has an area where it lies: single precision resolves none",

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include <numeric>
 
 #include "vpm/base/error.h"
+#include "vpm/base/letters.h"
 
 namespace vpm {
 namespace {
@@ -95,10 +95,7 @@ std::string suggest(const std::string& name, std::span<const std::string> candid
 }
 
 std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
+  return small_letters(std::filesystem::path(path).extension().string());
 }
 
 std::string read_whole_file(const std::string& path) {

@@ -95,6 +95,17 @@ size_t triangles_of(const Surface& surface) {
                     surface);
 }
 
+void add_mesh_notes(const ShapePart& part, std::vector<std::string>& notes) {
+  const auto add = [&](uint64_t number, const std::string& what) {
+    if (number > 0) notes.push_back("shape '" + part.name + "': " + std::to_string(number) + what);
+  };
+  add(part.notes.without_area, " triangles without area dropped");
+  add(part.notes.not_plane, " polygons are not plane: the file does not say how they bend between their corners");
+  add(part.notes.bad_normals,
+      " corners name a normal that is zero, no number or not there: they have that of the triangle");
+  add(part.notes.free_form, " curves and free-form surfaces in the file are not read");
+}
+
 void add_shape_part(ShapePart part, AssembledScene& result) {
   Scene& scene = result.scene;
   const auto number = static_cast<uint32_t>(scene.shapes.size());
@@ -106,10 +117,8 @@ void add_shape_part(ShapePart part, AssembledScene& result) {
   if (part.media) shape.media = *part.media;
   if (emits) shape.light = static_cast<int>(scene.lights.size());
   add_surface(scene, std::move(shape), part.surface);
-  const uint64_t dropped =
-      part.degenerate_triangles + triangles_of(part.surface) - scene.geometry.triangle_count(number);
-  if (dropped > 0)
-    result.notes.push_back("shape '" + part.name + "': " + std::to_string(dropped) + " triangles without area dropped");
+  part.notes.without_area += triangles_of(part.surface) - scene.geometry.triangle_count(number);
+  add_mesh_notes(part, result.notes);
   if (!emits) return;
   scene.lights.push_back(
       std::visit([&](auto& surface) { return light_of(std::move(surface), *part.emission); }, part.surface));
@@ -137,6 +146,7 @@ void add_lists(SceneParts& parts, AssembledScene& result) {
   Scene& scene = result.scene;
   for (MediumPart& medium : parts.media) scene.media.push_back(std::move(medium.medium));
   for (MaterialPart& part : parts.materials) {
+    for (std::string& note : part.notes) result.notes.push_back("a texture: " + note);
     if (part.texture) *reflectance_of(part.material) = part.texture->mean();
     scene.materials.push_back(part.material);
     scene.textures.push_back(std::move(part.texture));
@@ -144,6 +154,7 @@ void add_lists(SceneParts& parts, AssembledScene& result) {
   for (const LightPart& light : parts.lights) {
     scene.lights.push_back(light.light);
     result.light_names.push_back(light.name);
+    for (const std::string& note : light.notes) result.notes.push_back("light '" + light.name + "': " + note);
   }
   scene.world_medium = parts.world_medium;
   scene.camera = parts.camera;

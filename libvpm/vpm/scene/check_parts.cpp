@@ -84,10 +84,17 @@ void check_shape(const SceneParts& parts, size_t number) {
   check_disc(shape, number);
   const MaterialPart& material = parts.materials[shape.material];
   check_emission(shape, title, material.material, number);
-  if (material.texture && !has_uvs(shape.surface))
+  if (!material.texture) return;
+  if (!has_uvs(shape.surface))
     throw PartError({PartKind::shape, number, "material"},
                     "the material of " + title + " has a texture, but the shape has no coordinates in it",
                     "spheres and quads have them, and meshes whose file gives them to the vertices");
+  if (shape.notes.without_uvs == 0) return;
+  const uint32_t line = shape.notes.first_without_uvs;
+  throw PartError({PartKind::shape, number, "material"},
+                  "the material of " + title + " has a texture, but corners of its mesh have no coordinates in it" +
+                      (line > 0 ? ", first those of the face in line " + std::to_string(line) : ""),
+                  "give the mesh's file coordinates for all of its faces, or split it into two shapes");
 }
 
 void check_shapes(const SceneParts& parts) {

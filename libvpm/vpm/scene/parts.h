@@ -17,6 +17,7 @@ namespace vpm {
 struct MaterialPart {
   Material material = Boundary{};
   std::shared_ptr<const Texture> texture{};  // null: the material's own reflectance, everywhere
+  std::vector<std::string> notes{};          // on its picture
 };
 
 /// Who draws the surface within which a grid medium is met: a box around the grid's support, or shapes that name the
@@ -33,21 +34,32 @@ struct MediumPart {
 /// The surfaces that shapes have.
 using Surface = std::variant<TriangleMesh, QuadMesh, SphereShape, DiscShape>;
 
+/// What is to be noted of a mesh and its file.
+struct MeshNotes {
+  uint64_t without_area = 0;       // triangles, which were dropped
+  uint64_t not_plane = 0;          // polygons of which a corner is further than 1 % of their extent off the plane
+  uint64_t bad_normals = 0;        // corners whose normal is zero, no number or lacking, and became the triangle's own
+  uint64_t without_uvs = 0;        // times that texture coordinates are lacking or no numbers, and became zero
+  uint64_t free_form = 0;          // surfaces that are none of polygons, which were not read
+  uint32_t first_without_uvs = 0;  // the line of the first face with such a one; 0 in files that are no text
+};
+
 /// A shape and what it does to light.
 struct ShapePart {
   std::string name{};   // of its own; empty: "shape 3", by its number
   std::string title{};  // what errors call it; empty: "shape 'name'"
   Surface surface{};
-  uint32_t material = 0;              // its number in SceneParts::materials
-  std::optional<Interface> media{};   // that meet at it; nothing: the medium is the same on both sides
-  std::optional<Rgb> emission{};      // W/(m^2 sr), to the side of the outward normal
-  uint64_t degenerate_triangles = 0;  // that its mesh had and that were dropped from it, to be noted
+  uint32_t material = 0;             // its number in SceneParts::materials
+  std::optional<Interface> media{};  // that meet at it; nothing: the medium is the same on both sides
+  std::optional<Rgb> emission{};     // W/(m^2 sr), to the side of the outward normal
+  MeshNotes notes{};
 };
 
 /// A light that is no shape.
 struct LightPart {
   std::string name{};  // empty where it has none
   Light light{};
+  std::vector<std::string> notes{};  // on its picture
 };
 
 /// Numbers of media and materials are places in these lists.
