@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "tools/vpm_binary.h"
+#include "vpm/base/rng.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
+#include "vpm/image/statistics_of.h"
 
 namespace vpm {
 namespace {
@@ -92,6 +94,76 @@ TEST_F(VpmError, TellsWhatOfTheErrorIsNoise) {
   EXPECT_NE(text.find("less noise"), std::string::npos) << text;
   EXPECT_NE(text.find("the reference is noisier than the picture"), std::string::npos) << text;
   EXPECT_TRUE(json({"noisy.exr", "noisier.exr"}).at("means").at("standard_error_knows_correlation"));
+}
+
+/// Pictures with statistics, that OpenImageIO's tools change; skipped without them.
+class VpmErrorOfChanged : public VpmError {
+ protected:
+  VpmErrorOfChanged() {
+    const Image radiance = noise(1), variance = noise(2);
+    write_exr(path("whole.exr"), radiance, {{"variance", &variance}},
+              {{"vpm.version", "1"}, {kStatisticsOf, key_of_statistics(radiance, variance)}});
+  }
+  static Image noise(uint64_t index) {
+    Rng rng(7, rng_stream(RngUse::test, 0), index);
+    Image image(64, 48);
+    for (Rgb& pixel : image.pixels) pixel = Rgb(rng.uniform(), rng.uniform(), rng.uniform());
+    return image;
+  }
+  /// oiiotool whole.exr, what is asked for, and changed.exr: false where there is none of it.
+  bool change(const std::string& by) const {
+    const std::string line = "oiiotool '" + path("whole.exr") + "' " + by + " '" + path("changed.exr") + "'";
+    return run_program({"/bin/sh", "-c", "command -v oiiotool > /dev/null && " + line}).status == 0;
+  }
+  /// What the warning about the statistics of the changed picture says.
+  std::string told(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"error", "changed.exr", "whole.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::string said = vpm_succeeds(arguments).err;
+    const std::string begins = "warning: changed.exr: its layers of statistics are not used: ";
+    return said.starts_with(begins) ? said.substr(begins.size()) : said;
+  }
+};
+
+TEST_F(VpmErrorOfChanged, StatisticsThatNoLongerFitAreLeftOut) {
+  if (!change("-o")) GTEST_SKIP() << "there is no oiiotool";
+  EXPECT_EQ(told(), "") << "a copy without loss";
+  const std::string changed = "the picture's values were changed since they were made\n";
+  ASSERT_TRUE(change("--compression piz -o"));
+  EXPECT_EQ(told(), "");
+  ASSERT_TRUE(change("--compression dwaa:45 -o"));
+  EXPECT_EQ(told(), changed);
+  ASSERT_TRUE(change("-d half -o"));
+  EXPECT_EQ(told(), changed);
+  ASSERT_TRUE(change("--mulc 2 -o"));
+  EXPECT_EQ(told(), changed);
+  ASSERT_TRUE(
+      change("--ch R,R,B,A,variance.R,variance.G,variance.B --chnames R,G,B,A,variance.R,variance.G,variance.B -o"));
+  EXPECT_EQ(told(), changed) << "of other colours";
+  ASSERT_TRUE(change("-d half -d R=float -d G=float -d B=float -o"));
+  EXPECT_EQ(told(), "they were changed since then\n");
+  ASSERT_TRUE(change("--resize 32x24 -o"));
+  EXPECT_EQ(told({"--resample"}), "they were made for 64 x 48 pixels, and the picture has 32 x 24\n");
+}
+
+TEST_F(VpmErrorOfChanged, StatisticsWithoutAKeyAreBelieved) {
+  const Image radiance = noise(1), variance = noise(2);
+  write_exr(path("changed.exr"), radiance, {{"variance", &variance}}, {{"vpm.version", "1"}});
+  EXPECT_EQ(told(),
+            "note: changed.exr: it does not say for which pixels its variances were made; they are taken for its "
+            "own\n");
+}
+
+/// Layers by name, of the picture and of the reference.
+TEST_F(VpmErrorOfChanged, ComparesTheLayersThatAreNamed) {
+  const Json both = json({"whole.exr", "whole.exr", "--layer", "variance", "--reference-layer", "variance"});
+  EXPECT_EQ(both.at("mse").at("value"), 0.0);
+  EXPECT_EQ(both.at("reference_layer"), "variance");
+  EXPECT_NE(vpm_succeeds({"error", "whole.exr", "whole.exr", "--layer", "variance"})
+                .out.find("whole.exr (I, layer variance) against whole.exr (R), "),
+            std::string::npos);
+  EXPECT_GT(json({"whole.exr", "whole.exr", "--layer", "variance"}).at("mse").at("value"), 0.1);
+  vpm_refuses({"error", "whole.exr", "whole.exr", "--layer", "depth"}, {"whole.exr", "'depth'", "variance"});
 }
 
 TEST_F(VpmError, BringsAPictureToTheSizeOfTheReference) {

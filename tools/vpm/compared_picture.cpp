@@ -8,6 +8,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/image/metrics.h"
+#include "vpm/image/statistics_of.h"
 #include "vpm/job/picture.h"
 
 namespace vpm::tools {
@@ -20,31 +21,51 @@ std::optional<uint64_t> passes_of(const std::string& text) {
   return whole ? std::optional(passes) : std::nullopt;
 }
 
-}  // namespace
-
-PictureOrigin origin_of(const ExrChannels& file) {
+PictureOrigin origin_of(const std::map<std::string, std::string>& metadata) {
   const auto told = [&](const char* name) {
-    const auto found = file.metadata.find(name);
-    return found == file.metadata.end() ? std::string() : found->second;
+    const auto found = metadata.find(name);
+    return found == metadata.end() ? std::string() : found->second;
   };
   return {told("vpm.sceneHash"), told("vpm.settings"), told("vpm.seed"), passes_of(told("vpm.passes"))};
 }
 
-NoisyImage read_picture(const std::string& path, const ExrChannels& file) {
-  NoisyImage picture{read_exr(path), {}, {}};
-  std::optional<Image> variance = layer_of(file, "variance");
-  if (!variance) return picture;
-  if (const size_t broken = non_finite_pixels(*variance); broken > 0) {
-    fmt::print(stderr, "warning: {}: {} of its variances are not finite, so that none of them is used\n", path, broken);
-    return picture;
-  }
-  picture.variance = std::move(variance);
+/// The variances of a file that has its picture without a name, as vpm writes it; nothing where they are not to be
+/// used.
+std::optional<Image> variance_of(const std::string& path, const ExrPicture& picture) {
+  std::optional<Image> variance = layer_of(picture.file, "variance");
+  if (!variance) return std::nullopt;
+  const auto leave_out = [&](const std::string& why) {
+    fmt::print(stderr, "warning: {}: its layers of statistics are not used: {}\n", path, why);
+    return std::nullopt;
+  };
+  if (const std::string why = why_statistics_do_not_fit(picture, *variance); !why.empty()) return leave_out(why);
+  if (const size_t broken = non_finite_pixels(*variance); broken > 0)
+    return leave_out(fmt::format("{} of the variances are not finite", broken));
+  if (!picture.file.metadata.contains(kStatisticsOf))
+    fmt::print(stderr,
+               "note: {}: it does not say for which pixels its variances were made; they are taken for its own\n",
+               path);
+  return variance;
+}
+
+std::optional<Rgbd> variance_of_means(const ExrChannels& file) {
   const auto means = file.metadata.find(kVarianceOfMeans);
-  Rgbd of_means;
-  if (means != file.metadata.end() &&
-      std::sscanf(means->second.c_str(), "%lf %lf %lf", &of_means.r, &of_means.g, &of_means.b) == 3)
-    picture.variance_of_channel_means = of_means;
-  return picture;
+  Rgbd found;
+  const bool given = means != file.metadata.end() &&
+                     std::sscanf(means->second.c_str(), "%lf %lf %lf", &found.r, &found.g, &found.b) == 3;
+  return given ? std::optional(found) : std::nullopt;
+}
+
+}  // namespace
+
+ComparedPicture read_compared(const std::string& path, const std::string& layer) {
+  ExrPicture read = read_exr_picture(path, layer, layer.empty() ? ExrPlanes::statistics : ExrPlanes::colour);
+  for (const std::string& note : read.notes) fmt::print(stderr, "note: {}: {}\n", path, note);
+  ComparedPicture compared{{{}, {}, {}}, origin_of(read.file.metadata), read.file.held};
+  if (layer.empty()) compared.picture.variance = variance_of(path, read);
+  if (compared.picture.variance) compared.picture.variance_of_channel_means = variance_of_means(read.file);
+  compared.picture.image = std::move(read.image);
+  return compared;
 }
 
 void check_same_size(const Image& image, const std::string& path, const Image& reference, const std::string& to) {
@@ -65,8 +86,6 @@ void warn_of_non_finite(const Image& image, const std::string& path) {
   if (const size_t broken = non_finite_pixels(image))
     fmt::print(stderr, "warning: {}: {} of its pixels are not finite, so that errors are not\n", path, broken);
 }
-
-bool is_crop(const ExrChannels& file) { return file.held != PixelRect{0, 0, file.width, file.height}; }
 
 Json noise_json(const NoisyImage& picture, double noise) { return picture.variance ? number(noise) : Json(); }
 

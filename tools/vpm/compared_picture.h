@@ -32,13 +32,18 @@ struct PictureOrigin {
   /// The first of the settings: with which of the integrators it was rendered.
   std::string integrator() const { return settings.substr(0, settings.find(' ')); }
 };
-PictureOrigin origin_of(const ExrChannels& file);
 
-/// The picture of a file with what it tells of its noise. Variances that are not finite are told of on stderr and not
-/// used.
-NoisyImage read_picture(const std::string& path, const ExrChannels& file);
-/// Does the file hold a part of its picture only?
-bool is_crop(const ExrChannels& file);
+/// A picture of a file, with what the file tells of its noise.
+struct ComparedPicture {
+  NoisyImage picture;
+  PictureOrigin origin;
+  PixelRect held;  // the pixels that the file has
+
+  bool is_crop() const { return held != PixelRect{0, 0, picture.image.width, picture.image.height}; }
+};
+/// Reads a layer of a file; empty: its picture (image/exr_layers.h). Says on stderr what was done to it, and why its
+/// variances are not used where they belong to other pixels or are not finite.
+ComparedPicture read_compared(const std::string& path, const std::string& layer);
 
 /// Errors over pixels that are not finite are not either: says on stderr that the picture has such.
 void warn_of_non_finite(const Image& image, const std::string& path);

@@ -67,6 +67,8 @@ Json report_of_pair(const ErrorOptions& options, const Pair& pair) {
                      {"relative_square", number(pixel.error)}});
   return {{"image", options.images[0]},
           {"reference", options.images[1]},
+          {"layer", options.layer.empty() ? Json() : Json(options.layer)},
+          {"reference_layer", options.reference_layer.empty() ? Json() : Json(options.reference_layer)},
           {"width", image.width},
           {"height", image.height},
           {"crop", pair.crop ? Json{{"x0", crop.x0}, {"y0", crop.y0}, {"x1", crop.x1}, {"y1", crop.y1}} : Json()},
@@ -112,8 +114,9 @@ void print_pair(const ErrorOptions& options, const Pair& pair) {
   const Errors& errors = pair.errors;
   const NoisyDifference& difference = pair.difference;
   const PixelRect crop = pair.crop.value_or(PixelRect{});
-  fmt::print("{} (I) against {} (R), {} x {} pixels{}\n", options.images[0], options.images[1], image.width,
-             image.height,
+  const auto of_layer = [](const std::string& layer) { return layer.empty() ? "" : ", layer " + layer; };
+  fmt::print("{} (I{}) against {} (R{}), {} x {} pixels{}\n", options.images[0], of_layer(options.layer),
+             options.images[1], of_layer(options.reference_layer), image.width, image.height,
              pair.crop ? fmt::format(", ({}, {}) to ({}, {}) of the film, which both have", crop.x0, crop.y0,
                                      crop.x1 - 1, crop.y1 - 1)
                        : "");
@@ -164,35 +167,31 @@ NoisyImage cropped(const NoisyImage& picture, const PixelRect& held, const Pixel
 }
 
 /// The pixels that both files have, where pictures are crops of one film.
-PixelRect pixels_of_both(const ErrorOptions& options, const ExrChannels& picture, const ExrChannels& reference) {
-  const PixelRect both = common_pixels(picture.held, reference.held);
-  if (!lies_in(both, reference.width, reference.height))
+PixelRect pixels_of_both(const ErrorOptions& options, const PixelRect& picture, const PixelRect& reference,
+                         const glm::ivec2& film) {
+  const PixelRect both = common_pixels(picture, reference);
+  if (!lies_in(both, film.x, film.y))
     throw InputError(
         fmt::format("{} and {} have no pixel in common: they are crops", options.images[0], options.images[1]));
   return both;
 }
 
 /// Cuts both to the pixels that both have, of films of one size.
-void crop(const ErrorOptions& options, const ExrChannels& picture, const ExrChannels& reference, Pair& pair) {
+void crop(const ErrorOptions& options, const PixelRect& picture, const PixelRect& reference, Pair& pair) {
   if (options.resample) throw InputError("--resample is for whole pictures, and one of these is a crop");
   check_same_size(pair.picture.image, options.images[0], pair.reference.image, options.images[1]);
-  pair.film = {reference.width, reference.height};
-  pair.crop = pixels_of_both(options, picture, reference);
-  pair.picture = cropped(pair.picture, picture.held, *pair.crop);
-  pair.reference = cropped(pair.reference, reference.held, *pair.crop);
+  pair.film = {pair.reference.image.width, pair.reference.image.height};
+  pair.crop = pixels_of_both(options, picture, reference, pair.film);
+  pair.picture = cropped(pair.picture, picture, *pair.crop);
+  pair.reference = cropped(pair.reference, reference, *pair.crop);
 }
 
 int compare_pair(const ErrorOptions& options) {
   check_output(options);
-  const ExrChannels files[] = {read_exr_channels(options.images[0]), read_exr_channels(options.images[1])};
-  Pair pair{read_picture(options.images[0], files[0]),
-            read_picture(options.images[1], files[1]),
-            share_noise(origin_of(files[0]), origin_of(files[1])),
-            {},
-            {},
-            {},
-            {}};
-  if (is_crop(files[0]) || is_crop(files[1])) crop(options, files[0], files[1], pair);
+  const ComparedPicture one = read_compared(options.images[0], options.layer);
+  const ComparedPicture other = read_compared(options.images[1], options.reference_layer);
+  Pair pair{one.picture, other.picture, share_noise(one.origin, other.origin), {}, {}, {}, {}};
+  if (one.is_crop() || other.is_crop()) crop(options, one.held, other.held, pair);
   if (options.resample) resample(options, pair.picture, pair.reference.image);
   const Image& reference = pair.reference.image;
   const Image& image = pair.picture.image;

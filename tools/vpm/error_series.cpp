@@ -113,8 +113,8 @@ void print_series_json(const std::vector<Member>& series, const std::string& to,
   fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
-void refuse_crop(const std::string& path, const ExrChannels& file) {
-  if (is_crop(file))
+void refuse_crop(const std::string& path, const ComparedPicture& picture) {
+  if (picture.is_crop())
     throw InputError(fmt::format("{} is a crop: a series is of whole pictures; two pictures are compared there", path));
 }
 
@@ -122,15 +122,16 @@ void refuse_crop(const std::string& path, const ExrChannels& file) {
 
 int compare_series(const ErrorOptions& options) {
   const std::string& to = options.images.back();
-  refuse_crop(to, read_exr_channels(to));
-  const NoisyImage reference = read_picture(to, read_exr_channels(to));
+  const ComparedPicture last = read_compared(to, options.reference_layer);
+  refuse_crop(to, last);
+  const NoisyImage& reference = last.picture;
   std::vector<Member> series;
   for (size_t i = 0; i + 1 < options.images.size(); ++i) {
     const std::string& path = options.images[i];
-    const Image image = read_exr(path);
-    const ExrChannels file = read_exr_channels(path);
-    refuse_crop(path, file);
-    series.push_back({path, origin_of(file), errors_of(image, path, reference.image, to)});
+    const ComparedPicture member = read_compared(path, options.layer);
+    refuse_crop(path, member);
+    const Image& image = member.picture.image;
+    series.push_back({path, member.origin, errors_of(image, path, reference.image, to)});
     warn_of_non_finite(image, path);
   }
   warn_of_non_finite(reference.image, to);

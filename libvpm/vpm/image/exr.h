@@ -25,22 +25,16 @@ struct ExrWindow {
   int width, height;
 };
 
-/// Writes the float channels R, G, B and those of the layers into one part, ZIP compressed (lossless), and each pair of
-/// `metadata` as a string attribute; the keys must be distinct and none of the format's own names. Equal arguments give
-/// equal bytes: no time stamp. The file appears whole or not at all; throws InputError where it cannot be written.
-/// Where the images are a part of a picture, `part` tells which: they are the file's data window, and the whole is its
-/// display window.
+/// Writes the float channels R, G, B, A = 1 and those of the layers into one part, ZIP compressed (lossless), and each
+/// pair of `metadata` as a string attribute; the keys must be distinct and none of the format's own names. Equal
+/// arguments give equal bytes: no time stamp. The file appears whole or not at all; throws InputError where it cannot
+/// be written. Where the images are a part of a picture, `part` tells which: they are the file's data window, and the
+/// whole is its display window.
 void write_exr(const std::filesystem::path& path, const Image& radiance, const std::vector<ExrLayer>& layers,
                const std::vector<std::pair<std::string, std::string>>& metadata,
                const std::optional<ExrWindow>& part = {});
 
-/// Reads R, G, B of the first part's default layer; a file that has Y, or one channel of any name, instead is grey. The
-/// picture is the display window: black where the file has no pixels, without those the file has outside it. Non-finite
-/// pixels are returned as they are. Throws InputError where the file is missing, damaged, over 1 GiB in memory, deep,
-/// subsampled, of integers, or has none of these channels.
-Image read_exr(const std::filesystem::path& path);
-
-/// Every channel of a file's first part, over the display window, and its string attributes.
+/// Every channel of a file's part, over the display window, and its string attributes.
 struct ExrChannels {
   int width = 0, height = 0;
   PixelRect held;                                    // the pixels that the file has; the others are 0
@@ -48,7 +42,28 @@ struct ExrChannels {
   std::map<std::string, std::string> metadata;       // among them the format's own "type"
 };
 
-/// Throws as read_exr does.
+/// A picture as it is read.
+struct ExrPicture {
+  Image image;                     // over the display window: black where the file has no pixels
+  ExrChannels file;                // of the part that holds it
+  bool cube = false;               // is it, as its attribute "envmap" says, of the six faces of a cube?
+  std::vector<std::string> notes;  // what was done to it, for people
+};
+
+/// Which channels ExrPicture::file has: those of its picture, these and those of variance.* and bias.*, or all.
+enum class ExrPlanes { colour, statistics, all };
+
+/// Reads the layer of a picture that choose_colour() chooses (exr_layers.h), whichever part holds it. Colours of other
+/// primaries become those of Rec. 709: those that "colorInteropID" names, else of the attribute "chromaticities", else
+/// what "oiio:ColorSpace" names; a name that is not known is noted. Non-finite pixels are returned as they are. Throws
+/// InputError where the file is missing, damaged, over 1 GiB in memory, deep, subsampled, of integers or of encoded
+/// colours, or holds no such layer.
+ExrPicture read_exr_picture(const std::filesystem::path& path, const std::string& layer = "",
+                            ExrPlanes planes = ExrPlanes::all);
+
+/// Its image alone.
+Image read_exr(const std::filesystem::path& path);
+/// Its file alone.
 ExrChannels read_exr_channels(const std::filesystem::path& path);
 
 /// A layer as a picture: the channels name.R, name.G and name.B, or R, G and B where the name is empty. Nothing where

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "vpm/base/error.h"
-#include "vpm/image/exr.h"
 #include "vpm/image/png.h"
 #include "vpm/input/sections.h"
 
@@ -10,24 +9,31 @@ namespace vpm {
 namespace {
 
 /// The picture under `key`, PNG or EXR by its name.
-Image read_picture(TableReader& table, const std::string& key, const std::string& path) {
+Image read_picture(TableReader& table, const std::string& key, const std::string& path,
+                   std::vector<std::string>& notes) {
   const std::string extension = lower_extension(path);
   if (extension != ".png" && extension != ".exr") table.fail(key, path + ": a texture must be a .png or .exr file");
   if (extension == ".exr" && table.has("raw"))
     table.fail("raw", "'raw' is for .png files: the values of an .exr are linear", "remove it");
-  const PngValues values = table.flag("raw", false) ? PngValues::linear : PngValues::srgb;
+  if (extension == ".png" && table.has("layer"))
+    table.fail("layer", "'layer' is for .exr files: a .png has none", "remove it");
+  if (extension == ".exr") {
+    ExrPicture picture = read_exr_layer(table, key, path);
+    notes = std::move(picture.notes);
+    return std::move(picture.image);
+  }
   try {
-    return extension == ".png" ? read_png(path, values) : read_exr(path);
+    return read_png(path, table.flag("raw", false) ? PngValues::linear : PngValues::srgb);
   } catch (const InputError& error) {
     table.fail(key, error.what());
   }
 }
 
-std::shared_ptr<const Texture> read_texture(TableReader table) {
+std::shared_ptr<const Texture> read_texture(TableReader table, std::vector<std::string>& notes) {
   const std::string path = table.path("texture");
   const auto filter = table.choice<TextureFilter>(
       "filter", {{"bilinear", TextureFilter::bilinear}, {"nearest", TextureFilter::nearest}}, TextureFilter::bilinear);
-  Image image = read_picture(table, "texture", path);
+  Image image = read_picture(table, "texture", path, notes);
   const std::string wrong = first_texel_outside(image, 1.0f);
   if (!wrong.empty()) table.fail("texture", path + ": the reflectance at " + wrong + " is not in [0, 1]");
   table.finish();
@@ -35,6 +41,15 @@ std::shared_ptr<const Texture> read_texture(TableReader table) {
 }
 
 }  // namespace
+
+ExrPicture read_exr_layer(TableReader& table, const std::string& key, const std::string& path) {
+  const std::string layer = table.string("layer", "");
+  try {
+    return read_exr_picture(path, layer, ExrPlanes::colour);
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+}
 
 std::string first_texel_outside(const Image& image, float largest) {
   const auto inside = [largest](const Rgb& texel) {
@@ -49,7 +64,7 @@ std::string first_texel_outside(const Image& image, float largest) {
 Rgb read_reflectance(TableReader& table, MaterialPart& part, std::optional<Rgb> fallback) {
   const Node* node = table.find("reflectance");
   if (!node || !node->table()) return table.rgb("reflectance", kFraction, fallback);
-  part.texture = read_texture(*table.table("reflectance", "'reflectance' of " + table.title()));
+  part.texture = read_texture(*table.table("reflectance", "'reflectance' of " + table.title()), part.notes);
   return part.texture->mean();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vpm/image/exr.h"
 #include "vpm/input/given_parts.h"
 #include "vpm/input/table_reader.h"
 #include "vpm/job/choice.h"
@@ -49,6 +50,8 @@ Rgb read_reflectance(TableReader& table, MaterialPart& part, std::optional<Rgb> 
 /// The first texel of a picture that is not finite, below 0, or above `largest`: "column 3, row 0"; "" where there is
 /// none.
 std::string first_texel_outside(const Image& image, float largest);
+/// The picture of an EXR file under `key`, of the layer that the table names.
+ExrPicture read_exr_layer(TableReader& table, const std::string& key, const std::string& path);
 
 /// A shape.
 struct ShapePlan {
@@ -74,6 +77,10 @@ struct LightPlan {
   LightPart part;
   TableReader table;
 };
+/// The emission under `key`, which is not black.
+Rgb read_emitted(TableReader& table, const std::string& key);
+/// Reads a light of the kind "environment", but for its name.
+LightPart read_environment(TableReader& table);
 /// Reads [[lights]].
 std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);
 

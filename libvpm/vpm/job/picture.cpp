@@ -7,6 +7,7 @@
 
 #include "vpm/base/version.h"
 #include "vpm/image/exr.h"
+#include "vpm/image/statistics_of.h"
 #include "vpm/job/setting.h"
 #include "vpm/render/technique_layers.h"
 #include "vpm/render/view_layers.h"
@@ -69,6 +70,7 @@ void write_picture(const std::filesystem::path& path, const RenderJob& job, cons
   if (errors) {
     const Rgbd& means = errors->variance_of_channel_means;
     metadata.emplace_back(kVarianceOfMeans, fmt::format("{:.9g} {:.9g} {:.9g}", means.r, means.g, means.b));
+    metadata.emplace_back(kStatisticsOf, key_of_statistics(result.film.mean(), errors->variance));
   }
   std::vector<ExrLayer> layers;
   if (errors) layers.push_back({"variance", &errors->variance});
@@ -89,8 +91,10 @@ void write_light_map(const std::filesystem::path& path, const RenderJob& job, co
   const std::optional<FilmErrors> errors = errors_of(result);
   std::vector<ExrLayer> layers{{"coverage", &coverage}};
   if (errors) layers.push_back({"variance", &errors->variance});
+  const Image map = light_map_of(layout, result);
   Metadata metadata = provenance(job, result.film);
   metadata.emplace_back("vpm.mesh", mesh);
+  if (errors) metadata.emplace_back(kStatisticsOf, key_of_statistics(map, errors->variance));
   metadata.emplace_back("vpm.quantity",
                         "irradiance on the side of the outward normal, W/m^2; variance.*: variance of the mean of "
                         "passes; coverage.*: share of the texel that the mesh covers");
@@ -99,7 +103,7 @@ void write_light_map(const std::filesystem::path& path, const RenderJob& job, co
       fmt::format("texels of coverage 0, {} of {}: black, but within {} texels of covered ones the mean of their "
                   "neighbours; their variance is given as 0",
                   layout.texels() - layout.covered_texels(), layout.texels(), kDilation));
-  write_exr(path, light_map_of(layout, result), layers, metadata);
+  write_exr(path, map, layers, metadata);
 }
 
 }  // namespace vpm

@@ -10,6 +10,7 @@
 #include "exact_problems.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
+#include "vpm/image/statistics_of.h"
 
 namespace vpm::python {
 namespace {
@@ -84,9 +85,11 @@ py::dict difference(const NoisyArray& one, const NoisyArray& other) {
   return told;
 }
 
-/// The picture, its planes by their names, its attributes, and the pixels that the file has.
-py::tuple read_planes(const std::string& path) {
-  const ExrChannels channels = read_exr_channels(path);
+/// The picture, its planes by their names, its attributes, the pixels that the file has, what was done to the picture,
+/// and why its statistics do not fit.
+py::tuple read_planes(const std::string& path, const std::string& layer) {
+  const ExrPicture picture = read_exr_picture(path, layer);
+  const ExrChannels& channels = picture.file;
   py::dict planes;
   for (const auto& [name, values] : channels.planes)
     planes[py::str(name)] = py::array_t<float>({channels.height, channels.width}, values.data());
@@ -95,7 +98,9 @@ py::tuple read_planes(const std::string& path) {
     metadata[py::str(name)] = py::reinterpret_steal<py::str>(
         PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape"));
   const auto& [x0, y0, x1, y1] = channels.held;
-  return py::make_tuple(array_of(read_exr(path)), planes, metadata, py::make_tuple(x0, y0, x1, y1));
+  const std::optional<Image> variance = layer_of(channels, "variance");
+  return py::make_tuple(array_of(picture.image), planes, metadata, py::make_tuple(x0, y0, x1, y1), picture.notes,
+                        variance ? why_statistics_do_not_fit(picture, *variance) : "");
 }
 
 }  // namespace

@@ -55,10 +55,16 @@ class Picture(NamedTuple):
     size: tuple[int, int]  # width and height of the whole
 
 
-def read_exr(path: str | os.PathLike[str]) -> Picture:
-    """Reads an EXR file: R, G and B, or grey, as vpm does; layers are those that have channels NAME.R, .G and .B, or
-    .X, .Y and .Z, or one, as depth.Z: arrays (height, width, 3) or (height, width)."""
-    whole, whole_planes, metadata, window = _vpm.read_exr(os.fspath(path))
+def read_exr(path: str | os.PathLike[str], layer: str = "") -> Picture:
+    """Reads an EXR file: its picture, as `vpm error` does, or that of the layer named; layers are those that have
+    channels NAME.R, .G and .B, or .X, .Y and .Z, or one, as depth.Z: arrays (height, width, 3) or (height, width).
+    Warns where the colours were converted to Rec. 709, and where layers of statistics are left out as they were made
+    for other pixels."""
+    whole, whole_planes, metadata, window, notes, misfit = _vpm.read_exr(os.fspath(path), layer)
+    for note in notes:
+        warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
+    if misfit:
+        warnings.warn(f"{os.fspath(path)}: its layers of statistics are left out: {misfit}", stacklevel=2)
     x0, y0, x1, y1 = window
     radiance = whole[y0:y1, x0:x1]
     planes = {name: plane[y0:y1, x0:x1] for name, plane in whole_planes.items()}
@@ -73,6 +79,8 @@ def read_exr(path: str | os.PathLike[str]) -> Picture:
         for three in ("RGB", "XYZ"):
             if name and given == set(three):
                 layers[name] = np.stack([planes[f"{name}.{c}"] for c in three], axis=-1)
+    if misfit:
+        layers = {name: layer for name, layer in layers.items() if name.split(".")[-1] not in ("variance", "bias")}
     return Picture(radiance, layers, planes, metadata, window, (whole.shape[1], whole.shape[0]))
 
 
