@@ -1,12 +1,9 @@
 // The section [[lights]].
-#include <algorithm>
+#include <cmath>
 
-#include "vpm/base/error.h"
-#include "vpm/image/exr.h"
 #include "vpm/input/sections.h"
 
 namespace vpm {
-namespace {
 
 Rgb read_emitted(TableReader& table, const std::string& key) {
   const Rgb value = table.rgb(key, kNotNegative);
@@ -14,6 +11,8 @@ Rgb read_emitted(TableReader& table, const std::string& key) {
     table.fail(key, table.title() + " emits nothing", "make '" + key + "' positive, or remove the light");
   return value;
 }
+
+namespace {
 
 /// Intensity in W/sr, given as such, or as the power in W that leaves through `solid_angle`, sr of full intensity.
 Rgb read_intensity(TableReader& table, float solid_angle) {
@@ -68,45 +67,29 @@ Light read_directional(TableReader& table) {
   return DirectionalLight{table.direction("direction"), read_emitted(table, "irradiance")};
 }
 
-Light read_environment_map(TableReader& table) {
-  const std::string path = table.path("path");
-  const float scale = table.number("scale", kPositive, 1.0f);
-  Image image;
-  try {
-    image = read_exr(path);
-  } catch (const InputError& error) {
-    table.fail("path", error.what());
-  }
-  for (Rgb& texel : image.pixels) texel *= scale;
-  const std::string wrong = first_texel_outside(image, kInfinity);
-  if (!wrong.empty()) table.fail("path", path + ": the radiance at " + wrong + " is negative or not finite");
-  if (std::all_of(image.pixels.begin(), image.pixels.end(), is_black))
-    table.fail("path", path + ": the whole environment is black");
-  return EnvironmentMap{std::make_shared<ImageEnvironment>(image.width, image.height, std::move(image.pixels))};
-}
-
-Light read_environment(TableReader& table) {
-  const bool map = table.has("path");
-  if (table.has("radiance") == map)
-    table.fail_here(table.title() + (map ? " has both 'radiance' and 'path'" : " has neither 'radiance' nor 'path'"),
-                    "give one: a constant radiance (W/(m^2 sr)) or the path of an equirectangular EXR");
-  return map ? read_environment_map(table) : ConstantEnvironment{read_emitted(table, "radiance")};
+template <Light (*read)(TableReader&)>
+LightPart part_of(TableReader& table) {
+  LightPart part;
+  part.light = read(table);
+  return part;
 }
 
 }  // namespace
 
 std::vector<LightPlan> read_lights(std::vector<TableReader>& tables) {
-  using Reader = Light (*)(TableReader&);
-  const std::vector<std::pair<std::string, Reader>> kinds = {{"point", read_point},
-                                                             {"spot", read_spot},
-                                                             {"beam", read_beam},
-                                                             {"directional", read_directional},
+  using Reader = LightPart (*)(TableReader&);
+  const std::vector<std::pair<std::string, Reader>> kinds = {{"point", part_of<read_point>},
+                                                             {"spot", part_of<read_spot>},
+                                                             {"beam", part_of<read_beam>},
+                                                             {"directional", part_of<read_directional>},
                                                              {"environment", read_environment}};
   std::vector<LightPlan> lights;
   for (TableReader& table : tables) {
     const std::string name = table.string("name", "");
     const Reader read = table.choice<Reader>("type", kinds);
-    lights.push_back({{name, read(table)}, table});
+    LightPart part = read(table);
+    part.name = name;
+    lights.push_back({std::move(part), table});
     table.finish();
   }
   return lights;

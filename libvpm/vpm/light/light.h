@@ -12,6 +12,7 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/vec.h"
+#include "vpm/light/image_environment.h"
 #include "vpm/surface/geometry.h"
 
 namespace vpm {
@@ -91,44 +92,7 @@ struct DirectionalLight {
 struct ConstantEnvironment {
   Rgb radiance{1.0f};  // W/(m^2 sr)
 };
-/// An equirectangular picture of radiance, piecewise constant over its pixels: column = azimuth from +z over +x,
-/// row 0 = straight up (+y). Sampled by luminance.
-class ImageEnvironment {
- public:
-  /// `texels`: width * height radiances in W/(m^2 sr), rows from the top. Throws InputError unless all are finite
-  /// and >= 0, and not all black.
-  ImageEnvironment(int width, int height, std::vector<Rgb> texels);
-  /// Radiance that arrives from direction `d` (unit, pointing away from the scene).
-  Rgb radiance(const Vec3& d) const;
-  /// A direction away from the scene, distributed as pdf(): the uniform number `choice` picks the texel, `u` the place
-  /// in it.
-  struct Sample {
-    Vec3 direction{0.0f};  // unit
-    float pdf = 0.0f;      // of the sampled texel, 1/sr
-    Rgb radiance{0.0f};    // of the sampled texel, even if rounding puts the direction into its neighbour
-  };
-  Sample sample(double choice, const Vec2& u) const;
-  /// The density of sample() at `d`, 1/sr: the luminance over its integral.
-  float pdf(const Vec3& d) const;
-  /// Integral of radiance over the sphere, W/m^2.
-  Rgbd integral() const { return integral_; }
-  /// Integrals over the sphere of radiance times |cosine| to the x, y and z axes, W/m^2: the power per area that passes
-  /// a plane perpendicular to each axis, from both sides together.
-  const std::array<Rgbd, 3>& flux_across() const { return flux_across_; }
-  /// Are all texels grey?
-  bool grey() const { return grey_; }
-  size_t memory_bytes() const { return texels_.size() * sizeof(Rgb) + cumulative_.size() * sizeof(double); }
-
- private:
-  size_t texel_at(const Vec3& d) const;
-
-  int width_ = 0, height_ = 0;
-  std::vector<Rgb> texels_;
-  std::vector<double> cumulative_;  // of luminance times solid angle, size width * height + 1
-  Rgbd integral_{0.0};
-  std::array<Rgbd, 3> flux_across_{};
-  bool grey_ = false;
-};
+/// Radiance by a picture.
 struct EnvironmentMap {
   std::shared_ptr<const ImageEnvironment> image;
 };

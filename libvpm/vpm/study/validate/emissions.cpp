@@ -227,12 +227,12 @@ EmissionLaw constant_law() {
 double lit_area(size_t texel) {
   constexpr int kSteps = 200;
   const double top = TexelMap::fall(texel / TexelMap::kWidth), fall = kPiD / (TexelMap::kHeight * kSteps);
-  const double begin = 2.0 * kPiD * static_cast<double>(texel % TexelMap::kWidth) / TexelMap::kWidth;
+  const double begin = kPiD - 2.0 * kPiD * static_cast<double>(texel % TexelMap::kWidth) / TexelMap::kWidth;
   const double turn = 2.0 * kPiD / (TexelMap::kWidth * kSteps);
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i)
     for (int k = 0; k < kSteps; ++k) {
-      const double angle = top + (i + 0.5) * fall, azimuth = begin + (k + 0.5) * turn;
+      const double angle = top + (i + 0.5) * fall, azimuth = begin - (k + 0.5) * turn;
       const Vec3d d(std::sin(angle) * std::sin(azimuth), std::cos(angle), std::sin(angle) * std::cos(azimuth));
       sum += glm::dot(glm::abs(d), lit_faces()) * std::sin(angle) * fall * turn;
     }

@@ -26,7 +26,7 @@ inline SphereLight test_sphere() { return {{0.2f, 1.3f, 0.1f}, 0.7f, kColour}; }
 /// A picture of 8 x 4 radiances of unequal brightness and colour, with the geometry of its texels by their definition.
 struct TexelMap {
   static constexpr size_t kWidth = 8, kHeight = 4;
-  std::vector<Rgb> texels;  // W/(m^2 sr), rows from +y down, columns from +z over +x
+  std::vector<Rgb> texels;  // W/(m^2 sr), rows from +y down, columns from -z over +x
 
   EnvironmentMap light() const {
     return {std::make_shared<const ImageEnvironment>(static_cast<int>(kWidth), static_cast<int>(kHeight), texels)};
@@ -39,8 +39,8 @@ struct TexelMap {
     return 2.0 * kPiD / kWidth * (std::cos(fall(row)) - std::cos(fall(row + 1)));
   }
   static size_t texel_at(const Vec3& d) {
-    const double turn = std::atan2(double{d.x}, double{d.z}) / (2.0 * kPiD), fall = std::acos(double{d.y}) / kPiD;
-    const auto column = static_cast<size_t>((turn < 0.0 ? turn + 1.0 : turn) * kWidth) % kWidth;
+    const double turn = 0.5 - std::atan2(double{d.x}, double{d.z}) / (2.0 * kPiD), fall = std::acos(double{d.y}) / kPiD;
+    const auto column = static_cast<size_t>(turn * kWidth) % kWidth;
     return std::min(static_cast<size_t>(fall * kHeight), kHeight - 1) * kWidth + column;
   }
 };
