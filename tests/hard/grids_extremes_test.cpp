@@ -88,10 +88,14 @@ TEST(GridsExtremes, MillionsOfVoxelsWideKeepEverySpike) {
   }
   // A billion is refused before anything is allocated.
   bool asked = false;
+  const auto fill = [&](const Vec3i&, float*) {
+    asked = true;
+    return DensityGrid::Filled::one;
+  };
   GridFrame frame = frame_of(Vec3i(1, 1, 1), Vec3i(1'000'000'000, 7, 7));
-  EXPECT_THROW(DensityGrid(frame, [&](const Vec3i&, float*) { asked = true; }), InputError);
+  EXPECT_THROW(DensityGrid(frame, fill), InputError);
   frame = frame_of(Vec3i(-1'000'000'000), Vec3i(1'000'000'000));
-  EXPECT_THROW(DensityGrid(frame, [&](const Vec3i&, float*) { asked = true; }), InputError);
+  EXPECT_THROW(DensityGrid(frame, fill), InputError);
   EXPECT_FALSE(asked);
 }
 

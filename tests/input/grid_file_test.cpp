@@ -131,8 +131,8 @@ TEST_F(GridFile, FindsGridsByNameAndRepeatedOnesByNumber) {
   write(grids);
   EXPECT_FLOAT_EQ(load_grid(request("density[0]")).grid->max_density(), 1.0f);
   EXPECT_FLOAT_EQ(load_grid(request("density[1]")).grid->max_density(), 2.0f);
-  EXPECT_FLOAT_EQ(load_grid(request("heat")).grid->max_density(), 3.0f);
-  for (const std::string name : {"density", "density[2]", "Heat", ""}) {
+  for (const char* name : {"heat", "Heat"}) EXPECT_FLOAT_EQ(load_grid(request(name)).grid->max_density(), 3.0f);
+  for (const std::string name : {"density", "density[2]", "heats", ""}) {
     const std::string message = refusal(request(name));
     EXPECT_NE(message.find("density[0] (float, class unknown), density[1] (float, class unknown), heat (float"),
               std::string::npos)
@@ -185,7 +185,53 @@ TEST_F(GridFile, RefusesLevelSetsUnlessAskedToConvertThem) {
   EXPECT_NE(refusal(r).find("fog volume already"), std::string::npos);
 }
 
-TEST_F(GridFile, RefusesOtherTypesEmptyGridsAndNonlinearTransforms) {
+/// Of leaves and of tiles; bool and mask grids are 0 and 1.
+TEST_F(GridFile, WholeNumbersAreDensities) {
+  const auto expect_as_floats = [&]<class Grid>(const typename Grid::Ptr& whole) {
+    using Value = typename Grid::ValueType;
+    auto floats = new_grid<FloatGrid>();
+    Rng rng(3, rng_stream(RngUse::test, 0), 0);
+    for (int i = 0; i < 500; ++i) {
+      const Coord at(static_cast<int>(20.0f * rng.uniform()), static_cast<int>(9.0f * rng.uniform()), i % 11);
+      const auto value = static_cast<Value>(9.0f * rng.uniform());
+      whole->tree().setValue(at, value);
+      floats->tree().setValue(at, static_cast<float>(value));
+    }
+    whole->tree().addTile(1, Coord(24, 0, 0), Value(1), true);
+    floats->tree().addTile(1, Coord(24, 0, 0), 1.0f, true);
+    whole->setName("density");
+    write({whole});
+    expect_same_as_sampler(*floats, request());
+    EXPECT_TRUE(list_grids(path_)[0].numbers);
+  };
+  expect_as_floats.operator()<openvdb::Int32Grid>(openvdb::Int32Grid::create());
+  expect_as_floats.operator()<openvdb::Int64Grid>(openvdb::Int64Grid::create());
+  expect_as_floats.operator()<openvdb::BoolGrid>(openvdb::BoolGrid::create());
+}
+
+TEST_F(GridFile, MasksAreDensities) {
+  auto mask = openvdb::MaskGrid::create();
+  auto floats = new_grid<FloatGrid>();
+  for (int i = 0; i < 30; ++i) {
+    mask->tree().setValueOn(Coord(i % 7, i % 5, i));
+    floats->tree().setValue(Coord(i % 7, i % 5, i), 1.0f);
+  }
+  mask->setName("density");
+  write({mask});
+  expect_same_as_sampler(*floats, request());
+}
+
+TEST_F(GridFile, EmptyGridsAreVacuum) {
+  auto empty = new_grid<openvdb::FloatGrid>();
+  empty->setName("density");
+  write({empty});
+  const LoadedGrid loaded = load_grid(request());
+  EXPECT_EQ(loaded.grid->max_density(), 0.0f);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_NE(loaded.notes[0].find("no active voxels"), std::string::npos);
+}
+
+TEST_F(GridFile, RefusesOtherTypesAndNonlinearTransforms) {
   auto vectors = new_grid<openvdb::Vec3SGrid>();
   vectors->setName("density");
   vectors->fill(CoordBBox(Coord(0), Coord(3)), openvdb::Vec3f(1.0f));
@@ -193,10 +239,6 @@ TEST_F(GridFile, RefusesOtherTypesEmptyGridsAndNonlinearTransforms) {
   EXPECT_NE(refusal(request()).find("holds vec3s values"), std::string::npos);
   EXPECT_NE(refusal(request()).find("the file holds: density (vec3s, "), std::string::npos);
   EXPECT_EQ(list_grids(path_)[0].active_voxels, 64u);
-  auto empty = new_grid<openvdb::FloatGrid>();
-  empty->setName("density");
-  write({empty});
-  EXPECT_NE(refusal(request()).find("no active voxels"), std::string::npos);
   auto bent = random_grid<FloatGrid>(Coord(0), Coord(9));
   bent->setTransform(Transform::createFrustumTransform(openvdb::BBoxd({0, 0, 0}, {10, 10, 10}), 0.5, 1.0));
   write({bent});

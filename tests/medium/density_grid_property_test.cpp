@@ -104,6 +104,7 @@ RC_GTEST_PROP(DensityGridProperty, FollowsItsTransform, ()) {
       for (int y = 0; y < DensityGrid::kValues; ++y)
         for (int x = 0; x < DensityGrid::kValues; ++x, ++n)
           values[n] = field->density(Vec3(frame.index_to_world * glm::dvec4(Vec3d(origin + Vec3i(x, y, z)), 1.0)));
+    return DensityGrid::Filled::all;
   });
   const Vec3 index = Vec3(frame.lo) - 1.0f + *vector_in(0.0, 1.0) * Vec3(frame.hi - frame.lo + 2);
   const Vec3 world(frame.index_to_world * glm::dvec4(Vec3d(index), 1.0));

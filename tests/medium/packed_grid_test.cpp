@@ -35,6 +35,7 @@ std::shared_ptr<const DensityGrid> grid_of(Interpolation interpolation, float ba
             if (glm::all(glm::greaterThanEqual(p, box.lo)) && glm::all(glm::lessThanEqual(p, box.hi)))
               values[n] = std::max(0.0f, static_cast<float>(lattice_noise(p.x, p.y, p.z)) - 0.3f);
         }
+        return DensityGrid::Filled::all;
       },
       two_boxes ? clouds : std::vector<IndexBox>{});
 }

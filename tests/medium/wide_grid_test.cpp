@@ -44,6 +44,7 @@ std::shared_ptr<const DensityGrid> grid_of(const std::vector<IndexBox>& clouds, 
             if (glm::all(glm::greaterThanEqual(p, box.lo)) && glm::all(glm::lessThanEqual(p, box.hi)))
               values[n] = value(p - box.lo);
         }
+    return DensityGrid::Filled::all;
   };
   return std::make_shared<const DensityGrid>(frame_of(clouds, interpolation, background), fill, clouds);
 }
@@ -97,7 +98,10 @@ TEST_P(WideGrid, HasTheDensitiesOfACloudByItself) {
 TEST_P(WideGrid, MayHoldOneCloudInACornerOfItsFrame) {
   GridFrame frame = frame_of(clouds_, interpolation_, background_);
   const DensityGrid one(frame,
-                        [&](const Vec3i&, float* values) { std::fill_n(values, DensityGrid::kBrickValues, 1.0f); },
+                        [&](const Vec3i&, float* values) {
+                          values[0] = 1.0f;
+                          return DensityGrid::Filled::one;
+                        },
                         {cloud(Vec3i(8000, 16000, 24000))});
   const Vec3 middle(8020e-6f, 16020e-6f, 24020e-6f);
   EXPECT_EQ(one.density(middle), 1.0f);
@@ -167,7 +171,10 @@ TEST(WideGrids, ThatHoldTooMuchAreRefused) {
   GridFrame frame = centred_frame(0, 1.0);
   frame.hi = all.hi;
   bool asked = false;
-  const auto fill = [&](const Vec3i&, float*) { asked = true; };
+  const auto fill = [&](const Vec3i&, float*) {
+    asked = true;
+    return DensityGrid::Filled::one;
+  };
   EXPECT_THROW(DensityGrid(frame, fill, {all}), InputError);
   frame.lo = Vec3i(-(1 << 30), 0, 0);
   frame.hi = Vec3i((1 << 30), 0, 0);

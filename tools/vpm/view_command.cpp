@@ -48,6 +48,15 @@ ViewScene make_scene(const ViewOptions& options) {
   return make_view_scene(grid, written ? fs::proximate(grid, fs::absolute(output).parent_path()) : grid, wishes);
 }
 
+/// The grid is loaded already, unless options ask for another, or for it in another way.
+GridLoader loader_of(const ViewScene& made) {
+  return [&made](const std::string&, const GridRequest& request) {
+    GridRequest same = request;
+    if (std::error_code none; fs::equivalent(request.path, made.request.path, none)) same.path = made.request.path;
+    return same == made.request ? made.grid : load_grid(request);
+  };
+}
+
 constexpr const char* kFewPasses = "render.integrator=photon";
 
 /// A pilot of integrators takes longer than a few passes do: where these are counted, photons are gathered.
@@ -97,7 +106,7 @@ int view_command(const ViewOptions& options) {
   const Outputs outputs = output_paths(options.output, fs::path(options.scene).stem().string());
   const std::string name = scene_name(options);
   const ViewScene made = make_scene(options);
-  RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options));
+  RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options), LeftOut::usual, loader_of(made));
   apply_run_options(options, job);
   for (const std::string& note : made.notes) job.notes.push_back(note);
   if (options.passes && job.settings.integrator == Integrator::photon)

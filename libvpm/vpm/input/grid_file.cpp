@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <openvdb/tools/LevelSetUtil.h>
 #include <limits>
+#include <utility>
 
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
+#include "vpm/base/letters.h"
 #include "vpm/input/vdb_bricks.h"
 #include "vpm/input/vdb_layout.h"
 
@@ -52,28 +54,30 @@ Mat4d index_to_world(const openvdb::math::Transform& transform) {
   return columns;
 }
 
-/// The values of a double grid as floats. Throws InputError where one is beyond them.
-FloatGrid::Ptr rounded(const openvdb::DoubleGrid& wide, const VdbFile& file, const VdbGridEntry& entry) {
-  const auto narrow = [&](double value, auto&& where) {
+/// The values of a grid of other numbers as floats. Throws InputError where one is beyond them.
+template <class Grid>
+FloatGrid::Ptr rounded(const Grid& other, const VdbFile& file, const VdbGridEntry& entry) {
+  const auto narrow = [&](auto number, auto&& where) {
+    const auto value = static_cast<double>(number);
     const auto rounded = static_cast<float>(value);
     if (std::isinf(rounded) && std::isfinite(value))
       file.refuse(entry.name, fmt::format("has a value ({}){} that is beyond floats", value, where()));
     // A negative value stays one, however small, so that it is refused or counted.
     return value < 0.0 && rounded == 0.0f ? -std::numeric_limits<float>::denorm_min() : rounded;
   };
-  const auto round = [&](double value, const Coord& voxel) {
+  const auto round = [&](auto value, const Coord& voxel) {
     return narrow(value, [&] { return fmt::format(" at voxel ({}, {}, {})", voxel.x(), voxel.y(), voxel.z()); });
   };
   const FloatGrid::Ptr grid = new_grid<FloatGrid>();
   FloatTree& tree = grid->tree();
-  tree.root().setBackground(narrow(wide.background(), [] { return ", its background,"; }), false);
-  auto tile = wide.tree().cbeginValueAll();
-  tile.setMaxDepth(openvdb::DoubleTree::ValueAllCIter::LEAF_DEPTH - 1);
+  tree.root().setBackground(narrow(other.background(), [] { return ", its background,"; }), false);
+  auto tile = other.tree().cbeginValueAll();
+  tile.setMaxDepth(Grid::TreeType::ValueAllCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) {
     cancellation_point();
     tree.addTile(tile.getLevel(), tile.getCoord(), round(*tile, tile.getCoord()), tile.isValueOn());
   }
-  for (auto from = wide.tree().cbeginLeaf(); from; ++from) {
+  for (auto from = other.tree().cbeginLeaf(); from; ++from) {
     cancellation_point();
     FloatTree::LeafNodeType& to = *tree.touchLeaf(from->origin());
     for (openvdb::Index i = 0; i < from->SIZE; ++i) {
@@ -84,7 +88,16 @@ FloatGrid::Ptr rounded(const openvdb::DoubleGrid& wide, const VdbFile& file, con
   return grid;
 }
 
-/// Reads the values of an entry, which is scalar and affine; doubles are rounded to floats. Throws InputError where its
+/// The values of a grid of any numbers as floats.
+FloatGrid::Ptr as_floats(const openvdb::GridBase::Ptr& grid, const VdbFile& file, const VdbGridEntry& entry) {
+  using Others = openvdb::TypeList<openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid, openvdb::BoolGrid,
+                                   openvdb::MaskGrid>;
+  FloatGrid::Ptr floats = openvdb::gridPtrCast<FloatGrid>(grid);
+  if (!floats) std::as_const(*grid).apply<Others>([&](const auto& other) { floats = rounded(other, file, entry); });
+  return floats;
+}
+
+/// Reads the values of an entry, which is scalar and affine; other numbers become floats. Throws InputError where its
 /// bytes are damaged.
 FloatGrid::Ptr read_values(VdbFile& file, const VdbGridEntry& entry) {
   const VdbGridEntry* source = entry.tree_of.empty() ? &entry : file.layout.find(entry.tree_of);
@@ -99,8 +112,7 @@ FloatGrid::Ptr read_values(VdbFile& file, const VdbGridEntry& entry) {
   grid->setSaveFloatAsHalf(source->stored_half);
   grid->readTopology(stream);
   grid->readBuffers(stream);
-  if (const auto floats = openvdb::gridPtrCast<FloatGrid>(grid)) return floats;
-  return rounded(*openvdb::gridPtrCast<openvdb::DoubleGrid>(grid), file, entry);
+  return as_floats(grid, file, entry);
 }
 
 // Summaries
@@ -122,14 +134,6 @@ ValueRange active_range(const FloatTree& tree) {
   }
   range.mean = sum / voxels;
   return range;
-}
-
-/// World-space box around the voxel positions of an index box.
-Box world_box(const Mat4d& m, const Vec3i& lo, const Vec3i& hi) {
-  Box box;
-  for (int i = 0; i < 8; ++i)
-    box.add(Vec3(m * glm::dvec4(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z, 1.0)));
-  return box;
 }
 
 void summarize_values(const FloatTree& tree, GridSummary& summary) {
@@ -157,12 +161,18 @@ void summarize_transform(const Mat4d& m, GridSummary& summary) {
   }
 }
 
-GridSummary summarize(VdbFile& file, const VdbGridEntry& entry) {
+GridSummary heading_of(const VdbGridEntry& entry) {
   GridSummary summary;
   summary.name = entry.name;
   summary.value_type = entry.value_type();
   summary.grid_class = entry.grid_class;
   summary.active_voxels = entry.stated_voxels;
+  summary.numbers = entry.scalar();
+  return summary;
+}
+
+GridSummary summarize(VdbFile& file, const VdbGridEntry& entry) {
+  GridSummary summary = heading_of(entry);
   try {
     if (entry.affine()) summarize_transform(index_to_world(*read_transform(file, entry)), summary);
     if (entry.scalar() && entry.affine()) summarize_values(read_values(file, entry)->tree(), summary);
@@ -301,7 +311,7 @@ const VdbGridEntry& find_density(const VdbFile& file, const GridRequest& request
     throw InputError(fmt::format("{}: has no single grid named '{}'{}; {}", request.path, name,
                                  named ? "" : ": name another one with grid = \"...\"", file.layout.listing()));
   if (!entry->scalar())
-    file.refuse(entry->name, fmt::format("holds {} values; a density needs float or double", entry->value_type()));
+    file.refuse(entry->name, fmt::format("holds {} values; a density needs one number a voxel", entry->value_type()));
   if (!entry->affine())
     file.refuse(entry->name, fmt::format("has a transform ({}) that is not affine", entry->map_type));
   if (entry->grid_class == "level set" && !request.from_level_set)
@@ -320,7 +330,42 @@ Mat4d world_matrix(VdbFile& file, const VdbGridEntry& entry, const GridRequest& 
   return m;
 }
 
+/// A grid of density 0: a voxel at the origin.
+LoadedGrid vacuum(const DensitySource& source) {
+  const GridFrame frame{source.index_to_world, Vec3i(0), Vec3i(0), source.request.interpolation, 0.0f};
+  const auto nothing = [](const Vec3i&, float* values) {
+    values[0] = 0.0f;
+    return DensityGrid::Filled::one;
+  };
+  return {std::make_shared<const DensityGrid>(frame, nothing),
+          0,
+          {fmt::format("grid '{}' has no active voxels: it is vacuum", source.entry.name)}};
+}
+
+/// What the name of a grid that is taken for a density says that it is, in a note; "" where it says nothing else.
+std::string doubt_of_name(const std::string& name) {
+  const std::string small = small_letters(name);
+  for (const char* other : {"temperature", "heat", "flame", "fuel", "burn"})
+    if (small.find(other) != std::string::npos)
+      return fmt::format("grid '{}' is taken for a density, though its name says {}", name, other);
+  return "";
+}
+
 }  // namespace
+
+Box world_box(const Mat4d& m, const Vec3i& lo, const Vec3i& hi) {
+  Box box;
+  for (int i = 0; i < 8; ++i)
+    box.add(Vec3(m * glm::dvec4(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z, 1.0)));
+  return box;
+}
+
+std::vector<GridSummary> list_headings(const std::string& path) {
+  VdbFile file(path);
+  std::vector<GridSummary> headings;
+  for (const VdbGridEntry& entry : file.layout.grids) headings.push_back(heading_of(entry));
+  return headings;
+}
 
 std::vector<GridSummary> list_grids(const std::string& path) {
   VdbFile file(path);
@@ -336,7 +381,11 @@ LoadedGrid load_grid(const GridRequest& request) {
     const DensitySource source{file, entry, request, world_matrix(file, entry, request)};
     const FloatGrid::Ptr grid = read_values(file, entry);
     if (request.from_level_set) convert_level_set(source, *grid);
-    return make_density(source, grid->tree());
+    const openvdb::TreeBase& tree = grid->tree();
+    if (tree.activeVoxelCount() == 0 && grid->background() == 0.0f) return vacuum(source);
+    LoadedGrid loaded = make_density(source, grid->tree());
+    if (std::string doubt = doubt_of_name(entry.name); !doubt.empty()) loaded.notes.push_back(std::move(doubt));
+    return loaded;
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

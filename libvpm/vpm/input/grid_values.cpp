@@ -95,6 +95,7 @@ LoadedGrid density_of(const GridValues& values, const GridRequest& request) {
           const bool inside = glm::all(glm::greaterThanEqual(p, frame.lo)) && glm::all(glm::lessThanEqual(p, frame.hi));
           *brick = inside ? std::max(0.0f, values.at(p)) : 0.0f;
         }
+    return DensityGrid::Filled::all;
   };
   return {std::make_shared<const DensityGrid>(frame, fill), survey.negative.count};
 }

@@ -2,6 +2,9 @@
 #include "vpm/input/vdb_bricks.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace vpm {
@@ -19,33 +22,74 @@ class BrickFiller {
   BrickFiller(const FloatTree& tree, const CoordBBox& box, float background)
       : accessor_(tree), box_(box), background_(background) {}
 
-  void operator()(const Vec3i& origin, float* values) {
-    if (fill_at_once(origin, values)) return;
+  DensityGrid::Filled operator()(const Vec3i& origin, float* values) {
+    const std::optional<Tiles> before = std::exchange(last_, std::nullopt);
+    if (fill_at_once(origin, values[0])) return DensityGrid::Filled::one;
+    last_ = tiles_of(origin);
+    if (last_ && last_ == before) return DensityGrid::Filled::as_last;
     for (int z = 0; z < kValues; z += kLeaf)
       for (int y = 0; y < kValues; y += kLeaf)
         for (int x = 0; x < kValues; x += kLeaf) fill_leaf(origin, Vec3i(x, y, z), values);
+    return DensityGrid::Filled::all;
   }
 
  private:
   static constexpr int kValues = DensityGrid::kValues;
   static constexpr int kLeaf = 8;
+  static constexpr int kLeafDepth = FloatTree::DEPTH - 1;  // as a tree tells the depth of a value
 
-  /// Fills a brick that lies outside the box, or inside it within one large tile; false for others. Most bricks of a
-  /// sparse grid are such.
-  bool fill_at_once(const Vec3i& origin, float* values) {
+  /// The value of a brick that lies outside the box, or inside it where tiles have one value; false for others. Most
+  /// bricks of a sparse grid are such.
+  bool fill_at_once(const Vec3i& origin, float& value) {
     const Coord corner(origin.x, origin.y, origin.z);
     const CoordBBox brick(corner, corner.offsetBy(kValues - 1));
-    float value = background_;
-    if (box_.hasOverlap(brick)) {
-      constexpr int kTile = 128;  // the smallest tile above the level of leaves
-      constexpr int kDepth = 1;   // of such a tile; larger ones have less
-      const Vec3i place = origin & (kTile - 1);
-      if (std::max(place.x, std::max(place.y, place.z)) > kTile - 2 * kLeaf || accessor_.getValueDepth(corner) > kDepth)
-        return false;
-      value = density(accessor_.getValue(corner));
-      if (value != background_ && !box_.isInside(brick)) return false;
+    value = background_;
+    if (!box_.hasOverlap(brick)) return true;
+    if (accessor_.getValueDepth(corner) == kLeafDepth) return false;
+    value = density(accessor_.getValue(corner));
+    if (value != background_ && !box_.isInside(brick)) return false;
+    return lies_in_one_tile(origin, corner) || neighbours_have(value, corner);
+  }
+
+  /// What a brick without leaves is made of: the values of the tiles of its first leaf and of those beyond, and what of
+  /// the brick lies in the box, in voxels from its corner.
+  struct Tiles {
+    std::array<float, 8> values;
+    Vec3i lo, hi;
+
+    bool operator==(const Tiles&) const = default;
+  };
+
+  std::optional<Tiles> tiles_of(const Vec3i& origin) {
+    Tiles tiles;
+    for (int i = 0; i < 8; ++i) {
+      const Coord part = beyond(to_coord(origin), i);
+      if (accessor_.getValueDepth(part) == kLeafDepth) return std::nullopt;
+      tiles.values[static_cast<size_t>(i)] = accessor_.getValue(part);
     }
-    std::fill_n(values, DensityGrid::kBrickValues, value);
+    tiles.lo = glm::clamp(to_vec(box_.min()) - origin, Vec3i(0), Vec3i(kValues));
+    tiles.hi = glm::clamp(to_vec(box_.max()) - origin, Vec3i(-1), Vec3i(kValues - 1));
+    return tiles;
+  }
+
+  /// The corner of one of the eight leaves that a brick reaches into.
+  static Coord beyond(const Coord& corner, int number) {
+    return corner.offsetBy(number & 1 ? kLeaf : 0, number & 2 ? kLeaf : 0, number & 4 ? kLeaf : 0);
+  }
+
+  bool lies_in_one_tile(const Vec3i& origin, const Coord& corner) {
+    constexpr int kTile = 128;  // the smallest tile above the level of leaves
+    const Vec3i place = origin & (kTile - 1);
+    return std::max(place.x, std::max(place.y, place.z)) <= kTile - 2 * kLeaf &&
+           accessor_.getValueDepth(corner) < kLeafDepth - 1;
+  }
+
+  /// Are the voxels of the brick that lie beyond its first leaf in tiles of this value, too?
+  bool neighbours_have(float value, const Coord& corner) {
+    for (int i = 1; i < 8; ++i) {
+      const Coord other = beyond(corner, i);
+      if (accessor_.getValueDepth(other) == kLeafDepth || density(accessor_.getValue(other)) != value) return false;
+    }
     return true;
   }
 
@@ -78,6 +122,7 @@ class BrickFiller {
   openvdb::tree::ValueAccessor<const FloatTree> accessor_;
   CoordBBox box_;
   float background_;
+  std::optional<Tiles> last_{};  // of the brick before, where it was no leaf's
 };
 
 /// Boxes of voxels around all in the box whose value is not the background's: leaves and tiles.

@@ -1,8 +1,9 @@
 // Walking the tree of a scalar grid through its bytes, so that OpenVDB meets only lengths that fit.
 //
 // In the file: buffer count; root: background, tiles, children; a child is two masks, its compressed values, its own
-// children; a leaf is a mask. Then, for every leaf, a mask and its compressed values. Packed blocks are unpacked on the
-// way: where OpenVDB meets one that cannot be, it loses the nodes that it is about to make.
+// children; a leaf is a mask. Then, for every leaf, a mask and its compressed values; of bits, a mask, the leaf's
+// origin and, but for masks, the bits. Packed blocks are unpacked on the way: where OpenVDB meets one that cannot be,
+// it loses the nodes that it is about to make.
 #include <fmt/format.h>
 #include <openvdb/io/Compression.h>
 #include <array>
@@ -26,8 +27,8 @@ constexpr int kRootChildSize = 4096;    // voxels along the edge of a root's chi
 struct TreeChecker {
   VdbCursor& cursor;
   const VdbGridEntry& entry;
-  uint64_t value_bytes;  // in memory; also in the file, for single values
-  uint64_t leaves = 0;
+  uint64_t value_bytes;                             // in memory; also in the file, for single values
+  std::vector<std::array<int32_t, 3>> leaves = {};  // their origins
   std::vector<char> unpacked = {};
 
   template <size_t N>
@@ -37,7 +38,8 @@ struct TreeChecker {
   void check_root();
   void check_tile();
   template <size_t N>
-  void check_inner();
+  void check_inner(const std::array<int32_t, 3>& origin);
+  void check_leaf(const std::array<int32_t, 3>& origin);
   void check_compressed(uint64_t values, uint64_t active, uint64_t mask_bytes);
   void check_block(uint64_t bytes);
   void unpack(uint64_t position, uint64_t bytes);
@@ -100,22 +102,42 @@ void TreeChecker::check_compressed(uint64_t values, uint64_t active, uint64_t ma
   check_block(count * (entry.stored_half ? 2 : value_bytes));
 }
 
+/// A place in a node whose edge holds 2^Log2 nodes of `size` voxels: the last coordinate varies first.
+template <int Log2>
+std::array<int32_t, 3> origin_of_child(const std::array<int32_t, 3>& node, size_t place, int32_t size) {
+  constexpr size_t kMask = (1u << Log2) - 1;
+  const auto at = [&](int axis, size_t number) {
+    return node[static_cast<size_t>(axis)] + size * static_cast<int32_t>(number);
+  };
+  return {at(0, place >> (2 * Log2)), at(1, place >> Log2 & kMask), at(2, place & kMask)};
+}
+
 template <size_t N>
-void TreeChecker::check_inner() {
+void TreeChecker::check_inner(const std::array<int32_t, 3>& origin) {
   const auto children = std::make_unique<std::bitset<N>>();
   const auto active = std::make_unique<std::bitset<N>>();
   read_mask(*children);
   read_mask(*active);
   if ((*children & *active).any()) cursor.damaged("a node that is a value and has children there");
   check_compressed(N, active->count(), sizeof(*active));
-  for (size_t i = 0, count = children->count(); i < count; ++i) {
+  for (size_t i = 0; i < N; ++i) {
+    if (!(*children)[i]) continue;
     if constexpr (N == kUpperValues) {
-      check_inner<kLowerValues>();
+      check_inner<kLowerValues>(origin_of_child<5>(origin, i, 128));
     } else {
       cursor.skip(sizeof(std::bitset<kLeafValues>));
-      ++leaves;
+      leaves.push_back(origin_of_child<4>(origin, i, 8));
     }
   }
+}
+
+/// The values of a leaf. OpenVDB takes an origin that it finds there for the leaf's own.
+void TreeChecker::check_leaf(const std::array<int32_t, 3>& origin) {
+  std::bitset<kLeafValues> active;
+  read_mask(active);
+  if (!entry.holds_bits()) return check_compressed(kLeafValues, active.count(), sizeof(active));
+  if (cursor.read<std::array<int32_t, 3>>() != origin) cursor.damaged("a leaf that says to lie where it does not");
+  if (!entry.is_mask()) cursor.skip(sizeof(active));
 }
 
 /// A tile of the root: its value and whether it is active, which OpenVDB reads into a bool as it is.
@@ -140,7 +162,7 @@ void TreeChecker::check_root() {
     if (i < tiles)
       check_tile();
     else
-      check_inner<kUpperValues>();
+      check_inner<kUpperValues>(origin);
   }
 }
 
@@ -148,13 +170,9 @@ void TreeChecker::check_root() {
 
 void check_vdb_tree(VdbCursor& cursor, const VdbGridEntry& entry) {
   const uint64_t begin = cursor.position();
-  TreeChecker checker{cursor, entry, entry.type == "Tree_double_5_4_3" ? sizeof(double) : sizeof(float)};
+  TreeChecker checker{cursor, entry, entry.value_bytes()};
   checker.check_root();
-  for (uint64_t i = 0; i < checker.leaves; ++i) {
-    std::bitset<kLeafValues> active;
-    checker.read_mask(active);
-    checker.check_compressed(kLeafValues, active.count(), sizeof(active));
-  }
+  for (const auto& origin : checker.leaves) checker.check_leaf(origin);
   cursor.seek(begin);
 }
 

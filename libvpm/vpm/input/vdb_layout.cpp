@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "vpm/base/error.h"
+#include "vpm/base/letters.h"
 
 namespace vpm {
 namespace {
@@ -47,6 +49,9 @@ void check_magic(VdbCursor& cursor) {
         fmt::format("{}: is not a .vdb file but a git-lfs pointer to one; fetch the file itself with 'git lfs pull'",
                     cursor.path()));
   if (count == 0) throw InputError(fmt::format("{}: is empty; a .vdb file is needed", cursor.path()));
+  if (text.starts_with("NanoVDB"))
+    throw InputError(
+        fmt::format("{}: is a NanoVDB file, which is not read; nanovdb_convert makes a .vdb of it", cursor.path()));
   if (!text.starts_with(kMagic)) throw InputError(fmt::format("{}: is not a .vdb file", cursor.path()));
   cursor.seek(kMagic.size());
 }
@@ -105,6 +110,18 @@ std::string VdbGridEntry::value_type() const {
   return std::string(text) + (stored_half ? " stored as half" : "");
 }
 
+uint64_t VdbGridEntry::value_bytes() const {
+  constexpr std::array<std::pair<std::string_view, uint64_t>, 6> kTypes = {{{"Tree_float_5_4_3", 4},
+                                                                            {"Tree_double_5_4_3", 8},
+                                                                            {"Tree_int32_5_4_3", 4},
+                                                                            {"Tree_int64_5_4_3", 8},
+                                                                            {"Tree_bool_5_4_3", 1},
+                                                                            {"Tree_mask_5_4_3", 1}}};
+  for (const auto& [kind, bytes] : kTypes)
+    if (type == kind) return bytes;
+  return 0;
+}
+
 bool VdbGridEntry::affine() const {
   constexpr std::array<std::string_view, 7> kAffine = {
       "AffineMap", "ScaleMap", "UniformScaleMap", "TranslationMap", "ScaleTranslateMap", "UniformScaleTranslateMap",
@@ -113,14 +130,19 @@ bool VdbGridEntry::affine() const {
 }
 
 const VdbGridEntry* VdbLayout::find(const std::string& name) const {
-  const VdbGridEntry* found = nullptr;
-  for (const VdbGridEntry& entry : grids) {
-    if (entry.name == name) return &entry;
-    if (base_name(entry.name) != name) continue;
-    if (found) return nullptr;
-    found = &entry;
-  }
-  return found;
+  const auto entry = std::find_if(grids.begin(), grids.end(), [&](const VdbGridEntry& e) { return e.name == name; });
+  if (entry != grids.end()) return &*entry;
+  const auto only_one = [this](const std::string& sought, auto name_of) -> const VdbGridEntry* {
+    const VdbGridEntry* found = nullptr;
+    for (const VdbGridEntry& e : grids) {
+      if (name_of(e) != sought) continue;
+      if (found) return nullptr;
+      found = &e;
+    }
+    return found;
+  };
+  if (const auto* found = only_one(name, [](const VdbGridEntry& e) { return base_name(e.name); })) return found;
+  return only_one(small_letters(name), [](const VdbGridEntry& e) { return small_letters(e.name); });
 }
 
 std::string VdbLayout::listing() const {

@@ -25,8 +25,13 @@ struct VdbGridEntry {
 
   /// "float", "float stored as half", "double", "vec3s", ...
   std::string value_type() const;
-  /// Whether its values are float or double, in a tree of the standard shape: the only ones that can be densities.
-  bool scalar() const { return type == "Tree_float_5_4_3" || type == "Tree_double_5_4_3"; }
+  /// Whether its values are numbers, whole ones and bool too, in a tree of the standard shape: what can be densities.
+  bool scalar() const { return value_bytes() > 0; }
+  /// The size of such a value in memory, and of single ones in the file; 0 of others.
+  uint64_t value_bytes() const;
+  /// Do leaves hold bits and their origin in the place of values? Those of masks are their active voxels.
+  bool holds_bits() const { return value_bytes() == 1; }
+  bool is_mask() const { return type == "Tree_mask_5_4_3"; }
   /// Whether its transform is a 4 x 4 matrix.
   bool affine() const;
 };
@@ -36,7 +41,8 @@ struct VdbLayout {
   uint32_t library_major = 0, library_minor = 0;
   std::vector<VdbGridEntry> grids;
 
-  /// The grid of that name, or null; a name that repeats needs its suffix.
+  /// The grid of that name, or null; a name that repeats needs its suffix. Where none has it, the only one that has it
+  /// but for capitals.
   const VdbGridEntry* find(const std::string& name) const;
   /// "the file holds: density (float, fog volume), vel (vec3s, staggered)".
   std::string listing() const;

@@ -10,16 +10,14 @@
 #include <functional>
 
 #include "vpm/base/error.h"
+#include "vpm/base/letters.h"
 #include "vpm/medium/density_grid_walk.h"
 
 namespace vpm {
 namespace {
 
 bool is_level_set(const GridSummary& grid) { return grid.grid_class == "level set"; }
-bool holds_numbers(const GridSummary& grid) {
-  return grid.value_type.starts_with("float") || grid.value_type.starts_with("double");
-}
-bool holds_values(const GridSummary& grid) { return holds_numbers(grid) && grid.active_voxels > 0; }
+bool holds_values(const GridSummary& grid) { return grid.numbers && grid.active_voxels > 0; }
 
 /// "density (float, fog volume), Cd (vec3s, unknown)".
 std::string list_of(const std::vector<GridSummary>& grids) {
@@ -259,22 +257,30 @@ radius = "auto"
 }  // namespace
 
 std::string grid_to_show(const std::string& path, const std::vector<GridSummary>& grids, const std::string& wish) {
-  const auto named = [&](const std::string& name) {
-    return std::find_if(grids.begin(), grids.end(), [&](const GridSummary& grid) { return grid.name == name; });
+  /// The grid of this name, or else the only one in other letters of which may_be is true; "" where there is none.
+  const auto named = [&](const std::string& name, auto may_be) {
+    std::vector<std::string> in_other_letters;
+    for (const GridSummary& grid : grids) {
+      if (!may_be(grid)) continue;
+      if (grid.name == name) return name;
+      if (small_letters(grid.name) == small_letters(name)) in_other_letters.push_back(grid.name);
+    }
+    return in_other_letters.size() == 1 ? in_other_letters[0] : "";
   };
   if (!wish.empty()) {
-    if (named(wish) == grids.end())
+    const std::string found = named(wish, [](const GridSummary&) { return true; });
+    if (found.empty())
       throw InputError(fmt::format("{}: there is no grid '{}'; there are: {}", path, wish, list_of(grids)));
-    return wish;
+    return found;
   }
-  if (const auto density = named("density"); density != grids.end() && holds_values(*density)) return "density";
+  if (const std::string density = named("density", holds_values); !density.empty()) return density;
   std::vector<std::string> names;
   for (const GridSummary& grid : grids)
     if (holds_values(grid)) names.push_back(grid.name);
   if (names.size() == 1) return names[0];
   if (names.empty())
     throw InputError(
-        fmt::format("{}: no grid can be a density, which is of float or double and has active voxels; "
+        fmt::format("{}: no grid can be a density, which is of one number a voxel and has active voxels; "
                     "there are: {}",
                     path, list_of(grids)));
   throw InputError(fmt::format("{}: several grids could be meant; name one with --grid, as --grid '{}': {}", path,
@@ -282,32 +288,36 @@ std::string grid_to_show(const std::string& path, const std::vector<GridSummary>
 }
 
 ViewScene make_view_scene(const std::string& path, const std::string& path_in_scene, const ViewWishes& wishes) {
-  const std::vector<GridSummary> grids = list_grids(path);
+  std::vector<GridSummary> grids = list_headings(path);
+  if (std::none_of(grids.begin(), grids.end(), holds_values))
+    grids = list_grids(path);  // of files that state no voxels
   const std::string name = grid_to_show(path, grids, wishes.grid);
-  const GridSummary& summary =
-      *std::find_if(grids.begin(), grids.end(), [&](const GridSummary& grid) { return grid.name == name; });
-  const bool level_set = is_level_set(summary);
-  const bool negative = !level_set && summary.values && summary.values->min < 0.0;
-  const bool filled = !level_set && summary.background && *summary.background != 0.0;
-  const LoadedGrid loaded = load_grid({.path = path,
-                                       .name = name,
-                                       .from_level_set = level_set,
-                                       .clamp_negative = negative,
-                                       .has_bounding_shape = filled});
-  const std::optional<Box> bounds = filled ? std::optional(summary.world_box) : std::nullopt;
-  const DensePart part =
-      dense_part(*loaded.grid, bounds.value_or(loaded.grid->bounds()), wishes.up == UpAxis::y ? 2 : 1);
+  const bool level_set = is_level_set(
+      *std::find_if(grids.begin(), grids.end(), [&](const GridSummary& grid) { return grid.name == name; }));
+  ViewScene scene;
+  scene.request = {.path = path,
+                   .name = name,
+                   .from_level_set = level_set,
+                   .clamp_negative = !level_set,
+                   .has_bounding_shape = !level_set};
+  scene.grid = load_grid(scene.request);
+  const DensityGrid& loaded = *scene.grid.grid;
+  scene.request.clamp_negative = scene.grid.clamped_values > 0;
+  scene.request.has_bounding_shape = loaded.frame().background > 0.0f;
+  const GridFrame& frame = loaded.frame();
+  std::optional<Box> bounds;
+  if (scene.request.has_bounding_shape) bounds = world_box(frame.index_to_world, frame.lo, frame.hi);
+  const DensePart part = dense_part(loaded, bounds.value_or(loaded.bounds()), wishes.up == UpAxis::y ? 2 : 1);
   if (part.depth == 0.0)
     throw InputError(
-        loaded.grid->max_density() > 0.0f
+        loaded.max_density() > 0.0f
             ? fmt::format("{}: what the grid '{}' holds is too little to be met by {} x {} columns across its box, by "
                           "which the view would go: write a scene file for it",
                           path, name, kColumns, kColumns)
             : fmt::format("{}: the grid '{}' is 0 everywhere", path, name));
   const double sigma_t = wishes.optical_depth / part.depth;
-  ViewScene scene;
-  scene.text =
-      scene_text({path_in_scene, name, level_set, negative, bounds}, sigma_t, wishes, stage_for(part.box, wishes));
+  scene.text = scene_text({path_in_scene, name, level_set, scene.request.clamp_negative, bounds}, sigma_t, wishes,
+                          stage_for(part.box, wishes));
   scene.notes.push_back(
       fmt::format("grid '{}'{}: sigma_t {:.4g} 1/m at density 1, an optical depth of {:g} across (--optical-depth)",
                   name, level_set ? ", a level set, as a fog of density 1 inside" : "", sigma_t, wishes.optical_depth));

@@ -19,10 +19,12 @@ struct ViewWishes {
   double aspect = 1.0;  // width over height of the picture
 };
 
-/// A scene file's text and what a user should know of how it came about.
+/// A scene file's text, what a user should know of how it came about, and the grid, which the scene asks for so.
 struct ViewScene {
   std::string text;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes{};
+  GridRequest request{};
+  LoadedGrid grid{};
 };
 
 /// The name of the grid that is to be shown: that of `wish`; or of the grids of numbers the only one, or the one named

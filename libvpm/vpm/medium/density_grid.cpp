@@ -167,8 +167,14 @@ double DensityGrid::fill_bricks(const FillBrick& fill) {
   LargeTable<Brick>& bricks = tables->bricks;
   bricks.resize(boxes_.bricks());
   DistinctBricks distinct(tables->values);
+  const auto add_brick = [&](const Brick& brick, const float* of_brick) {
+    const uint32_t first = distinct.add(of_brick);
+    if (first == tables->blocks.size()) tables->blocks.emplace_back(of_brick, DensityBounds{brick.min, brick.max});
+    return first;
+  };
   std::vector<float> values(std::min(kWave, bricks.size()) * kBrickValues);
   std::vector<double> sums(kWave);
+  std::vector<Filled> filled(kWave);
   double sum = 0.0;
   for (size_t wave = 0; wave < bricks.size(); wave += kWave) {
     const size_t count = std::min(kWave, bricks.size() - wave);
@@ -176,15 +182,23 @@ double DensityGrid::fill_bricks(const FillBrick& fill) {
       const FillBrick own = fill;
       for (size_t i = begin; i < end; ++i) {
         float* const of_brick = &values[i * kBrickValues];
-        own(origin_of(wave + i), of_brick);
-        const Brick& brick = bricks[wave + i] = brick_of(of_brick);
+        filled[i] = own(origin_of(wave + i), of_brick);
+        Brick& brick = bricks[wave + i];
+        if (filled[i] == Filled::as_last) {
+          brick = bricks[wave + i - 1];
+          sums[i] = sums[i - 1];
+          continue;
+        }
+        brick = filled[i] == Filled::one ? Brick{of_brick[0], of_brick[0], 0} : brick_of(of_brick);
         sums[i] = brick.uniform() ? double{of_brick[0]} * (kCells * kCells * kCells) : owned_sum(of_brick);
       }
     });
+    cancellation_point();
     for (size_t i = 0; i < count; ++i) {
-      cancellation_point();
       Brick& brick = bricks[wave + i];
-      if (!brick.uniform()) brick.first = distinct.add(&values[i * kBrickValues]);
+      if (!brick.uniform())
+        brick.first =
+            filled[i] == Filled::as_last ? bricks[wave + i - 1].first : add_brick(brick, &values[i * kBrickValues]);
       max_density_ = std::max(max_density_, brick.max);
       sum += sums[i];
     }
@@ -192,11 +206,7 @@ double DensityGrid::fill_bricks(const FillBrick& fill) {
   tables->values.shrink_to_fit();
   bricks_ = bricks;
   values_ = tables->values;
-  tables->blocks.resize(values_.size() / kBrickValues);
-  for (const Brick& brick : bricks_) {
-    cancellation_point();
-    if (!brick.uniform()) tables->blocks[brick.first] = BrickBlocks(values_of(brick), {brick.min, brick.max});
-  }
+  tables->blocks.shrink_to_fit();
   blocks_ = tables->blocks;
   memory_ = tables;
   return sum;

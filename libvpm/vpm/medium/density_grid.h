@@ -40,9 +40,12 @@ class DensityGrid {
   static constexpr int kCellBits = std::countr_zero(unsigned{kCells});
   static constexpr int kBrickValues = kValues * kValues * kValues;
 
+  /// What a FillBrick has written: all values; the first alone, as all are equal; or none, as they are those of the
+  /// brick that the same copy was called for before.
+  enum class Filled { all, one, as_last };
   /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]. All must be
-  /// finite and >= 0. It is called from all threads, each of which has its own copy.
-  using FillBrick = std::function<void(const Vec3i& origin, float* values)>;
+  /// finite and >= 0. It is called from all threads, each of which has copies of its own.
+  using FillBrick = std::function<Filled(const Vec3i& origin, float* values)>;
 
   /// Builds, on all threads, the bricks that cover the frame's index box and the reach of its interpolation. A brick
   /// with equal values stores one value only, and equal bricks store their values once. Where the voxels in the boxes

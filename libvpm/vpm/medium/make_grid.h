@@ -29,6 +29,7 @@ std::shared_ptr<const DensityGrid> make_grid(const GridFrame& frame, F&& f) {
           const bool inside = glm::all(glm::greaterThanEqual(p, frame.lo)) && glm::all(glm::lessThanEqual(p, frame.hi));
           values[n] = inside ? static_cast<float>(f(p.x, p.y, p.z)) : frame.background;
         }
+    return DensityGrid::Filled::all;
   });
 }
 
