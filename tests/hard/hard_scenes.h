@@ -69,9 +69,10 @@ inline Ledger clean_ledger(const Scene& scene, const std::string& strategy, uint
   EXPECT_EQ(ledger.non_finite, 0u);
   EXPECT_EQ(ledger.cut_count, 0u);
   EXPECT_EQ(ledger.emitted_count, emitted);
-  const double error = ledger.imbalance.variance_of_mean() > 0.0 ? std::sqrt(ledger.imbalance.variance_of_mean()) : 0.0;
-  EXPECT_LE(std::abs(ledger.imbalance.mean()),
-            normal_quantile(kFalseAlarms) * error + 1e-6 * ledger.emitted.r / static_cast<double>(emitted));
+  const Rgbd lost = ledger.imbalance.mean(), error = ledger.imbalance.standard_error();
+  for (int c = 0; c < 3; ++c)
+    EXPECT_LE(std::abs(lost[c]),
+              normal_quantile(kFalseAlarms) * error[c] + 1e-6 * ledger.emitted[c] / static_cast<double>(emitted));
   return ledger;
 }
 

@@ -38,7 +38,7 @@ class Checkpoint : public ::testing::Test {
       result.film.add(pass, image, image);
     }
     result.statistics.passes = 3;
-    result.statistics.ledger.imbalance.add(0.25);
+    result.statistics.ledger.imbalance.add(Rgbd(0.25, 0.5, 1.0));
     result.statistics.eye.rays = 18;
     return result;
   }
@@ -72,7 +72,7 @@ TEST_F(Checkpoint, ComesBackToTheLastBit) {
   EXPECT_EQ(after.film.passes(), 3);
   EXPECT_EQ(after.film.sums(), before.film.sums());
   EXPECT_EQ(after.seconds, 1.5);
-  EXPECT_EQ(after.statistics.ledger.imbalance.mean(), 0.25);
+  EXPECT_EQ(after.statistics.ledger.imbalance.mean(), Rgbd(0.25, 0.5, 1.0));
   EXPECT_TRUE(after.discs.empty());
   write_checkpoint(path_, kRender, kOrigin, after);
   EXPECT_TRUE(bytes() == written);
@@ -137,7 +137,7 @@ TEST_F(Checkpoint, TellsWhereItsRenderIsReadFrom) {
   EXPECT_EQ(result.film.sums(), some_result().film.sums());
   for (const char* damaged : {"origin 1\nscene=a\\b\n", "origin 1\nseed=-1\n", "origin 1\nauto=1\n", "origin 1\nseed\n",
                               "origin\n", "origins 0\n"}) {
-    put("vpm checkpoint of a render\nformat 7\nidentity 0\n" + std::string(damaged));
+    put("vpm checkpoint of a render\nformat 8\nidentity 0\n" + std::string(damaged));
     refuses({}, "it does not tell w");
   }
 }
@@ -175,7 +175,7 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
   refuses(kRender, "it is no checkpoint");
-  std::ofstream(path_) << "vpm checkpoint of a render\nformat 7\nidentity 2\nrender.seed=1\n";
+  std::ofstream(path_) << "vpm checkpoint of a render\nformat 8\nidentity 2\nrender.seed=1\n";
   refuses(kRender, "it is damaged or not whole");
   write_checkpoint(path_, kRender, kOrigin, some_result());
   const uintmax_t size = fs::file_size(path_);
@@ -212,11 +212,11 @@ std::string bytes_of(T number) {
 TEST_F(Checkpoint, OfAnotherFormatIsRefused) {
   write_checkpoint(path_, kRender, kOrigin, some_result());
   const std::string content = bytes();
-  put(with(content, "format 7\n", "format 8\n"));
-  refuses(kRender, "it is written by another format of checkpoints, 8; this program reads 7");
+  put(with(content, "format 8\n", "format 9\n"));
+  refuses(kRender, "it is written by another format of checkpoints, 9; this program reads 8");
   EXPECT_THROW(checkpoint_identity(path_), InputError);
-  put(with(content, "format 7\n", ""));  // as they were before they told it
-  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 7");
+  put(with(content, "format 8\n", ""));  // as they were before they told it
+  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 8");
 }
 
 TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
@@ -292,7 +292,7 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
   };
   constexpr const char* kOld = "format_1";  // a whole file, written before files told their format
   put(seed(folder / kOld));
-  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 7; render again");
+  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 8; render again");
   int accepted = 0;
   size_t refused = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {

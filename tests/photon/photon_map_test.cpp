@@ -175,6 +175,15 @@ TEST(PhotonMap, CountsWhatQueriesVisitAndUse) {
   EXPECT_EQ(nearest.used, 39u);  // the k-th sets the radius
   EXPECT_GE(nearest.visited, 40u);
   EXPECT_LT(nearest.visited, 2000u);  // a tree does not look at all
+  EXPECT_EQ(near.by_count, 0u);
+  EXPECT_EQ(nearest.by_count, 1u);
+  EXPECT_EQ(nearest.short_of, 0u);
+  for (const uint32_t count_asked : {1000u, 4000u}) {  // one by one, and by nodes
+    GatherSettings few{GatherMode::nearest, 0.2f, count_asked, KernelKind::epanechnikov};
+    EXPECT_EQ(count(make_photon_map(all, few, 1)).short_of, 1u);
+    few.radius = 2.0f;
+    EXPECT_EQ(count(make_photon_map(all, few, 1)).short_of, 0u);
+  }
   const std::vector<Photon> none;
   EXPECT_EQ(count(make_photon_map(none, by_radius, 1)).visited, 0u);
 }

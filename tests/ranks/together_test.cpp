@@ -33,7 +33,7 @@ Pass some_pass(int number) {
   }
   pass.layers = {layer};
   pass.statistics.eye.rays = 30;
-  pass.statistics.ledger.imbalance.add(rng.uniform_double());
+  pass.statistics.ledger.imbalance.add(Rgbd(rng.uniform_double()));
   pass.statistics.last_volume_radius = 1.0f / static_cast<float>(number + 1);
   std::this_thread::sleep_for(std::chrono::microseconds(rng.uniform() < 0.2f ? 4000 : 400));
   return pass;
@@ -78,7 +78,8 @@ void expect_same(const RenderResult& a, const RenderResult& b) {
   ASSERT_EQ(a.layers.size(), 1u);
   EXPECT_EQ(a.layers[0].sums(), b.layers[0].sums());
   EXPECT_EQ(a.statistics.eye.rays, b.statistics.eye.rays);
-  EXPECT_EQ(a.statistics.ledger.imbalance.variance(), b.statistics.ledger.imbalance.variance()) << "sums in order";
+  EXPECT_EQ(a.statistics.ledger.imbalance.standard_error(), b.statistics.ledger.imbalance.standard_error())
+      << "sums in order";
   EXPECT_EQ(a.statistics.last_volume_radius, b.statistics.last_volume_radius) << "that of the last pass";
 }
 

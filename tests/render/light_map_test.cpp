@@ -191,10 +191,31 @@ TEST(LightMap, IsTheSameOnAnyNumberOfThreads) {
   std::vector<Image> maps;
   for (const int threads : {1, 2}) {
     set_threads(threads);
-    maps.push_back(bake_light_map(scene, settings, layout, {}).film.mean());
+    maps.push_back(bake_light_map(scene, settings, layout, {}).render.film.mean());
   }
   set_threads(0);
   EXPECT_EQ(std::memcmp(maps[0].pixels.data(), maps[1].pixels.data(), layout.texels() * sizeof(Rgb)), 0);
+}
+
+/// What the map says that its power is off by is what powers of other seeds differ by.
+TEST(LightMap, ThePowerHasItsStandardError) {
+  const Scene scene = lit(floor_mesh(), PointLight{Vec3(0.2f, 0.5f, 0.0f), Rgb(1.0f, 2.0f, 3.0f)});
+  RenderSettings settings = fixed_radius(0.2f, 300);
+  settings.surface_direct = DirectLight::photons;
+  settings.photon_sequence = PhotonSequence::random;
+  settings.until.passes = 8;
+  const UvLayout layout = lay_out_light_map(scene, 0, 4);
+  ChannelMoments power, squared_error;
+  for (settings.seed = 1; settings.seed <= 300; ++settings.seed) {
+    const LightMap baked = bake_light_map(scene, settings, layout, {});
+    power.add(baked.power.mean());
+    squared_error.add(baked.power.standard_error() * baked.power.standard_error());
+    EXPECT_NEAR(baked.power.mean().g, received_power(layout, baked.render.film.mean()).g, 1e-5);
+  }
+  // Of variances with 299 and 300 times 7 degrees of freedom.
+  const double spread = normal_quantile(kFalseAlarms) * std::sqrt(2.0 / 299.0 + 2.0 / 2100.0);
+  for (size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(power.channels[c].variance() / squared_error.channels[c].mean(), 1.0, spread) << c;
 }
 
 // --- Layout

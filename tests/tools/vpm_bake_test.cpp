@@ -99,8 +99,12 @@ TEST_F(VpmBake, WritesIrradianceCoverageVarianceAndWhereItIsFrom) {
   EXPECT_EQ(report["width"], 16);
   EXPECT_EQ(report["light_map"]["covered_texels"], 256);
   EXPECT_NEAR(report["light_map"]["area_m2"].get<double>(), 4.0, 1e-5);
-  EXPECT_GT(report["light_map"]["power_received_W"][0], 1.0);
-  EXPECT_LT(report["light_map"]["power_received_W"][0], 10.0);
+  const nlohmann::json& power = report["light_map"]["power_received_W"];
+  EXPECT_GT(power["value"][0], 1.0);
+  EXPECT_LT(power["value"][0], 10.0);
+  EXPECT_GT(power["standard_error"][0], 0.0);
+  vpm_succeeds({"bake", "scene.toml", "--mesh", "floor", "-o", "one.exr", "--resolution", "16", "--passes", "1"});
+  EXPECT_TRUE(this->report("one.json")["light_map"]["power_received_W"]["standard_error"][0].is_null());
 }
 
 TEST_F(VpmBake, GivesTheSameBytesOnAnyNumberOfThreads) {

@@ -91,7 +91,7 @@ def timed(program, name, scene, seconds, options):
         found = re.search(r": (\d+) pass(es)? in ", said)
         passes, stated = int(found[1]) if found else 0, said.strip().splitlines()[-1] if said.strip() else ""
         if status == 0:
-            found = re.search(r"relative MSE [^a][^;]*", said)
+            found = re.search(r"relative MSE at most [^;]*", said)
             stated = found[0] if found else f"{passes} passes: no error is stated"
         late = "no pass is finished after" in said
         limit = 2 * seconds + 1 if late else 1.1 * seconds + 0.5

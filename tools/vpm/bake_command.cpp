@@ -44,10 +44,10 @@ UvLayout lay_out(const Scene& scene, const BakeOptions& options) {
 }
 
 void write_outputs(const Outputs& outputs, const BakeOptions& options, const RenderJob& job, const UvLayout& layout,
-                   const RenderResult& result) {
-  write_light_map(outputs.exr, job, options.mesh, layout, result);
-  write_preview(outputs, options.exposure, light_map_of(layout, result));
-  write_text(outputs.json, light_map_report(job, outputs.exr.string(), options.mesh, layout, result));
+                   const LightMap& baked) {
+  write_light_map(outputs.exr, job, options.mesh, layout, baked.render);
+  write_preview(outputs, options.exposure, light_map_of(layout, baked.render));
+  write_text(outputs.json, light_map_report(job, outputs.exr.string(), options.mesh, layout, baked));
 }
 
 }  // namespace
@@ -63,8 +63,8 @@ int bake_command(const BakeOptions& options) {
   check_outputs(outputs, layout.texels(), false, job);
   foresee_light_map(job);
   print_notes(job);
-  const RenderResult result =
-      bake_light_map(job.scene, job.settings, layout, {options.progress, {}, clock_of_process()});
+  const LightMap baked = bake_light_map(job.scene, job.settings, layout, {options.progress, {}, clock_of_process()});
+  const RenderResult& result = baked.render;
   if (result.film.passes() == 0) return say_interrupted(job.settings.until, 0);
   const bool stopped = is_cancelled();
   const CancelledWith nothing(nullptr);  // what is finished is written
@@ -72,7 +72,7 @@ int bake_command(const BakeOptions& options) {
     fmt::print(stderr, "warning: {} triangles have no area in texture coordinates: no texel shows them\n",
                layout.flat_triangles);
   print_warnings(warnings_of_light_map(job, result));
-  write_outputs(outputs, options, job, layout, result);
+  write_outputs(outputs, options, job, layout, baked);
   fmt::print("{}: {} in {:.1f} s; {} of {} texels covered; preview {}, report {}\n", outputs.exr.string(),
              passes_text(result.film.passes()), result.seconds, layout.covered_texels(), layout.texels(),
              outputs.png.string(), outputs.json.string());

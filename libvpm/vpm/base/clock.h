@@ -50,7 +50,7 @@ class WallClock final : public Clock {
   std::unique_ptr<Alarm> alarm(double at, std::function<double()> ring) const override;
 
  private:
-  const Stopwatch stopwatch_;
+  const Stopwatch stopwatch_{};
 };
 
 }  // namespace vpm

@@ -25,7 +25,7 @@ void* allocate_table(size_t bytes, size_t alignment) {
 }
 
 void free_table(void* table, size_t bytes, size_t alignment) {
-  ::operator delete(table, bytes, alignment_of(bytes, alignment));
+  ::operator delete(table, alignment_of(bytes, alignment));
 }
 
 }  // namespace vpm

@@ -76,12 +76,18 @@ struct GatherCounters {
   uint64_t used = 0;          // photons that count in estimates, with whatever weight
   uint64_t corrected = 0;     // estimates at borders that were divided by a RegionShare below 1
   uint64_t least_shares = 0;  // those divided by kLeastShare because the share was below it
+  uint64_t by_count = 0;      // sums over the nearest photons
+  uint64_t short_of = 0;      // those that found fewer than GatherRule::count within the largest radius
 
   static constexpr auto counters() {
     using G = GatherCounters;
-    return std::tuple{Counter{"map_searches", &G::searches}, Counter{"photons_visited", &G::visited},
-                      Counter{"photons_used", &G::used}, Counter{"boundary_corrections", &G::corrected},
-                      Counter{"boundary_least_shares", &G::least_shares}};
+    return std::tuple{Counter{"map_searches", &G::searches},
+                      Counter{"photons_visited", &G::visited},
+                      Counter{"photons_used", &G::used},
+                      Counter{"boundary_corrections", &G::corrected},
+                      Counter{"boundary_least_shares", &G::least_shares},
+                      Counter{"sums_by_count", &G::by_count},
+                      Counter{"sums_by_count_of_fewer_photons", &G::short_of}};
   }
   void merge(const GatherCounters& other) { merge_counters(*this, other); }
 };

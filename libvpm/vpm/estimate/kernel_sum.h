@@ -127,7 +127,10 @@ template <int Dimension, class Value>
 KernelEstimate neighbour_sum(const Gathering<NearestMap>& map, const Neighbours& neighbours, Value&& value) {
   const float r2 = neighbours.limit();
   const size_t first = neighbours.full() ? 1 : 0;  // the farthest
-  map.work.counters.used += neighbours.size() - first;
+  GatherCounters& counters = map.work.counters;
+  counters.used += neighbours.size() - first;
+  ++counters.by_count;
+  counters.short_of += neighbours.full() ? 0 : 1;
   const auto relative = [=](float distance2) { return distance2 / r2; };
   KernelPair<Rgbd> sum;
   for (size_t begin = first; begin < neighbours.size(); begin += PhotonBatch::kMost) {
@@ -163,6 +166,8 @@ std::optional<KernelEstimate> power_by_nodes(const Gathering<NearestMap>& map, c
   if (!sums) return {};
   count(work.counters.searches);
   work.counters.used += sums->used;
+  ++work.counters.by_count;
+  work.counters.short_of += sums->radius2 < settings.radius * settings.radius ? 0 : 1;
   // Profiles are linear in q: both weights are those at 0, and q times what they change by up to 1.
   const KernelProfile<KernelKind::epanechnikov, Dimension> profile;
   const KernelPair<float> middle = profile(0.0f), change = profile(1.0f) - middle;

@@ -12,7 +12,7 @@ struct EyeCounters {
   uint64_t steps = 0;  // marching steps in media
   uint64_t volume_queries = 0;
   uint64_t surface_queries = 0;
-  uint64_t used_in_media = 0;  // of GatherCounters::used: those of media
+  uint64_t used_in_media = 0, by_count_in_media = 0, short_in_media = 0;  // of GatherCounters: those of media
   uint64_t shadow_rays = 0;
   uint64_t gather_rays = 0;         // of final gathering
   uint64_t irradiance_lookups = 0;  // ends of these that took the irradiance of a point computed beforehand
@@ -30,6 +30,8 @@ struct EyeCounters {
                       Counter{"volume_queries", &E::volume_queries},
                       Counter{"surface_queries", &E::surface_queries},
                       Counter{"photons_used_in_media", &E::used_in_media},
+                      Counter{"sums_by_count_in_media", &E::by_count_in_media},
+                      Counter{"sums_by_count_in_media_of_fewer_photons", &E::short_in_media},
                       Counter{"shadow_rays", &E::shadow_rays},
                       Counter{"gather_rays", &E::gather_rays},
                       Counter{"irradiance_lookups", &E::irradiance_lookups},

@@ -156,6 +156,7 @@ void load_medium_grid(const MediumPlan& plan, const GridRequest& request, const 
     LoadedGrid grid = plan.given ? density_of(*plan.given, request) : load(medium.name, request);
     medium.grid = std::move(grid.grid);
     job.clamped_density_values += grid.clamped_values;
+    for (const std::string& note : grid.notes) job.notes.push_back("medium '" + medium.name + "': " + note);
     if (grid.clamped_values > 0)
       job.notes.push_back("medium '" + medium.name + "': " + std::to_string(grid.clamped_values) +
                           " negative densities set to 0, as clamp_negative asks");
@@ -247,11 +248,14 @@ RenderJob load_scene(const std::string& path, const std::vector<std::string>& op
         "{}: this is a grid, not a scene: a scene file (.toml) names it in a medium, as scenes/smoke.toml does; "
         "vpm info {} tells what it holds",
         path, path));
+  if (lower_extension(path) == ".pbrt")
+    throw InputError(path + ": this is a scene of pbrt's, which is not read; scenes here are .toml files");
   return job_with(read_toml(path), options, left_out, {}, load ? load : load_from_file);
 }
 
-RenderJob load_scene(const SceneText& scene, const std::vector<std::string>& options, LeftOut left_out) {
-  return job_with(parse_toml(scene.name, scene.text), options, left_out, scene.given, load_from_file);
+RenderJob load_scene(const SceneText& scene, const std::vector<std::string>& options, LeftOut left_out,
+                     const GridLoader& load) {
+  return job_with(parse_toml(scene.name, scene.text), options, left_out, scene.given, load ? load : load_from_file);
 }
 
 }  // namespace vpm

@@ -31,6 +31,6 @@ struct SceneText {
 };
 /// The same of a scene in memory. The given parts must live until then, and no longer.
 RenderJob load_scene(const SceneText& scene, const std::vector<std::string>& overrides = {},
-                     LeftOut left_out = LeftOut::usual);
+                     LeftOut left_out = LeftOut::usual, const GridLoader& load = {});
 
 }  // namespace vpm

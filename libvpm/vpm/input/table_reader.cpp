@@ -85,11 +85,24 @@ bool TableReader::says(const std::string& key, const std::string& text) {
   return word && *word == text;
 }
 
+namespace {
+
+/// A whole number, also one that is written as 1e6 is.
+std::optional<int64_t> whole_number(const Node& node) {
+  if (const auto* integer = std::get_if<int64_t>(&node.value)) return *integer;
+  constexpr double kExact = 9007199254740992.0;  // 2^53, up to which doubles tell whole numbers apart
+  const auto* number = std::get_if<double>(&node.value);
+  if (!number || !(std::abs(*number) <= kExact) || *number != std::floor(*number)) return std::nullopt;
+  return static_cast<int64_t>(*number);
+}
+
+}  // namespace
+
 uint64_t TableReader::integer(const std::string& key, uint64_t lo, uint64_t hi, std::optional<uint64_t> fallback) {
   if (!find(key) && fallback) return *fallback;
   const Node& node = require(key);
   const std::string allowed = "from " + std::to_string(lo) + " to " + std::to_string(hi);
-  const auto* value = std::get_if<int64_t>(&node.value);
+  std::optional<int64_t> value = whole_number(node);
   if (!value) {
     const auto* text = std::get_if<std::string>(&node.value);  // that of an option may be an integer, but too large
     fail_at(node.place, quoted(key, title_) + " must be an integer, not " + (text ? "'" + *text + "'" : kind_of(node)),

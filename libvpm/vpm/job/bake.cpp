@@ -6,14 +6,18 @@
 
 namespace vpm {
 
-RenderResult bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
-                            const RunControl& control) {
+LightMap bake_light_map(const Scene& scene, const RenderSettings& settings, const UvLayout& layout,
+                        const RunControl& control) {
   validate_light_map(settings, facts_of(scene));
-  const auto make = [&](int pass, const RenderResult&, const PassProgress& shown) {
-    return light_map_pass(scene, settings, layout, pass, shown);
+  ChannelMoments power;
+  const auto make = [&](int number, const RenderResult&, const PassProgress& shown) {
+    Pass pass = light_map_pass(scene, settings, layout, number, shown);
+    power.add(received_power(layout, pass.image));
+    return pass;
   };
-  return run_passes(settings.until, {make, light_map_work(layout), block_count(settings)},
-                    {Film(layout.resolution, layout.resolution), {}, 0.0, {}}, control);
+  RenderResult render = run_passes(settings.until, {make, light_map_work(layout), block_count(settings)},
+                                   {Film(layout.resolution, layout.resolution), {}, 0.0, {}}, control);
+  return {std::move(render), power};
 }
 
 }  // namespace vpm

@@ -1,7 +1,7 @@
 // Counts as named fields, for files and for messages between processes.
 #pragma once
 
-#include "vpm/base/statistics.h"
+#include "vpm/base/channel_moments.h"
 #include "vpm/estimate/statistics.h"
 #include "vpm/job/named_fields.h"
 
@@ -10,7 +10,7 @@ namespace vpm {
 template <>
 inline constexpr std::string_view kFieldType<Rgbd> = "rgb64";
 template <>
-inline constexpr std::string_view kFieldType<Moments> = "moments";
+inline constexpr std::string_view kFieldType<ChannelMoments> = "moments_rgb";
 template <>
 inline constexpr std::string_view kFieldType<WeightMoments> = "weights";
 

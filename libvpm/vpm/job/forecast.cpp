@@ -61,13 +61,16 @@ std::string fitting_text(double photons, const RenderSettings& settings, double 
 }
 
 /// Light sub-paths are kept whole, and sorted beside themselves: told by the first of them.
-void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& settings, double memory) {
+double bytes_of_sub_path(const Scene& scene, const RenderSettings& settings) {
   constexpr uint64_t kFew = 1000;
   const RenderSettings few = with_light_paths(settings, kFew);
   const CombinedPass pass(scene, few, 0);
+  return 2.0 * static_cast<double>(pass.statistics().photon_map_bytes) / static_cast<double>(few.photons_emitted);
+}
+
+void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& settings, double memory) {
   const auto paths = static_cast<double>(settings.photons_emitted);
-  const double each =
-      2.0 * static_cast<double>(pass.statistics().photon_map_bytes) / static_cast<double>(few.photons_emitted);
+  const double each = bytes_of_sub_path(scene, settings);
   if (paths * each <= memory) return;
   throw InputError(
       fmt::format("photons.emitted: the light sub-paths of a pass would take {:.2g} GB of memory; this machine has "
@@ -143,6 +146,15 @@ std::string wide_gather_text(const Scene& scene, const RenderSettings& settings)
       "a ray from the eye gathers about {:.2g} photons of a pass: smaller radii, or fewer photons and "
       "more passes, would be quicker",
       photons);
+}
+
+double bytes_of_maps(const Scene& scene, const RenderSettings& settings, PassOf of) {
+  if (settings.integrator == Integrator::path) return 0.0;
+  if (settings.integrator == Integrator::combined)
+    return static_cast<double>(settings.photons_emitted) * bytes_of_sub_path(scene, settings);
+  const RenderSettings held = at_a_time(settings);
+  const PassCost cost = time_photons(scene, held, of, 0.1);
+  return room_of(cost, held, photons_of_pass(held, cost.stored_per_photon)).bytes;
 }
 
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory) {

@@ -20,6 +20,9 @@ std::string radius_that_fits(const Scene& scene, RenderSettings settings, double
 /// the first pass; else "". A few photons and rays tell.
 std::string wide_gather_text(const Scene& scene, const RenderSettings& settings);
 
+/// About how many bytes the photons or light sub-paths that a pass, or a block of it, stores take while maps are made;
+/// 0 where there are none. A few are traced to tell.
+double bytes_of_maps(const Scene& scene, const RenderSettings& settings, PassOf of);
 /// Throws InputError where the photons that a pass, or a block of it, stores take more than `memory` bytes. Only where
 /// they may be many does it trace some.
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory);

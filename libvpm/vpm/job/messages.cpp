@@ -42,6 +42,22 @@ void warn_of_unfound_photons(const RenderStatistics& s, std::vector<std::string>
        s.last_surface_radius, "surface");
 }
 
+/// Of gathers by count that the largest radius decides, so that another count makes the same picture.
+void warn_of_short_counts(const EyeCounters& eye, std::vector<std::string>& warnings) {
+  const auto warn = [&](uint64_t all, uint64_t of_fewer, const char* section) {
+    constexpr double kMost = 0.01;
+    const double share = static_cast<double>(of_fewer) / static_cast<double>(std::max<uint64_t>(1, all));
+    if (share > kMost)
+      warnings.push_back(
+          fmt::format("{:.1f} % of the gathers by count met fewer photons than the count of [{}] within the largest "
+                      "radius, and took "
+                      "that: a larger radius or more photons give the count its meaning",
+                      100.0 * share, section));
+  };
+  warn(eye.by_count_in_media, eye.short_in_media, "volume");
+  warn(eye.gather.by_count - eye.by_count_in_media, eye.gather.short_of - eye.short_in_media, "surface");
+}
+
 /// `shown`: what of the scene's scattering the picture shows.
 std::vector<std::string> warnings_about(const Scattering& shown, const RenderSettings& settings,
                                         const RenderStatistics& s) {
@@ -52,6 +68,7 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
   if (settings.integrator == Integrator::photon) {
     warn_of_empty_maps(shown, settings, s, warnings);
     warn_of_unfound_photons(s, warnings);
+    warn_of_short_counts(s.eye, warnings);
     if (shown.media && settings.plane_use == PlaneUse::alone)
       warnings.emplace_back("photon planes alone have infinite variance: the error may be larger than is stated");
   }
@@ -88,6 +105,13 @@ std::string measured_text(const Estimated& estimated) {
   const int place = std::max(0, -static_cast<int>(std::floor(std::log10(error))));
   if (place > 6) return fmt::format("{:.2g} +- {:.1g}", estimated.value, error);
   return fmt::format("{:.{}f} +- {:.{}f}", estimated.value, place, error, place);
+}
+
+/// The least number of two digits that is no less.
+double two_digits_up(double number) {
+  if (!(number > 0.0) || std::isinf(number)) return number;
+  const double unit = std::pow(10.0, std::floor(std::log10(number)) - 1.0);
+  return unit * std::ceil(number / unit * (1.0 - 1e-12));
 }
 
 std::string bias_text(const StatedError& stated, bool gathers, bool loses_light) {
@@ -146,7 +170,8 @@ std::string error_text(const RenderJob& job, const RenderResult& result) {
   const std::optional<StatedError> stated = stated_error_of(result);
   if (!stated) return "";
   const std::vector<std::string> unseen = maps_of_unseen_bias(job.scene, job.settings);
-  return fmt::format("relative MSE {} ({}{})", measured_text(stated->total),
+  return fmt::format("relative MSE at most {:.2g} (expected about {}; {}{})", two_digits_up(stated->highest),
+                     measured_text(stated->total),
                      bias_text(*stated, gathers(job.scene, job.settings), !lost_light_of(job).empty()),
                      unseen.empty() ? "" : fmt::format("; that of [{}] cannot be seen", fmt::join(unseen, "], [")));
 }

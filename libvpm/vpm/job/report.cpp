@@ -36,13 +36,9 @@ void put(Json& section, const std::string&, const WeightMoments& weights, double
 void put(Json& section, const std::string& key, const Rgbd& flow, double emitted) {
   section[key] = rgb(flow / emitted);
 }
-/// Of what photons lose on their way, also in standard errors.
-void put(Json& section, const std::string& key, const Moments& difference, double) {
-  const double error = std::sqrt(difference.variance_of_mean());
-  section[key] = difference.mean();
-  section[key + "_standard_error"] = error;
-  section[key + "_in_standard_errors"] = error > 0.0 ? difference.mean() / error : 0.0;
-}
+
+/// Kept for energy().
+void put(Json&, const std::string&, const ChannelMoments&, double) {}
 
 /// All counts, in the sections that their keys name.
 Json counted(const RenderStatistics& s) {
@@ -62,6 +58,17 @@ Json counted(const RenderStatistics& s) {
 Json section(Json begin, const Json& rest) {
   begin.update(rest);
   return begin;
+}
+
+/// The energy ledger of photons; null where none were traced. Parts of no emitted power are null, too.
+Json energy(const Ledger& ledger, const Json& flows) {
+  if (ledger.emitted_count == 0) return nullptr;
+  const Rgbd emitted = ledger.emitted / static_cast<double>(ledger.emitted_count);
+  return section({{"unit", "W"}},
+                 section(flows, {{"imbalance",
+                                  {{"quantity", "(absorbed + escaped + cut - emitted) / emitted, of each channel"},
+                                   {"value", rgb(ledger.imbalance.mean() / emitted)},
+                                   {"standard_error", rgb(ledger.imbalance.standard_error() / emitted)}}}}));
 }
 
 /// Numbers of single precision as they are written, not as double precision has them.
@@ -237,7 +244,7 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
           {"times", section({{"unit", "s, wall clock"}, {"total", result.seconds}}, counts["times"])},
           {"lights", lights(job)},
           {"photons", section(counts["photons"], rates(s, tracings_of_pass(job.scene, job.settings)))},
-          {"energy", section({{"unit", "W"}}, counts["energy"])},
+          {"energy", energy(s.ledger, counts["energy"])},
           {"boundaries", {{"crossings", walk.crossings}, {"met_in_another_medium", walk.medium_mismatches}}},
           {"memory", section(memory(job, result), counts["memory"])}};
 }
@@ -262,7 +269,8 @@ std::string render_report(const RenderJob& job, const std::string& image, const 
 }
 
 std::string light_map_report(const RenderJob& job, const std::string& image, const std::string& mesh,
-                             const UvLayout& layout, const RenderResult& result) {
+                             const UvLayout& layout, const LightMap& baked) {
+  const RenderResult& result = baked.render;
   Json report = report_of(job, image, "irradiance, W/m^2", {.surfaces = true}, result);
   report["warnings"] = warnings_of_light_map(job, result);
   report["texels"] = texels(counted(result.statistics)["eye"]);
@@ -271,7 +279,8 @@ std::string light_map_report(const RenderJob& job, const std::string& image, con
                          {"area_m2", std::accumulate(layout.areas.begin(), layout.areas.end(), 0.0)},
                          {"area_of_mesh_m2", job.scene.geometry.area(layout.shape)},
                          {"triangles_without_texels", layout.flat_triangles},
-                         {"power_received_W", rgb(received_power(layout, result.film.mean()))}};
+                         {"power_received_W",
+                          {{"value", rgb(baked.power.mean())}, {"standard_error", rgb(baked.power.standard_error())}}}};
   return whole(report);
 }
 

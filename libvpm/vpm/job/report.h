@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "vpm/job/bake.h"
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
-#include "vpm/render/light_map.h"
 
 namespace vpm {
 
@@ -14,6 +14,6 @@ std::string render_report(const RenderJob& job, const std::string& image, const 
 
 /// The same of a light map of the shape named `mesh`.
 std::string light_map_report(const RenderJob& job, const std::string& image, const std::string& mesh,
-                             const UvLayout& layout, const RenderResult& result);
+                             const UvLayout& layout, const LightMap& baked);
 
 }  // namespace vpm

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "vpm/base/statistics.h"
+#include "vpm/base/channel_moments.h"
 #include "vpm/base/vec.h"
 #include "vpm/path/walk.h"
 
@@ -18,9 +18,9 @@ struct Ledger {
   Rgbd escaped{0.0};
   Rgbd cut{0.0};  // carried by photons that reached the limit of events
   uint64_t cut_count = 0;
-  Moments imbalance;  // of each photon: absorbed + escaped + cut - emitted, summed over channels, W; its mean is zero;
-                      // its standard error is as if photons were independent of each other
-  WeightMoments weights;  // of photons: PathWeight of power over emitted power
+  ChannelMoments imbalance;  // of each photon: absorbed + escaped + cut - emitted, W; its mean is zero; its standard
+                             // error is as if photons were independent of each other
+  WeightMoments weights;     // of photons: PathWeight of power over emitted power
   uint64_t collisions = 0;
   uint64_t surface_hits = 0;
   uint64_t floored = 0;     // stored photons where the density is below the floor of stored_power()

@@ -79,7 +79,7 @@ class PhotonPath {
     at_.state = emit_photon(scene_, drawn.point);
     at_.state.throughput /= drawn.density;
     emitted_power_ = sum_channels(at_.state.throughput);
-    balance_ = -static_cast<double>(emitted_power_);
+    balance_ = -Rgbd(at_.state.throughput);
     weight_ = {};
     alive_ = emitted_power_ > 0.0f;
     ++out_.ledger.emitted_count;
@@ -131,7 +131,7 @@ class PhotonPath {
 
   void deposit(Rgbd& account, const Rgbd& power) {
     account += power;
-    balance_ += power.r + power.g + power.b;
+    balance_ += power;
   }
   void escape() {
     deposit(out_.ledger.escaped, Rgbd(at_.state.throughput));
@@ -217,8 +217,8 @@ class PhotonPath {
   std::vector<Branch> waiting_;
   std::vector<Track> tracks_;  // of the last flight, if a recorder is told of them
   float emitted_power_ = 0.0f;
-  double balance_ = 0.0;  // gone minus emitted, W
-  PathWeight weight_;     // of all branches
+  Rgbd balance_{0.0};  // gone minus emitted, W
+  PathWeight weight_;  // of all branches
   bool alive_ = true;
   uint64_t number_ = 0;  // of the photon
 };

@@ -25,6 +25,24 @@ Vec3 towards(const Hit& hit, const Vec3& direction) {
   return glm::dot(hit.normal, direction) < 0.0f ? -hit.normal : hit.normal;
 }
 
+/// Counts what is gathered while it lives as of media.
+class CountsOfMedia {
+ public:
+  explicit CountsOfMedia(EyeCounters& counters) : counters_(counters), before_(counters.gather) {}
+  ~CountsOfMedia() {
+    const GatherCounters& after = counters_.gather;
+    counters_.used_in_media += after.used - before_.used;
+    counters_.by_count_in_media += after.by_count - before_.by_count;
+    counters_.short_in_media += after.short_of - before_.short_of;
+  }
+  CountsOfMedia(const CountsOfMedia&) = delete;
+  CountsOfMedia& operator=(const CountsOfMedia&) = delete;
+
+ private:
+  EyeCounters& counters_;
+  const GatherCounters before_;
+};
+
 class EyePath {
  public:
   EyePath(const EyeContext& context, const Ray& ray, EyeWork& work)
@@ -58,10 +76,9 @@ class EyePath {
 
   /// Adds what media scatter towards the eye along the segment.
   void gather() {
-    const uint64_t used = work_.counters.gather.used;
+    const CountsOfMedia counts(work_.counters);
     if (at_.asks > 0.0f)
       for (const auto& estimator : c_.estimators.volume) add(Rgb(at_.asks) * estimator->along(*segment_, work_));
-    work_.counters.used_in_media += work_.counters.gather.used - used;
   }
 
   /// Attenuates by the segment, and goes on from what ends it. False where the branch ends.
@@ -183,11 +200,9 @@ class EyePaths {
 void gather_together(const EyeContext& context, const Vec3& camera, std::span<EyePath* const> paths) {
   std::array<BundledSegment, kEyeRays> segments{};
   for (size_t i = 0; i < paths.size(); ++i) segments[i] = {&paths[i]->segment(), &paths[i]->work()};
-  EyeCounters& counters = paths.front()->work().counters;
-  const uint64_t used = counters.gather.used;
+  const CountsOfMedia counts(paths.front()->work().counters);
   const SegmentBundle bundle(segments.data(), paths.size());
   for (const auto& estimator : context.estimators.volume) estimator->along_bundle(camera, bundle);
-  counters.used_in_media += counters.gather.used - used;
   for (size_t i = 0; i < paths.size(); ++i) paths[i]->add(segments[i].light);
 }
 

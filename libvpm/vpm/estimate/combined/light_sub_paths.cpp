@@ -49,7 +49,7 @@ class LightSubPath {
   /// Enters where power has gone, W.
   void lose(const Rgb& power, Rgbd& where) {
     where += Rgbd(power);
-    balance_ += sum_channels(power);
+    balance_ += Rgbd(power);
   }
 
   void emit() {
@@ -63,7 +63,7 @@ class LightSubPath {
     from_ = depart_from_light(c_.counts, light, picked.probability, density, emission.ray, emission.normal);
     ++out_.ledger.emitted_count;
     out_.ledger.emitted += Rgbd(state_.throughput);
-    balance_ -= sum_channels(state_.throughput);
+    balance_ -= Rgbd(state_.throughput);
   }
 
   /// Flies to the next vertex.
@@ -221,7 +221,7 @@ class LightSubPath {
   Rng& rng_;
   PathState state_;
   Departure from_;
-  double balance_ = 0.0;  // gone minus emitted, W
+  Rgbd balance_{0.0};  // gone minus emitted, W
   // For KernelsAlone:
   bool unhittable_ = false;   // can no ray run into the light?
   bool from_smooth_ = false;  // does the flight come from a mirror or glass?

@@ -107,9 +107,10 @@ function fillEnergy(section, report) {
 }
 
 function imbalanceText(energy) {
-  const {imbalance, imbalance_standard_error: error, imbalance_in_standard_errors: errors} = energy;
-  if (error === 0) return 'No photon lost or gained any energy on its way.';
-  return `Mean imbalance of a photon: ${number(imbalance)} W ± ${number(error, 2)} W, which is ${
-             number(errors, 2)} standard ` +
-      'errors: photons may gain and lose energy on their way, but not on average.';
+  const {value, standard_error: error} = energy.imbalance;
+  if (error.every(e => e === 0)) return 'No photon lost or gained any energy on its way.';
+  const channels = value.map((v, c) => `${number(v)} ± ${number(error[c], 2)}`);
+  return `The residual over what is emitted, in red, green and blue: ${
+             channels.join(', ')}. Photons may gain and lose ` +
+      'energy on their way, but not on average.';
 }
