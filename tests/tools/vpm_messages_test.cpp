@@ -50,6 +50,8 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
                 "vpm render chooses photons.emitted, which are"});
   expect_words(vpm_succeeds({"info", "scene.toml", "--set", "render.integrator=path"}).out,
                {"renders 2 passes, in each 1 path a pixel"});
+  expect_words(vpm_succeeds({"info", "scene.toml"}).out, {"maps of a pass: about "});
+  vpm_refuses({"info", "scene.toml", "--set", "photons.emitted=1e12"}, {"photons.emitted: the maps of a pass would"});
   vpm_refuses({"info", "missing.vdb"}, {"missing.vdb"});
   vpm_refuses({"info", "missing.toml"}, {"missing.toml"});
   vpm_refuses({"info", "smoke.bin"}, {"smoke.bin"});
@@ -131,6 +133,17 @@ TEST_F(VpmWarnings, PhotonsThatNoGatherFindsAreToldOf) {
   const std::string surfaces = warnings({"surface.radius=1e-9"});
   expect_words(surfaces, {"photons on surfaces: a larger surface.radius ("});
   EXPECT_EQ(surfaces.find("in media"), std::string::npos) << surfaces;
+}
+
+TEST_F(VpmWarnings, CountsThatTheLargestRadiusDecidesAreToldOf) {
+  const std::string word = "of the gathers by count met fewer photons than the count of [volume] within";
+  expect_words(warnings({"volume.gather=nearest", "volume.count=5000", "volume.radius=0.05"}), {word});
+  EXPECT_EQ(warnings({"volume.gather=nearest", "volume.count=5", "volume.radius=10"}).find(word), std::string::npos);
+  // Those of surfaces are few beside those of media.
+  const std::string both = warnings({"volume.gather=nearest", "volume.count=5", "volume.radius=10",
+                                     "surface.gather=nearest", "surface.count=5000", "surface.radius=0.05"});
+  expect_words(both, {"than the count of [surface] within"});
+  EXPECT_EQ(both.find(word), std::string::npos) << both;
 }
 
 TEST_F(VpmWarnings, PlanesAloneHaveInfiniteVariance) {

@@ -313,9 +313,14 @@ TEST_F(VpmRender, BadCommandLinesAreRefused) {
   vpm_refuses({"render", "scene.toml", "--threads", "-1"}, {"--threads"});
   vpm_refuses({"render", "scene.toml", "--threads", "5000"}, {"--threads"});
   vpm_refuses({"render", "scene.toml", "--progress", "perhaps"}, {"--progress"});
-  vpm_refuses({"render", "scene.toml", "--bogus"}, {"--bogus"});
-  vpm_refuses({"render"}, {"scene"});
-  vpm_refuses({"paint", "scene.toml"}, {"there is no command 'paint'", "vpm help"});
+  vpm_refuses({"render", "scene.toml", "--bogus"}, {"vpm: render: there is no option '--bogus'\n", "vpm help render"});
+  vpm_refuses({"render", "scene.toml", "--pases", "3"}, {"there is no option '--pases'; did you mean '--passes'?"});
+  vpm_refuses({"render", "scene.toml", "one", "two"}, {"vpm: render: 'one' is one argument too many"});
+  vpm_refuses({"--threads", "4", "render", "scene.toml"}, {"'--threads' stands before the command"});
+  vpm_refuses({"render"}, {"vpm: render: scene is required"});
+  vpm_refuses({"paint", "scene.toml"}, {"vpm: there is no command 'paint'; vpm help"});
+  vpm_refuses({"rendr", "scene.toml"}, {"did you mean 'render'?"});
+  vpm_refuses({"help", "nothing"}, {"there is no command 'nothing'"});
   vpm_refuses({}, {"SUBCOMMAND"});
 }
 
@@ -332,6 +337,10 @@ TEST_F(VpmBinary, TellsItsVersionAndItsGrids) {
     expect_words(vpm_succeeds({ask}).out, {"render", "info", "error", "media", "Example: vpm render"});
   expect_words(vpm_succeeds({"help", "render"}).out, {"--passes", "--checkpoint", "--overwrite"});
   vpm_refuses({}, {"Example: vpm render"});
+  for (const char* command : {"render", "view", "merge", "tonemap", "bake", "compare", "info", "error", "report",
+                              "media", "mesh", "validate", "exact"})
+    expect_words(vpm_succeeds({"help", command}).out, {std::string("Example: vpm ") + command + " "});
+  expect_words(vpm_succeeds({"exact", "slab", "--help"}).out, {"tau        optical thickness [required]"});
   vpm_refuses({"render", "smoke.vdb"}, {"smoke.vdb: this is a grid", ".toml", "vpm info smoke.vdb"});
   expect_words(vpm_succeeds({"media"}).out,
                {"smoke      0.7 x 1 x 0.7 m", "cloud      1000 x 600 x 800 m", "constant", "ramp", "gaussian"});

@@ -74,6 +74,7 @@ int merge_command(const MergeOptions& options);
 
 struct TonemapOptions {
   std::string picture;            // .exr
+  std::string layer;              // of that file; empty: its picture
   std::string output;             // .png
   std::optional<float> exposure;  // stops; none: auto_exposure()
 };
@@ -108,7 +109,8 @@ struct InfoOptions {
 int info_command(const InfoOptions& options);
 
 struct ErrorOptions {
-  std::vector<std::string> images;  // a picture and its reference; of a series the last is the reference
+  std::vector<std::string> images;     // a picture and its reference; of a series the last is the reference
+  std::string layer, reference_layer;  // of the files; empty: their pictures
   bool series = false;
   std::string output;     // .exr for the difference; empty: none. Not of a series
   bool resample = false;  // bring the picture to the size of the reference. Not of a series

@@ -14,13 +14,7 @@ namespace {
 
 void print_problems() {
   fmt::print("vpm exact PROBLEM key=value ...; lists are separated by commas\n");
-  for (const ExactProblem& problem : exact_problems()) {
-    fmt::print("\n{}: {}\n", problem.name, problem.summary);
-    for (const ExactKey& key : problem.keys) {
-      const std::string note = key.required ? " [required]" : key.otherwise.empty() ? "" : " [" + key.otherwise + "]";
-      fmt::print("  {:<10} {}{}\n", key.name, key.meaning, note);
-    }
-  }
+  for (const ExactProblem& problem : exact_problems()) fmt::print("\n{}", text_of(problem));
 }
 
 /// The digits that the error leaves.
@@ -72,6 +66,15 @@ void print_json(const std::string& problem, const ExactArguments& arguments,
 }
 
 }  // namespace
+
+std::string text_of(const ExactProblem& problem) {
+  std::string text = fmt::format("{}: {}\n", problem.name, problem.summary);
+  for (const ExactKey& key : problem.keys) {
+    const std::string note = key.required ? " [required]" : key.otherwise.empty() ? "" : " [" + key.otherwise + "]";
+    text += fmt::format("  {:<10} {}{}\n", key.name, key.meaning, note);
+  }
+  return text;
+}
 
 int exact_command(const ExactOptions& options) {
   if (options.problem.empty()) {

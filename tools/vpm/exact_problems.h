@@ -63,6 +63,8 @@ struct ExactProblem {
 };
 
 const std::vector<ExactProblem>& exact_problems();
+/// Its summary and its keys, a line each.
+std::string text_of(const ExactProblem& problem);
 /// The problem of that name. Throws InputError where there is none.
 const ExactProblem& find_exact_problem(const std::string& name);
 

@@ -8,6 +8,7 @@
 #include "vpm/estimate/photon_map.h"
 #include "vpm/input/grid_file.h"
 #include "vpm/input/scene_file.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/lost_light.h"
 #include "vpm/job/render.h"
 #include "vpm/job/stage_lines.h"
@@ -103,11 +104,15 @@ void print_effort(const RenderJob& job) {
       fmt::print("warning: {}\n", lost);
     return;
   }
-  fmt::print("renders {}, in each {}\ngather radii of the first pass: {}\n", until_text(settings.until),
-             photons_text(settings), radii_text(job.scene, settings));
-  if (!job.automatic.keys.empty())
+  fmt::print("renders {}, in each {}\n", until_text(settings.until), photons_text(settings));
+  if (!job.automatic.keys.empty()) {
     fmt::print("vpm render chooses {}, which are \"auto\", and then the radii that are left out\n",
                fmt::join(job.automatic.keys, ", "));
+    return;
+  }
+  fmt::print("gather radii of the first pass: {}\nmaps of a {}: about {:.3g} MiB while they are made\n",
+             radii_text(job.scene, settings), settings.photons_block > 0 ? "block" : "pass",
+             bytes_of_maps(job.scene, settings, PassOf::picture) / (1024.0 * 1024.0));
 }
 
 std::string medium_text(const Scene& scene, MediumId medium) {
@@ -135,6 +140,7 @@ void print_stages(const RenderJob& job, bool all) {
 void print_scene(const InfoOptions& options) {
   RenderJob job = load_scene(options.file, options.overrides);
   choose_default_radii(job);
+  if (job.automatic.keys.empty()) check_memory(job.scene, job.settings, PassOf::picture, physical_memory());
   const Scene& scene = job.scene;
   const Box box = scene.geometry.bounds();
   fmt::print("scene {}, hash {}\n", options.file, job.hash);

@@ -1,270 +1,23 @@
-// The command line of vpm: options into structs, errors into exit status 2.
+// vpm: the command that the command line names, errors into exit status 2.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <iostream>
-#include <new>
 #include <sstream>
 
-#include "commands.h"
-#include "option_checks.h"
+#include "command_line.h"
+#include "refused_options.h"
 #include "this_process.h"
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
-#include "vpm/base/version.h"
 #include "vpm/ranks/ranks.h"
-#include "vpm/study/validate/ladder.h"
 
 namespace {
 
 using namespace vpm;
 using namespace vpm::tools;
-
-void add_progress(CLI::App* command, ProgressMode& mode) {
-  const std::map<std::string, ProgressMode> modes{
-      {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
-  command->add_option("--progress", mode, "Progress bar: auto (on a terminal), always, never")
-      ->transform(CLI::CheckedTransformer(modes));
-}
-
-void add_exposure(CLI::App* command, std::optional<float>& exposure, const std::string& what) {
-  command
-      ->add_option("--exposure", exposure,
-                   fmt::format("Stops by which {} is exposed: values times 2^STOPS, clipped to [0, 1], then the sRGB "
-                               "curve; default: such that the 99th percentile of the luminance becomes 0.8",
-                               what))
-      ->check(check_stops);
-}
-
-/// What all commands that run passes are told; returns the option --passes.
-CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std::string& usual_name) {
-  command->add_option("-o,--output", options.output,
-                      "Image to write (.exr); default: " + usual_name + ".exr in the current folder");
-  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
-  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  add_exposure(command, options.exposure, "the preview");
-  add_progress(command, options.progress);
-  return command->add_option("--passes", options.passes, "Passes to average")->check(whole_number(1, 1'000'000'000));
-}
-
-void add_watch_options(CLI::App* command, WatchOptions& options) {
-  command->add_option_function<std::string>(
-      "--display", [&options](const std::string& text) { options.display = tev_address(text); },
-      "Show the picture after each pass in the viewer tev: tev, or tev:HOST:PORT where it does not listen as usual");
-  command
-      ->add_option("--preview", options.preview,
-                   "Write picture, preview and report after the first pass already, and again after the passes that "
-                   "end this many seconds or more after the last time, and ten times as long as that took")
-      ->check(check_seconds);
-}
-
-void add_scene(CLI::App* command, std::string& scene) {
-  command->add_option("scene", scene, "Scene file (.toml)")->required();
-}
-
-/// What all are told that render a picture.
-void add_picture_options(CLI::App* command, RenderOptions& options, const std::string& usual_name) {
-  CLI::Option* passes = add_pass_options(command, options, usual_name);
-  command
-      ->add_option("--time", options.seconds,
-                   "End within this many seconds from the start of the process; the first pass may take twice as long")
-      ->check(check_seconds)
-      ->excludes(passes);
-  command
-      ->add_option("--error", options.error,
-                   "Render passes until the estimated relative MSE is no more than this; with --time: or until then")
-      ->check(check_error)
-      ->excludes(passes);
-  command->add_option("--size", options.size, "Film in pixels, WIDTHxHEIGHT: 640x480")->check(check_film_size);
-  command->add_option("--spp", options.samples, "Samples of a pixel in each pass")->check(whole_number(1, 1'000'000));
-  command
-      ->add_option("--crop", options.crop,
-                   "Render these pixels only, x0,y0,x1,y1 from the upper left, ends excluded: the same bits as in the "
-                   "whole picture")
-      ->check(check_crop);
-  add_watch_options(command, options.watch);
-  command->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
-}
-
-void add_render(CLI::App& app, RenderOptions& options) {
-  CLI::App* command = app.add_subcommand("render", "Render a scene to an EXR image, a PNG preview and a JSON report");
-  add_scene(command, options.scene);
-  add_picture_options(command, options, "SCENE");
-  command->add_option("--reference", options.reference,
-                      "EXR image of the truth: log error against time to a CSV file next to the image");
-  command->add_flag(
-      "--auto", options.automatic,
-      "Choose what the scene leaves out of integrator, radii, photons and distance strategy, and tell why");
-  command
-      ->add_option("--layers", options.layers,
-                   "Write these layers, too, separated by commas: combined (what each technique finds), and of what a "
-                   "pixel sees depth, normal, albedo, transmittance, single-scattering-albedo, samples")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(known_layers()));
-  command
-      ->add_option("--pass-range", options.pass_range,
-                   "Render a piece, of all passes those of these numbers: 0:64 ends with pass 63. vpm merge makes one "
-                   "picture of the pieces' checkpoints. --passes then tells how many there are in all, for what is "
-                   "\"auto\"")
-      ->check(check_pass_range)
-      ->excludes("--time")
-      ->excludes("--error");
-  CLI::Option* checkpoint =
-      command->add_flag("--checkpoint", options.checkpoint, "Write a checkpoint next to the image after each pass");
-  CLI::Option* overwrite =
-      command->add_flag("--overwrite", options.overwrite, "Let that checkpoint replace one that is there already");
-  overwrite->needs(checkpoint);
-  command->add_flag("--resume", options.resume, "Go on from that checkpoint, and keep it up to date")
-      ->excludes(overwrite);
-}
-
-void add_view(CLI::App& app, ViewOptions& options) {
-  CLI::App* command = app.add_subcommand("view", "Show a grid (.vdb): makes a scene around it and renders that");
-  command->add_option("grid_file", options.scene, "Grid file (.vdb)")->required();
-  add_picture_options(command, options, "FILE");
-  command->add_option("--grid", options.wishes.grid, "Name of the grid; default: \"density\", or the only one");
-  command
-      ->add_option("--optical-depth", options.wishes.optical_depth,
-                   "Optical depth across the medium, from which the extinction follows")
-      ->check(check_depth)
-      ->capture_default_str();
-  const std::map<std::string, UpAxis> axes{{"y", UpAxis::y}, {"z", UpAxis::z}};
-  command->add_option("--up", options.wishes.up, "Axis that is up: y (default), or z")
-      ->transform(CLI::CheckedTransformer(axes));
-  command->add_option("--scene", options.scene_output, "Also write the scene that is made, for editing (.toml)");
-}
-
-void add_merge(CLI::App& app, MergeOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("merge", "Merge pieces of a render (--pass-range) into the picture of one run");
-  command->add_option("pieces", options.pieces, "Checkpoints of the pieces, in any order")->required();
-  command->add_option("-o,--output", options.output,
-                      "Image to write (.exr); default: merged.exr in the current folder");
-  command->add_option("--scene", options.scene,
-                      "Scene file, where it is no longer where the first piece was rendered from");
-  add_exposure(command, options.exposure, "the preview");
-  CLI::Option* checkpoint =
-      command->add_flag("--checkpoint", options.checkpoint, "Also write a checkpoint of the whole next to the image");
-  command->add_flag("--overwrite", options.overwrite, "Let that checkpoint replace one that is there already")
-      ->needs(checkpoint);
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
-}
-
-void add_tonemap(CLI::App& app, TonemapOptions& options) {
-  CLI::App* command = app.add_subcommand("tonemap", "Write an EXR picture as a PNG file");
-  command->add_option("picture", options.picture, "Picture (.exr)")->required();
-  command->add_option("output", options.output, "File to write (.png)")->required();
-  add_exposure(command, options.exposure, "the picture");
-}
-
-void add_bake(CLI::App& app, BakeOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("bake", "Bake the irradiance on a shape over its texture coordinates into an EXR light map");
-  add_scene(command, options.scene);
-  add_pass_options(command, options, "SCENE.MESH");
-  command->add_option("--mesh", options.mesh, "Name of the shape: a quad, or a mesh with texture coordinates")
-      ->required();
-  command->add_option("--resolution", options.resolution, "Texels along an edge of the map")
-      ->check(whole_number(1, 16384))
-      ->capture_default_str();
-}
-
-void add_compare(CLI::App& app, CompareOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("compare", "Compare methods, error against cost, on scenes of an experiment file");
-  command->add_option("experiment", options.experiment, "Experiment file (.toml)")->required();
-  command->add_option("-o,--output", options.output, "Folder for results; an interrupted comparison goes on in it")
-      ->required();
-  command->add_option("--set", options.overrides, "Change a key of the experiment: key.path=value; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
-  add_progress(command, options.progress);
-}
-
-void add_info(CLI::App& app, InfoOptions& options) {
-  CLI::App* command = app.add_subcommand("info", "Tell what a scene or a .vdb file holds, and what a scene would run");
-  command->add_option("file", options.file, "Scene (.toml) or grid file (.vdb)")->required();
-  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
-      ->allow_extra_args(false);
-  command->add_flag("--all", options.all, "Also tell which stages are skipped and why, and details of grids");
-}
-
-void add_error(CLI::App& app, ErrorOptions& options) {
-  CLI::App* command = app.add_subcommand("error", "Tell how far a picture is from a reference, or several from one");
-  command->add_option("images", options.images, "Picture and reference (.exr); with --series the reference is the last")
-      ->required();
-  CLI::Option* series = command->add_flag(
-      "--series", options.series, "A line for each picture, and how their errors fall with the passes they tell");
-  command->add_option("-o,--output", options.output, "File for the difference, picture less reference (.exr)")
-      ->excludes(series);
-  command->add_flag("--resample", options.resample, "Bring the picture to the size of the reference")->excludes(series);
-  command->add_option("--worst", options.worst, "Pixels to list, those with the largest part in the relative MSE")
-      ->check(whole_number(0, 1'000'000))
-      ->capture_default_str()
-      ->excludes(series);
-  command->add_flag("--json", options.json, "Print JSON");
-}
-
-void add_report(CLI::App& app, ReportOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("report", "Make one page of a render: picture, errors, times, energy, settings");
-  command->add_option("report", options.report, "JSON report that vpm render wrote beside its image")->required();
-  command->add_option("-o,--output", options.output, "Page to write (.html); default: the report's name");
-}
-
-void add_media(CLI::App& app, MediaOptions& options) {
-  CLI::App* command = app.add_subcommand("media", "Make one of vpm's own density grids; without a name: list them");
-  command->add_option("name", options.name, "Which one");
-  command->add_option("--resolution", options.resolution, "Voxels along the longest edge")->capture_default_str();
-  command->add_option("-o,--output", options.output, "File to write (.vdb); default: NAME.vdb in the current folder");
-}
-
-void add_mesh(CLI::App& app, MeshOptions& options) {
-  CLI::App* command = app.add_subcommand("mesh", "Make one of vpm's own triangle meshes; without a name: list them");
-  command->add_option("name", options.name, "Which one");
-  command->add_option("--resolution", options.resolution, "Edges along its side or around its axis")
-      ->capture_default_str();
-  command->add_option("-o,--output", options.output, "File to write (.ply); default: NAME.ply in the current folder");
-}
-
-void add_validate(CLI::App& app, ValidateOptions& options) {
-  CLI::App* command = app.add_subcommand("validate", "Check vpm's numbers against identities and transport theory");
-  CLI::Option* level = command
-                           ->add_option("--level", options.level,
-                                        "Only this level: 0 distributions, 1 identities, 2 transport theory, "
-                                        "3 agreement, 4 convergence")
-                           ->check(whole_number(0, kLevels - 1));
-  CLI::Option* only = command->add_option("--only", options.only, "Only experiments whose name holds this text");
-  command
-      ->add_option("--oracles", options.oracles,
-                   "Instead: check every case of the reference numbers in the files of this folder")
-      ->excludes(level)
-      ->excludes(only);
-  CLI::Option* quick = command->add_flag_callback(
-      "--quick", [&options] { options.full = false; }, "Two and a half minutes on two cores (the default)");
-  command->add_flag("--full", options.full, "Tight errors, some 20 minutes")->excludes(quick);
-  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  command->add_option("--rate", options.rate, "Probability that right code fails the run")
-      ->check(check_rate)
-      ->capture_default_str();
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
-  command->add_option("--json", options.json, "Write every check to this file");
-  add_progress(command, options.progress);
-}
-
-void add_exact(CLI::App& app, ExactOptions& options) {
-  CLI::App* command = app.add_subcommand("exact", "Solve a problem exactly; without one: list them with their keys");
-  command->add_option("problem", options.problem, "Which one");
-  command->add_option("arguments", options.arguments, "What it is told: key=value");
-  command->add_flag("--json", options.json, "Print JSON");
-}
 
 /// The arguments, where "help" and "help COMMAND" stand for what --help stands for.
 std::vector<char*> with_help_as_option(int argc, char** argv) {
@@ -277,74 +30,43 @@ std::vector<char*> with_help_as_option(int argc, char** argv) {
   return arguments;
 }
 
-bool has_command(const CLI::App& app, const std::string& name) {
-  const auto all = app.get_subcommands([](const CLI::App*) { return true; });
-  return std::any_of(all.begin(), all.end(), [&](const CLI::App* command) { return command->get_name() == name; });
-}
-
 int run(int argc, char** argv) {
   CLI::App app("vpm: volumetric photon mapping", "vpm");
-  app.set_version_flag("--version", fmt::format("vpm {}", version()));
-  app.require_subcommand(1);
-  app.footer(
-      "Example: vpm render scenes/smoke.toml --time 20 renders for 20 seconds to smoke.exr and smoke.png.\n"
-      "vpm help COMMAND tells the options of a command; scenes/README.md how scenes are written.");
-  RenderOptions render;
-  ViewOptions view;
-  MergeOptions merge;
-  TonemapOptions tonemap;
-  BakeOptions bake;
-  CompareOptions compare;
-  InfoOptions info;
-  ErrorOptions error;
-  ReportOptions report;
-  MediaOptions media;
-  MeshOptions mesh;
-  ValidateOptions validate;
-  ExactOptions exact;
-  add_render(app, render);
-  add_view(app, view);
-  add_merge(app, merge);
-  add_tonemap(app, tonemap);
-  add_bake(app, bake);
-  add_compare(app, compare);
-  add_info(app, info);
-  add_error(app, error);
-  add_report(app, report);
-  add_media(app, media);
-  add_mesh(app, mesh);
-  add_validate(app, validate);
-  add_exact(app, exact);
+  CommandLine options;
+  declare_commands(app, options);
   if (argc == 1) {
     fmt::print(stderr, "{}", app.help());
     return kBadInput;
   }
-  if (argv[1][0] != '-' && std::strcmp(argv[1], "help") != 0 && !has_command(app, argv[1]))
-    throw InputError(fmt::format("there is no command '{}'; vpm help lists them", argv[1]));
+  const bool asks_help = std::strcmp(argv[1], "help") == 0;
+  const int named = asks_help ? 2 : 1;
+  if (named < argc && argv[named][0] != '-') check_command(app, argv[named]);
   const std::vector<char*> arguments = with_help_as_option(argc, argv);
   try {
     app.parse(static_cast<int>(arguments.size()), arguments.data());
-  } catch (const CLI::ParseError& refusal) {
+  } catch (const CLI::Success& asked) {
     std::ostringstream told;  // in a stream of its own main() would not see that it cannot be written
-    const int status = app.exit(refusal, told, std::cerr);
+    app.exit(asked, told, told);
     fmt::print("{}", told.str());
-    return status == 0 ? 0 : kBadInput;
+    return 0;
+  } catch (const CLI::ParseError& refusal) {
+    throw InputError(text_of_refusal(app, refusal));
   }
-  if (app.got_subcommand("render")) return render_command(render);
+  if (app.got_subcommand("render")) return render_command(options.render);
   if (const int ranks = started_ranks(); ranks > 1)
     throw InputError(fmt::format("{} processes were started to do the same: only render shares its work", ranks));
-  if (app.got_subcommand("view")) return view_command(view);
-  if (app.got_subcommand("merge")) return merge_command(merge);
-  if (app.got_subcommand("tonemap")) return tonemap_command(tonemap);
-  if (app.got_subcommand("bake")) return bake_command(bake);
-  if (app.got_subcommand("compare")) return compare_command(compare);
-  if (app.got_subcommand("info")) return info_command(info);
-  if (app.got_subcommand("error")) return error_command(error);
-  if (app.got_subcommand("report")) return report_command(report);
-  if (app.got_subcommand("mesh")) return mesh_command(mesh);
-  if (app.got_subcommand("validate")) return validate_command(validate);
-  if (app.got_subcommand("exact")) return exact_command(exact);
-  return media_command(media);
+  if (app.got_subcommand("view")) return view_command(options.view);
+  if (app.got_subcommand("merge")) return merge_command(options.merge);
+  if (app.got_subcommand("tonemap")) return tonemap_command(options.tonemap);
+  if (app.got_subcommand("bake")) return bake_command(options.bake);
+  if (app.got_subcommand("compare")) return compare_command(options.compare);
+  if (app.got_subcommand("info")) return info_command(options.info);
+  if (app.got_subcommand("error")) return error_command(options.error);
+  if (app.got_subcommand("report")) return report_command(options.report);
+  if (app.got_subcommand("mesh")) return mesh_command(options.mesh);
+  if (app.got_subcommand("validate")) return validate_command(options.validate);
+  if (app.got_subcommand("exact")) return exact_command(options.exact);
+  return media_command(options.media);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <cstdint>
 #include <cstdio>
+#include <regex>
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
@@ -37,6 +38,10 @@ Outputs output_paths(const std::string& image, const std::string& name) {
   const fs::path exr = image.empty() ? name + ".exr" : image;
   if (exr.extension() != ".exr")
     throw InputError(fmt::format("{}: the image is an EXR file, its name must end in .exr", exr.string()));
+  if (std::regex_search(exr.filename().string(), std::regex("%[0-9]*d")))
+    throw InputError(fmt::format(
+        "{}: a name with %d is for the frames of a sequence, and one picture is rendered; name a file for it",
+        exr.string()));
   const auto with_extension = [&](const char* extension) { return fs::path(exr).replace_extension(extension); };
   return {exr, with_extension(".png"), with_extension(".json"), with_extension(".checkpoint"),
           with_extension(".errors.csv")};

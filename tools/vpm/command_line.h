@@ -1,0 +1,32 @@
+// The options of all commands, as the command line declares them.
+#pragma once
+
+#include "commands.h"
+
+namespace CLI {
+class App;
+}
+
+namespace vpm::tools {
+
+/// What the commands are told: a parsed command line fills that of the command it names.
+struct CommandLine {
+  RenderOptions render;
+  ViewOptions view;
+  MergeOptions merge;
+  TonemapOptions tonemap;
+  BakeOptions bake;
+  CompareOptions compare;
+  InfoOptions info;
+  ErrorOptions error;
+  ReportOptions report;
+  MediaOptions media;
+  MeshOptions mesh;
+  ValidateOptions validate;
+  ExactOptions exact;
+};
+
+/// Declares the commands to `app`; both structures must outlive its parsing.
+void declare_commands(CLI::App& app, CommandLine& options);
+
+}  // namespace vpm::tools
