@@ -159,6 +159,7 @@ TEST(SplitPolygon, SlitsMayBeRounded) {
                                  {5.5f, 6},
                                  {4, 6},
                                  {5.1f, 4.7f},
+                                 {3.6f, 4.2f},
                                  {0, 3}})
       corners.push_back(rotation * (Vec3(p, 0.5f) + shift));
     EXPECT_FALSE(split_of(corners).crosses_itself) << i;
