@@ -1,4 +1,5 @@
-// Wavefront OBJ: the lines `v`, `vt`, `vn` and `f`; all others describe what a mesh here does not have.
+// Wavefront OBJ: the lines `v`, `vt`, `vn` and `f` (or `fo`). Curves and free-form surfaces are counted; all other
+// lines describe what a mesh here does not have.
 //
 // It is read here because tinyobjloader, as Debian 12 packages it (2.0.0~rc10), takes faces that name vertices which
 // the file does not have (TALOS-2020-1212, mended upstream in 2023); damaged files must be refused with the line and
