@@ -214,7 +214,7 @@ TEST(StrategiesExtremes, ASpikeOfOneVoxelIsSeenByAllButTheMarch) {
   };
   for (const char* strategy : {"regular", "delta", "delta-local", "decomposition"})
     expect_share(share({.strategy = strategy}), through, kFlights, strategy);
-  EXPECT_NEAR(share({.strategy = "ray-march", .step = 2.0f}), 1.0, 1e-4) << "its middles miss the spike: documented";
+  EXPECT_NEAR(share({"ray-march", {{"step", 2.0f}}}), 1.0, 1e-4) << "its middles miss the spike: documented";
 }
 
 }  // namespace

@@ -10,8 +10,10 @@ namespace {
 
 TEST(SceneFile, ClosedRangesHoldTheirEnds) {
   const RenderJob loaded = load_with(
-      "[materials.a]\ntype = 'conductor'\neta = 1e-3\nk = 1e-6\n[materials.b]\ntype = 'dielectric'\nior = 1000\n"
-      "[render]\nmax_optical_step = 1e-4\n[distance]\nstep = 1e-3\n");
+      "[materials.a]\ntype = 'conductor'\neta = 1e-3\nk = 1e-6\n"
+      "[materials.b]\ntype = 'dielectric'\nior = 1000\n"
+      "[integrator]\nmax_optical_step = 1e-4\n"
+      "[integrator.distance]\ntype = 'ray-march'\nstep = 1e-3\n");
   EXPECT_EQ(std::get<Conductor>(loaded.scene.materials[0]).k, Rgb(1e-6f));
   EXPECT_EQ(loaded.settings.max_optical_step, 1e-4f);
 }
@@ -30,19 +32,20 @@ TEST(SceneFile, ReadsCameraAndFilm) {
 TEST(SceneFile, ReadsEverySetting) {
   const RenderSettings s =
       load_with(
-          "[render]\nintegrator = 'photon'\npasses = 3\nseconds = 1.5\nseed = 9\nsamples_per_pixel = 2\nmax_events = "
-          "77\nradii = 'constant'\n"
-          "max_optical_step = 0.25\n[photons]\nemitted = 1000\nstored = 500\nin_cube = 4\n[importance]\nimportons = "
-          "70\n"
-          "aim = false\nsplit = false\nscatter = true\n[distance]\nstrategy = 'ray-march'\nstep "
-          "= 0.5\noptical_step = 0.02\nextinction_floor = 0.2\nmajorant = 0.125\n"
-          "[transmittance]\nestimator = 'ray-march'\nstep = 0.75\nsamples = 2.5\n"
-          "[media.fog]\ntype = 'homogeneous'\nsigma_s = 1\nsigma_a = 0\n"
-          "[volume]\ngather = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
-          "'density-at-photon'\ndirect = 'shadow-rays'\n"
-          "[surface]\ngather = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\ndirect = 'photons'\n"
-          "indirect = 'final-gather'\ngather_rays = 5\ngather_by = 'photons'\nirradiance = 'precomputed'\n"
-          "[caustics]\nradius = 0.01\nemitted = 800\n")
+          "[render]\npasses = 3\nseconds = 1.5\nseed = 9\nsamples_per_pixel = 2\nmax_events = 77\n"
+          "[integrator]\ntype = 'photon-map'\nradii = 'constant'\nmax_optical_step = 0.25\n"
+          "[integrator.photons]\nemitted = 1000\nstored = 500\nin_cube = 4\n"
+          "[integrator.importance]\nimportons = 70\naim = false\nsplit = false\nscatter = true\n"
+          "[integrator.distance]\ntype = 'ray-march-adaptive'\nstep = 0.5\noptical_step = 0.02\n"
+          "[integrator.transmittance]\ntype = 'unbiased-ray-march'\nsamples = 2.5\n"
+          "[integrator.volume]\ntype = 'nearest'\nradius = 0.1\ncount = 40\nkernel = 'biweight'\nform = "
+          "'density-at-photon'\n"
+          "[integrator.single_scattering]\ntype = 'shadow-rays'\n"
+          "[integrator.surface]\ntype = 'nearest'\nradius = 0.3\ncount = 60\nkernel = 'constant'\n"
+          "[integrator.direct]\ntype = 'photons'\n"
+          "[integrator.indirect]\ntype = 'final-gather'\nrays = 5\nrays_by = 'photons'\nirradiance = 'precomputed'\n"
+          "[integrator.caustics]\nradius = 0.01\nemitted = 800\n"
+          "[media.fog]\ntype = 'homogeneous'\nsigma_s = 1\nsigma_a = 0\n")
           .settings;
   EXPECT_EQ(s.integrator, Integrator::photon);
   EXPECT_EQ(s.until.passes, 3);
@@ -61,14 +64,10 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_TRUE(s.guide.scatter);
   EXPECT_EQ(s.caustics.radius.metres(), 0.01f);
   EXPECT_EQ(s.caustics_emitted, 800u);
-  EXPECT_EQ(s.distance.strategy, "ray-march");
-  EXPECT_EQ(s.distance.step, 0.5f);
-  EXPECT_EQ(s.distance.optical_step, 0.02f);
-  EXPECT_EQ(s.distance.extinction_floor, 0.2f);
-  EXPECT_EQ(s.distance.majorant, 0.125f);
-  EXPECT_EQ(s.transmittance.estimator, "ray-march");
-  EXPECT_EQ(s.transmittance.step, 0.75f);
-  EXPECT_EQ(s.transmittance.samples, 2.5f);
+  EXPECT_EQ(s.distance.strategy, "ray-march-adaptive");
+  EXPECT_EQ(s.distance.parameters, (Parameters{{"step", 0.5f}, {"optical_step", 0.02f}}));
+  EXPECT_EQ(s.transmittance.estimator, "unbiased-ray-march");
+  EXPECT_EQ(s.transmittance.parameters, (Parameters{{"samples", 2.5f}}));
   EXPECT_EQ(s.volume.mode, GatherMode::nearest);
   EXPECT_EQ(s.volume.radius.metres(), 0.1f);
   EXPECT_EQ(s.volume.count, 40u);
@@ -87,40 +86,34 @@ TEST(SceneFile, ReadsEverySetting) {
 }
 
 TEST(SceneFile, CorrectsAtBordersWhereAsked) {
-  const RenderSettings volume = load_with("[volume]\nboundary = 'corrected'\n").settings;
+  const RenderSettings volume = load_with("[integrator.volume]\nboundary = 'corrected'\n").settings;
   EXPECT_EQ(volume.volume.boundary, BoundaryRule::corrected);
   EXPECT_EQ(volume.surface.boundary, BoundaryRule::none);
   EXPECT_EQ(volume.caustics.boundary, BoundaryRule::none);
-  const RenderSettings surface = load_with("[surface]\nboundary = 'corrected'\n").settings;
+  const RenderSettings surface = load_with("[integrator.surface]\nboundary = 'corrected'\n").settings;
   EXPECT_EQ(surface.volume.boundary, BoundaryRule::ends);  // the default
   EXPECT_EQ(surface.surface.boundary, BoundaryRule::corrected);
   EXPECT_EQ(surface.caustics.boundary, BoundaryRule::corrected);  // goes with the surface's
-  const RenderSettings plain = load_with("[volume]\nboundary = 'none'\n[surface]\nboundary = 'none'\n").settings;
+  const RenderSettings plain = load_with(
+                                   "[integrator.volume]\nboundary = 'none'\n"
+                                   "[integrator.surface]\nboundary = 'none'\n")
+                                   .settings;
   EXPECT_EQ(plain.volume.boundary, BoundaryRule::none);
   EXPECT_EQ(plain.surface.boundary, BoundaryRule::none);
 }
 
 TEST(SceneFile, SingleScatteringMayBeEquiangular) {
-  const RenderSettings usual = load_with("[volume]\ndirect = 'equiangular'\n").settings;
+  const RenderSettings usual = load_with("[integrator.single_scattering]\ntype = 'equiangular'\n").settings;
   EXPECT_EQ(usual.volume_direct, DirectLight::equiangular);
   EXPECT_EQ(usual.direct_samples, RenderSettings{}.direct_samples);
-  EXPECT_EQ(load_with("[volume]\ndirect = 'equiangular'\ndirect_samples = 7\n").settings.direct_samples, 7);
-}
-
-TEST(SceneFile, AMethodChoosesDirectAndIndirectLight) {
-  const auto with = [](const std::string& method) {
-    return load_with("[surface]\nmethod = '" + method + "'\n").settings;
-  };
-  EXPECT_EQ(with("visualise").surface_direct, DirectLight::photons);
-  EXPECT_EQ(with("visualise").surface_indirect, IndirectLight::photons);
-  EXPECT_EQ(with("progressive").surface_direct, DirectLight::shadow_rays);
-  EXPECT_EQ(with("progressive").surface_indirect, IndirectLight::photons);
-  EXPECT_EQ(with("final-gather").surface_direct, DirectLight::shadow_rays);
-  EXPECT_EQ(with("final-gather").surface_indirect, IndirectLight::final_gather);
+  EXPECT_EQ(load_with("[integrator.single_scattering]\ntype = 'equiangular'\nsamples = 7\n").settings.direct_samples,
+            7);
 }
 
 TEST(SceneFile, RadiiAreOfAllPassesOrShrinkByPassOrByPixel) {
-  const auto with = [](const std::string& radii) { return load_with("[render]\nradii = '" + radii + "'\n").settings; };
+  const auto with = [](const std::string& radii) {
+    return load_with("[integrator]\nradii = '" + radii + "'\n").settings;
+  };
   EXPECT_EQ(load_with("").settings.radii, RadiusSchedule::per_pass);
   EXPECT_EQ(with("constant").radii, RadiusSchedule::constant);
   EXPECT_EQ(with("per-pass").radii, RadiusSchedule::per_pass);
@@ -128,7 +121,9 @@ TEST(SceneFile, RadiiAreOfAllPassesOrShrinkByPassOrByPixel) {
 }
 
 TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
-  const RenderSettings s = load_with("[render]\n[photons]\n[distance]\n[transmittance]\n[volume]\n[surface]\n")
+  const RenderSettings s = load_with(
+                               "[render]\n[integrator]\n[integrator.photons]\n[integrator.distance]\n"
+                               "[integrator.transmittance]\n[integrator.volume]\n[integrator.surface]\n")
                                .settings,
                        d;
   EXPECT_EQ(s.until.passes, d.until.passes);
@@ -137,67 +132,122 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(s.photons_emitted, d.photons_emitted);
   EXPECT_EQ(s.photons_stored, d.photons_stored);
   EXPECT_EQ(s.transmittance.estimator, d.transmittance.estimator);
-  EXPECT_EQ(s.transmittance.samples, d.transmittance.samples);
   EXPECT_EQ(s.volume.count, d.volume.count);
   EXPECT_EQ(s.volume.kernel, d.volume.kernel);
   EXPECT_EQ(s.surface_direct, d.surface_direct);
   EXPECT_EQ(s.gather_by, d.gather_by);
   EXPECT_EQ(s.end_irradiance, d.end_irradiance);
-  EXPECT_EQ(load_with("[photons]\nstored = 10\n").settings.photons_emitted, 0u);  // until the maps are full
+  EXPECT_EQ(load_with("[integrator.photons]\nstored = 10\n").settings.photons_emitted, 0u);  // until the maps are full
 }
 
 TEST(SceneFile, PhotonsFlyByNullCollisionsWhereNothingIsSaid) {
   EXPECT_EQ(load_with("").settings.distance.strategy, "delta-local");
-  EXPECT_EQ(load_with("[distance]\nstep = 2\n[render]\nintegrator = \"photon\"\n").settings.distance.strategy,
-            "delta-local");
+  EXPECT_EQ(load_with("[integrator]\ntype = 'photon-map'\n").settings.distance.strategy, "delta-local");
   for (const char* integrator : {"path", "combined"})
-    EXPECT_EQ(load_with(fmt::format("[render]\nintegrator = \"{}\"\n", integrator)).settings.distance.strategy,
-              "regular");
-  EXPECT_EQ(load_with("[distance]\nstrategy = \"delta\"\n").settings.distance.strategy, "delta");
-  // Where the integrator is chosen so is the strategy, unless it is given.
-  EXPECT_TRUE(load_with("[render]\nintegrator = \"auto\"\n").automatic.has("distance.strategy"));
-  EXPECT_FALSE(load_with("[render]\nintegrator = \"auto\"\n[distance]\nstrategy = \"delta\"\n")
-                   .automatic.has("distance.strategy"));
+    EXPECT_EQ(load_with(fmt::format("[integrator]\ntype = '{}'\n", integrator)).settings.distance.strategy, "regular");
+  EXPECT_EQ(load_with("[integrator.distance]\ntype = 'delta'\n").settings.distance.strategy, "delta");
 }
 
 using Keys = AutomaticSettings::Keys;
 
 TEST(SceneFile, AutoIsReadWhereItIsWritten) {
-  const RenderJob loaded = load_with("[volume]\nradius = 'auto'\n[photons]\nemitted = 'auto'\n[surface]\nradius = 2\n");
-  EXPECT_EQ(loaded.automatic.keys, (Keys{"photons.emitted", "volume.radius"}));
+  const RenderJob loaded = load_with(
+      "[integrator.photons]\nemitted = 'auto'\n"
+      "[integrator.volume]\nradius = 'auto'\n"
+      "[integrator.surface]\nradius = 2\n");
+  EXPECT_EQ(loaded.automatic.keys, (Keys{"integrator.photons.emitted", "integrator.volume.radius"}));
   EXPECT_FALSE(loaded.settings.volume.radius.is_given());
   EXPECT_EQ(loaded.settings.photons_emitted, RenderSettings{}.photons_emitted);
-  EXPECT_EQ(load_with("", {"distance.strategy=auto", "caustics.radius=auto", "volume.gather=auto"}).automatic.keys,
-            (Keys{"caustics.radius", "distance.strategy", "volume.gather"}));
+  EXPECT_EQ(load_with("", {"integrator.distance.type=auto", "integrator.indirect.type=final-gather",
+                           "integrator.caustics.radius=auto", "integrator.volume.type=auto"})
+                .automatic.keys,
+            (Keys{"integrator.caustics.radius", "integrator.distance.type", "integrator.volume.type"}));
   EXPECT_TRUE(load_with("").automatic.keys.empty());
 }
 
-TEST(SceneFile, RadiiThatAreLeftOutAreKnown) {
-  EXPECT_EQ(load_with("").automatic.left_out, (Keys{"caustics.radius", "surface.radius", "volume.radius"}));
-  const RenderJob loaded = load_with("[volume]\nradius = 'auto'\n[surface]\nradius = 2\n");
-  EXPECT_EQ(loaded.automatic.left_out, Keys{"caustics.radius"});
+const Keys kAll{"integrator.distance.type", "integrator.photons.emitted", "integrator.surface.radius",
+                "integrator.type", "integrator.volume.radius"};
+
+TEST(SceneFile, AnAutomaticIntegratorIsChosenWithAllThatItHas) {
+  const RenderJob loaded = load_with("[integrator]\ntype = 'auto'\n");
+  EXPECT_EQ(loaded.automatic.keys, kAll);
+  EXPECT_TRUE(loaded.notes.empty());
 }
 
+TEST(SceneFile, RadiiThatAreLeftOutAreKnown) {
+  EXPECT_EQ(load_with("").automatic.left_out, (Keys{"integrator.surface.radius", "integrator.volume.radius"}));
+  const RenderJob loaded = load_with(
+      "[integrator.volume]\nradius = 'auto'\n"
+      "[integrator.indirect]\ntype = 'final-gather'\n"
+      "[integrator.surface]\nradius = 2\n");
+  EXPECT_EQ(loaded.automatic.left_out, Keys{"integrator.caustics.radius"});
+  EXPECT_TRUE(load_with("[integrator]\ntype = 'path'\n").automatic.left_out.empty());
+}
+
+const char* const kPhotons =
+    "[integrator]\ntype = 'photon-map'\n"
+    "[integrator.photons]\nstored = 70\n"
+    "[integrator.surface]\nradius = 2\n";
+
 TEST(SceneFile, WhatIsLeftOutMayBeAutomatic) {
-  const std::string path = write_scene(kCamera + kLight + "[surface]\nradius = 2\n[photons]\nstored = 70\n");
-  const RenderJob loaded = load_scene(path, {"distance.strategy=delta"}, LeftOut::automatic);
-  EXPECT_EQ(loaded.automatic.keys, (Keys{"caustics.radius", "render.integrator", "volume.radius"}));
+  const std::string path = write_scene(kCamera + kLight + kPhotons);
+  const RenderJob loaded = load_scene(path, {"integrator.distance.type=delta"}, LeftOut::automatic);
+  EXPECT_EQ(loaded.automatic.keys, Keys{"integrator.volume.radius"});
   EXPECT_EQ(loaded.settings.surface.radius.metres(), 2.0f);
   EXPECT_EQ(loaded.settings.distance.strategy, "delta");
-  EXPECT_TRUE(load_scene(path, {"volume.gather=auto"}, LeftOut::automatic).automatic.has("volume.gather"));
-  EXPECT_TRUE(load_scene(path, {"photons.stored=9"}, LeftOut::automatic).automatic.has("distance.strategy"));
-  EXPECT_TRUE(load_scene(write_scene(kCamera + kLight), {}, LeftOut::automatic).automatic.has("photons.emitted"));
+  EXPECT_TRUE(
+      load_scene(path, {"integrator.volume.type=auto"}, LeftOut::automatic).automatic.has("integrator.volume.type"));
+  EXPECT_TRUE(
+      load_scene(path, {"integrator.photons.stored=9"}, LeftOut::automatic).automatic.has("integrator.distance.type"));
   EXPECT_NE(load_scene(path, {}, LeftOut::automatic).hash, load_scene(path).hash);
 }
 
-TEST(SceneFile, TechniquesThatAreLeftOutAreAutomaticBesideTheirIntegrator) {
+/// A file that says something of an integrator without naming it.
+TEST(SceneFile, WhereNothingNamesTheIntegratorAllMayBeAutomatic) {
+  const std::string path = write_scene(kCamera + kLight + "[integrator.surface]\nradius = 2\n");
+  const RenderJob loaded = load_scene(path, {}, LeftOut::automatic);
+  EXPECT_EQ(loaded.automatic.keys, kAll);
+  EXPECT_EQ(loaded.notes,
+            std::vector<std::string>{"integrator.type is \"auto\" in place of \"photon-map\": left out are "
+                                     "integrator.surface.radius"});
+  EXPECT_FALSE(loaded.settings.surface.radius.is_given());
+  EXPECT_THROW(load_scene(path, {"integrator.surface.radius=3"}, LeftOut::automatic), InputError);
+  EXPECT_EQ(load_scene(path, {"integrator.type=path"}, LeftOut::automatic).automatic.keys,
+            Keys{"integrator.distance.type"});
+}
+
+TEST(SceneFile, TechniquesThatAreLeftOutAreAutomaticWithTheirIntegrator) {
   const std::string path = write_scene(kCamera + kLight);
   const auto chooses_techniques = [&](const std::string& integrator) {
-    return load_scene(path, {"render.integrator=" + integrator}, LeftOut::automatic)
-        .automatic.has("combined.techniques");
+    return load_scene(path, {"integrator.type=" + integrator}, LeftOut::automatic)
+        .automatic.has("integrator.techniques");
   };
   EXPECT_TRUE(chooses_techniques("combined"));
-  EXPECT_FALSE(chooses_techniques("photon"));
+  EXPECT_FALSE(chooses_techniques("photon-map"));
+}
+
+TEST(SceneFile, AnotherComponentLeavesOutWhatItDoesNotHave) {
+  const std::string path = write_scene(kCamera + kLight +
+                                       "[integrator.photons]\nemitted = 900\nin_cube = 3\n[integrator.volume]\ntype = "
+                                       "'nearest'\ncount = 9\nradius = 2\n");
+  const RenderJob combined = load_scene(path, {"integrator.type=combined"});
+  EXPECT_EQ(combined.notes,
+            std::vector<std::string>{"integrator.type is \"combined\" in place of \"photon-map\": left out are "
+                                     "integrator.photons.in_cube, integrator.volume.type, integrator.volume.count"});
+  EXPECT_EQ(combined.settings.photons_emitted, 900u);
+  EXPECT_EQ(combined.settings.volume.radius.metres(), 2.0f);
+  const RenderJob beam = load_scene(path, {"integrator.volume.type=radius"});
+  EXPECT_EQ(beam.notes,
+            std::vector<std::string>{"integrator.volume.type is \"radius\" in place of \"nearest\": left out "
+                                     "are integrator.volume.count"});
+  EXPECT_TRUE(load_scene(path, {"integrator.type=photon-map"}).notes.empty());
+  // What options say is not left out.
+  EXPECT_THROW(load_scene(path, {"integrator.type=path", "integrator.photons.emitted=7"}), InputError);
+  EXPECT_EQ(load_scene(path, components_first({"integrator.photons.emitted=7", "integrator.type=combined"}))
+                .settings.photons_emitted,
+            7u);
+  EXPECT_EQ(components_first({"a=1", "integrator.volume.type=beam", "b=2", "integrator.type=path"}),
+            (std::vector<std::string>{"integrator.type=path", "integrator.volume.type=beam", "a=1", "b=2"}));
 }
 
 }  // namespace

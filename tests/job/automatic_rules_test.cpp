@@ -162,16 +162,16 @@ TEST(Automatic, TheCheapestStrategyIsTheFirstOfEquals) {
 
 TEST(Automatic, RefusesChoicesThatAreNone) {
   RenderSettings settings;
-  set_chosen(settings, "volume.radius", "0.0123");
+  set_chosen(settings, "integrator.volume.radius", "0.0123");
   EXPECT_EQ(settings.volume.radius.metres(), 0.0123f);
-  set_chosen(settings, "photons.emitted", "170000");
+  set_chosen(settings, "integrator.photons.emitted", "170000");
   EXPECT_EQ(settings.photons_emitted, 170'000u);
-  set_chosen(settings, "distance.strategy", "delta");
+  set_chosen(settings, "integrator.distance.type", "delta");
   EXPECT_EQ(settings.distance.strategy, "delta");
-  EXPECT_THROW(set_chosen(settings, "volume.radius", "-1"), InputError);
-  EXPECT_THROW(set_chosen(settings, "volume.radius", "1 m"), InputError);
-  EXPECT_THROW(set_chosen(settings, "photons.emitted", "0"), InputError);
-  EXPECT_THROW(set_chosen(settings, "distance.strategy", "woodcock"), InputError);
+  EXPECT_THROW(set_chosen(settings, "integrator.volume.radius", "-1"), InputError);
+  EXPECT_THROW(set_chosen(settings, "integrator.volume.radius", "1 m"), InputError);
+  EXPECT_THROW(set_chosen(settings, "integrator.photons.emitted", "0"), InputError);
+  EXPECT_THROW(set_chosen(settings, "integrator.distance.type", "woodcock"), InputError);
   EXPECT_THROW(set_chosen(settings, "film.width", "3"), InputError);
   EXPECT_THROW(set_chosen(settings, "render.passes", "3"), InputError);
 }

@@ -14,12 +14,11 @@
 #include "vpm/estimate/photon_map.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/counted_cost.h"
-#include "vpm/job/declare.h"
+#include "vpm/job/describe.h"
 #include "vpm/job/pass_time.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
-#include "vpm/job/setting.h"
 #include "vpm/render/combined_pass.h"
 
 namespace vpm {
@@ -28,8 +27,9 @@ namespace {
 /// No clock decides where no time is asked for: all that can be chosen is.
 TEST(Automatic, ChoosesTheSameOnAnyNumberOfThreads) {
   const Scene scene = cloud_over_floor(true);
-  const AutomaticSettings automatic{{"render.integrator", "photons.emitted", "volume.gather", "volume.radius",
-                                     "surface.radius", "distance.strategy"}};
+  const AutomaticSettings automatic{{"integrator.type", "integrator.photons.emitted", "integrator.volume.type",
+                                     "integrator.volume.radius", "integrator.surface.radius",
+                                     "integrator.distance.type"}};
   std::vector<std::vector<Choice>> chosen;
   for (const int threads : {1, 2}) {
     set_threads(threads);
@@ -70,7 +70,9 @@ TEST(Automatic, ChangesNothingThatIsGiven) {
   given.distance.strategy = "delta";
   RenderSettings settings = given;
   EXPECT_TRUE(choose_settings(scene, {}, {SimulatedClock(), kInfinity}, settings).choices.empty());
-  EXPECT_EQ(choose_settings(scene, {{"surface.radius"}}, {SimulatedClock(), kInfinity}, settings).choices.size(), 1u);
+  EXPECT_EQ(
+      choose_settings(scene, {{"integrator.surface.radius"}}, {SimulatedClock(), kInfinity}, settings).choices.size(),
+      1u);
   EXPECT_EQ(settings.volume.radius.metres(), 0.3f);
   EXPECT_NE(settings.surface.radius.metres(), 0.4f);
   EXPECT_EQ(settings.caustics.radius.metres(), 0.5f);
@@ -83,9 +85,9 @@ TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
   RenderSettings settings;
   settings.integrator = Integrator::path;
   AutomaticSettings all;
-  for (const Setting& setting : all_settings())
-    if (setting.automatic) all.keys.insert(setting.key);
-  EXPECT_EQ(all.keys.erase("render.integrator"), 1u);
+  for (const SettingOfSome& each : every_setting())
+    if (each.setting.automatic) all.keys.insert(each.setting.key);
+  EXPECT_EQ(all.keys.erase("integrator.type"), 1u);
   EXPECT_EQ(all.keys.size(), 7u);
   const std::vector<Choice> choices = choose_settings(scene, all, {SimulatedClock(), kInfinity}, settings).choices;
   ASSERT_EQ(choices.size(), 1u);
@@ -109,7 +111,7 @@ TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
   RenderSettings settings;
   settings.volume_direct = DirectLight::photons;
   settings.photons_emitted = 1'000'000;
-  choose_records(scene, {{"volume.radius"}}, kInfinity, settings);
+  choose_records(scene, {{"integrator.volume.radius"}}, kInfinity, settings);
   // Of a cylinder through the box, 2 m long, that a share of 1 - exp(-0.02) collides in; few do so twice.
   const double collisions = -std::expm1(-0.02) * settings.photons_emitted;
   const double share = 4.0 / 3.0 * std::pow(settings.volume.radius.metres(), 3.0) / (0.9 * 0.9 * 2.0);
@@ -156,7 +158,7 @@ TEST(Automatic, DefaultRadiiAreTheSameWhateverTimeIsAskedFor) {
   const AssembledScene room = foggy_room(4.0f);
   RenderSettings unhurried, hurried;
   hurried.until.seconds = 0.1;
-  const AutomaticSettings automatic{.left_out = {"volume.radius"}};
+  const AutomaticSettings automatic{.left_out = {"integrator.volume.radius"}};
   choose_default_radii(room.scene, automatic, unhurried);
   choose_default_radii(room.scene, automatic, hurried);
   EXPECT_EQ(hurried.volume.radius, unhurried.volume.radius);
@@ -168,7 +170,7 @@ TEST(Automatic, TheRadiusOfBeamsHoldsTheFlightsThatItPromises) {
   RenderSettings settings;
   settings.volume.mode = GatherMode::photon_beams;
   settings.photons_emitted = 1'000'000;
-  choose_records(scene, {{"volume.radius"}}, kInfinity, settings);
+  choose_records(scene, {{"integrator.volume.radius"}}, kInfinity, settings);
   const double share = std::pow(settings.volume.radius.metres() / 0.9, 2.0);  // of the photons
   EXPECT_NEAR(share * settings.photons_emitted, kPhotonsWithin, 0.15 * kPhotonsWithin);
 }
@@ -186,7 +188,7 @@ TEST(Automatic, TheRadiusHoldsThePhotonsThatItPromises) {
   RenderSettings settings;
   settings.surface_direct = DirectLight::photons;
   settings.photons_emitted = 400'000;
-  choose_records(scene, {{"surface.radius"}}, kInfinity, settings);
+  choose_records(scene, {{"integrator.surface.radius"}}, kInfinity, settings);
   const double share = std::pow(settings.surface.radius.metres() / 0.9, 2.0);  // of the photons
   // The median over 512 places of densities told by 16 photons each: off by 2 % or so, and by 4 % as the median of a
   // gamma distribution is; a tenth is four standard deviations at least.
@@ -215,23 +217,25 @@ TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMapsUpToThatOfMerges) {
   RenderSettings combined;
   combined.integrator = Integrator::combined;
   combined.surface.mode = GatherMode::nearest;  // which merges do not go by
-  const AutomaticSettings automatic{{"photons.emitted", "volume.radius", "surface.radius"}};
+  const AutomaticSettings automatic{
+      {"integrator.photons.emitted", "integrator.volume.radius", "integrator.surface.radius"}};
   constexpr double kLimit = 0.25;  // s
   EXPECT_EQ(choose_records(scene, automatic, kLimit, combined).size(), 3u);
   EXPECT_GE(combined.photons_emitted, kLeastCount);
   EXPECT_LE(combined.photons_emitted, 100'000u);  // of a picture of 3000 pixels
   RenderSettings maps;
   maps.photons_emitted = combined.photons_emitted;
-  choose_records(scene, {{"volume.radius", "surface.radius"}}, kLimit, maps);
+  choose_records(scene, {{"integrator.volume.radius", "integrator.surface.radius"}}, kLimit, maps);
   EXPECT_EQ(combined.volume.radius.metres(), std::min(maps.volume.radius.metres(), first_radius_of_merges({}, scene)));
   EXPECT_EQ(combined.surface.radius.metres(), std::min(maps.surface.radius.metres(), first_radius({}, scene)));
-  EXPECT_THROW(choose_settings(scene, {{"volume.gather"}}, {SimulatedClock(), kInfinity}, combined), InputError);
+  EXPECT_THROW(choose_settings(scene, {{"integrator.volume.type"}}, {SimulatedClock(), kInfinity}, combined),
+               InputError);
 }
 
 /// Few photons want wide radii, within which merges at borders would lose light.
 TEST(Automatic, MergesAreByDefaultNoWiderThanWhereNobodyChooses) {
   const Scene scene = cloud_over_floor(true);
-  const AutomaticSettings automatic{.left_out = {"volume.radius", "surface.radius"}};
+  const AutomaticSettings automatic{.left_out = {"integrator.volume.radius", "integrator.surface.radius"}};
   RenderSettings maps, combined;
   maps.photons_emitted = combined.photons_emitted = 2000;
   combined.integrator = Integrator::combined;
@@ -247,7 +251,8 @@ TEST(Automatic, MergesAreByDefaultNoWiderThanWhereNobodyChooses) {
 /// Also those that are "auto", where choosing is given up.
 TEST(Automatic, RadiiHaveTheirDefaultsWhereTheTimeDoesNotAllowMore) {
   const Scene scene = cloud_over_floor(true);
-  const AutomaticSettings automatic{{"photons.emitted", "volume.radius", "surface.radius"}};
+  const AutomaticSettings automatic{
+      {"integrator.photons.emitted", "integrator.volume.radius", "integrator.surface.radius"}};
   RenderSettings usual;
   usual.until.seconds = 1.0;
   RenderSettings settings = usual;
@@ -267,7 +272,7 @@ TEST(Automatic, TheFirstOfAllIsTakenWhereTheTimeAllowsNoTrial) {
   settings.until.seconds = 1.0;
   const HastyClock clock;
   const std::vector<Choice> choices =
-      choose_settings(scene, {{"render.integrator", "volume.radius"}}, {clock, 1.0}, settings).choices;
+      choose_settings(scene, {{"integrator.type", "integrator.volume.radius"}}, {clock, 1.0}, settings).choices;
   ASSERT_EQ(choices.size(), 2u);
   EXPECT_EQ(choices[0].value, "photon");
   EXPECT_EQ(choices[0].reason.substr(0, 22), "the first of all; not ") << choices[0].reason;
@@ -278,10 +283,10 @@ TEST(Automatic, TheFirstOfAllIsTakenWhereTheTimeAllowsNoTrial) {
 TEST(Automatic, KeepsGathersThatAreGiven) {
   RenderSettings settings;
   settings.volume.mode = GatherMode::nearest;
-  choose_settings(lit_evenly(0.01f), {{"volume.radius"}}, {SimulatedClock(), kInfinity}, settings);
+  choose_settings(lit_evenly(0.01f), {{"integrator.volume.radius"}}, {SimulatedClock(), kInfinity}, settings);
   EXPECT_EQ(settings.volume.mode, GatherMode::nearest);
-  EXPECT_TRUE(
-      choose_settings(lit_evenly(0.0f), {{"volume.gather"}}, {SimulatedClock(), kInfinity}, settings).choices.empty());
+  EXPECT_TRUE(choose_settings(lit_evenly(0.0f), {{"integrator.volume.type"}}, {SimulatedClock(), kInfinity}, settings)
+                  .choices.empty());
 }
 
 TEST(Automatic, TheLeastErrorIsTheFirstsUnlessAnotherIsClearlyLess) {

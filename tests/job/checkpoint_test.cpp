@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Identity kRender{{"render.seed", "1"}, {"volume.radius", "0.25"}};
+const Identity kRender{{"render.seed", "1"}, {"integrator.volume.radius", "0.25"}};
 const Origin kOrigin{"/fog \xff\\n\nscenes/fog.toml",  // any bytes, as names of files are
                      {"media.fog.name=\"\"\"a\nb\"\"\"", "film.width=4"},
                      true,
@@ -144,11 +144,10 @@ TEST_F(Checkpoint, TellsWhereItsRenderIsReadFrom) {
 
 TEST_F(Checkpoint, OfAnotherRenderIsRefused) {
   write_checkpoint(path_, kRender, kOrigin, some_result());
-  refuses(
-      {{"render.seed", "2"}, {"scene", "fog"}},
-      "it is of another render; render on with the options that it began with\n  render.seed: 1 in the checkpoint, 2 "
-      "asked for\n  volume.radius: 0.25 in the checkpoint, nothing asked for\n"
-      "  scene: nothing in the checkpoint, fog asked for");
+  refuses({{"render.seed", "2"}, {"scene", "fog"}},
+          "it is of another render; render on with the options that it began with\n  render.seed: 1 in the checkpoint, "
+          "2 asked for\n  integrator.volume.radius: 0.25 in the checkpoint, nothing asked for\n  scene: nothing in the "
+          "checkpoint, fog asked for");
   refuses({kRender[1], kRender[0]}, "\n  the same keys stand in another order");
 }
 

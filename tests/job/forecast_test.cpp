@@ -39,14 +39,14 @@ TEST(Forecast, TellsHowManyPhotonsFit) {
     return photons_that_fit(cost, settings, settings.until.seconds);
   };
   const PassCost cost{1e-5, 1.0, 2.0};
-  EXPECT_EQ(fitting(cost, within(5.0, 2'000'000)), "about 400000 photons.emitted");  // 4 s of 20
+  EXPECT_EQ(fitting(cost, within(5.0, 2'000'000)), "about 400000 integrator.photons.emitted");  // 4 s of 20
   EXPECT_EQ(fitting({1e-5, 9.0, 2.0}, within(5.0, 100'000)), "");
   RenderSettings full = within(5.0, 0);
   full.photons_stored = 4'000'000;  // 2 of each photon
-  EXPECT_EQ(fitting(cost, full), "about 400000 photons.emitted");
+  EXPECT_EQ(fitting(cost, full), "about 400000 integrator.photons.emitted");
   // Of the eye's 17 s, 16 are for photons.
   EXPECT_EQ(fitting({.photon = 1e-5, .eye = 17.0, .gathered = 16.0}, within(4.0, 100'000)),
-            "about 17000 photons.emitted");
+            "about 17000 integrator.photons.emitted");
 }
 
 /// Fog of which a radius of a metre takes in nearly all photons.
@@ -58,7 +58,7 @@ TEST(Forecast, TellsARadiusThatFits) {
   const PassCost wide = time_pass(scene, settings);
   const double seconds = 0.3 * wide.seconds(20'000);
   const std::string text = radius_that_fits(scene, settings, seconds, kInfinity);
-  ASSERT_EQ(text.substr(0, 16), "volume.radius = ") << text;
+  ASSERT_EQ(text.substr(0, 16), "integrator.volume.radius = ") << text;
   settings.volume.radius = std::stof(text.substr(16));
   EXPECT_LT(settings.volume.radius.metres(), 1.0f);
   settings.volume.mode = GatherMode::nearest;
@@ -78,8 +78,8 @@ TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
     ADD_FAILURE() << "it fits";
   } catch (const InputError& error) {
     const std::string text = error.what();
-    for (const char* part : {"photons.emitted", "2e+08 photons", "13 GB", "8 GB", "000 photons.emitted would fit",
-                             "photons.block gathers as many"})
+    for (const char* part : {"integrator.photons.emitted", "2e+08 photons", "13 GB", "8 GB",
+                             "000 integrator.photons.emitted would fit", "integrator.photons.block gathers as many"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
   settings.photons_stored = 50'000'000;  // tracing stops there
@@ -109,8 +109,8 @@ TEST(Forecast, CountsTheBlockOfPhotonsThatMemoryHolds) {
     ADD_FAILURE() << "it fits";
   } catch (const InputError& error) {
     const std::string text = error.what();
-    for (const char* part :
-         {"photons.block: the maps of a block", "1e+08 photons", "4 GB", "000000 photons.block would"})
+    for (const char* part : {"integrator.photons.block: the maps of a block", "1e+08 photons", "4 GB",
+                             "000000 integrator.photons.block would"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
 }
@@ -153,7 +153,7 @@ TEST(Forecast, SeesCausticPhotonsThatTakeTooLong) {
   foresee(job, SimulatedClock());
   ASSERT_EQ(job.notes.size(), 1u);
   EXPECT_EQ(job.notes[0].substr(0, 14), "one pass takes");
-  EXPECT_NE(job.notes[0].find("caustics.emitted would fit"), std::string::npos) << job.notes[0];
+  EXPECT_NE(job.notes[0].find("integrator.caustics.emitted would fit"), std::string::npos) << job.notes[0];
 }
 
 /// From a part of either kind, of which the caustic ones are many more.
@@ -179,7 +179,7 @@ TEST(Forecast, RefusesCausticPhotonsThatDoNotFitIntoMemory) {
     ADD_FAILURE() << "it fits";
   } catch (const InputError& error) {
     const std::string text = error.what();
-    for (const char* part : {"caustics.emitted: ", "3 GB", "0000 caustics.emitted would fit"})
+    for (const char* part : {"integrator.caustics.emitted: ", "3 GB", "0000 integrator.caustics.emitted would fit"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
 }

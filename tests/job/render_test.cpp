@@ -264,7 +264,7 @@ TEST(Render, RefusesToGoOnWithAPictureOfAnotherSize) {
 
 TEST(RenderJob, ChoosesAgainWhatWasChosen) {
   RenderJob job = lit_floor(), again = lit_floor();
-  for (RenderJob* each : {&job, &again}) each->automatic.keys = {"surface.radius"};
+  for (RenderJob* each : {&job, &again}) each->automatic.keys = {"integrator.surface.radius"};
   choose(job);
   ASSERT_EQ(job.choices.size(), 1u);
   EXPECT_NE(job.settings.surface.radius, lit_floor().settings.surface.radius);
@@ -272,12 +272,12 @@ TEST(RenderJob, ChoosesAgainWhatWasChosen) {
   EXPECT_EQ(again.settings.surface.radius, job.settings.surface.radius);
   ASSERT_EQ(again.choices.size(), 1u);
   EXPECT_EQ(again.choices[0].value, job.choices[0].value);
-  EXPECT_THROW(choose_again(again, {{"surface.kernel", "cone", ""}}), InputError);  // it is never chosen
+  EXPECT_THROW(choose_again(again, {{"integrator.surface.kernel", "cone", ""}}), InputError);  // it is never chosen
 }
 
 TEST(RenderJob, ChoosingByTheTimeThatIsLeftLeavesTheTimeThatIsAskedFor) {
   RenderJob job = lit_floor();
-  job.automatic.keys = {"surface.radius"};
+  job.automatic.keys = {"integrator.surface.radius"};
   job.settings.until = {.seconds = 100.0};
   const SimulatedClock clock;
   clock.work(60.0);
@@ -289,7 +289,7 @@ TEST(RenderJob, ChoosingByTheTimeThatIsLeftLeavesTheTimeThatIsAskedFor) {
 TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
   const auto radius_of = [](double seconds, GatherMode mode) {
     RenderJob job = lit_floor();
-    job.automatic.left_out = {"surface.radius"};
+    job.automatic.left_out = {"integrator.surface.radius"};
     job.settings.surface.radius = {};
     job.settings.surface.mode = mode;
     if (seconds > 0.0) job.settings.until = {.seconds = seconds};
@@ -306,7 +306,7 @@ TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
 /// A default radius belongs to the first pass, which may take twice the time: what is over then is the render.
 TEST(RenderJob, EndsWhereTheTimeDoesNotAllowADefaultRadius) {
   RenderJob job = lit_floor();
-  job.automatic.left_out = {"surface.radius"};
+  job.automatic.left_out = {"integrator.surface.radius"};
   job.settings.surface.radius = {};
   job.settings.until = {.seconds = 2.0};
   const HastyClock clock;
@@ -318,10 +318,10 @@ TEST(RenderJob, EndsWhereTheTimeDoesNotAllowADefaultRadius) {
 }
 
 TEST(RenderJob, OfScenesMadeInCodeRadiiAreChosenThatNobodyGives) {
-  const AutomaticSettings::Keys others{"caustics.radius", "volume.radius"};
+  const AutomaticSettings::Keys others{"integrator.caustics.radius", "integrator.volume.radius"};
   EXPECT_EQ(lit_floor().automatic.left_out, others);
   RenderJob job = make_job({lit_floor().scene, {}, {}});
-  EXPECT_TRUE(job.automatic.left_out.contains("surface.radius"));
+  EXPECT_TRUE(job.automatic.left_out.contains("integrator.surface.radius"));
   job.settings = lit_floor().settings;  // a radius that is given later stays
   choose(job);
   EXPECT_EQ(job.automatic.left_out, others);
@@ -330,7 +330,7 @@ TEST(RenderJob, OfScenesMadeInCodeRadiiAreChosenThatNobodyGives) {
 
 TEST(RenderJob, ChoosesNothingForSettingsThatContradictThemselves) {
   RenderJob job = lit_floor();
-  job.automatic.keys = {"surface.radius"};
+  job.automatic.keys = {"integrator.surface.radius"};
   job.settings.photons_emitted = 0;
   EXPECT_THROW(choose(job), SettingError);
 }

@@ -29,9 +29,9 @@ RenderSettings settings_with(float radius) {
 }
 
 std::vector<Choice> choices_of(const RenderSettings& settings) {
-  return {{"photons.emitted", fmt::format("{}", settings.photons_emitted), "by cost"},
-          {"volume.radius", fmt::format("{}", settings.volume.radius.metres()), "by photons"},
-          {"caustics.emitted", "7", "given"}};
+  return {{"integrator.photons.emitted", fmt::format("{}", settings.photons_emitted), "by cost"},
+          {"integrator.volume.radius", fmt::format("{}", settings.volume.radius.metres()), "by photons"},
+          {"integrator.caustics.emitted", "7", "given"}};
 }
 
 std::vector<Choice> scaled(const Scene& scene, RenderSettings& settings) {
@@ -136,7 +136,7 @@ TEST(ScaleRecords, StaysWhereAWiderPassWouldNotFit) {
 TEST(ScaleRecords, LeavesAGivenRadius) {
   const Scene scene = fog_with_lamp();
   RenderSettings settings = settings_with(0.01f);
-  std::vector<Choice> choices{{"photons.emitted", "5000", "few"}};
+  std::vector<Choice> choices{{"integrator.photons.emitted", "5000", "few"}};
   scale_records(scene, 0.05, settings, choices);
   EXPECT_EQ(settings.volume.radius.metres(), 0.01f);
   EXPECT_EQ(choices[0].value, "5000");

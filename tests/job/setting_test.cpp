@@ -1,11 +1,12 @@
-// The declarations of settings: each reaches the member it names and no other, and its values survive being written.
-#include "vpm/job/setting.h"
+// The descriptions of settings: each reaches the member it names and no other, and its values survive being written.
+#include "vpm/job/describe.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <set>
 
 #include "vpm/job/settings_table.h"
@@ -35,115 +36,152 @@ std::vector<SettingValue> other_values(const Setting& setting, const SettingValu
   return values;
 }
 
-/// Of all members that are declared, by number of the declaration.
-std::vector<SettingValue> members(const RenderSettings& settings) {
-  std::vector<SettingValue> values;
-  for (const Setting& setting : all_settings()) values.push_back(setting.member.get(settings));
-  return values;
+/// The settings that some components have, chosen as the words say.
+RenderSettings chosen(const std::vector<std::pair<std::string, std::string>>& words) {
+  RenderSettings settings;
+  for (const auto& [key, word] : words) {
+    const std::optional<Setting> setting = find_setting(settings, key);
+    EXPECT_TRUE(setting) << key;
+    setting->set(*parse(*setting, word));
+  }
+  return settings;
 }
 
-TEST(Setting, HasAKeyOfItsOwnOrOfNeedsThatExcludeEachOther) {
-  std::map<std::string, int> declared;
-  std::vector<std::string> sections;
-  for (const Setting& setting : all_settings()) {
-    EXPECT_EQ(setting.section() + "." + setting.name(), setting.key);
-    EXPECT_EQ(setting.name().find('.'), std::string::npos);
-    EXPECT_TRUE(++declared[setting.key] == 1 || setting.need.met) << setting.key;
-    if (sections.empty() || sections.back() != setting.section()) sections.push_back(setting.section());
-  }
-  EXPECT_EQ(std::set<std::string>(sections.begin(), sections.end()).size(), sections.size()) << "a section in parts";
-  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams,
-                                GatherMode::photon_planes, GatherMode::beams_points}) {
-    RenderSettings s;
-    s.volume.mode = mode;
-    const auto all = all_settings();
-    const auto count = std::count_if(all.begin(), all.end(),
-                                     [&](const Setting& each) { return each.key == "volume.count" && each.needed(s); });
-    EXPECT_EQ(count, mode == GatherMode::nearest || mode == GatherMode::beam ? 1 : 0);
+/// Choices under which all settings are described at least once.
+std::vector<RenderSettings> all_choices() {
+  std::vector<RenderSettings> all;
+  for (const std::string gather : {"radius", "nearest", "beam", "photon-planes", "beams-points"})
+    all.push_back(chosen({{"integrator.volume.type", gather},
+                          {"integrator.importance.importons", "7"},
+                          {"integrator.single_scattering.type", "equiangular"},
+                          {"integrator.surface.type", "nearest"},
+                          {"integrator.indirect.type", "final-gather"},
+                          {"integrator.caustics.type", "nearest"}}));
+  for (const StrategyInfo& info : distance_strategies())
+    all.push_back(chosen({{"integrator.type", "path"}, {"integrator.distance.type", std::string(info.name)}}));
+  for (const EstimatorInfo& info : transmittance_estimators())
+    all.push_back(chosen({{"integrator.type", "path"}, {"integrator.transmittance.type", std::string(info.name)}}));
+  all.push_back(chosen({{"integrator.type", "combined"}, {"integrator.techniques", "connections+planes"}}));
+  return all;
+}
+
+/// Of all settings, in the order of their descriptions.
+std::vector<std::pair<std::string, SettingValue>> values(RenderSettings settings) {
+  std::vector<std::pair<std::string, SettingValue>> all;
+  for (const Setting& setting : describe(settings)) all.emplace_back(setting.key, setting.get());
+  return all;
+}
+
+TEST(Setting, HasAKeyOfItsOwn) {
+  for (RenderSettings settings : all_choices()) {
+    std::set<std::string> keys;
+    std::vector<std::string> tables;
+    for (const Setting& setting : describe(settings)) {
+      EXPECT_EQ(setting.table() + "." + setting.name(), setting.key);
+      EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
+      EXPECT_FALSE(setting.meaning.empty()) << setting.key;
+      if (tables.empty() || tables.back() != setting.table()) tables.push_back(setting.table());
+    }
+    EXPECT_EQ(std::set<std::string>(tables.begin(), tables.end()).size(), tables.size()) << "a table in parts";
   }
 }
 
-/// A member that is added to the settings does not compile here until it is named, and counted: then it is declared.
+/// A member that is added to the settings does not compile here until it is named, and described.
 TEST(Setting, IsEveryMemberOfTheSettings) {
   const RenderSettings s;
-  const auto& [integrator, seed, until, samples, view, emitted, stored, block, sequence, in_cube, flights, planes,
-               max_events, guide, combined, distance, transmittance, volume, surface, caustics, aimed, radii, form,
-               floor, volume_direct, beam_length, plane_use, direct_samples, surface_direct, surface_samples, indirect,
-               gather_rays, gather_by, irradiance, step] = s;
+  [[maybe_unused]] const auto& [integrator, seed, until, samples, view, emitted, stored, block, sequence, in_cube,
+                                flights, planes, max_events, guide, combined, distance, transmittance, volume, surface,
+                                caustics, aimed, radii, form, floor, volume_direct, beam_length, plane_use,
+                                direct_samples, surface_direct, surface_samples, indirect, gather_rays, gather_by,
+                                irradiance, step] = s;
   [[maybe_unused]] const auto& [passes, first, seconds, error] = until;
   [[maybe_unused]] const auto& [importons, aim, split, scatter] = guide;
   [[maybe_unused]] const auto& [techniques, heuristic, layers] = combined;
-  [[maybe_unused]] const auto& [strategy, length, optical, majorant, extinction] = distance;
-  [[maybe_unused]] const auto& [estimator, march, comb] = transmittance;
   [[maybe_unused]] const auto& [mode, radius, count, kernel, boundary, beam_count] = volume;
-  constexpr size_t kOwn = 35 - 8, kOfStopRule = 4, kOfGuide = 4, kOfCombined = 3, kOfDistance = 5, kOfTransmittance = 3,
-                   kOfGather = 6;
-  constexpr size_t kUndeclared = 4;  // surface.beam_count, caustics.beam_count, and caustics.boundary, the surface's;
-                                     // the first pass, which the maker of a piece tells
-  constexpr size_t kCombined = 1;    // surface.method
-  EXPECT_EQ(all_settings().size(), kOwn + kOfStopRule + kOfGuide + kOfCombined + kOfDistance + kOfTransmittance +
-                                       3 * kOfGather - kUndeclared + kCombined);
+  constexpr size_t kOwn = 35 - 8, kOfStopRule = 4, kOfGuide = 4, kOfCombined = 3, kOfGather = 6;
+  constexpr size_t kUndescribed = 4;  // surface.beam_count, caustics.beam_count, and caustics.boundary, the surface's;
+                                      // the first pass, which the maker of a piece knows
+  constexpr size_t kComponents = 2;   // the types of distance and transmittance; their numbers are not members
+  constexpr size_t kTwice = 1;        // planes, of photon maps and of combined techniques
+  size_t numbers = 0;
+  for (const StrategyInfo& info : distance_strategies()) numbers += info.parameters.size();
+  for (const EstimatorInfo& info : transmittance_estimators()) numbers += info.parameters.size();
+  std::set<std::string> keys;
+  size_t counts = 0;
+  for (RenderSettings settings : all_choices())
+    for (const Setting& setting : describe(settings)) {
+      keys.insert(setting.key);
+      counts += setting.key == "integrator.volume.count" && settings.volume.mode == GatherMode::beam;
+    }
+  EXPECT_EQ(counts, 1u);
+  const size_t same_name = 3;  // step and majorant of two strategies, step of two estimators
+  EXPECT_EQ(keys.size(), kOwn + kOfStopRule + kOfGuide + kOfCombined + 3 * kOfGather - kUndescribed + kComponents +
+                             kTwice + numbers - same_name - 1);  // volume.count is one key of two members
 }
 
 TEST(Setting, ReachesItsMemberAndNoOther) {
-  const RenderSettings usual;
-  for (const Setting& setting : all_settings()) {
-    if (!setting.stands_for.empty()) continue;
-    for (const SettingValue& value : other_values(setting, setting.member.get(usual))) {
-      RenderSettings s;
-      setting.member.set(s, value);
-      EXPECT_EQ(setting.member.get(s), value) << setting.key;
-      const std::vector<SettingValue> before = members(usual), after = members(s);
-      for (size_t i = 0; i < after.size(); ++i) {
-        const Setting& each = all_settings()[i];
-        const bool combines =
-            std::find(each.stands_for.begin(), each.stands_for.end(), setting.key) != each.stands_for.end();
-        if (&each == &setting || combines) continue;
-        EXPECT_EQ(after[i], before[i]) << setting.key << " changes " << each.key;
+  for (const RenderSettings& usual : all_choices()) {
+    RenderSettings described = usual;
+    for (const Setting& setting : describe(described))
+      for (const SettingValue& value : other_values(setting, setting.get())) {
+        RenderSettings s = usual;
+        find_setting(s, setting.key)->set(value);
+        EXPECT_EQ(find_setting(s, setting.key)->get(), value) << setting.key;
+        const auto after = values(s);
+        for (const auto& [key, before] : values(usual)) {
+          const auto same =
+              std::find_if(after.begin(), after.end(), [&](const auto& each) { return each.first == key; });
+          if (key != setting.key && same != after.end())
+            EXPECT_EQ(same->second, before) << setting.key << " changes " << key;
+        }
       }
-    }
   }
 }
 
 TEST(Setting, IsTheMemberThatItsKeyNames) {
-  RenderSettings s;
-  const auto set = [&](const std::string& key, const std::string& text) {
-    const Setting* const setting = find_setting(key, s);
-    ASSERT_TRUE(setting) << key;
-    setting->member.set(s, *parse(*setting, text));
-  };
-  set("surface.gather", "nearest");
-  set("surface.count", "17");
+  RenderSettings s = chosen({{"integrator.surface.type", "nearest"}, {"integrator.surface.count", "17"}});
   EXPECT_EQ(s.surface.count, 17u);
-  set("volume.gather", "beam");
-  set("volume.count", "18");
+  s = chosen({{"integrator.volume.type", "beam"}, {"integrator.volume.count", "18"}});
   EXPECT_EQ(s.volume.beam_count, 18u);
   EXPECT_EQ(s.volume.count, GatherSettings{}.count);
-  set("surface.boundary", "corrected");
+  s = chosen({{"integrator.surface.boundary", "corrected"}});
   EXPECT_EQ(s.caustics.boundary, BoundaryRule::corrected);  // goes with the surface's
-  set("surface.method", "final-gather");
-  EXPECT_EQ(s.surface_direct, DirectLight::shadow_rays);
-  EXPECT_EQ(s.surface_indirect, IndirectLight::final_gather);
-  s.surface_direct = DirectLight::photons;
-  EXPECT_EQ(find_setting("surface.method", s)->member.get(s), SettingValue(std::string()));  // a pair without a name
-  EXPECT_FALSE(find_setting("film.width", s));
-  EXPECT_EQ(find_setting("render.layers", s)->member.get(s), SettingValue(std::string("none")));
-  set("render.layers", "samples+depth");
+  s = chosen({{"integrator.distance.type", "ray-march"}, {"integrator.distance.step", "0.3"}});
+  EXPECT_EQ(s.distance.parameters, (Parameters{{"step", 0.3f}}));
+  EXPECT_FALSE(find_setting(s, "film.width"));
+  EXPECT_EQ(find_setting(s, "render.layers")->get(), SettingValue(std::string("none")));
+  s = chosen({{"render.layers", "samples+depth"}});
   EXPECT_TRUE(s.layers.has(ViewLayer::depth) && s.layers.has(ViewLayer::samples) && !s.layers.has(ViewLayer::normal));
 }
 
+TEST(Setting, IsOfTheChosenComponents) {
+  const auto has = [](const std::vector<std::pair<std::string, std::string>>& words, const char* key) {
+    RenderSettings s = chosen(words);
+    return find_setting(s, key).has_value();
+  };
+  EXPECT_FALSE(has({}, "integrator.volume.count"));
+  EXPECT_TRUE(has({{"integrator.volume.type", "nearest"}}, "integrator.volume.count"));
+  EXPECT_FALSE(has({{"integrator.type", "path"}}, "integrator.volume.radius"));
+  EXPECT_FALSE(has({{"integrator.type", "combined"}}, "integrator.transmittance.type"));
+  EXPECT_FALSE(has({}, "integrator.importance.aim"));
+  EXPECT_FALSE(has({{"integrator.distance.type", "mean-extinction"}}, "integrator.volume.density_floor"));
+  EXPECT_FALSE(has({{"integrator.type", "combined"}}, "integrator.planes"));
+  EXPECT_TRUE(has({{"integrator.type", "combined"}, {"integrator.techniques", "planes"}}, "integrator.planes"));
+}
+
 TEST(Setting, IsReadAgainFromItsText) {
-  for (const Setting& setting : all_settings()) {
-    const SettingValue usual = setting.member.get({});
-    for (const SettingValue& value : other_values(setting, usual))
-      EXPECT_EQ(parse(setting, text_of(value)), value) << setting.key << " = " << text_of(value);
-    for (const char* text : {"", "-1", "1e99", "nan", "inf", "12 m", "auto", "perhaps"})
-      EXPECT_FALSE(parse(setting, text)) << setting.key << " = " << text;
-  }
-  EXPECT_EQ(parse(*find_setting("volume.radius", {}), "0.0123"), SettingValue(0.0123f));
-  EXPECT_FALSE(parse(*find_setting("volume.radius", {}), "0"));
-  EXPECT_FALSE(parse(*find_setting("volume.density_floor", {}), "1.5"));
-  EXPECT_FALSE(parse(*find_setting("render.passes", {}), "0"));
+  for (RenderSettings settings : all_choices())
+    for (const Setting& setting : describe(settings)) {
+      for (const SettingValue& value : other_values(setting, setting.usual))
+        EXPECT_EQ(parse(setting, text_of(value)), value) << setting.key << " = " << text_of(value);
+      for (const char* text : {"", "-1", "1e99", "nan", "inf", "12 m", "auto", "perhaps"})
+        EXPECT_FALSE(parse(setting, text)) << setting.key << " = " << text;
+    }
+  RenderSettings s;
+  EXPECT_EQ(parse(*find_setting(s, "integrator.volume.radius"), "0.0123"), SettingValue(0.0123f));
+  EXPECT_FALSE(parse(*find_setting(s, "integrator.volume.radius"), "0"));
+  EXPECT_FALSE(parse(*find_setting(s, "integrator.volume.density_floor"), "1.5"));
+  EXPECT_FALSE(parse(*find_setting(s, "render.passes"), "0"));
 }
 
 TEST(Setting, OfWhatPassesEstimateIsTold) {
@@ -152,16 +190,32 @@ TEST(Setting, OfWhatPassesEstimateIsTold) {
   s.seed = 4;
   s.volume.radius = 0.1f;
   const std::string line = settings_line(s);
-  EXPECT_EQ(field_of(line, "volume.radius"), "0.1");
-  EXPECT_EQ(field_of(line, "render.integrator"), "photon");
-  EXPECT_EQ(field_of(line, "importance.aim"), "true");
-  for (const char* key : {"render.passes", "render.seed", "surface.method", "volume.count", "radius", "volume"})
+  EXPECT_EQ(field_of(line, "integrator.volume.radius"), "0.1");
+  EXPECT_EQ(field_of(line, "integrator.type"), "photon-map");
+  EXPECT_EQ(field_of(line, "integrator.importance.importons"), "0");
+  for (const char* key : {"render.passes", "render.seed", "integrator.volume.count", "radius", "integrator.volume"})
     EXPECT_FALSE(field_of(line, key)) << key;
   s.volume.mode = GatherMode::nearest;
-  EXPECT_EQ(field_of(settings_line(s), "volume.count"), "50");
+  EXPECT_EQ(field_of(settings_line(s), "integrator.volume.count"), "50");
   EXPECT_EQ(field_of("a=1 bb=2=3 c=", "bb"), "2=3");
   EXPECT_EQ(field_of("a=1 bb=2=3 c=", "c"), "");
   EXPECT_FALSE(field_of("a=1 bb=2=3 c=", "b"));
+}
+
+TEST(Setting, OfSomeComponentsSaysOfWhich) {
+  const auto with = [](const std::string& key) {
+    std::string all;
+    for (const SettingOfSome& each : every_setting())
+      if (each.setting.key == key) all += fmt::format("[{}: {}]", fmt::join(each.integrators, ", "), each.with);
+    return all;
+  };
+  EXPECT_EQ(with("render.passes"), "[: ]");
+  EXPECT_EQ(with("integrator.type"), "[: ]");
+  EXPECT_EQ(with("integrator.importance.aim"), "[photon-map: `importons` > 0]");
+  EXPECT_EQ(with("integrator.volume.length"),
+            "[photon-map: `type` = `\"photon-beams\"`, `\"photon-planes\"`, `\"beams-points\"`]");
+  EXPECT_EQ(with("integrator.planes"), "[combined: `techniques` with `\"planes\"`]");
+  EXPECT_EQ(with("integrator.distance.optical_step"), "[photon-map, path: `type` = `\"ray-march-adaptive\"`]");
 }
 
 TEST(Setting, IsDescribedInThePageOfScenes) {

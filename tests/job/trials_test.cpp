@@ -1,16 +1,16 @@
 // Ways to render that a pilot tries: what it tells of each, and which it chooses.
 #include "vpm/job/trials.h"
+#include "vpm/job/words.h"
 
 #include <gtest/gtest.h>
 
 #include "job/pilot_scenes.h"
 #include "support/simulated_clock.h"
 #include "vpm/job/automatic.h"
-#include "vpm/job/declare.h"
+#include "vpm/job/describe.h"
 #include "vpm/job/pilot_error.h"
 #include "vpm/job/rays_of_pass.h"
 #include "vpm/job/render.h"
-#include "vpm/job/setting.h"
 
 namespace vpm {
 namespace {
@@ -43,7 +43,11 @@ TEST_P(TheErrorOfAPass, IsThatOfTheFilm) {
 }
 INSTANTIATE_TEST_SUITE_P(Automatic, TheErrorOfAPass,
                          testing::Values(Integrator::photon, Integrator::path, Integrator::combined),
-                         [](const auto& of) { return word_of(of.param); });
+                         [](const auto& of) {
+                           std::string name = word_of(of.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 /// What light tracing brings to pixels is part of what a pilot sees there: it alone shows what connections show.
 TEST(Automatic, PilotsSeeWhatLightTracingFinds) {
@@ -88,10 +92,10 @@ TEST(Automatic, APartOfAPassHasTheSharesOfTheWhole) {
 /// The integrator that is chosen, with its reason.
 Choice chosen_integrator(const Scene& scene, RenderSettings settings) {
   settings.photons_emitted = 5'000;
-  const AutomaticSettings automatic{{"render.integrator", "volume.radius", "surface.radius"}};
+  const AutomaticSettings automatic{{"integrator.type", "integrator.volume.radius", "integrator.surface.radius"}};
   const std::vector<Choice> choices =
       choose_settings(scene, automatic, {SimulatedClock(), kInfinity}, settings).choices;
-  EXPECT_EQ(choices.at(0).key, "render.integrator");
+  EXPECT_EQ(choices.at(0).key, "integrator.type");
   EXPECT_EQ(choices.at(0).value, word_of(settings.integrator));
   for (const char* part : {"least error in a pilot", "photon ", " path "})
     EXPECT_NE(choices.at(0).reason.find(part), std::string::npos) << choices.at(0).reason;
@@ -134,9 +138,9 @@ TEST(Automatic, TechniquesAreChosen) {
   settings.photons_emitted = 2'000;
   settings.volume.radius = settings.surface.radius = 0.1f;
   const std::vector<Choice> choices =
-      choose_settings(scene, {{"combined.techniques"}}, {SimulatedClock(), kInfinity}, settings).choices;
+      choose_settings(scene, {{"integrator.techniques"}}, {SimulatedClock(), kInfinity}, settings).choices;
   ASSERT_EQ(choices.size(), 1u);
-  EXPECT_EQ(choices[0].key, "combined.techniques");
+  EXPECT_EQ(choices[0].key, "integrator.techniques");
   for (const char* part : {"least error in a pilot", " combined without short-beams ", " combined "})
     EXPECT_NE(choices[0].reason.find(part), std::string::npos) << choices[0].reason;
   RenderSettings again = settings;
@@ -151,7 +155,7 @@ TEST(Automatic, WhatDoesNotFitIntoTheTimeIsNotChosen) {
   settings.photons_emitted = 100'000'000;
   settings.volume.radius = settings.surface.radius = 0.1f;
   settings.until.seconds = 0.5;
-  choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, {SimulatedClock(), kInfinity}, settings);
+  choose_settings(foggy_room(0.5f).scene, {{"integrator.type"}}, {SimulatedClock(), kInfinity}, settings);
   EXPECT_EQ(settings.integrator, Integrator::path);
 }
 
@@ -162,32 +166,17 @@ TEST(Automatic, IntegratorsThatTheSettingsRefuseAreNotTried) {
   EXPECT_NE(choice.reason.find("not combined: "), std::string::npos) << choice.reason;
 }
 
-TEST(Automatic, FlightsThatAreAskedForAreGathered) {
-  for (const GatherMode mode : {GatherMode::photon_beams, GatherMode::photon_planes, GatherMode::beams_points}) {
-    RenderSettings settings;
-    settings.volume.mode = mode;
-    if (mode == GatherMode::photon_planes) settings.planes = 50;
-    settings.photons_emitted = 500;
-    const std::vector<Choice> choices =
-        choose_settings(foggy_room(0.5f).scene, {{"render.integrator"}}, {SimulatedClock(), kInfinity}, settings)
-            .choices;
-    EXPECT_EQ(settings.integrator, Integrator::photon);
-    EXPECT_EQ(settings.volume.mode, mode);
-    const std::string why = "not combined, path: 'gather' of [volume] is \"" + word_of(mode) + "\"";
-    EXPECT_NE(choices.at(0).reason.find(why), std::string::npos) << choices.at(0).reason;
-  }
-}
-
-/// What is chosen for volume.gather, with its reason, and a radius for it; photons are given.
+/// What is chosen for integrator.volume.type, with its reason, and a radius for it; photons are given.
 Choice chosen_gather(const Scene& scene, RenderSettings settings) {
   settings.photons_emitted = 20'000;
   settings.surface.radius = 0.1f;
-  const std::vector<Choice> choices =
-      choose_settings(scene, {{"volume.gather", "volume.radius"}}, {SimulatedClock(), kInfinity}, settings).choices;
+  const std::vector<Choice> choices = choose_settings(scene, {{"integrator.volume.type", "integrator.volume.radius"}},
+                                                      {SimulatedClock(), kInfinity}, settings)
+                                          .choices;
   EXPECT_EQ(choices.size(), 2u);
-  EXPECT_EQ(choices.at(0).key, "volume.gather");
+  EXPECT_EQ(choices.at(0).key, "integrator.volume.type");
   EXPECT_EQ(choices.at(0).value, word_of(settings.volume.mode));
-  EXPECT_EQ(choices.at(1).key, "volume.radius");
+  EXPECT_EQ(choices.at(1).key, "integrator.volume.radius");
   return choices.at(0);
 }
 

@@ -46,84 +46,63 @@ S& gather_finally(S& s) {
 }
 
 const Contradiction kContradictions[] = {
-    {"photons.emitted", [](S& s) { s.photons_emitted = 0; }},
-    {"photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
-    {"photons.flights", [](S& s) { s.flights = 100; }},
-    {"photons.planes", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.planes = 100; }},
-    {"photons.in_cube", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.photons_in_cube = 4; }},
-    {"photons.stored", [](S& s) { s.volume.mode = GatherMode::beams_points, s.photons_stored = 1000; }},
-    {"volume.density_floor", [](S& s) { s.volume.mode = GatherMode::beams_points, s.density_floor = 0.2f; }},
-    {"volume.planes", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.plane_use = PlaneUse::alone; }},
-    {"volume.beams", [](S& s) { s.volume.mode = GatherMode::beam, s.beam_length = BeamLength::long_beams; }},
-    {"distance.strategy",
+    {"integrator.photons.emitted", [](S& s) { s.photons_emitted = 0; }},
+    {"integrator.photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
+    {"integrator.photons.in_cube", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.photons_in_cube = 4; }},
+    {"integrator.photons.stored", [](S& s) { s.volume.mode = GatherMode::beams_points, s.photons_stored = 1000; }},
+    {"integrator.distance.type",
      [](S& s) { s.volume.mode = GatherMode::photon_planes, s.distance.strategy = "mean-extinction"; }},
-    {"distance.strategy",
+    {"integrator.distance.type",
      [](S& s) { s.volume.mode = GatherMode::photon_beams, s.distance.strategy = "mean-extinction"; }},
-    {"volume.count", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.volume.beam_count = 20; }},
-    {"combined.heuristic", [](S& s) { s.combined.heuristic = Heuristic::power; }},
-    {"combined.techniques", [](S& s) { s.combined.techniques.set(Technique::points_3d, false); }},
-    {"distance.strategy", [](S& s) { combine(s).distance.strategy = "mean-extinction"; }},
-    {"distance.strategy", [](S& s) { combine(s).distance.strategy = "ray-march"; }},
-    {"transmittance.estimator", [](S& s) { combine(s).transmittance.estimator = "ratio"; }},
-    {"importance.importons", [](S& s) { combine(s).guide.importons = 100; }},
-    {"photons.stored", [](S& s) { combine(s).photons_stored = 100; }},
-    {"photons.in_cube", [](S& s) { combine(s).photons_in_cube = 4; }},
-    {"render.radii", [](S& s) { combine(s).radii = RadiusSchedule::per_pixel; }},
-    {"importance.aim", [](S& s) { s.guide.aim = false; }},
-    {"importance.split", [](S& s) { s.guide.split = false; }},
-    {"importance.scatter", [](S& s) { s.guide.scatter = true; }},
-    {"distance.strategy", [](S& s) { s.distance.strategy = "homogeneous"; }},
-    {"distance.strategy", [](S& s) { s.distance.strategy = "weighted"; }},
-    {"distance.strategy", [](S& s) { s.distance.strategy = "woodcock"; }},
-    {"transmittance.estimator",
+    {"integrator.distance.type", [](S& s) { combine(s).distance.strategy = "mean-extinction"; }},
+    {"integrator.distance.type", [](S& s) { combine(s).distance.strategy = "ray-march"; }},
+    {"integrator.radii", [](S& s) { combine(s).radii = RadiusSchedule::per_pixel; }},
+    {"integrator.distance.type", [](S& s) { s.distance.strategy = "homogeneous"; }},
+    {"integrator.distance.type", [](S& s) { s.distance.strategy = "weighted"; }},
+    {"integrator.distance.type", [](S& s) { s.distance.strategy = "woodcock"; }},
+    {"integrator.transmittance.type",
      [](S& s) { s.transmittance.estimator = "ratio", s.surface_direct = DirectLight::photons; }},
-    {"photons.block", [](S& s) { combine(s).photons_block = 100; }},
-    {"photons.stored", [](S& s) { by_blocks(s).photons_stored = 100; }},
-    {"photons.stored", [](S& s) { by_blocks(s).photons_stored = 100, s.photons_emitted = 0; }},
-    {"photons.in_cube", [](S& s) { by_blocks(s).photons_in_cube = 4; }},
-    {"photons.flights", [](S& s) { by_blocks(s).volume.mode = GatherMode::photon_beams, s.flights = 100; }},
-    {"volume.gather", [](S& s) { by_blocks(s).volume.mode = GatherMode::nearest; }},
-    {"volume.gather", [](S& s) { by_blocks(s).volume.mode = GatherMode::photon_planes; }},
-    {"volume.gather", [](S& s) { by_blocks(s).volume.mode = GatherMode::beams_points; }},
-    {"volume.count", [](S& s) { by_blocks(s).volume.mode = GatherMode::beam, s.volume.beam_count = 20; }},
-    {"surface.gather", [](S& s) { by_blocks(s).surface.mode = GatherMode::nearest; }},
-    {"caustics.gather", [](S& s) { gather_finally(by_blocks(s)).caustics.mode = GatherMode::nearest; }},
-    {"caustics.emitted", [](S& s) { gather_finally(by_blocks(s)).caustics_emitted = 100; }},
-    {"surface.gather_by", [](S& s) { gather_finally(by_blocks(s)).gather_by = GatherBy::photons; }},
-    {"surface.irradiance", [](S& s) { gather_finally(by_blocks(s)).end_irradiance = EndIrradiance::precomputed; }},
-    {"volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
-    {"surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
-    {"volume.count", [](S& s) { s.volume.count = 20; }},
-    {"volume.density_floor", [](S& s) { s.density_floor = 0.2f, s.distance.strategy = "local-extinction"; }},
-    {"caustics.count", [](S& s) { s.caustics.count = 20; }},
-    {"volume.direct_samples", [](S& s) { s.direct_samples = 3; }},
-    {"surface.direct_samples", [](S& s) { s.surface_direct_samples = 3, s.surface_direct = DirectLight::photons; }},
-    {"surface.direct", [](S& s) { s.surface_direct = DirectLight::equiangular; }},
-    {"surface.gather", [](S& s) { s.surface.mode = GatherMode::beam; }},
-    {"surface.gather_rays", [](S& s) { s.gather_rays = 64; }},
-    {"surface.gather_by", [](S& s) { s.gather_by = GatherBy::photons; }},
-    {"caustics.emitted", [](S& s) { s.caustics_emitted = 100; }},
-    {"surface.irradiance", [](S& s) { s.end_irradiance = EndIrradiance::precomputed; }},
-    {"surface.irradiance",
+    {"integrator.photons.stored", [](S& s) { by_blocks(s).photons_stored = 100; }},
+    {"integrator.photons.stored", [](S& s) { by_blocks(s).photons_stored = 100, s.photons_emitted = 0; }},
+    {"integrator.photons.in_cube", [](S& s) { by_blocks(s).photons_in_cube = 4; }},
+    {"integrator.volume.flights", [](S& s) { by_blocks(s).volume.mode = GatherMode::photon_beams, s.flights = 100; }},
+    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.mode = GatherMode::nearest; }},
+    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.mode = GatherMode::photon_planes; }},
+    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.mode = GatherMode::beams_points; }},
+    {"integrator.volume.count", [](S& s) { by_blocks(s).volume.mode = GatherMode::beam, s.volume.beam_count = 20; }},
+    {"integrator.surface.type", [](S& s) { by_blocks(s).surface.mode = GatherMode::nearest; }},
+    {"integrator.caustics.type", [](S& s) { gather_finally(by_blocks(s)).caustics.mode = GatherMode::nearest; }},
+    {"integrator.caustics.emitted", [](S& s) { gather_finally(by_blocks(s)).caustics_emitted = 100; }},
+    {"integrator.indirect.rays_by", [](S& s) { gather_finally(by_blocks(s)).gather_by = GatherBy::photons; }},
+    {"integrator.indirect.irradiance",
+     [](S& s) { gather_finally(by_blocks(s)).end_irradiance = EndIrradiance::precomputed; }},
+    {"integrator.volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
+    {"integrator.surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
+    {"integrator.direct.type", [](S& s) { s.surface_direct = DirectLight::equiangular; }},
+    {"integrator.surface.type", [](S& s) { s.surface.mode = GatherMode::beam; }},
+    {"integrator.indirect.irradiance",
      [](S& s) {
        s.end_irradiance = EndIrradiance::precomputed, s.surface.boundary = BoundaryRule::corrected;
        s.surface_indirect = IndirectLight::final_gather;
      }},
-    {"surface.gather", [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.mode = GatherMode::nearest; }},
-    {"surface.indirect",
+    {"integrator.surface.type",
+     [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.mode = GatherMode::nearest; }},
+    {"integrator.indirect.type",
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface_indirect = IndirectLight::final_gather; }},
-    {"surface.kernel", [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.kernel = KernelKind::order_4; }},
-    {"surface.kernel",
+    {"integrator.surface.kernel",
+     [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.kernel = KernelKind::order_4; }},
+    {"integrator.surface.kernel",
      [](S& s) {
        s.surface_indirect = IndirectLight::final_gather, s.end_irradiance = EndIrradiance::precomputed;
        s.surface.kernel = KernelKind::order_4;
      }},
-    {"surface.boundary",
+    {"integrator.surface.boundary",
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.boundary = BoundaryRule::corrected; }},
     {"render.passes", [](S& s) { s.until.passes = 0; }},
-    {"render.max_optical_step", [](S& s) { s.max_optical_step = 0.0f; }},
-    {"volume.radius", [](S& s) { s.volume.radius = -1.0f; }},
-    {"volume.density_floor", [](S& s) { s.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
+    {"integrator.photons.emitted", [](S& s) { combine(s).photons_emitted = 0; }},
+    {"integrator.max_optical_step", [](S& s) { s.max_optical_step = 0.0f; }},
+    {"integrator.volume.radius", [](S& s) { s.volume.radius = -1.0f; }},
+    {"integrator.volume.density_floor", [](S& s) { s.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
 };
 
 TEST(Validate, LongBeamsNeedAnEnd) {
@@ -131,17 +110,17 @@ TEST(Validate, LongBeamsNeedAnEnd) {
   s.volume.mode = GatherMode::photon_beams;
   s.beam_length = BeamLength::long_beams;
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
-  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "volume.beams");
+  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "integrator.volume.length");
   s.beam_length = BeamLength::short_beams;
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "");
-  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true, .endless_flights = true}), "volume.gather");
+  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true, .endless_flights = true}), "integrator.volume.type");
 }
 
 TEST(Validate, BeamsOfCombinedTechniquesNeedAnEndInEveryChannel) {
   RenderSettings s;
   combine(s);
   const SceneFacts endless{.scattering_media = true, .endless = true, .endless_flights = true};
-  EXPECT_EQ(refused(s, endless), "combined.techniques");
+  EXPECT_EQ(refused(s, endless), "integrator.techniques");
   s.combined.techniques.set(Technique::short_beams, false);
   EXPECT_EQ(refused(s, endless), "");
 }
@@ -153,17 +132,27 @@ TEST(Validate, LongBeamsOfCombinedTechniquesNeedAnEnd) {
   EXPECT_EQ(refused(s, endless), "");
   s.combined.techniques.set(Technique::long_beams, true);
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
-  EXPECT_EQ(refused(s, endless), "combined.techniques");
+  EXPECT_EQ(refused(s, endless), "integrator.techniques");
 }
 
-TEST(Validate, PlanesAreCountedWhereThereAreAny) {
+/// What the chosen components do not have is not looked at.
+TEST(Validate, LooksAtTheChosenComponentsAlone) {
   RenderSettings s;
-  combine(s);
-  s.planes = 10;
-  s.combined.techniques.set(Technique::planes, true);
-  EXPECT_EQ(refused(s, {.scattering_media = true}), "");
-  s.combined.techniques.set(Technique::planes, false);
-  EXPECT_EQ(refused(s, {.scattering_media = true}), "photons.planes");
+  s.flights = 100;
+  s.beam_length = BeamLength::long_beams;
+  s.direct_samples = -1;
+  s.volume.count = 0;
+  s.gather_rays = 0;
+  s.combined.heuristic = Heuristic::power;
+  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "");
+  for (const Integrator integrator : {Integrator::path, Integrator::combined}) {
+    s = {};
+    s.integrator = integrator;
+    s.photons_in_cube = 4;
+    s.radii = integrator == Integrator::path ? RadiusSchedule::per_pixel : RadiusSchedule::constant;
+    by_blocks(s).photons_stored = 7;
+    EXPECT_EQ(refused(s, kEverything), "");
+  }
 }
 
 TEST(Validate, FactsTellWhetherFlightsEnd) {
@@ -186,7 +175,7 @@ TEST(Validate, PlanesCastShadowRays) {
   RenderSettings s;
   s.surface_direct = DirectLight::photons;
   s.transmittance.estimator = "ratio";
-  EXPECT_EQ(refused(s, {.scattering_media = true}), "transmittance.estimator");
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "integrator.transmittance.type");
   s.volume.mode = GatherMode::photon_planes;
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
 }
@@ -258,7 +247,7 @@ TEST(Validate, AsksTheSceneWhereThatDecides) {
   s = {};
   s.transmittance.estimator = "ratio";
   EXPECT_EQ(refused(s, {.rough_surfaces = true}), "");
-  EXPECT_EQ(refused(s, {.scattering_media = true}), "transmittance.estimator");
+  EXPECT_EQ(refused(s, {.scattering_media = true}), "integrator.transmittance.type");
   s.volume_direct = DirectLight::shadow_rays;
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
   s = {};
@@ -278,14 +267,14 @@ TEST(Validate, TakesACountWhereGathersGoByIt) {
   s.direct_samples = 3;
   EXPECT_EQ(refused(s, kEverything), "");
   s.surface.count = 1;
-  EXPECT_EQ(refused(s, kEverything), "surface.count");
+  EXPECT_EQ(refused(s, kEverything), "integrator.surface.count");
 }
 
 /// A render from code is refused before its first pass.
 TEST(Validate, StandsBeforeEveryRender) {
   const Scene scene;
   RenderSettings s;
-  s.guide.scatter = true;
+  s.photons_emitted = 0;
   EXPECT_THROW(render(scene, s, {Film(1, 1), {}, 0.0, {}}), SettingError);
   EXPECT_THROW(bake_light_map(scene, s, {}, {}), SettingError);
   for (const auto& change : std::vector<std::function<void(RenderSettings&)>>{

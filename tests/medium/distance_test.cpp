@@ -68,10 +68,12 @@ TEST(DistanceStrategy, AChannelWithoutExtinctionLeadsThroughAndWeighsTheOthers) 
   const Medium medium = make_medium(flight_fields()[4].grid, Rgb(0.0f, 1.5f, 3.0f));
   for (const StrategyInfo& info : distance_strategies())
     if (info.heterogeneous)
-      expect_exact(medium, {.strategy = std::string(info.name), .step = 0.1f, .optical_step = 0.02f, .majorant = 1.0f},
+      expect_exact(medium,
+                   {std::string(info.name),
+                    among(info.parameters, {{"step", 0.1f}, {"optical_step", 0.02f}, {"majorant", 1.0f}})},
                    Rgb(1.0f, 0.5f, 2.0f), "gaussian", info.bounded_weight);
   // So thin that no sample size is too small, by a majorant that does not bound and powers of unlike sign.
-  expect_exact(make_medium(flight_fields()[4].grid, Rgb(0.0f, 0.2f, 0.3f)), {.strategy = "weighted", .majorant = 0.25f},
+  expect_exact(make_medium(flight_fields()[4].grid, Rgb(0.0f, 0.2f, 0.3f)), {"weighted", {{"majorant", 0.25f}}},
                Rgb(1.0f, -0.5f, 2.0f), "gaussian", true);
 }
 
@@ -124,7 +126,8 @@ TEST(DistanceStrategy, ExponentialFlightsHaveTheirStatedRates) {
   };
   for (const Case& c : {Case{"mean-extinction", 1.3f, mean}, Case{"local-extinction", 0.0f, 0.3 * mean},
                         Case{"local-extinction", 1.3f, medium.density(kRay.at(1.3f))}}) {
-    const auto strategy = make_distance_strategy({.strategy = c.strategy, .extinction_floor = 0.3f});
+    const auto strategy =
+        make_distance_strategy({c.strategy, among(strategy_info(c.strategy).parameters, {{"extinction_floor", 0.3f}})});
     const Interval reach{c.t0, c.t0 + 0.9f};
     Moments collided;
     for (uint64_t i = 0; i < 40000; ++i) {

@@ -147,8 +147,7 @@ TEST(Tracking, ProgressiveMajorantsCutTheDensityUntilTheyHaveGrown) {
     for (uint64_t pass = 0; pass < 70; pass += pass < 4 ? 1 : 33) {
       const Medium medium = make_medium(checker(1.5), sigma_t);
       const Medium cut = make_medium(checker(std::min(1.5, std::ldexp(0.375, static_cast<int>(pass)))), sigma_t);
-      const auto progressive =
-          make_distance_strategy({.strategy = "progressive-null", .majorant = 0.25f}, {.pass = pass});
+      const auto progressive = make_distance_strategy({"progressive-null", {{"majorant", 0.25f}}}, {.pass = pass});
       const auto delta = make_distance_strategy({.strategy = "delta-local"});
       uint64_t violations = 0;
       for (uint64_t i = 0; i < 2000; ++i) {
@@ -165,7 +164,7 @@ TEST(Tracking, WeightedFlightsUnderMajorantsThatBoundAreThoseOfDeltaTracking) {
     for (const Rgb& sigma_t : {Rgb(2.0f), Rgb(0.5f, 1.5f, 3.0f)}) {
       const Medium medium = make_medium(field.grid, sigma_t);
       const auto delta = make_distance_strategy({.strategy = "delta-local"});
-      const auto weighted = make_distance_strategy({.strategy = "weighted", .majorant = 1.0f});
+      const auto weighted = make_distance_strategy({"weighted", {{"majorant", 1.0f}}});
       for (uint64_t i = 0; i < 2000; ++i) {
         const Flight flight = fly(*weighted, medium, i);
         expect_same(flight, fly(*delta, medium, i));
@@ -180,7 +179,7 @@ TEST(Tracking, BeyondMajorantsWeightsAreOfEitherSign) {
   const GridFrame frame = centred_frame(7, 0.125, Interpolation::nearest);
   const Medium medium =
       make_medium(make_grid(frame, [](int x, int y, int z) { return (x + y + z) & 1 ? 1.5 : 0.3; }), Rgb(2.0f));
-  const auto weighted = make_distance_strategy({.strategy = "weighted", .majorant = 0.25f});
+  const auto weighted = make_distance_strategy({"weighted", {{"majorant", 0.25f}}});
   int negative = 0;
   for (uint64_t i = 0; i < 2000; ++i) {
     const Flight flight = fly(*weighted, medium, i);
@@ -248,7 +247,7 @@ TEST(Tracking, AdaptiveMarchesTakeStepsOfAnOpticalThickness) {
   const Ray ray{Vec3(-1.0f, 0.1f, 0.1f), Vec3(1, 0, 0)};
   const auto march = [&](float step, float optical_step, float sigma_t) {
     Rng rng(5, rng_stream(RngUse::test, 2), 0);
-    return make_distance_strategy({.strategy = "ray-march-adaptive", .step = step, .optical_step = optical_step})
+    return make_distance_strategy({"ray-march-adaptive", {{"step", step}, {"optical_step", optical_step}}})
         ->sample(make_medium(grid, Rgb(sigma_t)), ray, {}, Rgb(1.0f), rng);
   };
   EXPECT_EQ(march(1.0f, 0.1f, 1e-6f).lookups, 8u);          // each a voxel

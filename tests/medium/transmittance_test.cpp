@@ -150,7 +150,7 @@ TEST(Transmittance, MarchesLookOnceAStepTheJackknifeTwice) {
   for (const uint32_t steps : {1u, 2u, 4u})
     for (const auto& [name, looks] : {std::pair("ray-march", 1u), {"jackknife", 2u}}) {
       const float step = 1.0001f * stretch.length() / static_cast<float>(steps) / medium.voxel_size();  // voxels
-      const auto estimator = make_transmittance_estimator({.estimator = name, .step = step});
+      const auto estimator = make_transmittance_estimator({name, {{"step", step}}});
       EXPECT_EQ(estimator->estimate(medium, kAlongRamp, stretch, rng).lookups, looks * steps) << name;
     }
 }
@@ -170,11 +170,11 @@ TEST(Transmittance, ValuesBeyondZeroAndOneAreGivenAsTheyAre) {
     }
     return count;
   };
-  const auto march = beyond({.estimator = "unbiased-ray-march", .samples = 0.5f});
+  const auto march = beyond({"unbiased-ray-march", {{"samples", 0.5f}}});
   EXPECT_GT(march.first, 0);
   EXPECT_GT(march.second, 0);
   EXPECT_GT(beyond({.estimator = "residual-ratio"}).second, 0);
-  EXPECT_GT(beyond({.estimator = "jackknife", .step = 20.0f}).first, 0);
+  EXPECT_GT(beyond({"jackknife", {{"step", 20.0f}}}).first, 0);
   for (const char* name : {"regular", "ratio", "ratio-local", "ray-march"})
     EXPECT_EQ(beyond({.estimator = name}), std::pair(0, 0)) << name;
 }

@@ -13,7 +13,7 @@ BALL = {
          "edge_v": [0, 0, -4]},
     ],
     "lights": [{"type": "directional", "direction": [0, -1, 0.2], "irradiance": 3}],
-    "photons": {"emitted": 2000},
+    "integrator": {"photons": {"emitted": 2000}},
 }
 
 # The same, as somebody would write it.
@@ -47,6 +47,6 @@ material = "white"
 corner = [-2, -1.2, 2]
 edge_u = [4, 0, 0]
 edge_v = [0, 0, -4]
-[photons]
+[integrator.photons]
 emitted = 2000
 """

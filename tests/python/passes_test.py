@@ -26,7 +26,7 @@ def test_passes_are_yielded_one_by_one_with_the_error_so_far():
 
 
 def test_radii_of_pixels_go_on_from_pass_to_pass():
-    overrides = {"surface.gather": "radius", "render.radii": "per-pixel"}
+    overrides = {"integrator.surface.type": "radius", "integrator.radii": "per-pixel"}
     *_, last = vpm.passes(BALL, overrides=overrides, passes=4)
     assert np.array_equal(last.radiance, vpm.render(BALL, overrides=overrides, passes=4).radiance)
 
@@ -62,10 +62,10 @@ def test_stop_rules_end_a_render():
 
 
 def test_values_are_chosen_as_by_the_command_line(ball_file, tmp_path):
-    command("render", ball_file, "-o", tmp_path / "line.exr", "--passes", 2, "--set", "volume.radius=auto")
-    result = vpm.render(ball_file, overrides={"volume.radius": "auto"}, passes=2)
+    command("render", ball_file, "-o", tmp_path / "line.exr", "--passes", 2, "--set", "integrator.volume.radius=auto")
+    result = vpm.render(ball_file, overrides={"integrator.volume.radius": "auto"}, passes=2)
     assert np.array_equal(result.radiance, vpm.read_exr(tmp_path / "line.exr").radiance)
-    assert any("chosen volume.radius" in note for note in result.notes)
+    assert any("chosen integrator.volume.radius" in note for note in result.notes)
     assert not vpm.render(vpm.Scene(ball_file), passes=1).notes
 
 
@@ -121,7 +121,7 @@ def test_ctrl_c_keeps_the_passes_that_are_finished():
 def test_a_time_in_which_no_pass_fits_is_refused():
     # The words are of the time asked for, of which choosing the radii takes a part.
     with pytest.raises(vpm.NoPassFits, match="no pass is finished within the 0.02 s asked for") as error:
-        vpm.render(BALL, overrides={"photons.emitted": 1_000_000_000, "photons.block": 1_000_000}, seconds=0.02)
+        vpm.render(BALL, overrides={"integrator.photons.emitted": 1_000_000_000, "integrator.photons.block": 1_000_000}, seconds=0.02)
     assert isinstance(error.value, TimeoutError)
 
 

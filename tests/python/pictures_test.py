@@ -51,7 +51,7 @@ def test_results_are_written_as_by_the_command_line(ball_file, tmp_path):
 
 
 def test_layers_are_those_of_the_file(ball_file, tmp_path):
-    overrides = ["render.integrator=combined", "combined.layers=true", 'render.layers=["depth", "normal", "samples"]']
+    overrides = ["integrator.type=combined", "integrator.layers=true", 'render.layers=["depth", "normal", "samples"]']
     result = vpm.render(ball_file, overrides=overrides, passes=2)
     shape = result.radiance.shape
     assert result.layers["depth"].shape == result.layers["samples"].shape == shape[:2]

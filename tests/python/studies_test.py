@@ -64,7 +64,7 @@ name = "photon"
 [[methods]]
 name = "path"
 [methods.set]
-render.integrator = "path"
+integrator.type = "path"
 """)
     command("compare", tmp_path / "experiment.toml", "-o", tmp_path / "results")
     runs, methods, results = vpm.read_comparison(tmp_path / "results")

@@ -186,7 +186,7 @@ TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
   Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f)), PointLight{Vec3(0.2f, 1.8f, 0.1f), Rgb(1.0f)});
   scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {8, 8});
   RenderSettings settings = settings_of(2000, 0.2f);
-  settings.distance = {.strategy = "progressive-null", .majorant = 0.25f};
+  settings.distance = {"progressive-null", {{"majorant", 0.25f}}};
   for (const Integrator integrator : {Integrator::photon, Integrator::path}) {
     std::vector<WalkCounters> walks;
     for (int pass = 0; pass < 3; ++pass) {

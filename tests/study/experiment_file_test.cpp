@@ -31,7 +31,8 @@ const std::string kMethods = "[[methods]]\nname = \"a\"\n[[methods]]\nname = \"b
 TEST(ExperimentFile, ReadsEveryKey) {
   const std::string text =
       "title = \"Fog\"\nunit = \"photons\"\nbudgets = [10, 1e3]\nrepetitions = 5\nseed = 9\n"
-      "[reference]\nerror = 1e-3\n[set]\nvolume.radius = 0.25\n" +
+      "[reference]\nerror = 1e-3\n"
+      "[set]\nintegrator.volume.radius = 0.25\n" +
       kScene + "reference = \"truth.exr\"\n[scenes.set]\nfilm.width = 8\ncamera.position = [0, 1.5, 2]\n" +
       "[[scenes]]\nname = \"mist\"\nfile = \"fog.toml\"\n" + kMethods;
   const ComparisonPlan plan = load(text);
@@ -43,7 +44,7 @@ TEST(ExperimentFile, ReadsEveryKey) {
   EXPECT_EQ(plan.seed, 9u);
   ASSERT_EQ(plan.scenes.size(), 2u);
   EXPECT_EQ(plan.scenes[1].rendered.error, static_cast<double>(1e-3f));
-  EXPECT_EQ(plan.scenes[1].rendered.settings, std::vector<std::string>{"render.integrator=\"path\""});
+  EXPECT_EQ(plan.scenes[1].rendered.settings, std::vector<std::string>{"integrator.type=\"path\""});
   EXPECT_EQ(plan.scenes[1].source, ReferenceSource::rendered);
   EXPECT_EQ(plan.scenes[0].name, "fog");
   EXPECT_TRUE(plan.scenes[0].file.ends_with("/fog.toml"));
@@ -52,8 +53,8 @@ TEST(ExperimentFile, ReadsEveryKey) {
   EXPECT_EQ(plan.scenes[0].settings, (std::vector<std::string>{"film.width=8", "camera.position=[0, 1.5, 2]"}));
   ASSERT_EQ(plan.methods.size(), 2u);
   EXPECT_EQ(plan.methods[0].name, "a");
-  EXPECT_EQ(plan.methods[0].settings, (std::vector<std::string>{"volume.radius=0.25"}));
-  EXPECT_EQ(plan.methods[1].settings, (std::vector<std::string>{"volume.radius=0.25", "render.seed=3"}));
+  EXPECT_EQ(plan.methods[0].settings, (std::vector<std::string>{"integrator.volume.radius=0.25"}));
+  EXPECT_EQ(plan.methods[1].settings, (std::vector<std::string>{"integrator.volume.radius=0.25", "render.seed=3"}));
 }
 
 TEST(ExperimentFile, ReferencesMayBeExact) {
@@ -63,15 +64,16 @@ TEST(ExperimentFile, ReferencesMayBeExact) {
 }
 
 TEST(ExperimentFile, MakesEveryCombinationOfAProduct) {
-  const ComparisonPlan plan =
-      load(kHead + "[product]\ndistance.strategy = [\"regular\", \"ray-march\"]\nvolume.radius = [0.1, 0.2, 0.4]\n" +
-           kScene + "[[methods]]\nname = \"path\"\nset = { render.integrator = \"path\" }\n");
+  const ComparisonPlan plan = load(kHead +
+                                   "[product]\nintegrator.distance.type = [\"regular\", "
+                                   "\"ray-march\"]\nintegrator.volume.radius = [0.1, 0.2, 0.4]\n" +
+                                   kScene + "[[methods]]\nname = \"path\"\nset = { integrator.type = \"path\" }\n");
   std::vector<std::string> names;
   for (const Method& method : plan.methods) names.push_back(method.name);
   EXPECT_EQ(names, (std::vector<std::string>{"regular 0.1", "regular 0.2", "regular 0.4", "ray-march 0.1",
                                              "ray-march 0.2", "ray-march 0.4", "path"}));
   EXPECT_EQ(plan.methods[4].settings,
-            (std::vector<std::string>{"distance.strategy=\"ray-march\"", "volume.radius=0.2"}));
+            (std::vector<std::string>{"integrator.distance.type=\"ray-march\"", "integrator.volume.radius=0.2"}));
   EXPECT_EQ(plan.unit, CostUnit::seconds);
   EXPECT_EQ(plan.repetitions, 10);
 }
@@ -89,20 +91,20 @@ TEST(ExperimentFile, TheProjectsOwnAreRight) {
 }
 
 TEST(ExperimentFile, ReferencesMayBeMadeOfPhotons) {
-  const ComparisonPlan plan = load(kHead + "[reference.set]\nphotons.emitted = 7\n" + kScene + kMethods);
-  EXPECT_EQ(plan.scenes[0].rendered.settings, std::vector<std::string>{"photons.emitted=7"});
+  const ComparisonPlan plan = load(kHead + "[reference.set]\nintegrator.photons.emitted = 7\n" + kScene + kMethods);
+  EXPECT_EQ(plan.scenes[0].rendered.settings, std::vector<std::string>{"integrator.photons.emitted=7"});
 }
 
 TEST(ExperimentFile, ScenesMaySayHowTheirReferencesAreRendered) {
   const std::string other = "[[scenes]]\nname = \"mist\"\nfile = \"fog.toml\"\n";
-  const ComparisonPlan plan =
-      load(kHead + "[reference]\nerror = 0.5\nset = { photons.emitted = 7 }\n" + kScene +
-           "reference = { error = 0.25 }\n" + other + "[scenes.reference.set]\nphotons.emitted = 8\n" + kMethods);
+  const ComparisonPlan plan = load(kHead + "[reference]\nerror = 0.5\nset = { integrator.photons.emitted = 7 }\n" +
+                                   kScene + "reference = { error = 0.25 }\n" + other +
+                                   "[scenes.reference.set]\nintegrator.photons.emitted = 8\n" + kMethods);
   EXPECT_EQ(plan.scenes[0].source, ReferenceSource::rendered);
   EXPECT_EQ(plan.scenes[0].rendered.error, 0.25);
-  EXPECT_EQ(plan.scenes[0].rendered.settings, std::vector<std::string>{"photons.emitted=7"});
+  EXPECT_EQ(plan.scenes[0].rendered.settings, std::vector<std::string>{"integrator.photons.emitted=7"});
   EXPECT_EQ(plan.scenes[1].rendered.error, 0.5);
-  EXPECT_EQ(plan.scenes[1].rendered.settings, std::vector<std::string>{"photons.emitted=8"});
+  EXPECT_EQ(plan.scenes[1].rendered.settings, std::vector<std::string>{"integrator.photons.emitted=8"});
 }
 
 TEST(ExperimentFile, OptionsChangeKeys) {
@@ -129,8 +131,10 @@ TEST(ExperimentFile, RefusesWhatIsWrong) {
       {kHead + kScene, "the experiment compares nothing"},
       {kHead + kScene + kScene + kMethods, ":7:8: two scenes are named 'fog'"},
       {kHead + kScene + kMethods + "[[methods]]\nname = \"a\"\n", "two methods are named 'a'"},
-      {kHead + "[product]\nvolume.radius = 0.1\n" + kScene + kMethods, ":4:17: 'volume.radius' of [product] must be"},
-      {kHead + "[set]\nvolume.radius = 1979-05-27\n" + kScene + kMethods, ":4:17: a setting cannot be a date"},
+      {kHead + "[product]\nintegrator.volume.radius = 0.1\n" + kScene + kMethods,
+       ":4:28: 'integrator.volume.radius' of [product] must be"},
+      {kHead + "[set]\nintegrator.volume.radius = 1979-05-27\n" + kScene + kMethods,
+       ":4:28: a setting cannot be a date"},
       {kHead + "set = 3\n" + kScene + kMethods, "must be a table of settings, not an integer"},
       {kHead + "[[scenes]]\nname = \"x\"\nfile = \"none.toml\"\n" + kMethods, "there is no file"},
       {kHead + "[reference]\nerror = 1e-3\n" + kScene + "reference = \"exact\"\n" + kMethods,

@@ -28,7 +28,7 @@ inside = "fog"
 type = "directional"
 direction = [0, -1, 0.2]
 irradiance = 3
-[photons]
+[integrator.photons]
 emitted = 2000
 )",
                      width, height);

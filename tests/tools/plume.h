@@ -39,11 +39,11 @@ outer_angle = 15
 power = 10
 [render]
 passes = 2
-[photons]
+[integrator.photons]
 emitted = 10_000
-[volume]
+[integrator.volume]
 radius = 0.1
-[surface]
+[integrator.surface]
 radius = 0.1
 )";
 

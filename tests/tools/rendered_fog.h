@@ -13,9 +13,9 @@ class RenderedFog : public BrowsedPage {
   RenderedFog() {
     write("fog.toml", "# </script>\n" + ball_of_fog(kWidth, kHeight));
     made_once({"fog.exr", "fog.json", "fog.png"}, [&] {
-      vpm_succeeds({"render", "fog.toml", "-o", "fog.exr", "--passes", "9", "--set", "render.integrator=combined",
-                    "--set", "volume.radius=auto", "--set", "camera.position=[0, 0, 2.5]", "--set",
-                    "render.max_events=3", "--set", "photons.emitted=500", "--layers", "combined"});
+      vpm_succeeds({"render", "fog.toml", "-o", "fog.exr", "--passes", "9", "--set", "integrator.type=combined",
+                    "--set", "integrator.volume.radius=auto", "--set", "camera.position=[0, 0, 2.5]", "--set",
+                    "render.max_events=3", "--set", "integrator.photons.emitted=500", "--layers", "combined"});
     });
   }
 };

@@ -6,7 +6,7 @@
 
 #include "tools/plume.h"
 #include "vpm/image/exr.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 
 namespace vpm {
 namespace {
@@ -16,7 +16,7 @@ class VpmAutomatic : public VpmRender {
   /// The plume without what can be chosen.
   VpmAutomatic() {
     const std::string scene = kScene;
-    write("open.toml", scene.substr(0, scene.find("[photons]")));
+    write("open.toml", scene.substr(0, scene.find("[integrator.photons]")));
   }
   /// The options that a run's last note gives.
   static std::vector<std::string> told(const std::string& errors) {
@@ -27,10 +27,11 @@ class VpmAutomatic : public VpmRender {
 };
 
 TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
-  const std::string told_errors = vpm_succeeds({"render", "open.toml", "--auto", "--set", "volume.gather=auto", "--set",
-                                                "render.integrator=photon", "-o", "auto.exr"})
+  const std::string told_errors = vpm_succeeds({"render", "open.toml", "--auto", "--set", "integrator.volume.type=auto",
+                                                "--set", "integrator.type=photon-map", "-o", "auto.exr"})
                                       .err;
-  for (const char* key : {"distance.strategy", "volume.gather", "photons.emitted", "volume.radius", "surface.radius"})
+  for (const char* key : {"integrator.distance.type", "integrator.volume.type", "integrator.photons.emitted",
+                          "integrator.volume.radius", "integrator.surface.radius"})
     EXPECT_NE(told_errors.find(std::string("note: chosen ") + key), std::string::npos) << told_errors;
   std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
   for (const std::string& word : told(told_errors)) again.push_back(word);
@@ -43,14 +44,14 @@ TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
   const std::string line = read_exr_channels(path("auto.exr")).metadata.at("vpm.settings");
   EXPECT_EQ(line, read_exr_channels(path("again.exr")).metadata.at("vpm.settings"));
   const nlohmann::json settings = report("auto.json")["settings"];
-  EXPECT_EQ(field_of(line, "distance.strategy"), settings["distance.strategy"].get<std::string>());
-  EXPECT_EQ(field_of(line, "photons.emitted"), settings["photons.emitted"].dump());
+  EXPECT_EQ(field_of(line, "integrator.distance.type"), settings["integrator.distance.type"].get<std::string>());
+  EXPECT_EQ(field_of(line, "integrator.photons.emitted"), settings["integrator.photons.emitted"].dump());
 }
 
 /// Whichever is chosen renders what it renders where it is asked for.
 TEST_F(VpmAutomatic, TheIntegratorIsChosenWhereItIsLeftOut) {
   const std::string errors = vpm_succeeds({"render", "open.toml", "--auto", "-o", "auto.exr"}).err;
-  expect_words(errors, {"chosen render.integrator = ", "least error in a pilot", "photon ", " combined ", " path "});
+  expect_words(errors, {"chosen integrator.type = ", "least error in a pilot", "photon-map ", " combined ", " path "});
   std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
   for (const std::string& word : told(errors)) again.push_back(word);
   vpm_succeeds(again);
@@ -59,9 +60,9 @@ TEST_F(VpmAutomatic, TheIntegratorIsChosenWhereItIsLeftOut) {
 
 /// Techniques, too, are told as --set takes them.
 TEST_F(VpmAutomatic, TechniquesAreToldAsOptionsTakeThem) {
-  const std::string combined = "render.integrator=combined";
+  const std::string combined = "integrator.type=combined";
   const std::string errors =
-      vpm_succeeds({"render", "scene.toml", "--set", combined, "--set", "combined.techniques=auto", "-o", "auto.exr"})
+      vpm_succeeds({"render", "scene.toml", "--set", combined, "--set", "integrator.techniques=auto", "-o", "auto.exr"})
           .err;
   std::vector<std::string> again{"render", "scene.toml", "--set", combined, "-o", "again.exr"};
   for (const std::string& word : told(errors)) again.push_back(word);
@@ -71,7 +72,8 @@ TEST_F(VpmAutomatic, TechniquesAreToldAsOptionsTakeThem) {
 }
 
 TEST_F(VpmAutomatic, WhatIsGivenIsRenderedAsEver) {
-  const std::vector<std::string> given{"--set", "distance.strategy=delta-local", "--set", "render.integrator=photon"};
+  const std::vector<std::string> given{"--set", "integrator.distance.type=delta-local", "--set",
+                                       "integrator.type=photon-map"};
   vpm_succeeds({"render", "scene.toml", "-o", "given.exr"});
   std::vector<std::string> automatic{"render", "scene.toml", "-o", "auto.exr", "--auto"};
   automatic.insert(automatic.end(), given.begin(), given.end());
@@ -81,22 +83,23 @@ TEST_F(VpmAutomatic, WhatIsGivenIsRenderedAsEver) {
 }
 
 TEST_F(VpmAutomatic, AWordInTheFileAsksForOneChoice) {
-  const std::string errors = vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "volume.radius=auto"}).err;
+  const std::string errors =
+      vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "integrator.volume.radius=auto"}).err;
   EXPECT_EQ(told(errors).size(), 2u) << errors;
-  EXPECT_EQ(told(errors).back().substr(0, 14), "volume.radius=");
+  EXPECT_EQ(told(errors).back().find("integrator.volume.radius="), 0u);
 }
 
 TEST_F(VpmAutomatic, TheGatherInMediaIsChosenWhereItIsAskedFor) {
   const auto line_of = [](const std::string& errors) {
-    const size_t at = errors.find("chosen volume.gather = ");
+    const size_t at = errors.find("chosen integrator.volume.type = ");
     return at == std::string::npos ? "" : errors.substr(at, errors.find('\n', at) - at);
   };
   const std::string chosen =
-      line_of(vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "volume.gather=auto"}).err);
+      line_of(vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "integrator.volume.type=auto"}).err);
   expect_words(chosen, {"least error in a pilot", " beam ", " photon-beams ", " s each)"});
-  const std::string photons = "render.integrator=photon";
+  const std::string photons = "integrator.type=photon-map";
   EXPECT_EQ(line_of(vpm_succeeds({"render", "open.toml", "--auto", "--set", photons, "-o", "b.exr"}).err), "");
-  EXPECT_EQ(report("b.json")["settings"]["volume.gather"], "radius");
+  EXPECT_EQ(report("b.json")["settings"]["integrator.volume.type"], "radius");
 }
 
 TEST_F(VpmAutomatic, AResumedRenderKeepsItsChoices) {
@@ -115,8 +118,8 @@ TEST_F(VpmAutomatic, AResumedRenderKeepsItsChoices) {
 }
 
 TEST_F(VpmAutomatic, OtherCommandsRefuseToChoose) {
-  vpm_refuses({"bake", "scene.toml", "--mesh", "shape 0", "--set", "surface.radius=auto"},
-              {"vpm bake chooses no settings", "name a value of surface.radius"});
+  vpm_refuses({"bake", "scene.toml", "--mesh", "shape 0", "--set", "integrator.surface.radius=auto"},
+              {"vpm bake chooses no settings", "name a value of integrator.surface.radius"});
   write("two.toml", R"(
 title = "Two radii"
 unit = "passes"
@@ -125,7 +128,7 @@ repetitions = 3
 [reference]
 error = 1e-2
 [product]
-volume.radius = ["auto", 0.2]
+integrator.volume.radius = ["auto", 0.2]
 [[scenes]]
 name = "plume"
 file = "scene.toml"
@@ -133,7 +136,7 @@ file = "scene.toml"
   const auto result = vpm({"compare", "two.toml", "-o", "out"});
   EXPECT_EQ(result.status, 2);
   expect_words(result.err, {"settings are chosen for a time, but budgets are in passes",
-                            "name a value of volume.radius", "unit = \"seconds\""});
+                            "name a value of integrator.volume.radius", "unit = \"seconds\""});
 }
 
 /// A pilot is part of a run's time, and what it chose stands with the run.
@@ -149,7 +152,7 @@ name = "plume"
 file = "scene.toml"
 [[methods]]
 name = "chosen"
-set = { "render.integrator" = "auto", "volume.radius" = "auto" }
+set = { integrator.type = "auto" }
 [[methods]]
 name = "given"
 )");
@@ -157,7 +160,7 @@ name = "given"
   const nlohmann::json results = nlohmann::json::parse(read("out/results.json"));
   const nlohmann::json& methods = results.at("scenes").at(0).at("methods");
   expect_words(methods.at(0).at("settings").get<std::string>(),
-               {"; chosen: distance.strategy=", " render.integrator="});
+               {"; chosen: integrator.type=", " integrator.distance.type="});
   EXPECT_EQ(methods.at(1).at("settings").get<std::string>().find("chosen"), std::string::npos);
 }
 

@@ -57,7 +57,7 @@ position = [0.9, 0.3, -0.9]
 power = 10
 [render]
 passes = 2
-[photons]
+[integrator.photons]
 emitted = 10_000
 )";
 
@@ -110,7 +110,7 @@ TEST_F(VpmBake, WritesIrradianceCoverageVarianceAndWhereItIsFrom) {
 TEST_F(VpmBake, GivesTheSameBytesOnAnyNumberOfThreads) {
   const auto bake = [&](const std::string& output, const std::string& threads, const std::string& seed) {
     vpm_succeeds({"bake", "scene.toml", "--mesh", "floor", "-o", output, "--resolution", "40", "--threads", threads,
-                  "--seed", seed, "--passes", "3", "--set", "surface.direct=photons"});
+                  "--seed", seed, "--passes", "3", "--set", "integrator.direct.type=photons"});
     return read(output);
   };
   const std::string one = bake("one.exr", "1", "7");
@@ -192,8 +192,9 @@ TEST_F(VpmBake, RefusesManyOverlapsBeforeTheyFillTheMemory) {
 }
 
 TEST_F(VpmBake, RefusesPhotonsThatDoNotFitIntoMemory) {
-  refuses("floor", {"photons.emitted: the maps of a pass would hold", "photons.emitted would fit"},
-          {"--set", "photons.emitted=1000000000000"});
+  refuses("floor",
+          {"integrator.photons.emitted: the maps of a pass would hold", "integrator.photons.emitted would fit"},
+          {"--set", "integrator.photons.emitted=1000000000000"});
 }
 
 TEST_F(VpmBake, TellsAfterHowManyPassesItWasInterrupted) {
@@ -212,16 +213,16 @@ TEST_F(VpmBake, TellsAfterHowManyPassesItWasInterrupted) {
 
 TEST_F(VpmBake, WhereNotOnePassFitsIntoTheTimeItSaysSo) {
   const ProcessResult result = vpm({"bake", "scene.toml", "--mesh", "floor", "-o", "a.exr", "--set",
-                                    "render.seconds=0.3", "--set", "photons.emitted=50_000_000"});
+                                    "render.seconds=0.3", "--set", "integrator.photons.emitted=50_000_000"});
   EXPECT_EQ(result.status, 3) << result.err;
   EXPECT_NE(result.err.find("no pass is finished within the 0.3 s asked for"), std::string::npos) << result.err;
 }
 
 TEST_F(VpmBake, RefusesSettingsOfOtherIntegrators) {
-  refuses("floor", {"render.integrator is \"path\"", "--set render.integrator=photon"},
-          {"--set", "render.integrator=path"});
-  refuses("floor", {"render.radii is \"per-pixel\"", "--set render.radii=per-pass"},
-          {"--set", "render.radii=per-pixel"});
+  refuses("floor", {"'type' of [integrator] is \"path\"", "--set integrator.type=photon-map"},
+          {"--set", "integrator.type=path"});
+  refuses("floor", {"'radii' of [integrator] are \"per-pixel\"", "--set integrator.radii=per-pass"},
+          {"--set", "integrator.radii=per-pixel"});
   refuses("floor", {"render.error", "--passes N"}, {"--set", "render.error=0.1"});
   vpm_refuses({"bake", "scene.toml", "--mesh", "floor", "-o", "a.png"}, {"must end in .exr"});
   refuses("floor", {"--resolution"}, {"--resolution", "0"});

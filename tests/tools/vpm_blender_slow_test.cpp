@@ -44,8 +44,9 @@ type = "point"
 position = [1, 3, 2]
 intensity = 9
 [render]
-integrator = "path"
 passes = 3
+[integrator]
+type = "path"
 )",
                                              kFilmWidth, kFilmHeight);
 
@@ -133,12 +134,15 @@ TEST_F(SlowVpmBlender, SeesAPanoramaTheSameWayRound) {
     }
   write_exr(path("panorama.exr"), panorama, {}, {});
   for (const auto& [x, y, z] : {std::array{"1", "0.3", "0.4"}, std::array{"-0.5", "-0.6", "-0.9"}}) {
-    write("scene.toml", fmt::format("[camera]\nposition = [0, 0, 0]\ntarget = [{}, {}, {}]\nfov = 60\n"
-                                    "[film]\nwidth = 24\nheight = 24\n[render]\nintegrator = 'path'\npasses = 64\n"
-                                    "[[lights]]\ntype = 'environment'\npath = 'panorama.exr'\n"
-                                    "[[shapes]]\ntype = 'sphere'\ncenter = [0, 50, 0]\nradius = 0.1\n"
-                                    "material = {{ type = 'mirror' }}\n",
-                                    x, y, z));
+    write(
+        "scene.toml",
+        fmt::format("[camera]\nposition = [0, 0, 0]\ntarget = [{}, {}, {}]\nfov = 60\n"
+                    "[film]\nwidth = 24\nheight = 24\n"
+                    "[render]\npasses = 64\n"
+                    "[[lights]]\ntype = 'environment'\npath = 'panorama.exr'\n"
+                    "[[shapes]]\ntype = 'sphere'\ncenter = [0, 50, 0]\nradius = 0.1\nmaterial = {{ type = 'mirror' }}\n"
+                    "[integrator]\ntype = 'path'\n",
+                    x, y, z));
     vpm_succeeds({"render", "scene.toml", "-o", "vpm.exr"});
     run_in_blender("blender_panorama.py", {path("panorama.exr"), path("blender.exr"), "24", "60", z, x, y});
     const Image ours = read_exr(path("vpm.exr")), theirs = read_exr(path("blender.exr"));

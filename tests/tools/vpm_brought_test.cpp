@@ -19,8 +19,9 @@ class VpmBrought : public VpmBinary {
   /// The picture of a scene with that mesh in the place of its own; `said`: what must be said, where it is not "".
   Image render(const std::string& folder, const std::string& scene, const std::string& shape, const std::string& mesh,
                const std::string& said = "") const {
-    const ProcessResult result = vpm_succeeds({"render", file(folder + "/" + scene), "-o", "picture.exr", "--set",
-                                               "shapes." + shape + ".path=" + file(folder + "/" + mesh)});
+    vpm_succeeds({"upgrade", file(folder + "/" + scene), "-o", scene});  // it has keys of its time
+    const ProcessResult result = vpm_succeeds(
+        {"render", scene, "-o", "picture.exr", "--set", "shapes." + shape + ".path=" + file(folder + "/" + mesh)});
     EXPECT_NE(result.err.find(said), std::string::npos) << mesh << ": " << result.err;
     EXPECT_TRUE(!said.empty() || result.err.empty()) << mesh << ": " << result.err;
     return read_exr(path("picture.exr"));
@@ -92,7 +93,7 @@ TEST_F(VpmBrought, ABankOfTilesIsRead) {
   const std::string told = vpm_succeeds({"info", file("08-tile-fog-bank/bank_4096x256x4096.vdb")}).out;
   EXPECT_NE(told.find("active voxels 4294967296"), std::string::npos) << told;
   vpm_succeeds({"view", file("08-tile-fog-bank/bank_4096x256x4096.vdb"), "-o", "bank.exr", "--passes", "1", "--size",
-                "8x8", "--set", "photons.emitted=1000"});
+                "8x8", "--set", "integrator.photons.emitted=1000"});
   for (const char* grid : {"bank_8192x256x8192.vdb", "root_tile_4096.vdb"})
     vpm_refuses({"view", file(std::string("08-tile-fog-bank/") + grid), "-o", "bank.exr"}, {"the limit is 0.25 GiB"});
 }
@@ -100,7 +101,7 @@ TEST_F(VpmBrought, ABankOfTilesIsRead) {
 TEST_F(VpmBrought, WholeNumbersAreDensities) {
   const auto view = [&](const std::string& kind) {
     vpm_succeeds({"view", file("09-integer-grid/" + kind + "_density.vdb"), "-o", "grid.exr", "--passes", "1", "--size",
-                  "8x8", "--set", "photons.emitted=1000"});
+                  "8x8", "--set", "integrator.photons.emitted=1000"});
     return read_exr(path("grid.exr"));
   };
   const auto told = [&](const std::string& kind) {

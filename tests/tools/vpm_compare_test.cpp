@@ -24,7 +24,7 @@ repetitions = 8
 [reference]
 error = 1e-4
 [set]
-render.integrator = "path"
+integrator.type = "path"
 [product]
 render.samples_per_pixel = [1, 4]
 [[scenes]]
@@ -43,8 +43,8 @@ error = 1
 [[methods]]
 name = "combined"
 [methods.set]
-render.integrator = "combined"
-combined.layers = true
+integrator.type = "combined"
+integrator.layers = true
 [[methods]]
 name = "photon maps"
 [[scenes]]
@@ -101,7 +101,7 @@ repetitions = 3
 [reference]
 error = 1e-2
 [product]
-volume.radius = [0.2, 0.4]
+integrator.volume.radius = [0.2, 0.4]
 [[scenes]]
 name = "ball of fog"
 file = "fog.toml"
@@ -186,14 +186,16 @@ TEST_F(VpmCompare, KeepsWhatTechniquesFind) {
 TEST_F(VpmCompare, TakesExactPicturesForReferences) {
   const std::string even_light =
       kBallOfFog.substr(0, kBallOfFog.find("[[lights]]")) + "[[lights]]\ntype = \"environment\"\n";
-  write("fog.toml", even_light + "radiance = 2\n[photons]\nemitted = 2000\n");
+  write("fog.toml", even_light +
+                        "radiance = 2\n"
+                        "[integrator.photons]\nemitted = 2000\n");
   write("exact.toml", R"(
 title = "Paths against the exact solution"
 unit = "passes"
 budgets = [16]
 repetitions = 8
 [product]
-render.integrator = ["path", "photon"]
+integrator.type = ["path", "photon-map"]
 [[scenes]]
 name = "ball of fog"
 file = "fog.toml"
@@ -215,11 +217,11 @@ reference = "exact"
 TEST_F(VpmCompare, BiasesBesideReferencesInDoubtAreNotJudged) {
   write("fog.toml", kBallOfFog);
   vpm_succeeds({"render", "fog.toml", "-o", "photons.exr", "--passes", "2"});
-  vpm_succeeds({"render", "fog.toml", "-o", "paths.exr", "--passes", "2", "--set", "render.integrator=path"});
-  vpm_succeeds({"render", "fog.toml", "-o", "one.exr", "--passes", "1", "--set", "render.integrator=path"});
+  vpm_succeeds({"render", "fog.toml", "-o", "paths.exr", "--passes", "2", "--set", "integrator.type=path"});
+  vpm_succeeds({"render", "fog.toml", "-o", "one.exr", "--passes", "1", "--set", "integrator.type=path"});
   const auto why = [&](const std::string& more) {
     write("e.toml", "title = \"t\"\nunit = \"passes\"\nbudgets = [1]\nrepetitions = 3\n" + more +
-                        "[product]\nvolume.radius = [0.2, 0.4]\n");
+                        "[product]\nintegrator.volume.radius = [0.2, 0.4]\n");
     const ProcessResult result = vpm_succeeds({"compare", "e.toml", "-o", "out"});
     const json verdict = results("out").at("scenes").at(0).at("methods").at(0).at("verdict");
     EXPECT_EQ(verdict.at("p").is_null(), verdict.at("says") == "not determined");
@@ -229,7 +231,7 @@ TEST_F(VpmCompare, BiasesBesideReferencesInDoubtAreNotJudged) {
   const std::string scene = "[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";
   const std::string of_photons = "the reference is of photons and may be biased itself";
   EXPECT_EQ(why("[reference]\nerror = 1\n" + scene), "");
-  const std::string photon_maps = "[reference]\nerror = 1\nset.render.integrator = \"photon\"\n";
+  const std::string photon_maps = "[reference]\nerror = 1\nset.integrator.type = \"photon-map\"\n";
   for (int i = 0; i < 2; ++i) EXPECT_EQ(why(photon_maps + scene), of_photons);  // made, then found
   EXPECT_EQ(why("baseline = \"0.4\"\n" + photon_maps + scene), "");
   EXPECT_EQ(why(scene + "reference = \"paths.exr\"\n"), "");
@@ -240,9 +242,9 @@ TEST_F(VpmCompare, BiasesBesideReferencesInDoubtAreNotJudged) {
 TEST_F(VpmCompare, RefusesBeforeItRenders) {
   write("fog.toml", kBallOfFog);
   const std::string head = "title = \"t\"\nbudgets = [1]\n[[scenes]]\nname = \"fog\"\nfile = \"fog.toml\"\n";
-  write("unknown.toml", head + "[product]\nvolume.radios = [1, 2]\n");
+  write("unknown.toml", head + "[product]\nintegrator.volume.radios = [1, 2]\n");
   vpm_refuses({"compare", "unknown.toml", "-o", "out"},
-              {"unknown.toml:6:", "method '1' on scene 'fog'", "--set volume.radios=1", "unknown key"});
+              {"unknown.toml:6:", "method '1' on scene 'fog'", "--set integrator.volume.radios=1", "unknown key"});
   write("methods.toml", head + "[[methods]]\nname = \"a\"\n[[methods]]\nname = \"b\"\nset.volume.beams = \"long\"\n");
   vpm_refuses({"compare", "methods.toml", "-o", "out"}, {"methods.toml:8:1: method 'b' on scene 'fog': "});
   write("sizes.toml", head + "[product]\nfilm.width = [6, 7]\n");

@@ -178,12 +178,11 @@ TEST_F(VpmError, BringsAPictureToTheSizeOfTheReference) {
 
 TEST_F(VpmError, SaysThatPicturesShareNoise) {
   const auto write = [&](const std::string& name, const std::string& seed, const std::string& integrator) {
-    write_exr(path(name), image_, {},
-              {{"vpm.seed", seed}, {"vpm.settings", "render.integrator=" + integrator + " x=1"}});
+    write_exr(path(name), image_, {}, {{"vpm.seed", seed}, {"vpm.settings", "integrator.type=" + integrator + " x=1"}});
   };
-  write("one.exr", "1", "photon");
-  write("again.exr", "1", "photon");
-  write("two.exr", "2", "photon");
+  write("one.exr", "1", "photon-map");
+  write("again.exr", "1", "photon-map");
+  write("two.exr", "2", "photon-map");
   write("paths.exr", "1", "path");
   EXPECT_TRUE(json({"one.exr", "again.exr"}).at("same_seed"));
   for (const char* other : {"two.exr", "paths.exr", "image.exr"})

@@ -36,11 +36,12 @@ outer_angle = 32
 intensity = {}
 [render]
 passes = 1
-[photons]
+[integrator.photons]
 emitted = 20_000
-[volume]
+[integrator.volume]
 radius = {}
-direct = "shadow-rays"
+[integrator.single_scattering]
+type = "shadow-rays"
 [media.fog]
 {})",
                      text(camera), text(centre), kWidth, kHeight, text(lamp), text(centre), size * size, 0.03 * size,

@@ -57,7 +57,7 @@ TEST_F(VpmRender, SignalsThatAreIgnoredAtItsStartStaySo) {
 
 TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
   const std::vector<std::string> before = files();
-  for (const char* slow : {"render.samples_per_pixel=64", "photons.emitted=100_000_000"}) {
+  for (const char* slow : {"render.samples_per_pixel=64", "integrator.photons.emitted=100_000_000"}) {
     Process process(command({"render", "scene.toml", "-o", "a.exr", "--set", slow, "--set", "film.width=1024", "--set",
                              "film.height=1024", "--progress", "always"}),
                     {20.0, 0, folder_.string()});
@@ -71,10 +71,11 @@ TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
 // Whatever it is at: one walk of a photon in a medium of a million mean free paths, or the building of maps.
 TEST_F(VpmRender, ARenderIsInterruptedInTheMidstOfAPass) {
   const std::vector<std::string> before = files();
-  for (const char* slow : {"media.smoke.sigma_t=1e7", "volume.radius=100"}) {
-    Process process(command({"render", "scene.toml", "-o", "a.exr", "--set", slow, "--set", "photons.emitted=1_000_000",
-                             "--set", "film.width=1024", "--set", "film.height=1024", "--progress", "always"}),
-                    {60.0, 0, folder_.string()});
+  for (const char* slow : {"media.smoke.sigma_t=1e7", "integrator.volume.radius=100"}) {
+    Process process(
+        command({"render", "scene.toml", "-o", "a.exr", "--set", slow, "--set", "integrator.photons.emitted=1_000_000",
+                 "--set", "film.width=1024", "--set", "film.height=1024", "--progress", "always"}),
+        {60.0, 0, folder_.string()});
     EXPECT_TRUE(process.wait_for_error_output("render  ["));
     std::this_thread::sleep_for(std::chrono::seconds(1));
     process.signal(SIGINT);
@@ -88,7 +89,7 @@ TEST_F(VpmRender, ARenderIsInterruptedInTheMidstOfAPass) {
 TEST_F(VpmRender, AViewInterruptedInItsFirstPassLeavesNothing) {
   const std::vector<std::string> before = files();
   const auto view = command({"view", "smoke.vdb", "-o", "a.exr", "--scene", "a.toml", "--passes", "2", "--set",
-                             "photons.emitted=100_000_000", "--progress", "always"});
+                             "integrator.photons.emitted=100_000_000", "--progress", "always"});
   Process process(view, {60.0, 0, folder_.string()});
   const ProcessResult result = interrupt(process, SIGINT, "render  [");
   EXPECT_EQ(result.status, 130) << result.err;
@@ -105,7 +106,7 @@ TEST_F(VpmRender, AViewInterruptedInItsFirstPassLeavesNothing) {
 TEST_F(VpmRender, WhereNotOnePassFitsIntoTheTimeItSaysSo) {
   const std::vector<std::string> before = files();
   const ProcessResult result = vpm({"render", "scene.toml", "-o", "a.exr", "--time", "0.5", "--set",
-                                    "photons.emitted=80_000_000", "--set", "volume.radius=0.2"});
+                                    "integrator.photons.emitted=80_000_000", "--set", "integrator.volume.radius=0.2"});
   EXPECT_EQ(result.status, 3) << result.err;
   expect_words(result.err, {"no pass is finished within the 0.5 s asked for"});
   EXPECT_EQ(files(), before);

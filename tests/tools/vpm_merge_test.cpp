@@ -55,7 +55,7 @@ TEST_F(VpmMerge, PiecesWithLayersOfACropAreOneRun) {
 TEST_F(VpmMerge, PiecesOfPassesInBlocksAreOneRun) {
   const Arguments layers{"--layers", "depth,samples", "--crop", "7,3,39,20"};
   Arguments blocks = layers;
-  blocks.insert(blocks.end(), {"--set", "photons.block=1500"});
+  blocks.insert(blocks.end(), {"--set", "integrator.photons.block=1500"});
   expect_same_as_one_run(blocks);
   vpm_succeeds(render("whole", {"--passes", "6"}, layers));
   const ExrChannels all = read_exr_channels(path("all.exr")), whole = read_exr_channels(path("whole.exr"));
@@ -72,14 +72,15 @@ TEST_F(VpmMerge, PiecesOfPassesInBlocksAreOneRun) {
 
 TEST_F(VpmMerge, PiecesOfTechniquesCombinedAreOneRun) {
   expect_same_as_one_run(
-      {"--set", "render.integrator=combined", "--layers", "combined", "--set", "photons.emitted=1000"});
+      {"--set", "integrator.type=combined", "--layers", "combined", "--set", "integrator.photons.emitted=1000"});
 }
 
 // The scene has a time to render for, by which each piece would choose by its own clock.
 TEST_F(VpmMerge, PiecesChooseAlike) {
-  expect_same_as_one_run({"--auto", "--set", "volume.radius=auto", "--set", "render.integrator=photon"});
+  expect_same_as_one_run({"--auto", "--set", "integrator.volume.radius=auto", "--set", "integrator.type=photon-map"});
   write("scene.toml", std::string(kScene).replace(std::string(kScene).find("passes = 2"), 10, "seconds = 3"));
-  const Arguments automatic{"--set", "volume.radius=auto", "--set", "photons.emitted=auto", "--spp", "16"};
+  const Arguments automatic{
+      "--set", "integrator.volume.radius=auto", "--set", "integrator.photons.emitted=auto", "--spp", "16"};
   EXPECT_EQ(piece("a", "0:1", automatic).status, 0);
   EXPECT_EQ(piece("b", "1:3", automatic).status, 0);
   EXPECT_EQ(report("a.json")["chosen"], report("b.json")["chosen"]) << "with the costs that are told as reasons";
@@ -150,11 +151,11 @@ TEST_F(VpmMerge, GapsAndOverlapsAreRefused) {
 TEST_F(VpmMerge, PiecesOfOtherRendersAreRefused) {
   ASSERT_EQ(piece("a", "0:1").status, 0);
   ASSERT_EQ(piece("seed", "1:2", {"--seed", "9"}).status, 0);
-  ASSERT_EQ(piece("radius", "1:2", {"--set", "volume.radius=0.2"}).status, 0);
+  ASSERT_EQ(piece("radius", "1:2", {"--set", "integrator.volume.radius=0.2"}).status, 0);
   vpm_refuses({"merge", "a.checkpoint", "seed.checkpoint"},
               {"they are of two renders", "render.seed: 1 in 'a.checkpoint', 9 in 'seed.checkpoint'"});
   vpm_refuses({"merge", "a.checkpoint", "radius.checkpoint"},
-              {"volume.radius: 0.1 in 'a.checkpoint', 0.2 in 'radius.checkpoint'"});
+              {"integrator.volume.radius: 0.1 in 'a.checkpoint', 0.2 in 'radius.checkpoint'"});
 }
 
 TEST_F(VpmMerge, TheSceneMustBeThatOfThePieces) {
@@ -186,7 +187,7 @@ TEST_F(VpmMerge, RangesThatCannotBeAreRefused) {
     vpm_refuses({"render", "scene.toml", std::string("--pass-range=") + range}, {"no range of passes such as 0:64"});
   vpm_refuses({"render", "scene.toml", "--pass-range", "0:4", "--time", "3"}, {"--time"});
   vpm_refuses({"render", "scene.toml", "--pass-range", "0:4", "--passes", "3"}, {"there are 3 in all, 0:3"});
-  vpm_refuses({"render", "scene.toml", "--pass-range", "1:4", "--set", "render.radii=per-pixel"},
+  vpm_refuses({"render", "scene.toml", "--pass-range", "1:4", "--set", "integrator.radii=per-pixel"},
               {"no piece begins with pass 1"});
 }
 

@@ -37,21 +37,23 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
   expect_words(vpm_succeeds({"info", "scene.toml", "--all"}).out,
                {"runs volume photon map", "skips shadow rays in media"});
   expect_words(vpm_succeeds({"info", "scene.toml", "--set", "media.smoke.albedo=0.5", "--set",
-                             "volume.direct=shadow-rays", "--set", "transmittance.estimator=jackknife"})
+                             "integrator.single_scattering.type=shadow-rays", "--set",
+                             "integrator.transmittance.type=jackknife"})
                    .out,
                {"all coefficients are grey", "runs shadow rays in media, transmittance by jackknife (biased; "});
   expect_words(vpm_succeeds({"info", "smoke.vdb"}).out,
                {"grid density: float, fog volume", "voxel size", "active voxels", "world box", "mean", "memory"});
   expect_words(vpm_succeeds({"info", "smoke.vdb", "--all"}).out, {"background 0", "index box", "translation"});
   expect_words(vpm_succeeds({"info", "scene.toml", "--set", "render.seconds=20", "--set", "render.error=0.01", "--set",
-                             "photons.emitted=auto", "--set", "photons.stored=500"})
+                             "integrator.photons.emitted=auto", "--set", "integrator.photons.stored=500"})
                    .out,
                {"renders passes until 20 s are over or the relative MSE is 0.01, in each",
-                "vpm render chooses photons.emitted, which are"});
-  expect_words(vpm_succeeds({"info", "scene.toml", "--set", "render.integrator=path"}).out,
+                "vpm render chooses integrator.photons.emitted, which are"});
+  expect_words(vpm_succeeds({"info", "scene.toml", "--set", "integrator.type=path"}).out,
                {"renders 2 passes, in each 1 path a pixel"});
   expect_words(vpm_succeeds({"info", "scene.toml"}).out, {"maps of a pass: about "});
-  vpm_refuses({"info", "scene.toml", "--set", "photons.emitted=1e12"}, {"photons.emitted: the maps of a pass would"});
+  vpm_refuses({"info", "scene.toml", "--set", "integrator.photons.emitted=1e12"},
+              {"integrator.photons.emitted: the maps of a pass would"});
   vpm_refuses({"info", "missing.vdb"}, {"missing.vdb"});
   vpm_refuses({"info", "missing.toml"}, {"missing.toml"});
   vpm_refuses({"info", "smoke.bin"}, {"smoke.bin"});
@@ -60,11 +62,11 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
 
 TEST_F(VpmRender, InfoRefusesWhatRenderRefuses) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> all{
-      {{"volume.kernel=order-4", "surface.kernel=order-4", "render.radii=per-pixel"}, ""},
-      {{"photons.emitted=0"}, "make one of them positive"},
-      {{"transmittance.estimator=ratio", "surface.direct=photons"}, "write direct = \"shadow-rays\""},
-      {{"distance.strategy=homogeneous"}, "right in grids: "},
-      {{"volume.count=7"}, ""},
+      {{"integrator.volume.kernel=order-4", "integrator.surface.kernel=order-4", "integrator.radii=per-pixel"}, ""},
+      {{"integrator.photons.emitted=0"}, "make one of them positive"},
+      {{"integrator.transmittance.type=ratio", "integrator.direct.type=photons"}, "write type = \"shadow-rays\""},
+      {{"integrator.distance.type=homogeneous"}, "right in grids: "},
+      {{"integrator.volume.count=7"}, ""},
       {{"media.smoke.grid=fog"}, "the file holds: density"},
       {{"shapes.0.inside=smoke"}, ""}};
   for (const auto& [settings, mend] : all) {
@@ -124,42 +126,42 @@ class VpmWarnings : public VpmRender {
 
 TEST_F(VpmWarnings, PhotonsThatNoGatherFindsAreToldOf) {
   for (const char* gather : {"radius", "beam", "nearest"})
-    expect_words(warnings({"volume.radius=1e-9", "volume.gather=" + std::string(gather)}),
-                 {"photons in media: a larger volume.radius ("});
-  expect_words(warnings({"volume.radius=1e-9", "volume.form=density-at-photon"}), {"no gather found any of the "});
+    expect_words(warnings({"integrator.volume.radius=1e-9", "integrator.volume.type=" + std::string(gather)}),
+                 {"photons in media: a larger integrator.volume.radius ("});
+  expect_words(warnings({"integrator.volume.radius=1e-9", "integrator.volume.form=density-at-photon"}),
+               {"no gather found any of the "});
   for (const char* gather : {"beams-points", "photon-beams"})
-    expect_words(warnings({"volume.radius=1e-9", "volume.gather=" + std::string(gather)}),
-                 {"photon beams: a larger volume.radius ("});
-  const std::string surfaces = warnings({"surface.radius=1e-9"});
-  expect_words(surfaces, {"photons on surfaces: a larger surface.radius ("});
+    expect_words(warnings({"integrator.volume.radius=1e-9", "integrator.volume.type=" + std::string(gather)}),
+                 {"photon beams: a larger integrator.volume.radius ("});
+  const std::string surfaces = warnings({"integrator.surface.radius=1e-9"});
+  expect_words(surfaces, {"photons on surfaces: a larger integrator.surface.radius ("});
   EXPECT_EQ(surfaces.find("in media"), std::string::npos) << surfaces;
 }
 
 TEST_F(VpmWarnings, CountsThatTheLargestRadiusDecidesAreToldOf) {
-  const std::string word = "of the gathers by count met fewer photons than the count of [volume] within";
-  expect_words(warnings({"volume.gather=nearest", "volume.count=5000", "volume.radius=0.05"}), {word});
-  EXPECT_EQ(warnings({"volume.gather=nearest", "volume.count=5", "volume.radius=10"}).find(word), std::string::npos);
+  const std::string word = "of the gathers by count met fewer photons than the count of [integrator.volume] within";
+  expect_words(
+      warnings({"integrator.volume.type=nearest", "integrator.volume.count=5000", "integrator.volume.radius=0.05"}),
+      {word});
+  EXPECT_EQ(warnings({"integrator.volume.type=nearest", "integrator.volume.count=5", "integrator.volume.radius=10"})
+                .find(word),
+            std::string::npos);
   // Those of surfaces are few beside those of media.
-  const std::string both = warnings({"volume.gather=nearest", "volume.count=5", "volume.radius=10",
-                                     "surface.gather=nearest", "surface.count=5000", "surface.radius=0.05"});
-  expect_words(both, {"than the count of [surface] within"});
+  const std::string both =
+      warnings({"integrator.volume.type=nearest", "integrator.volume.count=5", "integrator.volume.radius=10",
+                "integrator.surface.type=nearest", "integrator.surface.count=5000", "integrator.surface.radius=0.05"});
+  expect_words(both, {"than the count of [integrator.surface] within"});
   EXPECT_EQ(both.find(word), std::string::npos) << both;
 }
 
 TEST_F(VpmWarnings, PlanesAloneHaveInfiniteVariance) {
-  const std::string planes = "volume.gather=photon-planes", word = "infinite variance";
-  expect_words(warnings({planes, "volume.planes=alone"}), {word});
+  const std::string planes = "integrator.volume.type=photon-planes", word = "infinite variance";
+  expect_words(warnings({planes, "integrator.volume.share=alone"}), {word});
   EXPECT_EQ(warnings({planes}).find(word), std::string::npos);
 }
 
 TEST_F(VpmWarnings, DensitiesAboveTheMajorantAreCounted) {
-  expect_words(warnings({"distance.strategy=progressive-null"}), {" densities were larger than the majorant"});
-}
-
-TEST_F(VpmWarnings, CombinedTechniquesHaveNoUseForAGather) {
-  const std::string combined = "render.integrator=combined", word = "is of no use where techniques are combined";
-  expect_words(warnings({combined, "volume.gather=photon-beams", "volume.beams=long"}), {word});
-  EXPECT_EQ(warnings({combined}).find(word), std::string::npos);
+  expect_words(warnings({"integrator.distance.type=progressive-null"}), {" densities were larger than the majorant"});
 }
 
 TEST_F(VpmWarnings, EmptyMapsAreToldOfWhereThePictureIsMadeOfThem) {
@@ -168,17 +170,19 @@ TEST_F(VpmWarnings, EmptyMapsAreToldOfWhereThePictureIsMadeOfThem) {
     more.insert(more.end(), aside.begin(), aside.end());
     return warnings(more);
   };
-  expect_words(with({"surface.direct=photons"}), {"the volume photon map is empty", "the surface photon map is empty"});
-  expect_words(with({"volume.gather=beams-points"}), {"there are no photon beams"});
+  expect_words(with({"integrator.direct.type=photons"}),
+               {"the volume photon map is empty", "the surface photon map is empty"});
+  expect_words(with({"integrator.volume.type=beams-points"}), {"there are no photon beams"});
   const auto tells_of_black_alone = [&](const std::vector<std::string>& more) {
     const std::string told = with(more);
     expect_words(told, {"the picture is black: no light was found"});
     EXPECT_EQ(told.find("map is empty"), std::string::npos) << told;
   };
-  tells_of_black_alone({"volume.direct=shadow-rays"});
-  tells_of_black_alone({"volume.direct=equiangular"});
+  tells_of_black_alone({"integrator.single_scattering.type=shadow-rays"});
+  tells_of_black_alone({"integrator.single_scattering.type=equiangular"});
   // The camera sees no surface.
-  tells_of_black_alone({"volume.direct=equiangular", "surface.direct=photons", "camera.target=[0, 9, 2.4]"});
+  tells_of_black_alone(
+      {"integrator.single_scattering.type=equiangular", "integrator.direct.type=photons", "camera.target=[0, 9, 2.4]"});
 }
 
 }  // namespace

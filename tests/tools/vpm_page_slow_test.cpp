@@ -13,7 +13,7 @@ using nlohmann::json;
 constexpr int kPageWidth = 12, kPageHeight = 8;
 
 const std::string kPageScene = "# </script><script>fail('a scene\\'s text is no script')</script>\n" +
-                               ball_of_fog(kPageWidth, kPageHeight) + "[volume]\nboundary = \"none\"\n";
+                               ball_of_fog(kPageWidth, kPageHeight) + "[integrator.volume]\nboundary = \"none\"\n";
 
 /// Two scenes and three methods, some of them biased beside another; one keeps what its techniques find. What texts
 /// mean in HTML, and the names of places in the template, mean nothing here.
@@ -24,13 +24,13 @@ budgets = [1, 2, 4]
 repetitions = 10
 baseline = "0.2"
 [product]
-volume.radius = [0.2, 0.4]
+integrator.volume.radius = [0.2, 0.4]
 [[methods]]
 name = "all"
 [methods.set]
-render.integrator = "combined"
-combined.layers = true
-volume.radius = 0.6
+integrator.type = "combined"
+integrator.layers = true
+integrator.volume.radius = 0.6
 [[scenes]]
 name = "known"
 file = "fog.toml"

@@ -68,8 +68,16 @@ TEST_F(VpmRanks, OneOfAMachineReadsTheGrids) {
 }
 
 TEST_F(VpmRanks, RanksUseWhatTheFirstChooses) {
-  const Arguments chosen{"--auto", "--set",     "volume.radius=auto", "--set", "render.integrator=photon",
-                         "--crop", "3,2,30,20", "--layers",           "depth", "--passes",
+  const Arguments chosen{"--auto",
+                         "--set",
+                         "integrator.volume.radius=auto",
+                         "--set",
+                         "integrator.type=photon-map",
+                         "--crop",
+                         "3,2,30,20",
+                         "--layers",
+                         "depth",
+                         "--passes",
                          "8"};
   const auto render = [&](const std::string& image) {
     Arguments arguments{"render", "scene.toml", "-o", image};
@@ -104,7 +112,7 @@ TEST_F(VpmRanks, WhatRank0RefusesIsNoFaultOfSharing) {
 }
 
 TEST_F(VpmRanks, RadiiOfPixelsAreRefused) {
-  const ProcessResult radii = run(2, {"render", "scene.toml", "-o", "a.exr", "--set", "render.radii=per-pixel"});
+  const ProcessResult radii = run(2, {"render", "scene.toml", "-o", "a.exr", "--set", "integrator.radii=per-pixel"});
   EXPECT_EQ(radii.status, 2);
   expect_words(radii.err, {"no other rank can make the next pass"});
 }

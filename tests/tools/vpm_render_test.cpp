@@ -22,7 +22,8 @@ TEST_P(VpmSameSeed, GivesTheSameBytesOnAnyNumberOfThreads) {
   const auto [gather, form] = GetParam();
   const auto render = [&](const std::string& name, const std::string& threads, const std::string& seed) {
     vpm_succeeds({"render", "scene.toml", "-o", name + ".exr", "--threads", threads, "--seed", seed, "--set",
-                  "volume.gather=" + std::string(gather), "--set", "volume.form=" + std::string(form)});
+                  "integrator.volume.type=" + std::string(gather), "--set",
+                  "integrator.volume.form=" + std::string(form)});
   };
   render("one", "1", "7");
   render("two", "2", "7");
@@ -86,7 +87,7 @@ TEST_F(VpmRender, WritesTheLayersThatAreAskedFor) {
   EXPECT_EQ(by_setting.planes, by_option.planes);
   EXPECT_NE(by_setting.metadata.at("vpm.settings").find("render.layers=depth+samples"), std::string::npos);
   vpm_succeeds({"render", "scene.toml", "-o", "c.exr", "--layers", "combined,normal", "--set",
-                "render.integrator=combined", "--set", "photons.emitted=100"});
+                "integrator.type=combined", "--set", "integrator.photons.emitted=100"});
   const ExrChannels both = read_exr_channels(path("c.exr"));
   EXPECT_EQ(both.planes.count("normal-variance.Z"), 1u);
   EXPECT_EQ(both.planes.count("combined.connections.weighted.variance.R"), 1u);
@@ -150,9 +151,9 @@ TEST_F(VpmRender, TheReportDividesTheMapsByAllRecordsInThem) {
   write("glass.toml", std::string(kScene) +
                           "[[shapes]]\ntype = 'sphere'\ncenter = [0.5, 1.25, 0.5]\nradius = 0.2\n"
                           "material = { type = 'dielectric', ior = 1.5 }\n");
-  vpm_succeeds({"render", "glass.toml", "-o", "a.exr", "--set", "surface.indirect=final-gather", "--set",
-                "surface.gather_by=photons", "--set", "surface.irradiance=precomputed", "--set",
-                "volume.gather=photon-planes"});
+  vpm_succeeds({"render", "glass.toml", "-o", "a.exr", "--set", "integrator.indirect.type=final-gather", "--set",
+                "integrator.indirect.rays_by=photons", "--set", "integrator.indirect.irradiance=precomputed", "--set",
+                "integrator.volume.type=photon-planes"});
   const Json photons = report("a.json")["photons"], memory = report("a.json")["memory"];
   double of_a_pass = 0.0;
   for (const char* map : {"stored_volume", "stored_surface", "stored_caustic", "stored_to_guide_gathering",
@@ -304,8 +305,8 @@ TEST_F(VpmRender, BadCommandLinesAreRefused) {
   vpm_refuses({"render", "scene.toml", "--passes", "0"}, {"--passes"});
   vpm_refuses({"render", "scene.toml", "--passes", "2.5"}, {"--passes"});
   vpm_refuses({"render", "scene.toml", "--passes", "2", "--time", "1"}, {"--time"});
-  vpm_refuses({"render", "scene.toml", "--set", "photons.emitted=1_000_000_000_000_000"},
-              {"photons.emitted", "memory"});
+  vpm_refuses({"render", "scene.toml", "--set", "integrator.photons.emitted=1_000_000_000_000_000"},
+              {"integrator.photons.emitted", "memory"});
   for (const char* seconds : {"0", "-1", "nan", "inf"})
     vpm_refuses({"render", "scene.toml", "--time", seconds}, {"--time"});
   for (const char* seed : {"-1", "1.5", "x", "18446744073709551616"})

@@ -47,7 +47,7 @@ TEST_F(VpmReportPage, DoesInABrowserWhatItSays) {
 }
 
 TEST_F(VpmReportPage, ShowsARenderWithoutErrorsAndPhotons) {
-  examine_one_pass({"--set", "render.integrator=path"}, "report_of_paths_check.js");
+  examine_one_pass({"--set", "integrator.type=path"}, "report_of_paths_check.js");
 }
 
 /// As pixels of the film, which other commands count, too.

@@ -157,15 +157,15 @@ TEST_F(VpmReport, TellsSettingsWithDefaultsAndReasons) {
   EXPECT_EQ(data.at("settings").size(), all.at("settings").size());
   std::map<std::string, json> rows;
   for (const json& row : data.at("settings")) rows[row.at("key")] = row;
-  EXPECT_EQ(rows.at("render.integrator").at("value"), "combined");
-  EXPECT_EQ(rows.at("render.integrator").at("usual"), "`\"photon\"`");
-  EXPECT_EQ(rows.at("render.integrator").at("is_usual"), false);
-  EXPECT_TRUE(rows.at("render.integrator").at("reason").is_null());
-  EXPECT_EQ(rows.at("surface.kernel").at("is_usual"), true);
-  EXPECT_EQ(rows.at("distance.strategy").at("is_usual"), true) << "that of the integrator";
-  EXPECT_EQ(all.at("chosen").at(0).at("key"), "volume.radius");
-  EXPECT_EQ(rows.at("volume.radius").at("reason"), all.at("chosen").at(0).at("reason"));
-  EXPECT_FALSE(rows.at("volume.radius").at("meaning").get<std::string>().empty());
+  EXPECT_EQ(rows.at("integrator.type").at("value"), "combined");
+  EXPECT_EQ(rows.at("integrator.type").at("usual"), "`\"photon\"`");
+  EXPECT_EQ(rows.at("integrator.type").at("is_usual"), false);
+  EXPECT_TRUE(rows.at("integrator.type").at("reason").is_null());
+  EXPECT_EQ(rows.at("integrator.surface.kernel").at("is_usual"), true);
+  EXPECT_EQ(rows.at("integrator.distance.type").at("is_usual"), true) << "that of the integrator";
+  EXPECT_EQ(all.at("chosen").at(0).at("key"), "integrator.volume.radius");
+  EXPECT_EQ(rows.at("integrator.volume.radius").at("reason"), all.at("chosen").at(0).at("reason"));
+  EXPECT_FALSE(rows.at("integrator.volume.radius").at("meaning").get<std::string>().empty());
 }
 
 TEST_F(VpmReport, TellsACommandThatRendersTheSamePictureAgain) {
@@ -198,8 +198,8 @@ TEST_F(VpmReport, RefusesThePictureOfAnotherRender) {
   refuses("/passes", 8, {"fog.exr", "another render", "vpm.passes is 9 in the picture and 8 in the report"});
   refuses("/seed", 77, {"vpm.seed is 1 in the picture and 77"});
   refuses("/scene_hash", "00", {"vpm.sceneHash"});
-  refuses("/settings/combined.heuristic", "power", {"vpm.settings"});
-  refuses("/settings/combined.heuristic", "none", {"fog.json", "has no setting combined.heuristic = none"});
+  refuses("/settings/integrator.heuristic", "power", {"vpm.settings"});
+  refuses("/settings/integrator.heuristic", "none", {"fog.json", "has no setting integrator.heuristic = none"});
   refuses("/settings/volume.of_old", 3, {"fog.json", "has no setting volume.of_old = 3"});
   refuses("/width", 25, {"24 x 8 pixels, not 25 x 8"});
   write("fog.json", text);

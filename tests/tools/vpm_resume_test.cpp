@@ -39,7 +39,7 @@ TEST_F(VpmRender, TwoRunsDoNotWriteOneCheckpoint) {
 }
 
 TEST_F(VpmRender, KilledAtAnyMomentItResumesToTheSameBits) {
-  const std::vector<std::string> passes{"--passes", "40", "--set", "photons.emitted=3_000"};
+  const std::vector<std::string> passes{"--passes", "40", "--set", "integrator.photons.emitted=3_000"};
   const auto render = [&](const std::string& name, const std::string& option) {
     std::vector<std::string> arguments{"render", "scene.toml", "-o", name, option};
     arguments.insert(arguments.end(), passes.begin(), passes.end());
@@ -92,26 +92,30 @@ TEST_F(VpmRender, ACheckpointTellsInWhatAnotherSceneDiffers) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   };
-  with("[volume]\nradius = 0.1", "");
+  with("[integrator.volume]\nradius = 0.1", "");
   vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--passes", "1", "--checkpoint"});
-  vpm_refuses(resumed(2, {"--set", "volume.radius=0.2", "--set", "media.smoke.albedo=[0.9, 0.8, 0.6]", "--set",
-                          "lights.lamp.power=11"}),
-              {"is of another render; render on with the options that it began with\n"
-               "  media.smoke.albedo: [0.9, 0.8, 0.7] in the checkpoint, [0.9, 0.8, 0.6] asked for\n"
-               "  lights.lamp.power: 10 in the checkpoint, 11 asked for\n"
-               "  volume.radius: ",
+  vpm_refuses(resumed(2, {"--set", "integrator.volume.radius=0.2", "--set", "media.smoke.albedo=[0.9, 0.8, 0.6]",
+                          "--set", "lights.lamp.power=11"}),
+              {"is of another render; render on with the options that it began with\n  media.smoke.albedo: [0.9, 0.8, "
+               "0.7] in the checkpoint, [0.9, 0.8, 0.6] asked for\n  lights.lamp.power: 10 in the checkpoint, 11 asked "
+               "for\n  integrator.volume.radius: ",
                " in the checkpoint, 0.2 asked for\n"});
   vpm_refuses(resumed(2, {"--set", "shapes.0.name=floor"}), {"shapes.floor.name: nothing in the checkpoint, floor"});
   // Neither comments nor how many passes are asked for make another scene, wherever they stand.
-  with("[render]\npasses = 2\n[photons]\nemitted = 10_000\n[volume]\nradius = 0.1",
-       "# a comment\n[render]\npasses = 5\nseed = 1\n[photons]\nemitted = 10_000\n");
+  with(
+      "[render]\npasses = 2\n"
+      "[integrator.photons]\nemitted = 10_000\n"
+      "[integrator.volume]\nradius = 0.1",
+      "# a comment\n"
+      "[render]\npasses = 5\nseed = 1\n"
+      "[integrator.photons]\nemitted = 10_000\n");
   vpm_succeeds(resumed(2));
-  vpm_succeeds(resumed(3, {"--set", "render.passes=7", "--set", "volume.gather=radius"}));
+  vpm_succeeds(resumed(3, {"--set", "render.passes=7", "--set", "integrator.volume.type=radius"}));
 }
 
 TEST_F(VpmRender, RadiiOfPixelsResumeToTheSameBits) {
   const auto render = [&](const std::string& name, const std::vector<std::string>& options) {
-    std::vector<std::string> arguments{"render", "scene.toml", "-o", name, "--set", "render.radii=per-pixel"};
+    std::vector<std::string> arguments{"render", "scene.toml", "-o", name, "--set", "integrator.radii=per-pixel"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     vpm_succeeds(arguments);
   };
@@ -131,7 +135,7 @@ TEST_F(VpmRender, RadiiOfPixelsResumeToTheSameBits) {
   vpm_succeeds({"render", "scene.toml", "-o", "b.exr"});
   EXPECT_TRUE(report("b.json")["radii_of_pixels"].is_null());
   vpm_refuses({"render", "scene.toml", "-o", "a.exr", "--resume"},
-              {"another render", "render.radii: per-pixel in the checkpoint, per-pass asked for"});
+              {"another render", "integrator.radii: per-pixel in the checkpoint, per-pass asked for"});
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ class VpmScenes : public VpmBinary {
                                        "--passes", "2",
                                        "--set",    "film.width=64",
                                        "--set",    "film.height=48",
-                                       "--set",    "photons.emitted=100_000"};
+                                       "--set",    "integrator.photons.emitted=100_000"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(vpm_succeeds(arguments).err, "");
     return report("a.json");
@@ -173,7 +173,8 @@ TEST_F(VpmScenes, OfAllExperimentsCanBeLoaded) {
 }
 
 TEST_F(VpmScenes, TheHomogeneousStrategyRefusesGrids) {
-  std::vector<std::string> arguments{"render", scene_folder() + "smoke.toml", "--set", "distance.strategy=homogeneous"};
+  std::vector<std::string> arguments{"render", scene_folder() + "smoke.toml", "--set",
+                                     "integrator.distance.type=homogeneous"};
   const auto grid = *file_options("smoke");
   arguments.insert(arguments.end(), grid.begin(), grid.end());
   vpm_refuses(arguments, {"homogeneous", "grid"});

@@ -14,7 +14,7 @@ class VpmCrop : public VpmRender, public ::testing::WithParamInterface<const cha
 
 /// The crop begins and ends within tiles, and neither in the first column nor in the first row of these.
 TEST_P(VpmCrop, HasTheBitsOfThatPartOfTheWhole) {
-  std::vector<std::string> settings{"--set", "render.integrator=" + std::string(GetParam()), "--spp", "2"};
+  std::vector<std::string> settings{"--set", "integrator.type=" + std::string(GetParam()), "--spp", "2"};
   if (GetParam() == std::string("combined")) settings.insert(settings.end(), {"--layers", "combined"});
   const auto render = [&](const std::string& name, const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"render", "scene.toml", "-o", name + ".exr", "--passes", "3"};
@@ -44,12 +44,14 @@ TEST_P(VpmCrop, HasTheBitsOfThatPartOfTheWhole) {
   EXPECT_EQ(preview.width, 19);
   EXPECT_EQ(preview.height, 6);
 }
-INSTANTIATE_TEST_SUITE_P(Integrators, VpmCrop, ::testing::Values("photon", "combined", "path"),
-                         [](const auto& of) { return std::string(of.param); });
+INSTANTIATE_TEST_SUITE_P(Integrators, VpmCrop, ::testing::Values("photon-map", "combined", "path"), [](const auto& of) {
+  return std::string(of.param).substr(0, of.param == std::string("photon-map") ? 6 : 8);
+});
 
 /// Pixels with radii of their own do not notice, nor does a render that goes on.
 TEST_F(VpmRender, ACropWithRadiiPerPixelGoesOn) {
-  const std::vector<std::string> common{"--set", "render.radii=per-pixel", "--set", "surface.direct=photons"};
+  const std::vector<std::string> common{"--set", "integrator.radii=per-pixel", "--set",
+                                        "integrator.direct.type=photons"};
   const auto render = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"render", "scene.toml"});
     arguments.insert(arguments.end(), common.begin(), common.end());
@@ -62,7 +64,7 @@ TEST_F(VpmRender, ACropWithRadiiPerPixelGoesOn) {
   const PixelRect crop{5, 9, 30, 21};
   EXPECT_TRUE(same_pixels(cropped(part, crop), cropped(whole, crop)));
   vpm_refuses({"render", "scene.toml", "-o", "part.exr", "--passes", "6", "--crop", "5,9,30,22", "--resume", "--set",
-               "render.radii=per-pixel", "--set", "surface.direct=photons"},
+               "integrator.radii=per-pixel", "--set", "integrator.direct.type=photons"},
               {"film.crop"});
 }
 
@@ -110,8 +112,8 @@ TEST_F(VpmRender, SizeAndSamplesAreThoseOfTheOptions) {
 }
 
 TEST_F(VpmRender, QuietSaysNothing) {
-  const ProcessResult result = vpm_succeeds(
-      {"render", "scene.toml", "-o", "a.exr", "--quiet", "--set", "volume.radius=auto", "--progress", "always"});
+  const ProcessResult result = vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--quiet", "--set",
+                                             "integrator.volume.radius=auto", "--progress", "always"});
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "");
 }
@@ -144,10 +146,10 @@ TEST_F(VpmRender, ViewShowsAGridAndWritesItsScene) {
   EXPECT_GT(sum(picture), 0.0);
   EXPECT_NE(read("a.json").find("as passes are counted"), std::string::npos);
   const nlohmann::json told = report("a.json");
-  EXPECT_EQ(told["settings"]["render.integrator"], "photon");
-  for (const nlohmann::json& choice : told["chosen"]) EXPECT_NE(choice["key"], "render.integrator");
+  EXPECT_EQ(told["settings"]["integrator.type"], "photon-map");
+  for (const nlohmann::json& choice : told["chosen"]) EXPECT_NE(choice["key"], "integrator.type");
   std::vector<std::string> again{"render", "made.toml", "-o", "b.exr", "--size",
-                                 "48x48",  "--passes",  "2",  "--set", "render.integrator=photon"};
+                                 "48x48",  "--passes",  "2",  "--set", "integrator.type=photon-map"};
   for (const nlohmann::json& choice : told["chosen"])
     again.insert(again.end(), {"--set", choice["key"].get<std::string>() + "=" + choice["value"].get<std::string>()});
   vpm_succeeds(again);

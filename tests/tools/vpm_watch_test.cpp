@@ -77,8 +77,8 @@ TEST_F(VpmWatch, AViewerIsSentTheBytesOfItsProtocol) {
   const ViewerPort port;
   port.listen();
   vpm_succeeds(render("a", 1,
-                      {"--display", port.option(), "--set", "camera.fov=10", "--set", "photons.emitted=200000", "--set",
-                       "lights.0.irradiance=[3, 2, 1]"}));
+                      {"--display", port.option(), "--set", "camera.fov=10", "--set",
+                       "integrator.photons.emitted=200000", "--set", "lights.0.irradiance=[3, 2, 1]"}));
   const Descriptor connection(port.accept());
   const Image picture = read_exr(path("a.exr"));
   const Rgb &left = picture.pixels[0], &right = picture.pixels[1];
@@ -114,7 +114,7 @@ TEST_F(VpmWatch, TheViewersLastPictureIsThatOfTheFile) {
 
 TEST_F(VpmWatch, WherePassesAreQuickMostAreNotShownButTheLastIs) {
   write_quick_scene(400, 300);
-  const ShownInViewer shown = watched(20, {"--set", "photons.emitted=20"});
+  const ShownInViewer shown = watched(20, {"--set", "integrator.photons.emitted=20"});
   EXPECT_LE(shown.updates, 15);
   EXPECT_GT(sum(shown.picture), 0.0);
   EXPECT_TRUE(same_pixels(shown.picture, read_exr(path("a.exr"))));

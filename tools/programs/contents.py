@@ -1,7 +1,7 @@
 """Every material, light, shape, medium and transform of scenes/README.md, as cases for tools/compare_programs."""
 from programs.cases import SCENES, choices
 
-INTEGRATORS = choices("render.integrator", "photon", "path")
+INTEGRATORS = choices(".type", "photon-map", "path")
 TURNED = ("transform=[{scale=[1,0.5,-1]},{rotate={axis=[0,1,0],degrees=30}},{translate=[0,0.2,0.1]},"
           "{matrix=[1,0.1,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]")
 
@@ -66,7 +66,8 @@ def add_contents(cases):
     """Each in a scene, by photons and by paths."""
     def add(scene, *sets):
         for integrator in INTEGRATORS:
-            cases.add("contents", scene, [integrator, "surface.radius=0.2", *sets])
+            radius = [".surface.radius=0.2"] if integrator != ".type=path" else []
+            cases.add("contents", scene, [integrator, *radius, *sets])
     for material in materials(cases.folder):
         add("cornell", f"shapes.diffuse ball.material={{{material}}}")
     for light in lights(cases.folder):

@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 
 from programs import equal_error, pairs, suite
+from programs.old_keys import for_programs
 
 LEAST_PASSES = 4  # of the longest render: the shortest makes one
 
@@ -34,9 +35,10 @@ def error_of(program, picture, reference):
 
 def commands_of(options, scene, passes, seed, folders):
     """The renders of all programs at once, of a dictionary of passes."""
-    return [suite.render_command(program, scene, options.size, folder / "picture.exr", seed,
-                                 ["--threads", 1, "--passes", passes[name], "--progress", "never"], scene.sets)
-            for (name, program), folder in zip(options.programs.items(), folders)]
+    commands = [suite.render_command(program, scene, options.size, folder / "picture.exr", seed,
+                                     ["--threads", 1, "--passes", passes[name], "--progress", "never"], scene.sets)
+                for (name, program), folder in zip(options.programs.items(), folders)]
+    return for_programs(commands, folders)
 
 
 @contextlib.contextmanager

@@ -19,20 +19,20 @@ AIM_OF_OTHERS = 1e-4  # of the reference of a scene that is not in this list
 Scene = collections.namedtuple("Scene", "name file sets reference_sets aim")
 
 # Unbiased: for grids, where photons need long as well. What these settings are worth: papers/reference-pictures.md.
-PATHS = ["render.integrator=path", "render.samples_per_pixel=16"]
-PATHS_IN_GRIDS = [*PATHS, "distance.strategy=delta-local", "transmittance.estimator=ratio-local"]
+PATHS = ["integrator.type=path", "render.samples_per_pixel=16"]
+PATHS_IN_GRIDS = [*PATHS, "integrator.distance.type=delta-local", "integrator.transmittance.type=ratio-local"]
 
 # Photons are as many as suit pictures of 160 x 160 pixels: scene files have those of larger ones. References by photons
 # have radii of 0.7 of the scene's, which shrink with their many passes, so that little is left of the bias of renders
 # that are measured.
 STANDARD = {name: (sets, reference_sets, aim) for name, sets, reference_sets, aim in [
-    ("fog_room", [], ["volume.radius=0.07", "surface.radius=0.07"], 2e-5),
-    ("glass_caustic", ["photons.emitted=200_000"], ["photons.emitted=400_000", "volume.radius=0.035", "surface.radius=0.02"], 1e-4),
-    ("smoke", ["photons.emitted=200_000"], PATHS_IN_GRIDS, 2e-4),
-    ("cloud", ["photons.emitted=100_000"], PATHS_IN_GRIDS, 2e-4),
-    ("wdas_cloud", ["photons.emitted=100_000"], PATHS_IN_GRIDS, 1e-4),
-    ("cornell", [], ["surface.radius=0.04"], 3e-4),
-    ("plume_room", ["photons.emitted=200_000"], ["volume.radius=0.02", "surface.radius=0.035"], 1e-4),
+    ("fog_room", [], ["integrator.volume.radius=0.07", "integrator.surface.radius=0.07"], 2e-5),
+    ("glass_caustic", ["integrator.photons.emitted=200_000"], ["integrator.photons.emitted=400_000", "integrator.volume.radius=0.035", "integrator.surface.radius=0.02"], 1e-4),
+    ("smoke", ["integrator.photons.emitted=200_000"], PATHS_IN_GRIDS, 2e-4),
+    ("cloud", ["integrator.photons.emitted=100_000"], PATHS_IN_GRIDS, 2e-4),
+    ("wdas_cloud", ["integrator.photons.emitted=100_000"], PATHS_IN_GRIDS, 1e-4),
+    ("cornell", [], ["integrator.surface.radius=0.04"], 3e-4),
+    ("plume_room", ["integrator.photons.emitted=200_000"], ["integrator.volume.radius=0.02", "integrator.surface.radius=0.035"], 1e-4),
 ]}
 
 # What a reference is: its picture, and the error that it states or None where it says nothing of that.

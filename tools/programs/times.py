@@ -63,7 +63,7 @@ def slab(albedo=0.9, thickness=1.0, camera="[0, 3, 0.5]", more=""):
 
 SLABS = {"slab": slab(), "slab-albedo-0.5": slab(albedo=0.5), "slab-thin": slab(thickness=0.1),
          "slab-inside": slab(camera="[0, 0, 20]")}
-OLD_RADIUS = slab(more="[volume]\nradius = 5.657\n")  # the default when slabs could hang
+OLD_RADIUS = slab(more="[integrator.volume]\nradius = 5.657\n")  # the default when slabs could hang
 
 
 def run(command, folder, wait=None):

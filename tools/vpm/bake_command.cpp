@@ -55,7 +55,7 @@ void write_outputs(const Outputs& outputs, const BakeOptions& options, const Ren
 int bake_command(const BakeOptions& options) {
   set_threads(options.threads);
   const Outputs outputs = output_paths(options.output, usual_name(options));
-  RenderJob job = load_scene(options.scene, options.overrides);
+  RenderJob job = load_scene(options.scene, components_first(options.overrides));
   refuse_automatic(job, "vpm bake");
   apply_options(options, job.settings);
   validate_light_map(job.settings, facts_of(job.scene));

@@ -159,6 +159,17 @@ void add_tonemap(CLI::App& app, TonemapOptions& options) {
   add_exposure(command, options.exposure, "the picture");
 }
 
+void add_upgrade(CLI::App& app, UpgradeOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("upgrade", "Rewrite scenes and experiments that have the keys of older versions");
+  command->footer(
+      "Example: vpm upgrade fog.toml rewrites the file, comments and all, and keeps the old one as "
+      "fog.toml.old.");
+  command->add_option("files", options.files, "Scenes or experiments (.toml)");
+  command->add_option("-o,--output", options.output, "File to write in the place of the one that is read");
+  command->add_flag("--keys", options.keys, "Print each old key and what it is now");
+}
+
 void add_bake(CLI::App& app, BakeOptions& options) {
   CLI::App* command =
       app.add_subcommand("bake", "Bake the irradiance on a shape over its texture coordinates into an EXR light map");
@@ -305,6 +316,7 @@ void declare_commands(CLI::App& app, CommandLine& options) {
   add_media(app, options.media);
   add_mesh(app, options.mesh);
   add_validate(app, options.validate);
+  add_upgrade(app, options.upgrade);
   add_exact(app, options.exact);
   app.footer(  // last: commands that are added later would have it, too
       "Example: vpm render scenes/smoke.toml --time 20 renders for 20 seconds to smoke.exr and smoke.png.\n"

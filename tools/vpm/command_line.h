@@ -15,6 +15,7 @@ struct CommandLine {
   ViewOptions view;
   MergeOptions merge;
   TonemapOptions tonemap;
+  UpgradeOptions upgrade;
   BakeOptions bake;
   CompareOptions compare;
   InfoOptions info;

@@ -81,6 +81,14 @@ struct TonemapOptions {
 /// Writes a picture as a PNG file.
 int tonemap_command(const TonemapOptions& options);
 
+struct UpgradeOptions {
+  std::vector<std::string> files;  // scenes and experiments (.toml)
+  std::string output;              // of one file; empty: each is rewritten in place, and kept as FILE.old
+  bool keys = false;               // print the old keys with the new ones
+};
+/// Rewrites files with the keys of older versions.
+int upgrade_command(const UpgradeOptions& options);
+
 struct BakeOptions : PassOptions {
   std::string mesh;      // the name of a shape in the scene
   int resolution = 256;  // texels along an edge

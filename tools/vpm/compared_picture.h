@@ -9,6 +9,7 @@
 #include "json.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
+#include "vpm/job/describe.h"
 
 namespace vpm::tools {
 
@@ -29,8 +30,10 @@ struct PictureOrigin {
   std::string scene, settings, seed;  // vpm.sceneHash, vpm.settings, vpm.seed
   std::optional<uint64_t> passes;     // vpm.passes
 
-  /// The first of the settings: with which of the integrators it was rendered.
-  std::string integrator() const { return settings.substr(0, settings.find(' ')); }
+  /// With which integrator it was rendered: pictures of older versions say so first.
+  std::string integrator() const {
+    return field_of(settings, "integrator.type").value_or(settings.substr(0, settings.find(' ')));
+  }
 };
 
 /// A picture of a file, with what the file tells of its noise.

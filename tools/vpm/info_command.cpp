@@ -138,7 +138,7 @@ void print_stages(const RenderJob& job, bool all) {
 }
 
 void print_scene(const InfoOptions& options) {
-  RenderJob job = load_scene(options.file, options.overrides);
+  RenderJob job = load_scene(options.file, components_first(options.overrides));
   choose_default_radii(job);
   if (job.automatic.keys.empty()) check_memory(job.scene, job.settings, PassOf::picture, physical_memory());
   const Scene& scene = job.scene;

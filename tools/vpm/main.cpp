@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("report")) return report_command(options.report);
   if (app.got_subcommand("mesh")) return mesh_command(options.mesh);
   if (app.got_subcommand("validate")) return validate_command(options.validate);
+  if (app.got_subcommand("upgrade")) return upgrade_command(options.upgrade);
   if (app.got_subcommand("exact")) return exact_command(options.exact);
   return media_command(options.media);
 }

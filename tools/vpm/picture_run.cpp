@@ -29,7 +29,7 @@ namespace {
 
 /// The settings that ask for such layers.
 void add_layers(std::vector<std::string> layers, std::vector<std::string>& overrides) {
-  if (std::erase(layers, kCombinedLayers) > 0) overrides.push_back("combined.layers=true");
+  if (std::erase(layers, kCombinedLayers) > 0) overrides.push_back("integrator.layers=true");
   if (!layers.empty()) overrides.push_back(fmt::format("render.layers=[\"{}\"]", fmt::join(layers, "\", \"")));
 }
 
@@ -89,7 +89,7 @@ std::vector<std::string> known_layers() {
 }
 
 std::vector<std::string> overrides_of(const RenderOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
+  std::vector<std::string> overrides = components_first(options.overrides);
   add_layers(options.layers, overrides);
   if (const size_t x = options.size.find('x'); x != std::string::npos) {
     overrides.push_back("film.width=" + options.size.substr(0, x));

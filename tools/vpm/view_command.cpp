@@ -57,7 +57,7 @@ GridLoader loader_of(const ViewScene& made) {
   };
 }
 
-constexpr const char* kFewPasses = "render.integrator=photon";
+constexpr const char* kFewPasses = "integrator.type=photon-map";
 
 /// A pilot of integrators takes longer than a few passes do: where these are counted, photons are gathered.
 std::vector<std::string> overrides_of_view(const ViewOptions& options) {
@@ -106,7 +106,8 @@ int view_command(const ViewOptions& options) {
   const Outputs outputs = output_paths(options.output, fs::path(options.scene).stem().string());
   const std::string name = scene_name(options);
   const ViewScene made = make_scene(options);
-  RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options), LeftOut::usual, loader_of(made));
+  RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options),
+                             options.passes ? LeftOut::automatic : LeftOut::usual, loader_of(made));
   apply_run_options(options, job);
   for (const std::string& note : made.notes) job.notes.push_back(note);
   if (options.passes && job.settings.integrator == Integrator::photon)

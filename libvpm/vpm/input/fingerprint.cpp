@@ -5,11 +5,12 @@
 #include <fmt/ranges.h>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
 #include "vpm/base/overloads.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 
 namespace vpm {
 namespace {
@@ -65,33 +66,38 @@ std::string hash_of_bytes(const std::string& path) {
   return hash.digits();
 }
 
-/// Null where the key is no setting's.
-const Setting* setting_of(const std::string& key) {
-  for (const Setting& setting : all_settings())
-    if (setting.key == key) return &setting;
-  return nullptr;
+bool is_setting(const std::string& key) { return key.starts_with("render.") || key.starts_with("integrator."); }
+
+/// The settings that say which passes are rendered.
+std::set<std::string> keys_of_passes() {
+  RenderSettings usual;
+  std::set<std::string> keys;
+  for (const Setting& setting : describe(usual))
+    if (setting.of_passes) keys.insert(setting.key);
+  return keys;
 }
 
 }  // namespace
 
 Fingerprint fingerprint_of(const Document& document, const std::vector<std::string>& files,
-                           const std::vector<std::pair<std::string, std::string>>& given) {
+                           const std::vector<std::pair<std::string, std::string>>& given, LeftOut left_out) {
   KeyValues values;
   add_values(document.root, "", values);
   for (size_t i = 0; i < files.size(); ++i)
     values.emplace_back(fmt::format("file {}, {}", i + 1, std::filesystem::path(files[i]).filename().string()),
                         "bytes of hash " + hash_of_bytes(files[i]));
   for (const auto& [name, hash] : given) values.emplace_back(name, "values of hash " + hash);
+  if (left_out == LeftOut::automatic) values.emplace_back("what is left out", "is chosen");
+  const std::set<std::string> of_passes = keys_of_passes();
   Fingerprint fingerprint;
   Fnv1a hash;
   for (auto& [key, value] : values) {
-    const Setting* setting = setting_of(key);
-    if (setting && setting->of_passes) continue;
+    if (of_passes.contains(key)) continue;
     for (const std::string& part : {key, value}) {
       hash.add(part);
       hash.add(std::string_view("\0", 1));  // keeps parts apart
     }
-    if (!setting) fingerprint.contents.emplace_back(std::move(key), std::move(value));
+    if (!is_setting(key)) fingerprint.contents.emplace_back(std::move(key), std::move(value));
   }
   fingerprint.hash = hash.digits();
   return fingerprint;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vpm/input/toml_node.h"
+#include "vpm/job/choice.h"
 
 namespace vpm {
 
@@ -16,8 +17,9 @@ struct Fingerprint {
 
 /// Of a document with its options applied. Comments and white space do not take part, nor do settings that only say
 /// which passes are rendered. `files` are those that it names, and `given` is what it was given in memory: names, and
-/// hashes of values. Throws InputError where one of the files cannot be read.
+/// hashes of values; `left_out` is what is made of what is left out. Throws InputError where one of the files cannot be
+/// read.
 Fingerprint fingerprint_of(const Document& document, const std::vector<std::string>& files,
-                           const std::vector<std::pair<std::string, std::string>>& given = {});
+                           const std::vector<std::pair<std::string, std::string>>& given, LeftOut left_out);
 
 }  // namespace vpm

@@ -1,15 +1,20 @@
-// The sections about how to render: [camera] and [film], and those of the settings, which their declarations read.
+// The tables about how to render: [camera] and [film]; [render] and [integrator], which the descriptions of settings
+// read.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
-#include <array>
 #include <map>
+#include <set>
 
+#include "vpm/input/old_keys.h"
 #include "vpm/input/sections.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
+#include "vpm/job/words.h"
 
 namespace vpm {
 namespace {
 
+constexpr const char* kIntegratorKey = "integrator.type";
 constexpr uint64_t kLargestOfToml = std::numeric_limits<int64_t>::max();
 
 int small_integer(TableReader& table, const std::string& key, uint64_t hi, int fallback) {
@@ -75,97 +80,149 @@ std::optional<SettingValue> read_value(TableReader& table, const Setting& settin
   return table.flag(key, false);
 }
 
-/// Refuses keys that the setting stands for.
-void refuse_in_place_of(TableReader& table, const Setting& setting) {
-  for (const std::string_view key : setting.stands_for) {
-    const std::string name(key.substr(key.find('.') + 1));
-    if (table.has(name))
-      table.fail(name, "'" + setting.name() + "' of " + table.title() + " stands for '" + name + "'",
-                 "leave out '" + name + "', or '" + setting.name() + "'");
+/// The tables of settings, each read from the file when it is first asked for.
+class SettingTables {
+ public:
+  explicit SettingTables(TableReader& root) : root_(root) {}
+
+  /// "integrator.volume"; null where the file has none.
+  TableReader* find(const std::string& path) {
+    const auto [found, first] = tables_.try_emplace(path);
+    if (first) {
+      const size_t dot = path.rfind('.');
+      TableReader* const outer = dot == std::string::npos ? &root_ : find(path.substr(0, dot));
+      if (outer) tables_[path] = outer->table(path.substr(dot + 1), "[" + path + "]");
+    }
+    std::optional<TableReader>& table = tables_[path];
+    return table ? &*table : nullptr;
   }
-}
 
-/// Does another declaration of the key serve, whose need is met?
-bool another_serves(const Setting& setting, const RenderSettings& s) {
-  return !setting.needed(s) && find_setting(setting.key, s);
-}
-
-/// Refuses what is for one gather in media alone, where the gather is to be chosen.
-void refuse_beside_chosen_gather(const TableReader& table, const std::string& key, const AutomaticSettings& automatic) {
-  constexpr std::array kOfOneGather{"photons.flights", "photons.planes", "volume.count", "volume.beams",
-                                    "volume.planes"};
-  if (!automatic.has("volume.gather") || std::find(kOfOneGather.begin(), kOfOneGather.end(), key) == kOfOneGather.end())
-    return;
-  const std::string name = key.substr(key.find('.') + 1);
-  table.fail(name, "what is gathered in media is to be chosen: 'gather' of [volume] is \"auto\"",
-             "leave out '" + name + "', or write the gather that it is for");
-}
-
-void read_setting(TableReader& table, const Setting& setting, RenderSettings& s, AutomaticSettings& automatic) {
-  if (another_serves(setting, s)) return;
-  if (setting.section() == "combined" && automatic.has("render.integrator"))
-    table.fail(setting.name(), "whether techniques are combined is to be chosen: 'integrator' of [render] is \"auto\"",
-               "leave out [combined], or write integrator = \"combined\" in [render]");
-  if (!setting.needed(s)) {
-    refuse_beside_chosen_gather(table, setting.key, automatic);
-    table.fail(setting.name(), setting.need.wrong(s), std::string(setting.need.right));
+  /// Refuses keys that nobody asked for, but for those that options have replaced: appends these to `left_out`.
+  void finish(const Document& document, const std::string& integrator, std::vector<std::string>& left_out) const {
+    for (const auto& [path, table] : tables_) {
+      if (!table) continue;
+      for (const Entry* entry : table->unknown()) {
+        const std::string key = path + "." + entry->key;
+        if (!is_replaced(document, key, *entry)) table->refuse_unknown(*entry, elsewhere(path, entry->key, integrator));
+        add_keys(*entry, key, left_out);
+      }
+    }
   }
-  refuse_in_place_of(table, setting);
-  if (const std::optional<SettingValue> value = read_value(table, setting))
-    setting.member.set(s, *value);
-  else
-    automatic.keys.insert(setting.key);
-}
 
-using Sections = std::map<std::string, std::optional<TableReader>>;
-
-/// The section of a setting, read from the file when it is first asked for.
-std::optional<TableReader>& section_of(const Setting& setting, TableReader& root, Sections& sections) {
-  const std::string name = setting.section();
-  const auto [found, first] = sections.try_emplace(name);
-  if (first) found->second = root.table(name, "[" + name + "]");
-  return found->second;
-}
-
-/// "there is 'radius' in [volume], [surface]; " of a setting of other sections.
-std::string elsewhere(const std::string& key) {
-  std::string sections;
-  for (const Setting& setting : all_settings()) {
-    const std::string title = "[" + setting.section() + "]";
-    if (setting.name() == key && sections.find(title) == std::string::npos)
-      sections += (sections.empty() ? "" : ", ") + title;
+  /// Points at the key, or at the table around it that there is.
+  [[noreturn]] void fail(const SettingError& error) {
+    std::string path = error.key();
+    size_t dot = path.rfind('.');
+    std::string name = path.substr(dot + 1);
+    for (path.resize(dot); !find(path); path.resize(dot)) {
+      dot = path.rfind('.');
+      if (dot == std::string::npos) root_.fail_here(error.key() + ": " + error.wrong(), error.right());
+      name = path.substr(dot + 1);
+    }
+    find(path)->fail(name, error.wrong(), error.right());
   }
-  return sections.empty() ? "" : "there is '" + key + "' in " + sections + "; ";
+
+ private:
+  /// Does an option that comes after the entry, and after all in it, name another component for its table?
+  static bool is_replaced(const Document& document, const std::string& key, const Entry& entry) {
+    if (const Node::Table* const inner = entry.node.table())
+      return std::all_of(inner->begin(), inner->end(),
+                         [&](const Entry& each) { return is_replaced(document, key + "." + each.key, each); });
+    const auto number_of = [&](const Source* source) {
+      return std::find_if(document.sources.begin(), document.sources.end(),
+                          [&](const auto& each) { return each.get() == source; });
+    };
+    return std::any_of(document.replaced.begin(), document.replaced.end(), [&](const Replacement& by) {
+      return key.starts_with(by.table + ".") && number_of(entry.node.place.source) < number_of(by.option);
+    });
+  }
+
+  static void add_keys(const Entry& entry, const std::string& key, std::vector<std::string>& keys) {
+    const Node::Table* const inner = entry.node.table();
+    if (!inner) return keys.push_back(key);
+    for (const Entry& each : *inner) add_keys(each, key + "." + each.key, keys);
+  }
+
+  /// Where a key that these components do not have is one: "there is 'count' with type = "nearest"; ". Of a table that
+  /// of its first key.
+  static std::string elsewhere(const std::string& path, const std::string& key, const std::string& integrator) {
+    std::string here, tables;
+    for (const SettingOfSome& each : every_setting()) {
+      const Setting& setting = each.setting;
+      const bool in_table = (setting.table() + ".").starts_with(path + "." + key + ".");
+      if (setting.key == path + "." + key || (in_table && here.empty()))
+        here += (here.empty() ? "" : "; or ") + condition(each, integrator);
+      const std::string title = "[" + setting.table() + "]";
+      if (setting.name() == key && tables.find(title) == std::string::npos)
+        tables += (tables.empty() ? "" : ", ") + title;
+    }
+    if (!here.empty()) return fmt::format("there is '{}' with {}; ", key, here);
+    return tables.empty() ? "" : fmt::format("there is '{}' in {}; ", key, tables);
+  }
+
+  /// Without what holds already: the integrator that is chosen.
+  static std::string condition(const SettingOfSome& each, const std::string& integrator) {
+    const auto& all = each.integrators;
+    std::string text;
+    if (!all.empty() && std::find(all.begin(), all.end(), integrator) == all.end())
+      text = fmt::format("type = \"{}\" of [integrator]{}", fmt::join(all, "\", \""), each.with.empty() ? "" : "; ");
+    text += each.with;
+    std::erase(text, '`');
+    return text;
+  }
+
+  TableReader& root_;
+  std::map<std::string, std::optional<TableReader>> tables_;
+};
+
+/// "integrator.type is "path" in place of "photon-map": left out are integrator.photons.emitted, ...".
+std::string text_of_replaced(const Document& document, const std::vector<std::string>& keys) {
+  std::vector<std::string> changes;
+  for (const Replacement& by : document.replaced)
+    changes.push_back(fmt::format("{}.type is \"{}\" in place of \"{}\"", by.table, by.after, by.before));
+  return fmt::format("{}: left out are {}", fmt::join(changes, ", "), fmt::join(keys, ", "));
+}
+
+/// What a render has that says nothing of a setting.
+void leave_out(const Setting& setting, LeftOut left_out, AutomaticSettings& automatic) {
+  setting.set(setting.usual);
+  if (left_out == LeftOut::automatic && setting.automatic && !setting.stays) automatic.keys.insert(setting.key);
+  if (setting.usually_chosen && !automatic.keys.contains(setting.key)) automatic.left_out.insert(setting.key);
+}
+
+/// An integrator that is to be chosen is chosen with all that it may choose.
+void choose_all(RenderSettings& s, AutomaticSettings& automatic) {
+  for (const Setting& setting : describe(s))
+    if (setting.automatic && !setting.stays) automatic.keys.insert(setting.key);
+}
+
+/// Reads the first setting that is given and has not been read yet; what is missing before it has its default. False
+/// where there is none: then all are read.
+bool read_next(SettingTables& tables, LeftOut left_out, std::set<std::string>& read, RenderSettings& s,
+               AutomaticSettings& automatic) {
+  for (const Setting& setting : describe(s)) {
+    if (!read.insert(setting.key).second) continue;
+    TableReader* const table = tables.find(setting.table());
+    if (!table || !table->has(setting.name())) {
+      leave_out(setting, left_out, automatic);
+      continue;
+    }
+    if (const std::optional<SettingValue> value = read_value(*table, setting))
+      setting.set(*value);
+    else
+      automatic.keys.insert(setting.key);
+    return true;
+  }
+  return false;
 }
 
 /// The pilot that chooses how many photons a pass has knows passes in one piece: a number for blocks, which are taken
 /// where memory ends, is the user's.
 void refuse_blocks_of_chosen_photons(const RenderSettings& s, const AutomaticSettings& automatic) {
-  if (s.photons_block > 0 && automatic.has("photons.emitted"))
-    throw SettingError("photons.block", "a pass whose number of photons is to be chosen is not made in blocks",
+  if (s.integrator == Integrator::photon && s.photons_block > 0 && automatic.has("integrator.photons.emitted"))
+    throw SettingError("integrator.photons.block",
+                       "a pass whose number of photons is to be chosen is not made in blocks",
                        "give 'emitted' a number, or leave out 'block'");
-}
-
-/// What is decided by others where the file says nothing of it.
-void decide(const Setting& setting, RenderSettings& s, AutomaticSettings& automatic) {
-  const DecidedBy& rule = setting.decided_by;
-  if (rule.value) setting.member.set(s, rule.value(s));
-  if (automatic.has(rule.chosen_with)) automatic.keys.insert(setting.key);
-  if (setting.usually_chosen) automatic.left_out.insert(setting.key);
-}
-
-/// Tells the place of the key, or of the one that is given in its place.
-[[noreturn]] void fail_with(const SettingError& error, const TableReader& root, Sections& sections,
-                            const AutomaticSettings& automatic) {
-  const size_t dot = error.key().find('.');
-  std::optional<TableReader>& section = sections[error.key().substr(0, dot)];
-  if (!section) root.fail_here(error.key() + ": " + error.wrong(), error.right());
-  refuse_beside_chosen_gather(*section, error.key(), automatic);
-  std::string name = error.key().substr(dot + 1);
-  for (const Setting& setting : all_settings())
-    for (const std::string_view key : setting.stands_for)
-      if (key == error.key() && !section->has(name)) name = setting.name();
-  section->fail(name, error.wrong(), error.right());
 }
 
 }  // namespace
@@ -193,23 +250,26 @@ Camera read_camera(TableReader& camera, std::optional<TableReader>& film) {
   return make_camera(position, target, up, fov, {width, height, filter, crop});
 }
 
-RenderSettings read_settings(TableReader& root, const SceneFacts& facts, AutomaticSettings& automatic) {
+RenderSettings read_settings(TableReader& root, const Document& document, const SceneFacts& facts, LeftOut left_out,
+                             RenderJob& job) {
+  refuse_old_keys(root);
   RenderSettings s;
-  Sections sections;
-  for (const Setting& setting : all_settings()) {
-    std::optional<TableReader>& table = section_of(setting, root, sections);
-    if (table && table->has(setting.name()))
-      read_setting(*table, setting, s, automatic);
-    else
-      decide(setting, s, automatic);
-  }
-  for (const auto& [name, table] : sections)
-    if (table) table->finish(elsewhere);
+  SettingTables tables(root);
+  std::set<std::string> read;
+  while (read_next(tables, left_out, read, s, job.automatic))
+    if (job.automatic.keys.contains(kIntegratorKey)) {
+      choose_all(s, job.automatic);
+      break;
+    }
+  std::vector<std::string> dropped;
+  const bool chosen = job.automatic.keys.contains(kIntegratorKey);
+  tables.finish(document, chosen ? kAuto : word_of(s.integrator), dropped);
+  if (!dropped.empty()) job.notes.push_back(text_of_replaced(document, dropped));
   try {
     validate(s, facts);
-    refuse_blocks_of_chosen_photons(s, automatic);
+    refuse_blocks_of_chosen_photons(s, job.automatic);
   } catch (const SettingError& error) {
-    fail_with(error, root, sections, automatic);
+    tables.fail(error);
   }
   return s;
 }

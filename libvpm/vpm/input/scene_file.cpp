@@ -3,13 +3,13 @@
 #include "vpm/input/scene_file.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <filesystem>
 
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
 #include "vpm/input/fingerprint.h"
 #include "vpm/input/sections.h"
-#include "vpm/job/setting.h"
 #include "vpm/scene/assemble.h"
 #include "vpm/scene/check_parts.h"
 
@@ -65,7 +65,8 @@ SceneFacts facts_of(const ScenePlan& plan) {
   return facts;
 }
 
-ScenePlan read_plan(TableReader& root, const GivenParts& given, RenderJob& job) {
+ScenePlan read_plan(TableReader& root, const Document& document, const GivenParts& given, LeftOut left_out,
+                    RenderJob& job) {
   ScenePlan plan;
   Names media;
   read_media_and_world(root, given, plan, media);
@@ -77,30 +78,18 @@ ScenePlan read_plan(TableReader& root, const GivenParts& given, RenderJob& job) 
   std::vector<TableReader> lights = root.tables("lights", "[[lights]]");
   plan.lights = read_lights(lights);
   read_camera_section(root, media, plan);
-  job.settings = read_settings(root, facts_of(plan), job.automatic);
+  job.settings = read_settings(root, document, facts_of(plan), left_out, job);
   root.finish();
   return plan;
 }
 
-/// The options that make kAuto of what may be and is left out, and is not decided by what is given.
-std::vector<std::string> left_to_choose(const Document& document) {
-  const auto find = [&](const std::string& key) -> const Entry* {
-    const size_t dot = key.find('.');
-    const Entry* entry = find_entry(*document.root.table(), key.substr(0, dot));
-    const Node::Table* table = entry ? entry->node.table() : nullptr;
-    return table && dot != std::string::npos ? find_entry(*table, key.substr(dot + 1)) : nullptr;
-  };
-  const auto stays = [&](const LeftOutStays& rule) {
-    const Entry* const other = find(std::string(rule.unless_key));
-    const std::string* const word = other ? std::get_if<std::string>(&other->node.value) : nullptr;
-    return rule.stays && !(word && *word == rule.unless_word);
-  };
-  std::vector<std::string> options;
-  for (const Setting& setting : all_settings())
-    if (setting.automatic && !stays(setting.left_out) && !find(setting.key) &&
-        !find(std::string(setting.decided_by.key)))
-      options.push_back(fmt::format("{}={}", setting.key, kAuto));
-  return options;
+/// Does the document or an option name an integrator?
+bool names_integrator(const Document& document, const std::vector<std::string>& options) {
+  const Entry* const entry = find_entry(*document.root.table(), "integrator");
+  const Node::Table* const table = entry ? entry->node.table() : nullptr;
+  return (table && find_entry(*table, "type")) ||
+         std::any_of(options.begin(), options.end(),
+                     [](const std::string& option) { return option.starts_with("integrator.type="); });
 }
 
 /// Moves the parts out of the plan: the tables stay.
@@ -209,16 +198,16 @@ std::vector<std::pair<std::string, std::string>> hashes_of(const GivenParts& giv
 }
 
 /// A scene file with its options applied becomes a job.
-RenderJob job_of(const Document& document, const GivenParts& given, const GridLoader& load) {
+RenderJob job_of(const Document& document, const GivenParts& given, LeftOut left_out, const GridLoader& load) {
   RenderJob job;
   TableReader root(document.root, "the scene file", job.files);
-  ScenePlan plan = read_plan(root, given, job);
+  ScenePlan plan = read_plan(root, document, given, left_out, job);
   try {
     assemble_plan(plan, load, job);
   } catch (const PartError& error) {
     fail_at_part(error, root, plan);
   }
-  Fingerprint fingerprint = fingerprint_of(document, job.files, hashes_of(given));
+  Fingerprint fingerprint = fingerprint_of(document, job.files, hashes_of(given), left_out);
   job.hash = std::move(fingerprint.hash);
   job.contents = std::move(fingerprint.contents);
   return job;
@@ -227,10 +216,10 @@ RenderJob job_of(const Document& document, const GivenParts& given, const GridLo
 /// The same of one without its options.
 RenderJob job_with(Document document, const std::vector<std::string>& options, LeftOut left_out,
                    const GivenParts& given, const GridLoader& load) {
+  if (left_out == LeftOut::automatic && !names_integrator(document, options))
+    apply_override(document, fmt::format("integrator.type={}", kAuto));  // first: what options say is not left out
   for (const std::string& option : options) apply_override(document, option);
-  if (left_out == LeftOut::automatic)
-    for (const std::string& option : left_to_choose(document)) apply_override(document, option);
-  RenderJob job = job_of(document, given, load);
+  RenderJob job = job_of(document, given, left_out, load);
   job.source = document.sources.front()->name;
   job.overrides = options;
   job.left_out_is_automatic = left_out == LeftOut::automatic;
@@ -240,6 +229,16 @@ RenderJob job_with(Document document, const std::vector<std::string>& options, L
 LoadedGrid load_from_file(const std::string&, const GridRequest& request) { return load_grid(request); }
 
 }  // namespace
+
+std::vector<std::string> components_first(std::vector<std::string> overrides) {
+  const auto place = [](const std::string& option) {
+    const std::string key = option.substr(0, option.find('='));
+    return key == "integrator.type" ? 0 : key.starts_with("integrator.") && key.ends_with(".type") ? 1 : 2;
+  };
+  std::stable_sort(overrides.begin(), overrides.end(),
+                   [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+  return overrides;
+}
 
 RenderJob load_scene(const std::string& path, const std::vector<std::string>& options, LeftOut left_out,
                      const GridLoader& load) {

@@ -9,9 +9,8 @@
 #include "vpm/image/exr.h"
 #include "vpm/input/given_parts.h"
 #include "vpm/input/table_reader.h"
-#include "vpm/job/choice.h"
+#include "vpm/job/render_job.h"
 #include "vpm/job/validate.h"
-#include "vpm/render/settings.h"
 #include "vpm/scene/parts.h"
 
 namespace vpm {
@@ -87,8 +86,10 @@ std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);
 /// Reads [camera] and [film].
 Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
 
-/// Reads the sections of all_settings(), and validates the settings against the scene. Where a value is "auto" the
-/// settings hold its default, and `automatic` tells.
-RenderSettings read_settings(TableReader& root, const SceneFacts& facts, AutomaticSettings& automatic);
+/// Reads [render] and [integrator], and validates the settings against the scene. Where a value is "auto" the settings
+/// hold its default, and the job its key. What components do not have that options of the document put in the place of
+/// others is left out, with a note in the job; other keys that they do not have are refused.
+RenderSettings read_settings(TableReader& root, const Document& document, const SceneFacts& facts, LeftOut left_out,
+                             RenderJob& job);
 
 }  // namespace vpm

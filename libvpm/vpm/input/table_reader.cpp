@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "vpm/job/setting.h"
+#include "vpm/base/setting.h"
 
 namespace vpm {
 namespace {
@@ -223,9 +223,14 @@ std::vector<TableReader> TableReader::tables(const std::string& key, const std::
 }
 
 void TableReader::finish(const std::function<std::string(const std::string&)>& hint) const {
+  for (const Entry* entry : unknown()) refuse_unknown(*entry, hint ? hint(entry->key) : "");
+}
+
+std::vector<const Entry*> TableReader::unknown() const {
+  std::vector<const Entry*> entries;
   for (const Entry& entry : *node_->table())
-    if (std::find(known_.begin(), known_.end(), entry.key) == known_.end())
-      refuse_unknown(entry, hint ? hint(entry.key) : "");
+    if (std::find(known_.begin(), known_.end(), entry.key) == known_.end()) entries.push_back(&entry);
+  return entries;
 }
 
 void TableReader::refuse_unknown(const Entry& entry, const std::string& hint) const {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "vpm/base/range.h"
+#include "vpm/base/setting.h"
 #include "vpm/base/vec.h"
 #include "vpm/input/toml_node.h"
-#include "vpm/job/setting.h"
 
 namespace vpm {
 
@@ -60,7 +60,9 @@ class TableReader {
   /// The elements of an array of tables, titled "<title> 'name'" or "<title> number i".
   std::vector<TableReader> tables(const std::string& key, const std::string& title);
 
-  /// Refuses the first key that nobody asked for; what `hint` has to say of it comes before the keys that there are.
+  /// The keys that nobody asked for.
+  std::vector<const Entry*> unknown() const;
+  /// Refuses the first of these; what `hint` has to say of it comes before the keys that there are.
   void finish(const std::function<std::string(const std::string& key)>& hint = {}) const;
 
   /// Throws an error at the value of `key`, or at the table where the key is missing.
@@ -72,9 +74,9 @@ class TableReader {
   const std::string& title() const { return title_; }
   const Place& place() const { return node_->place; }
   const Place& place_of(const std::string& key) const;
+  [[noreturn]] void refuse_unknown(const Entry& entry, const std::string& hint = "") const;
 
  private:
-  [[noreturn]] void refuse_unknown(const Entry& entry, const std::string& hint = "") const;
   /// Says what words there are in place of another, or of no word.
   [[noreturn]] void refuse_word(const std::string& key, const Node& node, const std::vector<std::string>& words) const;
 

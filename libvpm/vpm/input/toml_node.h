@@ -39,11 +39,19 @@ const Entry* find_entry(const Node::Table& table, const std::string& key);
 /// "an integer", "a table", ...: for messages.
 std::string kind_of(const Node& node);
 
+/// An option that names another component than what was said before it.
+struct Replacement {
+  std::string table;          // "integrator.volume"
+  std::string before, after;  // the components
+  const Source* option;
+};
+
 /// A scene file with the --set options applied. Nodes point into `sources`.
 struct Document {
   std::vector<std::unique_ptr<Source>> sources;  // the file first
   std::string text;                              // of the file
   Node root;
+  std::vector<Replacement> replaced{};
 };
 
 /// Throws InputError for text that toml++ should not get: a key of more than 32 parts, letters that only strings may
@@ -60,7 +68,9 @@ std::unique_ptr<Node> parse_toml_value(const std::string& text, const Source* so
 
 /// Applies `key.path=value`: the value is read as a TOML value, or taken as a string where it is none. An element of an
 /// array of tables is addressed by its number (from 0) or its name. Only the last key and sections of the file (the
-/// path's first key) may be new. Errors start with "--set key.path=value:".
+/// path's first key, and all of the integrator) may be new. One that names another component,
+/// "integrator.volume.type=beam", drops what the file says of the one before, and notes it. Errors start with "--set
+/// key.path=value:".
 void apply_override(Document& document, const std::string& option);
 
 }  // namespace vpm

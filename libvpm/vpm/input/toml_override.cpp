@@ -1,7 +1,10 @@
 // Changing a parsed scene file by `key.path=value` options.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <charconv>
 
 #include "vpm/input/toml_node.h"
+#include "vpm/job/describe.h"
 
 namespace vpm {
 namespace {
@@ -67,6 +70,18 @@ Node& value_of(Node::Table& table, const std::string& key, const std::string& ow
   return table.back().node;
 }
 
+/// Does the path name a component of the integrator, or the integrator itself?
+bool names_component(const std::vector<std::string>& keys) {
+  return keys.size() >= 2 && keys.front() == "integrator" && keys.back() == "type";
+}
+
+/// What a component is that nothing names; "" where there is none of that key by default.
+std::string usual_type(const std::string& key) {
+  RenderSettings usual;
+  const std::optional<Setting> setting = find_setting(usual, key);
+  return setting ? text_of(setting->usual) : "";
+}
+
 }  // namespace
 
 const Entry* find_entry(const Node::Table& table, const std::string& key) {
@@ -96,15 +111,22 @@ void apply_override(Document& document, const std::string& option) {
     const bool is_last = i + 1 == keys.size(), of_list = !is_last && (is_number(keys[i + 1]) || keys[i + 1] == kNew);
     const Node made = of_list ? Node{place, Node::Array{}} : Node{place, Node::Table{}};
     if (auto* table = std::get_if<Node::Table>(&node->value))
-      node = &value_of(*table, keys[i], owner, i == 0 || is_last ? &made : nullptr, place);
+      node = &value_of(*table, keys[i], owner, i == 0 || is_last || keys[0] == "integrator" ? &made : nullptr, place);
     else if (auto* array = std::get_if<Node::Array>(&node->value))
       node = &element_of(*array, keys[i], owner, place);
     else
       fail_at(place, "'" + owner + "' is " + kind_of(*node) + " and has no '" + keys[i] + "'");
     owner += (i > 0 ? "." : "") + keys[i];
   }
-  const std::unique_ptr<Node> value = parse_toml_value(text, source);
-  *node = value ? *value : Node{place, text};
+  const std::unique_ptr<Node> parsed = parse_toml_value(text, source);
+  const Node value = parsed ? *parsed : Node{place, text};
+  if (const auto* const after = std::get_if<std::string>(&value.value); after && names_component(keys)) {
+    const std::string path = fmt::format("{}", fmt::join(keys, "."));
+    const auto* const word = std::get_if<std::string>(&node->value);
+    const std::string before = word ? *word : usual_type(path);
+    if (before != *after) document.replaced.push_back({path.substr(0, path.rfind('.')), before, *after, source});
+  }
+  *node = value;
 }
 
 }  // namespace vpm

@@ -230,20 +230,10 @@ type = "environment"
 radiance = [0.045, 0.065, 0.11]  # W/(m^2 sr)
 
 [render]
-integrator = "auto"
 seconds = 20
 
-[distance]
-strategy = "auto"
-
-[photons]
-emitted = "auto"
-
-[volume]
-radius = "auto"
-
-[surface]
-radius = "auto"
+[integrator]
+type = "auto"
 )",
       fmt::arg("path", toml_string(grid.path_in_scene)), fmt::arg("camera", toml_vector(Vec3(stage.camera))),
       fmt::arg("target", toml_vector(Vec3(stage.target))), fmt::arg("up", toml_vector(Vec3(up))), fmt::arg("fov", kFov),

@@ -8,9 +8,8 @@
 #include "vpm/base/counters.h"
 #include "vpm/base/error.h"
 #include "vpm/job/choice_rules.h"
-#include "vpm/job/declare.h"
+#include "vpm/job/describe.h"
 #include "vpm/job/pilot.h"
-#include "vpm/job/setting.h"
 #include "vpm/job/trials.h"
 
 namespace vpm {
@@ -21,14 +20,15 @@ Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
   std::string reason = "no medium is a grid: exact there, and nothing to look up", strategy = "homogeneous";
   if (grids) {
     if (!kCounts)
-      throw InputError("distance.strategy: this program does not count look-ups, and cannot choose: name a strategy");
+      throw InputError(
+          "integrator.distance.type: this program does not count look-ups, and cannot choose: name a strategy");
     const std::vector<StrategyCost> costs = strategy_costs(scene, settings);
     strategy = cheapest(costs).name;
     reason = "of exact strategies the cheapest in a pilot, in look-ups for a photon:";
     for (const StrategyCost& each : costs) reason += fmt::format(" {} {:.3g}", each.name, each.cost);
   }
   settings.distance.strategy = strategy;
-  return {"distance.strategy", strategy, reason};
+  return {"integrator.distance.type", strategy, reason};
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, c
   constexpr size_t kParts = 5;  // of the time, one for the strategy
   Chosen chosen;
   const auto strategy = [&] { chosen.choices.push_back(choose_strategy(scene, settings)); };
-  if (automatic.has("distance.strategy") && !scene.media.empty() &&
+  if (automatic.has("integrator.distance.type") && !scene.media.empty() &&
       !time.clock.finish_by(time.end_of_next(kParts), strategy))
     chosen.left_out = "the time does not allow to choose a distance strategy";
   std::vector<Choice> more;
@@ -49,16 +49,19 @@ Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, c
     chosen.left_out = std::move(left_out);
   }
   for (Choice& choice : more) chosen.choices.push_back(std::move(choice));
+  // The integrator first, as it decides which others there are.
+  std::stable_partition(chosen.choices.begin(), chosen.choices.end(),
+                        [](const Choice& choice) { return choice.key == "integrator.type"; });
   return chosen;
 }
 
 void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value) {
-  const Setting* const setting = find_setting(key, settings);
+  const std::optional<Setting> setting = find_setting(settings, key);
   if (!setting || !setting->automatic) throw InputError(fmt::format("{} is no setting that a render chooses", key));
   const std::optional<SettingValue> chosen = parse(*setting, value);
   if (!chosen || chosen == SettingValue(uint64_t{0}))
     throw InputError(fmt::format("'{}' is no value of {} that a render chooses", value, key));
-  setting->member.set(settings, *chosen);
+  setting->set(*chosen);
 }
 
 }  // namespace vpm

@@ -10,7 +10,7 @@
 
 namespace vpm {
 
-/// Which settings are to be chosen, by their keys; those that may be are declared Setting::automatic. What is not to be
+/// Which settings are to be chosen, by their keys; those that may be are Setting::automatic. What is not to be
 /// chosen is never changed.
 struct AutomaticSettings {
   using Keys = std::set<std::string, std::less<>>;
@@ -20,6 +20,10 @@ struct AutomaticSettings {
   bool any() const { return !keys.empty() || !left_out.empty(); }
   bool has(std::string_view key) const { return keys.contains(key) || left_out.contains(key); }
 };
+
+/// What a value is that may be "auto" and that a scene file and its options leave out: its default, or "auto". Where
+/// they do not name the integrator, `automatic` drops all that they say of it.
+enum class LeftOut { usual, automatic };
 
 /// When choosing is to have ended, s on a clock; infinite where it may take any time.
 struct ChoosingTime {
@@ -35,7 +39,7 @@ struct ChoosingTime {
 
 /// A setting that was chosen.
 struct Choice {
-  std::string key;    // of scene files: "volume.radius"
+  std::string key;    // of scene files: "integrator.volume.radius"
   std::string value;  // as --set takes it, to the last bit
   std::string reason;
 };

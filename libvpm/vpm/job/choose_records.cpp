@@ -40,9 +40,9 @@ std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& 
     const bool asked = gather.goes_by_count() ? automatic.keys.contains(key) : automatic.has(key);
     if (asked && has(section)) open.push_back({key, gather, density, photons});
   };
-  add("volume", "volume.radius", s.volume, densities.volume, emitted);
-  add("surface", "surface.radius", s.surface, densities.surface, emitted);
-  add("caustics", "caustics.radius", s.caustics, densities.caustics, aimed);
+  add("volume", "integrator.volume.radius", s.volume, densities.volume, emitted);
+  add("surface", "integrator.surface.radius", s.surface, densities.surface, emitted);
+  add("caustics", "integrator.caustics.radius", s.caustics, densities.caustics, aimed);
   return open;
 }
 
@@ -60,7 +60,7 @@ RenderSettings as_maps(const RenderSettings& settings) {
 ChosenRadius narrow(const ChosenRadius& chosen, const OpenRadius& open, const Scene& scene) {
   AskedGather usual = open.gather;
   usual.radius = {};
-  const bool media = open.key == std::string_view("volume.radius");
+  const bool media = open.key == std::string_view("integrator.volume.radius");
   const float most = media ? first_radius_of_merges(usual, scene) : first_radius(usual, scene);
   if (chosen.radius <= most) return chosen;
   return {most, fmt::format("1 % of the scene's or the grid's diagonal, as merges are not corrected at "
@@ -119,10 +119,10 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
   std::string reason = chosen.reason;
   if (settings.volume.mode == GatherMode::photon_planes && settings.integrator == Integrator::photon)
     reason += fmt::format(
-        "; with {} planes ('planes' of [photons]), each of which costs a shadow ray where it is "
+        "; with {} planes ('planes' of [integrator.volume]), each of which costs a shadow ray where it is "
         "crossed",
         settings.planes);
-  return {"photons.emitted", fmt::format("{}", chosen.count), reason};
+  return {"integrator.photons.emitted", fmt::format("{}", chosen.count), reason};
 }
 
 /// What a pilot of so many photons says of densities; nothing where there is nothing to choose.
@@ -132,7 +132,7 @@ std::optional<MapDensities> densities_by(uint64_t photons, const Scene& scene, c
   const RenderSettings maps = as_maps(settings);
   const Estimators planned = plan_estimators(scene, maps, 0);
   for (const MapInfo& map : planned.maps())
-    if (automatic.has("photons.emitted") || automatic.has(std::string(map.section) + ".radius"))
+    if (automatic.has("integrator.photons.emitted") || automatic.has(fmt::format("integrator.{}.radius", map.section)))
       return map_densities(scene, maps, photons);
   return std::nullopt;
 }
@@ -166,7 +166,7 @@ std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& 
                                    RenderSettings& settings) {
   if (!densities) return {};
   std::vector<Choice> choices;
-  if (automatic.has("photons.emitted"))
+  if (automatic.has("integrator.photons.emitted"))
     choices.push_back(choose_photons(scene, automatic, *densities, limit, settings));
   for (Choice& choice : choose_radii(scene, automatic, *densities, settings)) choices.push_back(std::move(choice));
   return choices;

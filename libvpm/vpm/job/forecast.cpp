@@ -51,12 +51,12 @@ RenderSettings at_a_time(RenderSettings settings) {
   return settings;
 }
 
-/// "about 210000 photons.emitted": that share of the photons of a pass, and of those aimed for caustics.
+/// "about 210000 integrator.photons.emitted": that share of the photons of a pass, and of those aimed for caustics.
 std::string fitting_text(double photons, const RenderSettings& settings, double share) {
-  std::string text = fmt::format("about {} photons.emitted", photons_text(share * photons));
+  std::string text = fmt::format("about {} integrator.photons.emitted", photons_text(share * photons));
   if (settings.caustics_emitted > 0)
-    text +=
-        fmt::format(" and {} caustics.emitted", photons_text(share * static_cast<double>(settings.caustics_emitted)));
+    text += fmt::format(" and {} integrator.caustics.emitted",
+                        photons_text(share * static_cast<double>(settings.caustics_emitted)));
   return text;
 }
 
@@ -72,10 +72,10 @@ void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& setting
   const auto paths = static_cast<double>(settings.photons_emitted);
   const double each = bytes_of_sub_path(scene, settings);
   if (paths * each <= memory) return;
-  throw InputError(
-      fmt::format("photons.emitted: the light sub-paths of a pass would take {:.2g} GB of memory; this machine has "
-                  "{:.2g} GB, where about {} photons.emitted would fit; more passes do what more light sub-paths would",
-                  paths * each * 1e-9, memory * 1e-9, photons_text(0.5 * memory / each)));
+  throw InputError(fmt::format(
+      "integrator.photons.emitted: the light sub-paths of a pass would take {:.2g} GB of memory; this machine has "
+      "{:.2g} GB, where about {} integrator.photons.emitted would fit; more passes do what more light sub-paths would",
+      paths * each * 1e-9, memory * 1e-9, photons_text(0.5 * memory / each)));
 }
 
 /// A thousand photons or light sub-paths, and nothing that guides them.
@@ -124,7 +124,7 @@ std::string radius_that_fits(const Scene& scene, RenderSettings settings, double
     gather.radius = radius;
     const PassCost cost = time_pass(scene, settings, looking / kHalves);
     if (cost.seconds(photons_of_pass(settings, cost.stored_per_photon)) < seconds)
-      return fmt::format("{}.radius = {:.2g}", media ? "volume" : "surface", radius);
+      return fmt::format("integrator.{}.radius = {:.2g}", media ? "volume" : "surface", radius);
   }
   return "";
 }
@@ -171,18 +171,18 @@ void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of,
   if (fits >= 1.0) return;
   const double flights = photons * cost.flights_per_photon;
   const bool by_blocks = settings.photons_block > 0;
-  const char* const key = by_blocks                             ? "photons.block"
-                          : cost.stored_caustics > 0.5 * stored ? "caustics.emitted"
-                                                                : "photons.emitted";
+  const char* const key = by_blocks                             ? "integrator.photons.block"
+                          : cost.stored_caustics > 0.5 * stored ? "integrator.caustics.emitted"
+                                                                : "integrator.photons.emitted";
   throw InputError(fmt::format(
       "{}: the maps of a {} would hold about {:.2g} photons{} and take {:.2g} GB of memory; this machine has {:.2g} "
       "GB, where {}",
       key, by_blocks ? "block" : "pass", stored, flights > 0.0 ? fmt::format(" and {:.2g} flights", flights) : "",
       room.bytes * 1e-9, memory * 1e-9,
       by_blocks
-          ? fmt::format("about {} photons.block would fit", photons_text(0.5 * fits * photons))
-          : fitting_text(photons, settings, 0.5 * fits) +
-                " would fit; more passes do what more photons would, and photons.block gathers as many in blocks"));
+          ? fmt::format("about {} integrator.photons.block would fit", photons_text(0.5 * fits * photons))
+          : fitting_text(photons, settings, 0.5 * fits) + " would fit; more passes do what more photons would, and "
+                                                          "integrator.photons.block gathers as many in blocks"));
 }
 
 double physical_memory() {

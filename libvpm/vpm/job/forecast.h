@@ -9,11 +9,11 @@
 
 namespace vpm {
 
-/// "about 210000 photons.emitted": with which a pass of that cost takes so many seconds, > 0; "" where its rays alone
-/// take longer.
+/// "about 210000 integrator.photons.emitted": with which a pass of that cost takes so many seconds, > 0; "" where its
+/// rays alone take longer.
 std::string photons_that_fit(const PassCost& cost, const RenderSettings& settings, double seconds);
-/// "volume.radius = 0.12": the first half, quarter, ... of the radius with which a pass takes less; "" where there is
-/// none, or no radius decides what is gathered. Passes are timed for `looking` s in all, or a little longer.
+/// "integrator.volume.radius = 0.12": the first half, quarter, ... of the radius with which a pass takes less; "" where
+/// there is none, or no radius decides what is gathered. Passes are timed for `looking` s in all, or a little longer.
 std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking);
 
 /// "a ray from the eye gathers about 430000 photons, ...": where it gathers more than 100,000 within the radii of

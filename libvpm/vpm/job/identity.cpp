@@ -10,7 +10,7 @@
 
 #include "vpm/base/lines.h"
 #include "vpm/base/version.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 
 namespace vpm {
 namespace {
@@ -37,12 +37,9 @@ std::string as_name(std::string text) {
 }
 
 /// A default that stands for no value of its own, as that of radii, is called so.
-std::string value_of(const Field& field) {
-  for (const Setting& setting : all_settings())
-    if (setting.key == field.key && field.value == setting.member.get({}) &&
-        !outside_of(setting.domain, field.value).empty())
-      return "default";
-  return text_of(field.value);
+std::string value_of(const Setting& setting) {
+  const SettingValue value = setting.get();
+  return value == setting.usual && !outside_of(setting.domain, value).empty() ? "default" : text_of(value);
 }
 
 }  // namespace
@@ -58,7 +55,9 @@ Identity identity_of(const RenderJob& job) {
     identity.emplace_back("crop", fmt::format("{} {} {} {}", x0, y0, x1, y1));
   }
   identity.emplace_back("render.seed", std::to_string(job.settings.seed));
-  for (const Field& field : estimate_fields(job.settings)) identity.emplace_back(field.key, value_of(field));
+  RenderSettings settings = job.settings;
+  for (const Setting& setting : describe(settings))
+    if (!setting.of_passes) identity.emplace_back(setting.key, value_of(setting));
   if (!job.automatic.keys.empty())
     identity.emplace_back("left to be chosen", fmt::format("{}", fmt::join(job.automatic.keys, ",")));
   std::vector<std::string> keys;

@@ -41,7 +41,7 @@ std::string text_of_lost_light(const Scene& scene, const RenderSettings& setting
   return fmt::format(
       "paths do not find what {} may send by way of mirrors or glass, as no ray hits what has no extent: where there "
       "is "
-      "such light, the picture lacks it; another render.integrator finds it, and paths do once the light has an extent",
+      "such light, the picture lacks it; another integrator finds it, and paths do once the light has an extent",
       text_of_lights(lights, names));
 }
 

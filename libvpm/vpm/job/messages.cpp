@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "vpm/job/declare.h"
 #include "vpm/job/lost_light.h"
 #include "vpm/render/plan.h"
 
@@ -32,9 +31,10 @@ void warn_of_unfound_photons(const RenderStatistics& s, std::vector<std::string>
   const auto warn = [&](uint64_t stored, uint64_t queries, uint64_t used, const char* what, float radius,
                         const char* section) {
     if (stored > 0 && queries > 0 && used == 0)
-      warnings.push_back(fmt::format(
-          "no gather found any of the {} {}: a larger {}.radius ({:.2g} m in the last pass) or more photons may help",
-          stored, what, section, radius));
+      warnings.push_back(
+          fmt::format("no gather found any of the {} {}: a larger integrator.{}.radius ({:.2g} m in the last pass) or "
+                      "more photons may help",
+                      stored, what, section, radius));
   };
   warn(s.beams > 0 ? s.beams : s.volume_photons, s.eye.volume_queries, s.eye.used_in_media,
        s.beams > 0 ? "photon beams" : "photons in media", s.last_volume_radius, "volume");
@@ -48,11 +48,11 @@ void warn_of_short_counts(const EyeCounters& eye, std::vector<std::string>& warn
     constexpr double kMost = 0.01;
     const double share = static_cast<double>(of_fewer) / static_cast<double>(std::max<uint64_t>(1, all));
     if (share > kMost)
-      warnings.push_back(
-          fmt::format("{:.1f} % of the gathers by count met fewer photons than the count of [{}] within the largest "
-                      "radius, and took "
-                      "that: a larger radius or more photons give the count its meaning",
-                      100.0 * share, section));
+      warnings.push_back(fmt::format(
+          "{:.1f} % of the gathers by count met fewer photons than the count of [integrator.{}] within the largest "
+          "radius, and took "
+          "that: a larger radius or more photons give the count its meaning",
+          100.0 * share, section));
   };
   warn(eye.by_count_in_media, eye.short_in_media, "volume");
   warn(eye.gather.by_count - eye.by_count_in_media, eye.gather.short_of - eye.short_in_media, "surface");
@@ -72,11 +72,6 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
     if (shown.media && settings.plane_use == PlaneUse::alone)
       warnings.emplace_back("photon planes alone have infinite variance: the error may be larger than is stated");
   }
-  if (settings.integrator == Integrator::combined && shown.media && settings.volume.gathers_flights())
-    warnings.push_back(
-        fmt::format("'gather' of [volume], \"{}\", is of no use where techniques are combined, nor are 'beams' and "
-                    "'flights': 'techniques' of [combined] say what is gathered",
-                    word_of(settings.volume.mode)));
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
   warn(s.ledger.cut_count, "photons were cut at render.max_events");
@@ -148,7 +143,7 @@ std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& 
   if (std::string lost = lost_light_of(job); !lost.empty()) warnings.push_back(std::move(lost));
   if (finds_no_light(job.scene, result.film))
     warnings.emplace_back(
-        "the picture is black: no light was found, and no error tells what is missing; another render.integrator, or "
+        "the picture is black: no light was found, and no error tells what is missing; another integrator, or "
         "more passes, may find some");
   if (const double error = job.settings.until.error; error > 0.0 && highest_error(result) > error)
     warnings.push_back(
@@ -170,10 +165,11 @@ std::string error_text(const RenderJob& job, const RenderResult& result) {
   const std::optional<StatedError> stated = stated_error_of(result);
   if (!stated) return "";
   const std::vector<std::string> unseen = maps_of_unseen_bias(job.scene, job.settings);
-  return fmt::format("relative MSE at most {:.2g} (expected about {}; {}{})", two_digits_up(stated->highest),
-                     measured_text(stated->total),
-                     bias_text(*stated, gathers(job.scene, job.settings), !lost_light_of(job).empty()),
-                     unseen.empty() ? "" : fmt::format("; that of [{}] cannot be seen", fmt::join(unseen, "], [")));
+  return fmt::format(
+      "relative MSE at most {:.2g} (expected about {}; {}{})", two_digits_up(stated->highest),
+      measured_text(stated->total), bias_text(*stated, gathers(job.scene, job.settings), !lost_light_of(job).empty()),
+      unseen.empty() ? ""
+                     : fmt::format("; that of [integrator.{}] cannot be seen", fmt::join(unseen, "], [integrator.")));
 }
 
 }  // namespace vpm

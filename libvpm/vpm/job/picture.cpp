@@ -8,7 +8,7 @@
 #include "vpm/base/version.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/statistics_of.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 #include "vpm/render/technique_layers.h"
 #include "vpm/render/view_layers.h"
 

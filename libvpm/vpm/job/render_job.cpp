@@ -8,11 +8,11 @@
 #include "vpm/base/error.h"
 #include "vpm/job/automatic.h"
 #include "vpm/job/choose_records.h"
+#include "vpm/job/describe.h"
 #include "vpm/job/forecast.h"
 #include "vpm/job/pass_time.h"
 #include "vpm/job/pilot.h"
 #include "vpm/job/render.h"
-#include "vpm/job/setting.h"
 #include "vpm/job/validate.h"
 
 namespace vpm {
@@ -36,7 +36,7 @@ double time_left(const RenderJob& job, const Clock& clock) {
   return seconds > 0.0 ? std::max(seconds - clock.seconds(), 0.0) : double{kInfinity};
 }
 
-/// "about 210000 photons.emitted, or volume.radius = 0.12 would fit"; either may be missing.
+/// "about 210000 integrator.photons.emitted, or integrator.volume.radius = 0.12 would fit"; either may be missing.
 std::string what_fits_text(const std::string& photons, const std::string& radius, const PassCost& cost) {
   if (photons.empty() && radius.empty())
     return fmt::format("the eye's rays alone take {:.2g} s; fewer pixels or samples_per_pixel take less",
@@ -45,17 +45,18 @@ std::string what_fits_text(const std::string& photons, const std::string& radius
 }
 
 /// The keys of radii that the settings do not give.
-AutomaticSettings::Keys radii_left_out(const RenderSettings& settings) {
+AutomaticSettings::Keys radii_left_out(RenderSettings settings) {
   AutomaticSettings::Keys keys;
-  for (const Setting& setting : all_settings())
-    if (setting.usually_chosen && setting.member.get(settings) == setting.member.get({})) keys.insert(setting.key);
+  for (const Setting& setting : describe(settings))
+    if (setting.usually_chosen && setting.get() == setting.usual) keys.insert(setting.key);
   return keys;
 }
 
 /// What was chosen, and how to have it again.
 void note_choices(RenderJob& job) {
   if (job.choices.empty()) return;
-  std::string again;
+  // A scene says of its integrator what holds no more where that was to be chosen, though it be chosen again.
+  std::string again = job.choices.front().key == "integrator.type" ? " --set integrator.type=auto" : "";
   for (const Choice& choice : job.choices) {
     job.notes.push_back(fmt::format("chosen {} = {}: {}", choice.key, choice.value, choice.reason));
     again += fmt::format(" --set {}={}", choice.key, choice.value);
@@ -113,7 +114,7 @@ void choose_default_radii(RenderJob& job) {
 void choose_again(RenderJob& job, std::vector<Choice> choices) {
   // A radius that was left out then may be given now.
   std::erase_if(choices, [&](const Choice& choice) {
-    const Setting* const setting = find_setting(choice.key, job.settings);
+    const std::optional<Setting> setting = find_setting(job.settings, choice.key);
     return setting && setting->usually_chosen && !job.automatic.has(choice.key);
   });
   job.choices = std::move(choices);

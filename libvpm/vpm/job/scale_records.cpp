@@ -24,7 +24,7 @@ constexpr double kWider = 4.0, kLeastWider = 1.4, kNarrower = 0.5;
 constexpr double kOfOrders = 2.5;  // at edges squared bias is four times what corrections tell: a middle
 
 bool is_radius(const Choice& choice) { return choice.key.ends_with(".radius"); }
-bool is_number(const Choice& choice) { return choice.key == "photons.emitted"; }
+bool is_number(const Choice& choice) { return choice.key == "integrator.photons.emitted"; }
 
 std::string scaled(const Choice& choice, const RecordFactors& factors, double diagonal) {
   const double value = std::stod(choice.value);

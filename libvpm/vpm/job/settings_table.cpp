@@ -1,4 +1,4 @@
-// A row for each declaration: section, key, meaning, values, default.
+// A row for each setting: table, key, what must be chosen for it, meaning, values, default.
 #include "vpm/job/settings_table.h"
 
 #include <fmt/format.h>
@@ -9,37 +9,48 @@ namespace vpm {
 namespace {
 
 struct Row {
-  std::vector<std::string> sections;
-  std::string name, meaning, values, usual;
+  std::vector<std::string> tables;
+  std::string name, with, meaning, values, usual;
 
-  bool same_but_for_section(const Row& other) const {
-    return name == other.name && meaning == other.meaning && values == other.values && usual == other.usual;
+  bool same_but_for_table(const Row& other) const {
+    return name == other.name && with == other.with && meaning == other.meaning && values == other.values &&
+           usual == other.usual;
   }
 };
 
 std::string word(const std::string& text) { return fmt::format("`\"{}\"`", text); }
 
-std::string text_of_domain(const Words& domain) {
-  std::vector<std::string> words;
-  for (const std::string& each : domain.words) words.push_back(word(each));
-  return fmt::format("{}", fmt::join(words, ", "));
+std::vector<std::string> in_quotes(std::vector<std::string> words) {
+  for (std::string& each : words) each = word(each);
+  return words;
 }
+
+std::string text_of_domain(const Words& domain) { return fmt::format("{}", fmt::join(in_quotes(domain.words), ", ")); }
 std::string text_of_domain(const WordSet& domain) { return "some of " + text_of_domain(Words{domain.words}); }
 std::string text_of_domain(const Flags&) { return "`true`, `false`"; }
 std::string text_of_domain(const Integers& domain) {
-  constexpr uint64_t kTellsNothing = 1'000'000'000;
-  if (domain.hi >= kTellsNothing) return fmt::format("integer >= {}", domain.lo);
+  constexpr uint64_t kNoMatter = 1'000'000'000;  // no limit that anybody meets
+  if (domain.hi >= kNoMatter) return fmt::format("integer >= {}", domain.lo);
   return fmt::format("integer from {} to {}", domain.lo, domain.hi);
 }
 std::string text_of_domain(const Numbers& domain) { return text_of(domain.range); }
 
+/// What must be chosen for a setting, the integrator first.
+std::string all_of(const SettingOfSome& each) {
+  std::string text = each.integrators.empty() ? "" : fmt::format("{}", fmt::join(in_quotes(each.integrators), ", "));
+  if (!text.empty() && !each.with.empty()) text += "; ";
+  return text + each.with;
+}
+
 std::vector<Row> rows() {
   std::vector<Row> all;
-  for (const Setting& setting : all_settings()) {
-    const Row row{{setting.section()}, setting.name(), setting.meaning, values_of(setting), usual_of(setting)};
-    const auto same = std::find_if(all.begin(), all.end(), [&](const Row& r) { return r.same_but_for_section(row); });
-    if (same != all.end())
-      same->sections.push_back(setting.section());
+  for (const SettingOfSome& each : every_setting()) {
+    const Setting& setting = each.setting;
+    const Row row{{setting.table()}, setting.name(),     all_of(each),
+                  setting.meaning,   values_of(setting), usual_of(setting)};
+    const auto alike = std::find_if(all.begin(), all.end(), [&](const Row& r) { return r.same_but_for_table(row); });
+    if (alike != all.end())
+      alike->tables.push_back(setting.table());
     else
       all.push_back(row);
   }
@@ -55,20 +66,20 @@ std::string values_of(const Setting& setting) {
 }
 
 std::string usual_of(const Setting& setting) {
-  if (!setting.default_text.empty()) return std::string(setting.default_text);
-  const std::string text = text_of(setting.member.get({}));
+  if (!setting.usual_text.empty()) return std::string(setting.usual_text);
+  const std::string text = text_of(setting.usual);
   if (std::holds_alternative<Words>(setting.domain)) return word(text);
   return std::holds_alternative<Flags>(setting.domain) ? "`" + text + "`" : text;
 }
 
 std::string settings_table() {
-  std::string table = "| section | key | meaning | values | default |\n| --- | --- | --- | --- | --- |\n";
+  std::string table = "| table | key | with | meaning | values | default |\n| --- | --- | --- | --- | --- | --- |\n";
   std::string last;
   for (const Row& row : rows()) {
-    const std::string sections = fmt::format("`[{}]`", fmt::join(row.sections, "]`, `["));
-    table += fmt::format("| {}| `{}` | {} | {} | {} |\n", sections == last ? "" : sections + " ", row.name, row.meaning,
-                         row.values, row.usual);
-    last = sections;
+    const std::string tables = fmt::format("`[{}]`", fmt::join(row.tables, "]`, `["));
+    table += fmt::format("| {}| `{}` | {}| {} | {} | {} |\n", tables == last ? "" : tables + " ", row.name,
+                         row.with.empty() ? "" : row.with + " ", row.meaning, row.values, row.usual);
+    last = tables;
   }
   return table;
 }

@@ -1,9 +1,9 @@
-// Settings for people, from their declarations: what each may hold, and the page of all.
+// Settings for people: what each may hold, and the table of all.
 #pragma once
 
 #include <string>
 
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 
 namespace vpm {
 
@@ -11,7 +11,7 @@ namespace vpm {
 std::string values_of(const Setting& setting);
 std::string usual_of(const Setting& setting);
 
-/// A table in Markdown: a row for each setting, and one for settings of several sections that differ in nothing else.
+/// A table in Markdown: a row for each setting, and one for settings of several tables that differ in nothing else.
 std::string settings_table();
 
 }  // namespace vpm

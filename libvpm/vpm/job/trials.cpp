@@ -11,22 +11,22 @@
 #include "vpm/base/error.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/choose_records.h"
-#include "vpm/job/declare.h"
+#include "vpm/job/describe.h"
 #include "vpm/job/pass_time.h"
 #include "vpm/job/pilot_error.h"
 #include "vpm/job/render.h"
 #include "vpm/job/scale_records.h"
-#include "vpm/job/setting.h"
 #include "vpm/job/validate.h"
+#include "vpm/job/words.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
 namespace {
 
 constexpr double kTimingShare = 0.04;  // of the seconds of a render, for each of a few timings of a pass
-constexpr std::string_view kIntegratorKey = "render.integrator", kGatherKey = "volume.gather",
-                           kTechniquesKey = "combined.techniques";
-constexpr const char* kSeeIntegrator = "with render.integrator, see there";
+constexpr std::string_view kIntegratorKey = "integrator.type", kGatherKey = "integrator.volume.type",
+                           kTechniquesKey = "integrator.techniques";
+constexpr const char* kSeeIntegrator = "with integrator.type, see there";
 
 // What may be tried: of equals the first is chosen.
 constexpr std::array kIntegratorsToTry{Integrator::photon, Integrator::combined, Integrator::path};
@@ -87,17 +87,11 @@ std::vector<Trial> trials_of_techniques(const Scene& scene, const AutomaticSetti
   return {without({Technique::short_beams, Technique::light_tracing}), without({Technique::short_beams}), all};
 }
 
-/// Is the integrator to be chosen, where a gather is given that photon maps alone have?
-bool asks_for_photon_maps(const AutomaticSettings& automatic, const RenderSettings& settings) {
-  return automatic.has(kIntegratorKey) && settings.volume.gathers_flights();
-}
-
 /// One trial of each way, allowed or not.
 std::vector<Trial> all_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   std::vector<Trial> trials;
   for (const Integrator integrator : kIntegratorsToTry) {
     if (!automatic.has(kIntegratorKey) && integrator != settings.integrator) continue;
-    if (asks_for_photon_maps(automatic, settings) && integrator != Integrator::photon) continue;
     Trial trial{settings, word_of(integrator)};
     trial.settings.integrator = integrator;
     std::vector<Trial> more = integrator == Integrator::photon     ? trials_of_maps(scene, automatic, trial)
@@ -115,9 +109,6 @@ struct OpenTrials {
 };
 OpenTrials open_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   OpenTrials open;
-  if (asks_for_photon_maps(automatic, settings))
-    open.refused = fmt::format("; not {}, {}: 'gather' of [volume] is \"{}\"", word_of(Integrator::combined),
-                               word_of(Integrator::path), word_of(settings.volume.mode));
   std::string last;  // of several ways of the same integrator, which have the same fault
   for (Trial& trial : all_trials(scene, automatic, settings)) {
     try {
@@ -277,9 +268,9 @@ std::vector<Choice> choices_of(const Scene& scene, const AutomaticSettings& auto
     const std::string why = ball_by_ball ? "only balls are corrected one by one, as 'boundary' asks for" : reason;
     choices.push_back({std::string(kGatherKey), word_of(settings.volume.mode), choices.empty() ? why : kSeeIntegrator});
   }
+  RenderSettings chosen = settings;
   if (settings.integrator == Integrator::combined && chooses_techniques(automatic))
-    choices.push_back({std::string(kTechniquesKey),
-                       std::get<std::string>(find_setting(kTechniquesKey, settings)->member.get(settings)),
+    choices.push_back({std::string(kTechniquesKey), std::get<std::string>(find_setting(chosen, kTechniquesKey)->get()),
                        choices.empty() ? reason : kSeeIntegrator});
   for (const Choice& choice : best.choices) choices.push_back(choice);
   return choices;
@@ -289,9 +280,6 @@ std::vector<Choice> choices_of(const Scene& scene, const AutomaticSettings& auto
 
 bool asks_for_trials(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   if (automatic.has(kIntegratorKey)) return true;
-  if (settings.integrator == Integrator::combined && automatic.has(kGatherKey))
-    throw InputError(
-        fmt::format("{}: where render.integrator is \"combined\" it is of no use: leave it out", kGatherKey));
   if (settings.integrator == Integrator::combined) return automatic.has(kTechniquesKey);
   return settings.integrator == Integrator::photon && gathers_in_media(scene, automatic, settings);
 }

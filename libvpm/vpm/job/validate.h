@@ -24,7 +24,7 @@ SceneFacts facts_of(const Scene& scene);
 class SettingError : public InputError {
  public:
   SettingError(std::string key, std::string wrong, std::string right);
-  const std::string& key() const { return key_; }      // of scene files: "volume.radius"
+  const std::string& key() const { return key_; }      // of scene files: "integrator.volume.radius"
   const std::string& wrong() const { return wrong_; }  // what is wrong
   const std::string& right() const { return right_; }  // what would be right; may be empty
 
@@ -32,8 +32,8 @@ class SettingError : public InputError {
   std::string key_, wrong_, right_;
 };
 
-/// Throws a SettingError where a setting is out of its range, is given a value that nothing uses, or contradicts
-/// another or the scene.
+/// Throws a SettingError where a setting of the chosen components is out of its range, or contradicts another or the
+/// scene. Members that these components do not have are not looked at, here as in a render.
 void validate(const RenderSettings& settings, const SceneFacts& facts);
 /// The same for a light map, which is of photon maps, has no radii of pixels' own, and is not baked until an error is
 /// reached.

@@ -185,10 +185,10 @@ class Orders {
 };
 
 void refuse_radii_of_pixels(const RenderSettings& settings) {
-  if (settings.radii == RadiusSchedule::per_pixel)
-    throw SettingError("render.radii",
-                       "where render.radii is \"per-pixel\" radii follow from all passes before, so that no other rank "
-                       "can make the next pass",
+  if (settings.integrator == Integrator::photon && settings.radii == RadiusSchedule::per_pixel)
+    throw SettingError("integrator.radii",
+                       "where 'radii' of [integrator] are \"per-pixel\" they follow from all passes before, so that no "
+                       "other rank can make the next pass",
                        "write other radii, or render in one process");
 }
 

@@ -1,5 +1,5 @@
-// Everything a render can be told besides the scene. Plain values; the defaults here are those of scene files, except
-// where a setting goes by others (Setting::decided_by).
+// Everything a render can be told besides the scene. Plain values; the defaults here are those of scene files, but for
+// that of the distance strategy of photon maps (job/describe.cpp).
 #pragma once
 
 #include <cstdint>

@@ -9,9 +9,13 @@
 
 namespace vpm {
 
+inline constexpr float kCarefulStep = 0.1f;  // voxels
+
 inline DistanceSettings careful_settings(std::string_view strategy) {
-  const float majorant = strategy_info(strategy).positive ? 1.0f : 0.5f;
-  return {.strategy = std::string(strategy), .step = 0.1f, .optical_step = 0.02f, .majorant = majorant};
+  const StrategyInfo& info = strategy_info(strategy);
+  const float majorant = info.positive ? 1.0f : 0.5f;
+  return {std::string(strategy),
+          among(info.parameters, {{"step", kCarefulStep}, {"optical_step", 0.02f}, {"majorant", majorant}})};
 }
 
 }  // namespace vpm

@@ -59,7 +59,7 @@ std::shared_ptr<SceneJob> load(const std::function<RenderJob()>& load_job) {
 
 std::shared_ptr<SceneJob> load_file(const std::string& path, const std::vector<std::string>& overrides,
                                     bool automatic) {
-  return load([&] { return load_scene(path, overrides, left_out(automatic)); });
+  return load([&] { return load_scene(path, components_first(overrides), left_out(automatic)); });
 }
 
 std::shared_ptr<SceneJob> load_text(const std::string& name, const std::string& text,
@@ -70,7 +70,7 @@ std::shared_ptr<SceneJob> load_text(const std::string& name, const std::string& 
     scene.given.grids.emplace(medium, grid_values(array, index_to_world));
   for (const auto& [shape, vertices, faces, normals, uvs] : meshes)
     scene.given.meshes.emplace(shape, triangle_mesh(vertices, faces, normals, uvs));
-  return load([&] { return load_scene(scene, overrides, left_out(automatic)); });
+  return load([&] { return load_scene(scene, components_first(overrides), left_out(automatic)); });
 }
 
 void write_array(const std::string& path, const py::array_t<float>& array, const Doubles& index_to_world) {

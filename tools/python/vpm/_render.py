@@ -85,7 +85,7 @@ class Result:
     @functools.cached_property
     def layers(self) -> dict[str, Image]:
         """The layers that a picture file of it has: what each technique finds, "combined.NAME.weighted" and the like,
-        W/(m^2 sr), where the scene says combined.layers = true; and what the camera sees, those of render.layers.
+        W/(m^2 sr), where the scene says integrator.layers = true; and what the camera sees, those of render.layers.
         Arrays (height, width, 3), or (height, width) where there is one channel, as of "depth"."""
         return {name: _read_only(layer) for name, layer in self._passes.layers().items()}
 

@@ -20,7 +20,7 @@
 #include "vpm/base/version.h"
 #include "vpm/image/metrics.h"
 #include "vpm/input/source.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/study/compare/exact_picture.h"
 #include "vpm/study/compare/experiment.h"

@@ -246,8 +246,8 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
         {"squared_bias", "relative MSE of the mean of repetitions, less its variance"},
         {"efficiency", "1 / (relative MSE x cost), over that of the best method; whether two differ, pairs tell"},
         {"share_of_light",
-         "of a technique, where a method has combined.layers: the sum over pixels and channels of what it finds, times "
-         "its shares, over that of all techniques; mean over repetitions, as all of techniques"},
+         "of a technique, where a method has integrator.layers: the sum over pixels and channels of what it finds, "
+         "times its shares, over that of all techniques; mean over repetitions, as all of techniques"},
         {"found_alone",
          "the sum of what the technique finds without its shares, over the same: 1 where it alone finds all light, "
          "more where it finds paths in several ways"},

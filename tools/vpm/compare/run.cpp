@@ -10,8 +10,8 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/vec.h"
 #include "vpm/job/automatic.h"
+#include "vpm/job/describe.h"
 #include "vpm/job/render.h"
-#include "vpm/job/setting.h"
 
 namespace vpm::tools {
 namespace {

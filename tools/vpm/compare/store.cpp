@@ -12,8 +12,9 @@
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
+#include "vpm/base/version.h"
 #include "vpm/image/exr.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 
 namespace vpm::tools {
 namespace {
@@ -77,6 +78,17 @@ void make_folder(const fs::path& folder) {
   if (error) throw InputError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
 }
 
+constexpr const char* kFormat = "2";
+
+/// The format of what a folder holds: the first, up to 2026-11, did not say so. That of this program where it holds
+/// nothing.
+std::string format_of(const fs::path& folder) {
+  std::ifstream file(folder / "format");
+  if (std::string format; std::getline(file, format)) return format;
+  std::error_code ignored;
+  return fs::exists(folder / "runs", ignored) ? "1" : kFormat;
+}
+
 /// How the layer of what a technique finds is called, as in pictures of `vpm render`.
 std::string name_of_part(const FoundByTechnique& technique) {
   return fmt::format("combined.{}.weighted", technique.name);
@@ -106,8 +118,15 @@ std::string cost_json(const RunCost& cost) {
 }
 
 Store::Store(fs::path folder) : folder_(std::move(folder)) {
+  const std::string format = format_of(folder_);
+  if (format != kFormat)
+    throw InputError(
+        fmt::format("{}: the runs in this folder are of format {}, and this vpm {} has format {}, whose "
+                    "settings have other names: name another folder",
+                    folder_.string(), format, version(), kFormat));
   make_folder(folder_ / "runs");
   make_folder(folder_ / "references");
+  write_text(folder_ / "format", fmt::format("{}\n", kFormat));
 }
 
 fs::path Store::file(const char* kind, const std::string& identity, const std::string& extension) const {
@@ -197,9 +216,9 @@ Reference read_reference(const fs::path& path) {
     reference.doubt = "the reference does not tell its own noise";
   const auto settings = file.metadata.find("vpm.settings");
   if (settings != file.metadata.end()) {
-    const std::optional<std::string> integrator = field_of(settings->second, "render.integrator");
+    const std::optional<std::string> integrator = field_of(settings->second, "integrator.type");
     if (!integrator) reference.doubt = "the reference does not tell what estimated it";
-    if (integrator == "photon") reference.doubt = kOfPhotons;
+    if (integrator == "photon-map") reference.doubt = kOfPhotons;
   }
   return reference;
 }

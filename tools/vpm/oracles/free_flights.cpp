@@ -133,7 +133,8 @@ void check_profile(std::vector<Check>& checks, const OracleCase& c, const Profil
 double rate_of(const StrategyInfo& info, const FlightPath& path) {
   const double mean = path.medium.mean_density(), start = path.medium.density(path.ray.origin);
   const bool local = info.name == "local-extinction";
-  return path.medium.sigma_t.r * (local ? std::max(start, DistanceSettings{}.extinction_floor * mean) : mean);
+  return path.medium.sigma_t.r *
+         (local ? std::max(start, number_of(info.parameters, {}, "extinction_floor") * mean) : mean);
 }
 
 /// Flights by every strategy that is unbiased in this medium.

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
@@ -14,7 +13,7 @@
 #include "vpm/base/error.h"
 #include "vpm/estimate/combined/technique.h"
 #include "vpm/image/image.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 #include "vpm/job/settings_table.h"
 
 namespace vpm::tools {
@@ -43,31 +42,28 @@ std::string options_again(const Json& report) {
     const std::string key = change.substr(0, change.find('='));
     if (reason_of(report, key).is_null()) options += " --set " + quoted(change);
   }
+  if (!reason_of(report, "integrator.type").is_null())
+    options += " --set integrator.type=auto";  // and no key of the file
   for (const Json& choice : report.at("chosen"))
     options += " --set " +
                quoted(fmt::format("{}={}", choice.at("key").get<std::string>(), choice.at("value").get<std::string>()));
   return options;
 }
 
-/// What a render has that says nothing of the setting.
-SettingValue usual_value(const Setting& setting, const RenderSettings& settings) {
-  return setting.decided_by.value ? setting.decided_by.value(settings) : setting.member.get({});
-}
-
 }  // namespace
 
 Json shown_settings(const RenderReport& report) {
   Json rows = Json::array();
-  for (const Field& field : estimate_fields(report.settings)) {
-    const Setting* const setting = find_setting(field.key, report.settings);
-    assert(setting);
-    rows.push_back({{"key", field.key},
-                    {"value", text_of(field.value)},
-                    {"usual", usual_of(*setting)},
-                    {"is_usual", field.value == usual_value(*setting, report.settings)},
-                    {"meaning", setting->meaning},
-                    {"values", values_of(*setting)},
-                    {"reason", reason_of(report.json, field.key)}});
+  RenderSettings settings = report.settings;
+  for (const Setting& setting : describe(settings)) {
+    if (setting.of_passes) continue;
+    rows.push_back({{"key", setting.key},
+                    {"value", text_of(setting.get())},
+                    {"usual", usual_of(setting)},
+                    {"is_usual", setting.get() == setting.usual},
+                    {"meaning", setting.meaning},
+                    {"values", values_of(setting)},
+                    {"reason", reason_of(report.json, setting.key)}});
   }
   return rows;
 }

@@ -9,7 +9,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/version.h"
-#include "vpm/job/setting.h"
+#include "vpm/job/describe.h"
 
 namespace vpm::tools {
 namespace {
@@ -52,20 +52,27 @@ std::string text_of_json(const Json& value) { return value.is_string() ? value.g
 
 /// The value of a setting, which may also be the default where that is outside of its domain.
 std::optional<SettingValue> value_of(const Setting& setting, const std::string& text) {
-  const SettingValue usual = setting.member.get({});
-  return text == text_of(usual) ? usual : parse(setting, text);
+  return text == text_of(setting.usual) ? setting.usual : parse(setting, text);
 }
 
-/// In the order in which settings are declared: what one means may depend on those before it.
+/// Takes the first setting of the report that these settings have. Is there one?
+bool take_next(Json& left, RenderSettings& settings) {
+  for (const Setting& setting : describe(settings)) {
+    if (!left.contains(setting.key)) continue;
+    const std::optional<SettingValue> value = value_of(setting, text_of_json(left[setting.key]));
+    if (!value) continue;
+    setting.set(*value);
+    left.erase(setting.key);
+    return true;
+  }
+  return false;
+}
+
+/// In the order of descriptions: which settings there are depends on those before.
 RenderSettings settings_in(const fs::path& path, const Json& json) {
   RenderSettings settings;
   Json left = json.at("settings");
-  for (const Setting& setting : all_settings()) {
-    if (!left.contains(setting.key) || !setting.needed(settings)) continue;
-    const std::optional<SettingValue> value = value_of(setting, text_of_json(left[setting.key]));
-    if (!value) continue;
-    setting.member.set(settings, *value);
-    left.erase(setting.key);
+  while (take_next(left, settings)) {
   }
   for (const auto& [key, value] : left.items())
     refuse(path, fmt::format("this vpm, {}, has no setting {} = {}: the report is by {}", version(), key,

@@ -26,7 +26,7 @@ class SurfaceMap {
              HitUse use = HitUse::surface_map)
       : scene_(scene), settings_(settings), hits_(scene, filter, use) {}
 
-  /// The map whose settings are in the section [surface] of the scene file.
+  /// The map whose settings are in the table [integrator.surface] of the scene file.
   MapInfo info() const { return {"surface", 2, true, nullptr, &hits_.photons, hits_.emitted_count}; }
   PhotonRecorder* recorder() { return &hits_; }
   void build(RenderStatistics& statistics);

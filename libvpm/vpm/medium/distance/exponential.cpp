@@ -1,28 +1,34 @@
 // Flights by one draw from an exponential law: exact where the density is constant, weighed elsewhere.
-#include <cassert>
+#include <array>
 
 #include "vpm/base/counters.h"
 #include "vpm/medium/distance/mixture.h"
-#include "vpm/medium/distance/strategies.h"
 
 namespace vpm {
+namespace {
 
-// `homogeneous`: the exact flight in a medium of constant density [Jarosz2008, eq. 7.6, 7.7 with the rate restored].
+class Homogeneous final : public DistanceStrategy {
+ public:
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+};
+
+class LocalExtinction final : public DistanceStrategy {
+ public:
+  explicit LocalExtinction(float extinction_floor) : extinction_floor_(extinction_floor) {}
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  float extinction_floor_;  // as a fraction of the mean extinction
+};
+
+class MeanExtinction final : public DistanceStrategy {
+ public:
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+};
+
 Flight Homogeneous::sample(const Medium& medium, const Ray&, const Interval& interval, const Rgb& power,
                            Rng& rng) const {
-  assert(medium.homogeneous());
-  const Rgb shares = channel_shares(power);
-  const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
-  const double target = rng.exponential();
-  const double reach = interval.length();
-  Flight flight;
-  flight.collided = target < sigma_t * reach;
-  const double length = flight.collided ? target / sigma_t : reach;
-  flight.t = flight.collided ? interval.t0 + static_cast<float>(length) : interval.t1;
-  flight.density = 1.0f;
-  flight.integral = length;
-  flight.weight = analog_weight(medium, shares, length, flight.collided);
-  return flight;
+  return homogeneous_flight(medium, interval, power, rng);
 }
 
 // `mean-extinction`: exponential flights at the mean rate over the medium's bounds, empty voxels included [Jarosz2008,
@@ -48,5 +54,36 @@ Flight LocalExtinction::sample(const Medium& medium, const Ray& ray, const Inter
   count(flight.lookups);
   return flight;
 }
+
+constexpr std::array kLocalExtinctionNumbers{
+    Parameter{"extinction_floor", 0.1f, kPositive, "", "least rate, as a fraction of the mean one"}};
+
+}  // namespace
+
+extern const StrategyInfo kHomogeneous{.name = "homogeneous",
+                                       .summary = "exact in a medium of constant density",
+                                       .failure = "no other medium: refused in grids",
+                                       .source = "Jarosz2008",
+                                       .heterogeneous = false,
+                                       .make = [](ParameterValues, const FlightUse&) { return made<Homogeneous>(); }};
+
+extern const StrategyInfo kLocalExtinction{
+    .name = "local-extinction",
+    .summary = "exponential at the rate where the segment starts; weights without bound",
+    .failure = "a dense start followed by thin voxels: flights that leave have weights without bound",
+    .source = "Jarosz2008",
+    .analog = false,
+    .bounded_weight = false,
+    .parameters = kLocalExtinctionNumbers,
+    .make = [](ParameterValues n, const FlightUse&) { return made<LocalExtinction>(n[0]); }};
+
+extern const StrategyInfo kMeanExtinction{
+    .name = "mean-extinction",
+    .summary = "exponential at the medium's mean rate; weights without bound",
+    .failure = "stretches below half the mean extinction: the variance grows without bound along them",
+    .source = "Jarosz2008",
+    .analog = false,
+    .bounded_weight = false,
+    .make = [](ParameterValues, const FlightUse&) { return made<MeanExtinction>(); }};
 
 }  // namespace vpm

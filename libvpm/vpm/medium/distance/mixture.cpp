@@ -1,5 +1,8 @@
 // Weights of flights under the channel mixture.
 #include "vpm/medium/distance/mixture.h"
+
+#include <cassert>
+
 #include "vpm/base/counters.h"
 
 namespace vpm {
@@ -20,6 +23,22 @@ Rgb analog_weight(const Medium& medium, const Rgb& shares, double integral, bool
   Rgbd value = glm::exp(-(sigma_t - least) * std::min(integral, kEndless));
   if (collided) value *= sigma_t;
   return Rgb(value / glm::dot(Rgbd(shares), value));
+}
+
+Flight homogeneous_flight(const Medium& medium, const Interval& interval, const Rgb& power, Rng& rng) {
+  assert(medium.homogeneous());
+  const Rgb shares = channel_shares(power);
+  const double sigma_t = pick_channel(medium.sigma_t, shares, rng.uniform());
+  const double target = rng.exponential();
+  const double reach = interval.length();
+  Flight flight;
+  flight.collided = target < sigma_t * reach;
+  const double length = flight.collided ? target / sigma_t : reach;
+  flight.t = flight.collided ? interval.t0 + static_cast<float>(length) : interval.t1;
+  flight.density = 1.0f;
+  flight.integral = length;
+  flight.weight = analog_weight(medium, shares, length, flight.collided);
+  return flight;
 }
 
 Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& rate,

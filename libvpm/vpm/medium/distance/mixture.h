@@ -27,6 +27,9 @@ inline float pick_channel(const Rgb& values, const Rgb& shares, float u) {
 /// crossed. 1 in a grey medium.
 Rgb analog_weight(const Medium& medium, const Rgb& shares, double integral, bool collided);
 
+/// The exact flight in a medium of constant density [Jarosz2008, eq. 7.6, 7.7 with the rate restored].
+Flight homogeneous_flight(const Medium& medium, const Interval& interval, const Rgb& power, Rng& rng);
+
 /// A flight whose distance is drawn from exp(-rate d), rates per channel in 1/m, with the weights that correct it for
 /// the medium's transmittance.
 Flight exponential_flight(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& rate,

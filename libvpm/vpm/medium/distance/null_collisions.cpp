@@ -3,9 +3,9 @@
 #include "vpm/medium/distance/null_collisions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "vpm/medium/distance/strategies.h"
 #include "vpm/medium/majorant_of_lookups.h"
 
 namespace vpm {
@@ -73,6 +73,46 @@ Flight NullCollisionFlight::result(uint32_t bricks) const {
   return flight;
 }
 
+namespace {
+
+class Delta final : public DistanceStrategy {
+ public:
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+};
+
+class DeltaLocal final : public DistanceStrategy {
+ public:
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+};
+
+class ProgressiveNull final : public DistanceStrategy {
+ public:
+  /// The majorant of pass 0, as a share of the medium's largest density. It doubles with every pass.
+  ProgressiveNull(float majorant, uint64_t pass);
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  double share_;  // the most that a majorant may be of the medium's largest density
+};
+
+class Weighted final : public DistanceStrategy {
+ public:
+  explicit Weighted(float majorant) : majorant_(majorant) {}
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  float majorant_;  // the most that a majorant may be, as a share of the medium's largest density
+};
+
+class Decomposition final : public DistanceStrategy {
+ public:
+  explicit Decomposition(bool needs_density) : needs_density_(needs_density) {}
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  bool needs_density_;  // at collisions
+};
+
 // `delta`: tracking through null collisions under one majorant, the medium's largest density [Woodcock1965].
 //
 // Known failure: a few dense voxels in a thin medium make nearly all collisions null, at a look-up each.
@@ -92,7 +132,7 @@ Flight Delta::sample(const Medium& medium, const Ray& ray, const Interval& inter
 // Known failure: where densities differ much within a brick of 8^3 cells most collisions are null still.
 Flight DeltaLocal::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                           Rng& rng) const {
-  if (medium.homogeneous()) return Homogeneous().sample(medium, ray, interval, power, rng);
+  if (medium.homogeneous()) return homogeneous_flight(medium, interval, power, rng);
   return track_bricks(
       medium, ray, interval, NullCollisionFlight(medium, interval, power, rng), [](float max) { return max; },
       [](NullCollisionFlight& flight, double t, const DensityStretch& stretch, double majorant) {
@@ -156,5 +196,57 @@ Flight Decomposition::sample(const Medium& medium, const Ray& ray, const Interva
         return true;
       });
 }
+
+constexpr std::array kProgressiveNullNumbers{
+    Parameter{"majorant", 0.25f, kMajorants, "",
+              "in the first pass densities above this fraction of the medium's largest are cut to it; it doubles with "
+              "every pass, so that the mean over passes converges"}};
+constexpr std::array kWeightedNumbers{Parameter{"majorant", 0.25f, kMajorants, "",
+                                                "above this fraction of the medium's largest density, the same in all "
+                                                "passes, weights make up for null collisions that are missing"}};
+
+}  // namespace
+
+extern const StrategyInfo kDelta{
+    .name = "delta",
+    .summary = "exact: null collisions under the medium's largest density",
+    .failure = "one dense voxel makes nearly all collisions null, at a look-up each, everywhere",
+    .source = "Woodcock1965",
+    .make = [](ParameterValues, const FlightUse&) { return made<Delta>(); }};
+
+extern const StrategyInfo kDeltaLocal{.name = "delta-local",
+                                      .summary = "exact: null collisions under the largest density of each brick",
+                                      .failure = "one dense voxel makes nearly all collisions in its brick null",
+                                      .source = "SzirmayKalos2011",
+                                      .make = [](ParameterValues, const FlightUse&) { return made<DeltaLocal>(); }};
+
+extern const StrategyInfo kProgressiveNull{
+    .name = "progressive-null",
+    .summary = "null collisions under majorants that grow from pass to pass; biased until they bound",
+    .failure = "the first passes see a medium too thin, which leaves the mean only as 1/passes",
+    .source = "Misso2023",
+    .unbiased = false,
+    .parameters = kProgressiveNullNumbers,
+    .make = [](ParameterValues n, const FlightUse& use) { return made<ProgressiveNull>(n[0], use.pass); }};
+
+extern const StrategyInfo kWeighted{
+    .name = "weighted",
+    .summary = "exact: null collisions under majorants that need not bound, by weights of either sign; for paths",
+    .failure =
+        "densities above the majorant: weights beyond 1 multiply along the path, and the variance grows "
+        "exponentially with the collisions there",
+    .source = "Galtier2013",
+    .analog = false,
+    .bounded_weight = false,
+    .positive = false,
+    .parameters = kWeightedNumbers,
+    .make = [](ParameterValues n, const FlightUse&) { return made<Weighted>(n[0]); }};
+
+extern const StrategyInfo kDecomposition{
+    .name = "decomposition",
+    .summary = "exact: each brick's least density without look-ups, the rest by null collisions",
+    .failure = "bricks whose least density is near 0: there it is delta-local",
+    .source = "Kutz2017",
+    .make = [](ParameterValues, const FlightUse& use) { return made<Decomposition>(use.density); }};
 
 }  // namespace vpm

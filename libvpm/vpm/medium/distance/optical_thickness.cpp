@@ -1,12 +1,37 @@
 // Flights that end where the optical thickness on the way reaches a random number: summed exactly, or by steps.
 #include <algorithm>
+#include <array>
 
 #include "vpm/base/cancel.h"
 #include "vpm/base/counters.h"
 #include "vpm/medium/distance/mixture.h"
-#include "vpm/medium/distance/strategies.h"
 
 namespace vpm {
+namespace {
+
+class Regular final : public DistanceStrategy {
+ public:
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+};
+
+class RayMarch final : public DistanceStrategy {
+ public:
+  explicit RayMarch(float step) : step_(step) {}
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  float step_;  // in voxels
+};
+
+class RayMarchAdaptive final : public DistanceStrategy {
+ public:
+  RayMarchAdaptive(float step, float optical_step) : step_(step), optical_step_(optical_step) {}
+  Flight sample(const Medium&, const Ray&, const Interval&, const Rgb& power, Rng&) const override;
+
+ private:
+  float step_;          // the longest, in voxels
+  float optical_step_;  // optical thickness of a step, under the largest density around
+};
 
 // `regular`: the exact flight through any density: the ray's cells are walked, and the quartic density integral of the
 // cell where the flight ends is inverted [Novak2018, sec. 4.1]. Needs no majorant.
@@ -41,11 +66,7 @@ Flight Regular::sample(const Medium& medium, const Ray& ray, const Interval& int
 // Each step takes the density at its middle and the flight's end is solved for inside the step, so the bias is
 // O(step^2); taking the first sample beyond the random number, as printed, would leave O(step). Known failure: spikes
 // thinner than a step are missed.
-namespace {
-
 constexpr uint32_t kStepsBetweenLooks = 256;  // at whether the work is given up
-
-}  // namespace
 
 Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                         Rng& rng) const {
@@ -90,11 +111,7 @@ Flight RayMarch::sample(const Medium& medium, const Ray& ray, const Interval& in
 // Each takes the density at its middle and the flight's end is solved for inside the step: a bias of O(step^2) where
 // the density is continuous, of O(step) across the jumps of nearest voxels, as in `ray-march`. Known failure: spikes
 // thinner than a step are missed.
-namespace {
-
 constexpr double kShortest = 1.0 / 16.0;  // of the longest step: very dense media would never come to an end
-
-}  // namespace
 
 Flight RayMarchAdaptive::sample(const Medium& medium, const Ray& ray, const Interval& interval, const Rgb& power,
                                 Rng& rng) const {
@@ -129,5 +146,46 @@ Flight RayMarchAdaptive::sample(const Medium& medium, const Ray& ray, const Inte
   flight.weight = analog_weight(medium, shares, crossed, flight.collided);
   return flight;
 }
+
+constexpr std::array kRayMarchNumbers{Parameter{"step", 1.0f, kVoxels, "voxels", "length of a step"}};
+constexpr std::array kRayMarchAdaptiveNumbers{
+    Parameter{"step", 1.0f, kVoxels, "voxels", "length of the longest step"},
+    Parameter{
+        "optical_step",
+        0.1f,
+        {1e-4, kNoLimit, false, true},
+        "",
+        "optical thickness of a step under the largest density around; steps are not below a sixteenth of `step`"}};
+
+}  // namespace
+
+extern const StrategyInfo kRegular{
+    .name = "regular",
+    .summary = "exact in any medium: cells walked, the quartic density integral inverted",
+    .failure = "a step for every cell crossed, however thin the medium is there",
+    .source = "Novak2018",
+    .make = [](ParameterValues, const FlightUse&) { return made<Regular>(); }};
+
+extern const StrategyInfo kRayMarch{
+    .name = "ray-march",
+    .summary = "marched until the transmittance reaches the random number; bias falls as step^2",
+    .failure = "spikes thinner than a step are missed",
+    .source = "Jarosz2008",
+    .unbiased = false,
+    .marches = true,
+    .parameters = kRayMarchNumbers,
+    .make = [](ParameterValues n, const FlightUse&) { return made<RayMarch>(n[0]); }};
+
+extern const StrategyInfo kRayMarchAdaptive{
+    .name = "ray-march-adaptive",
+    .summary = "the same in steps of an optical thickness, by local majorants; bias falls as step^2",
+    .failure =
+        "spikes thinner than a step, which a spike in the same brick shortens to a sixteenth at the least, "
+        "are missed",
+    .source = "Danskin1992",
+    .unbiased = false,
+    .marches = true,
+    .parameters = kRayMarchAdaptiveNumbers,
+    .make = [](ParameterValues n, const FlightUse&) { return made<RayMarchAdaptive>(n[0], n[1]); }};
 
 }  // namespace vpm

@@ -5,7 +5,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "vpm/base/parameter.h"
+#include "vpm/base/range.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/medium.h"
@@ -41,11 +44,7 @@ class DistanceStrategy {
 
 struct DistanceSettings {
   std::string strategy = "regular";
-  float step = 1.0f;              // ray-march: length of a step in voxels, > 0; ray-march-adaptive: of the longest
-  float optical_step = 0.1f;      // ray-march-adaptive: optical thickness of a step, > 0
-  float majorant = 0.25f;         // weighted, and progressive-null in its first pass: the most that a majorant may be,
-                                  // as a share of the medium's largest density, in (0, 1]
-  float extinction_floor = 0.1f;  // local-extinction: the least rate, as a fraction of the mean one, > 0
+  Parameters parameters{};  // numbers of that strategy: "step", ...
 };
 
 /// What flights are for.
@@ -54,7 +53,15 @@ struct FlightUse {
   bool density = true;  // is Flight::density needed? Else it may be any lower bound of it above 0
 };
 
-/// What a user should know of a strategy.
+/// Majorants as a share of the largest density, as a parameter.
+inline constexpr Range kMajorants{1e-6, 1.0, false, false};
+
+template <class Strategy, class... Arguments>
+std::unique_ptr<DistanceStrategy> made(Arguments... arguments) {
+  return std::make_unique<Strategy>(arguments...);
+}
+
+/// A strategy, with what a user should know of it: each file of this folder has some, and strategy.cpp the list.
 struct StrategyInfo {
   std::string_view name;
   std::string_view summary;
@@ -66,11 +73,22 @@ struct StrategyInfo {
   bool analog = true;    // draws from the medium's own transmittance, to the order of its bias
   bool bounded_weight = true;
   bool positive = true;  // false: weights of either sign; refused for photons, whose power must not be negative
+  std::span<const Parameter> parameters{};
+  std::unique_ptr<DistanceStrategy> (*make)(ParameterValues numbers, const FlightUse& use) = nullptr;
 };
 std::span<const StrategyInfo> distance_strategies();
-/// Of the strategy of that name, which there is.
-const StrategyInfo& strategy_info(std::string_view name);
 /// The strategy of that name; null where there is none.
+const StrategyInfo* find_strategy(std::string_view name);
+/// The same of one that there is.
+const StrategyInfo& strategy_info(std::string_view name);
+/// The names of those of which this is so: strategies_that(&StrategyInfo::analog).
+std::vector<std::string> strategies_that(bool StrategyInfo::*is);
+/// The strategy of that name; null where there is none. Throws std::invalid_argument where it has no parameter of a
+/// name that is given.
 std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings, const FlightUse& use = {});
+
+/// Describes `type`, of these words, and the parameters of the strategy that it names.
+void describe(DistanceSettings& settings, std::vector<std::string> types, const std::string& usual,
+              Description& description);
 
 }  // namespace vpm

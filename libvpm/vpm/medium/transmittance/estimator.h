@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "vpm/base/parameter.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/medium.h"
@@ -29,20 +30,25 @@ class TransmittanceEstimator {
 
 struct TransmittanceSettings {
   std::string estimator = "regular";
-  float step = 1.0f;     // ray-march, jackknife: length of a step in voxels, > 0
-  float samples = 1.0f;  // unbiased-ray-march: times as many in a comb as the paper has, > 0
+  Parameters parameters{};  // numbers of that estimator: "step", "samples"
 };
 
-/// What a user should know of an estimator.
+/// An estimator, with what a user should know of it: each file of this folder has some, and estimator.cpp the list.
 struct EstimatorInfo {
   std::string_view name;
   std::string_view summary;
   std::string_view failure;  // where it costs much or errs
   std::string_view source;   // key of papers/references.bib
   bool unbiased = true;
+  std::span<const Parameter> parameters{};
+  std::unique_ptr<TransmittanceEstimator> (*make)(ParameterValues numbers) = nullptr;
 };
 std::span<const EstimatorInfo> transmittance_estimators();
-/// The estimator of that name; null where there is none.
+/// The estimator of that name; null where there is none. Throws std::invalid_argument where it has no parameter of a
+/// name that is given.
 std::unique_ptr<TransmittanceEstimator> make_transmittance_estimator(const TransmittanceSettings& settings);
+
+/// Describes `type` and the parameters of the estimator that it names.
+void describe(TransmittanceSettings& settings, Description& description);
 
 }  // namespace vpm

@@ -5,11 +5,26 @@
 #include "vpm/base/rng.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/majorant_of_lookups.h"
-#include "vpm/medium/transmittance/estimators.h"
+#include "vpm/medium/transmittance/estimator.h"
 #include "vpm/medium/transmittance/marched_integrals.h"
 
 namespace vpm {
 namespace {
+
+class RatioTransmittance final : public TransmittanceEstimator {
+ public:
+  TransmittanceEstimate estimate(const Medium&, const Ray&, const Interval&, Rng&) const override;
+};
+
+class LocalRatioTransmittance final : public TransmittanceEstimator {
+ public:
+  TransmittanceEstimate estimate(const Medium&, const Ray&, const Interval&, Rng&) const override;
+};
+
+class ResidualRatioTransmittance final : public TransmittanceEstimator {
+ public:
+  TransmittanceEstimate estimate(const Medium&, const Ray&, const Interval&, Rng&) const override;
+};
 
 /// Points of a Poisson process along a ray, at a rate that changes from stretch to stretch: where tracking estimators
 /// look.
@@ -81,8 +96,6 @@ TransmittanceEstimate track_bricks(const Medium& medium, const Ray& ray, const I
   return {Rgb(product), lookups, bricks};
 }
 
-}  // namespace
-
 // `ratio`: ratio tracking. The ray is looked at in the points of a Poisson process at the rate of a majorant of the
 // extinction, that of the medium's largest density; each leaves the share 1 - sigma_t / majorant of the light, and the
 // product of all is an unbiased transmittance in [0, 1] [Novak2014]. One majorant serves all channels, so that they
@@ -136,5 +149,35 @@ TransmittanceEstimate ResidualRatioTransmittance::estimate(const Medium& medium,
     return BrickSplit{0.5 * (double{stretch.max} + stretch.min), 0.5 * (double{stretch.max} - stretch.min)};
   });
 }
+
+}  // namespace
+
+extern const EstimatorInfo kRatio{
+    .name = "ratio",
+    .summary = "product of the shares that look-ups at the rate of the largest density leave",
+    .failure =
+        "one dense voxel asks for its rate of look-ups everywhere; as noisy as a yes or no where the density "
+        "is its majorant",
+    .source = "Novak2014",
+    .make = [](ParameterValues) -> std::unique_ptr<TransmittanceEstimator> {
+      return std::make_unique<RatioTransmittance>();
+    }};
+
+extern const EstimatorInfo kRatioLocal{.name = "ratio-local",
+                                       .summary = "the same at the rate of the largest density of each brick",
+                                       .failure = "one dense voxel asks for its rate of look-ups in all its brick",
+                                       .source = "Novak2014",
+                                       .make = [](ParameterValues) -> std::unique_ptr<TransmittanceEstimator> {
+                                         return std::make_unique<LocalRatioTransmittance>();
+                                       }};
+
+extern const EstimatorInfo kResidualRatio{
+    .name = "residual-ratio",
+    .summary = "the same for what the density is off the middle of each brick's bounds",
+    .failure = "bricks that are empty except for a small part: values above 1, heavy tails",
+    .source = "Novak2014",
+    .make = [](ParameterValues) -> std::unique_ptr<TransmittanceEstimator> {
+      return std::make_unique<ResidualRatioTransmittance>();
+    }};
 
 }  // namespace vpm

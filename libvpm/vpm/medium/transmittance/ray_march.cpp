@@ -1,11 +1,40 @@
 // Transmittance by marches, whose density integrals have errors: what is made of that.
 #include <algorithm>
+#include <array>
 #include <limits>
 
-#include "vpm/medium/transmittance/estimators.h"
+#include "vpm/medium/transmittance/estimator.h"
 #include "vpm/medium/transmittance/marched_integrals.h"
 
 namespace vpm {
+namespace {
+
+class RayMarchedTransmittance final : public TransmittanceEstimator {
+ public:
+  explicit RayMarchedTransmittance(float step) : step_(step) {}
+  TransmittanceEstimate estimate(const Medium&, const Ray&, const Interval&, Rng&) const override;
+
+ private:
+  float step_;  // in voxels
+};
+
+class JackknifeTransmittance final : public TransmittanceEstimator {
+ public:
+  explicit JackknifeTransmittance(float step) : step_(step) {}
+  TransmittanceEstimate estimate(const Medium&, const Ray&, const Interval&, Rng&) const override;
+
+ private:
+  float step_;  // in voxels
+};
+
+class UnbiasedRayMarchedTransmittance final : public TransmittanceEstimator {
+ public:
+  explicit UnbiasedRayMarchedTransmittance(float samples) : samples_(samples) {}
+  TransmittanceEstimate estimate(const Medium&, const Ray&, const Interval&, Rng&) const override;
+
+ private:
+  float samples_;  // times as many in a comb as the paper has
+};
 
 // `ray-march`: quadrature of the optical thickness in equal steps with one random offset. Biased: the exponential of an
 // unbiased density integral is not an unbiased transmittance; the bias falls as step^2.
@@ -60,8 +89,6 @@ TransmittanceEstimate JackknifeTransmittance::estimate(const Medium& medium, con
 // Known failure: a comb too coarse for the field. Differences of many optical thicknesses make rare powers enormous, of
 // either sign: values below 0 and above 1 are legal, and their variance may be too large to be seen in few samples.
 // And in media that vary by many optical thicknesses a comb has as many samples as these, also where no light is left.
-namespace {
-
 constexpr double kHigherOrders = 0.1;  // probability that the series goes on after its first term
 constexpr int kMostOrder = 24;         // that a uniform number of 53 bits can reach
 
@@ -129,8 +156,6 @@ double power_series(const double* thicknesses, int order) {
   return sum / (order + 1);
 }
 
-}  // namespace
-
 TransmittanceEstimate UnbiasedRayMarchedTransmittance::estimate(const Medium& medium, const Ray& ray,
                                                                 const Interval& interval, Rng& rng) const {
   const Interval inside = medium.clip(ray, interval);
@@ -153,5 +178,44 @@ TransmittanceEstimate UnbiasedRayMarchedTransmittance::estimate(const Medium& me
   result.lookups = static_cast<uint32_t>(2.0 + count * (order + 1));
   return result;
 }
+
+constexpr std::array kRayMarchedTransmittanceNumbers{Parameter{"step", 1.0f, kVoxels, "voxels", "length of a step"}};
+constexpr std::array kJackknifeTransmittanceNumbers{Parameter{"step", 1.0f, kVoxels, "voxels", "length of a step"}};
+constexpr std::array kUnbiasedRayMarchedTransmittanceNumbers{
+    Parameter{"samples", 1.0f, {1e-3, 1e6, false, false}, "", "samples of a march over those of the paper"}};
+
+}  // namespace
+
+extern const EstimatorInfo kRayMarchedTransmittance{
+    .name = "ray-march",
+    .summary = "quadrature in equal steps with one random offset; bias falls as step^2",
+    .failure = "spikes thinner than a step; by Jensen's inequality too bright on average",
+    .source = "Jarosz2008",
+    .unbiased = false,
+    .parameters = kRayMarchedTransmittanceNumbers,
+    .make = [](ParameterValues n) -> std::unique_ptr<TransmittanceEstimator> {
+      return std::make_unique<RayMarchedTransmittance>(n[0]);
+    }};
+
+extern const EstimatorInfo kJackknife{
+    .name = "jackknife",
+    .summary = "two marches with a random offset in each step, joined; bias falls faster than one's",
+    .failure = "few steps in a dense medium: errors far from normal, values below 0",
+    .source = "Peters2025",
+    .unbiased = false,
+    .parameters = kJackknifeTransmittanceNumbers,
+    .make = [](ParameterValues n) -> std::unique_ptr<TransmittanceEstimator> {
+      return std::make_unique<JackknifeTransmittance>(n[0]);
+    }};
+
+extern const EstimatorInfo kUnbiasedRayMarch{
+    .name = "unbiased-ray-march",
+    .summary = "power series of the density integrals of a few marches, mostly of one",
+    .failure = "spikes thinner than a march's steps: rare terms of great size, of either sign",
+    .source = "Kettunen2021",
+    .parameters = kUnbiasedRayMarchedTransmittanceNumbers,
+    .make = [](ParameterValues n) -> std::unique_ptr<TransmittanceEstimator> {
+      return std::make_unique<UnbiasedRayMarchedTransmittance>(n[0]);
+    }};
 
 }  // namespace vpm

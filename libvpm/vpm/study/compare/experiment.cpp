@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "vpm/input/scene_file.h"
 #include "vpm/input/table_reader.h"
 
 namespace vpm {
@@ -24,13 +25,13 @@ std::string text_of(const Node& node) {
 }
 
 /// A key of scene files, all its parts, with its value.
-struct Setting {
+struct Change {
   std::string key;
   const Node* value;
 };
 
 /// The keys of a table and of tables in it.
-void collect(const Node::Table& table, const std::string& before, std::vector<Setting>& settings) {
+void collect(const Node::Table& table, const std::string& before, std::vector<Change>& settings) {
   for (const Entry& entry : table) {
     const std::string key = before + entry.key;
     if (const Node::Table* inside = entry.node.table())
@@ -39,8 +40,8 @@ void collect(const Node::Table& table, const std::string& before, std::vector<Se
       settings.push_back({key, &entry.node});
   }
 }
-std::vector<Setting> settings_in(TableReader& reader, const std::string& key) {
-  std::vector<Setting> settings;
+std::vector<Change> settings_in(TableReader& reader, const std::string& key) {
+  std::vector<Change> settings;
   const Node* node = reader.find(key);
   if (!node) return settings;
   if (!node->table()) reader.fail(key, "'" + key + "' must be a table of settings, not " + kind_of(*node));
@@ -50,9 +51,8 @@ std::vector<Setting> settings_in(TableReader& reader, const std::string& key) {
 
 std::vector<std::string> read_settings(TableReader& reader, const std::string& key) {
   std::vector<std::string> options;
-  for (const Setting& setting : settings_in(reader, key))
-    options.push_back(setting.key + "=" + text_of(*setting.value));
-  return options;
+  for (const Change& setting : settings_in(reader, key)) options.push_back(setting.key + "=" + text_of(*setting.value));
+  return components_first(std::move(options));
 }
 
 /// The table `reference`, of what it does not say as `otherwise` says.
@@ -105,9 +105,9 @@ std::string short_text(const Node& node) {
 /// Every combination of the values that [product] lists, the last key's changing fastest.
 std::vector<Method> read_product(TableReader& root) {
   constexpr size_t kMostMethods = 1000;  // products grow soon beyond all memory
-  const std::vector<Setting> settings = settings_in(root, "product");
+  const std::vector<Change> settings = settings_in(root, "product");
   std::vector<Method> methods{{.name = "", .settings = {}, .place = text_of(root.place_of("product"))}};
-  for (const Setting& setting : settings) {
+  for (const Change& setting : settings) {
     const Node::Array* values = setting.value->array();
     if (!values || values->empty())
       fail_at(setting.value->place, "'" + setting.key + "' of [product] must be an array of values",
@@ -140,6 +140,7 @@ std::vector<Method> read_methods(TableReader& root) {
   std::set<std::string> names;
   for (Method& method : methods) {
     if (!names.insert(method.name).second) root.fail_here("two methods are named '" + method.name + "'");
+    method.settings = components_first(std::move(method.settings));
     method.settings.insert(method.settings.begin(), common.begin(), common.end());
   }
   return methods;

@@ -31,8 +31,8 @@ enum class ReferenceSource { rendered, file, exact };
 
 /// How a reference is rendered.
 struct RenderedReference {
-  std::vector<std::string> settings{"render.integrator=\"path\""};  // key.path=value
-  double error = 1e-4;                                              // estimated relative MSE that it goes down to, > 0
+  std::vector<std::string> settings{"integrator.type=\"path\""};  // key.path=value
+  double error = 1e-4;                                            // estimated relative MSE that it goes down to, > 0
 };
 
 struct ComparedScene {

@@ -126,13 +126,23 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   return checks;
 }
 
+/// Careful flights; by local extinction with the mean extinction at the least, as their weights have no bound else.
+DistanceSettings flights_by(const StrategyInfo& strategy) {
+  DistanceSettings settings = careful_settings(strategy.name);
+  if (strategy.name == "local-extinction") settings.parameters["extinction_floor"] = 1.0f;
+  return settings;
+}
+
+TransmittanceSettings shadow_rays_by(const EstimatorInfo& estimator) {
+  return {std::string(estimator.name), among(estimator.parameters, {{"step", kCarefulStep}})};
+}
+
 /// Every strategy, for paths of the path tracer and for photons if it is for them, and every estimator of
 /// transmittance.
 std::vector<Check> compare_strategies(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
   RenderSettings base = photon_settings(subject, effort.count(3'000, 8'000));
   base.distance = careful_settings(base.distance.strategy);
-  base.transmittance.step = base.distance.step;
   base.seed = effort.seed_of(subject.name + " reference");
   const uint64_t rays = effort.count(40'000, 300'000);
   const Measured reference = by_path_tracer(scene, base, rays);
@@ -143,8 +153,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
     if (grids && !strategy.heterogeneous) continue;
     if (!grids && !strategy.positive) continue;  // in an endless medium the variance has no bound
     RenderSettings settings = base;
-    settings.distance = careful_settings(strategy.name);
-    settings.distance.extinction_floor = 1.0f;
+    settings.distance = flights_by(strategy);
     settings.seed = effort.seed_of(fmt::format("{} {} paths", subject.name, strategy.name));
     compare(checks, fmt::format("paths by {}", strategy.name), by_path_tracer(scene, settings, rays), reference,
             scene.grey);
@@ -156,7 +165,7 @@ std::vector<Check> compare_strategies(const Subject& subject, const Effort& effo
   }
   for (const EstimatorInfo& estimator : transmittance_estimators()) {
     RenderSettings settings = base;
-    settings.transmittance.estimator = estimator.name;
+    settings.transmittance = shadow_rays_by(estimator);
     settings.seed = effort.seed_of(fmt::format("{} {}", subject.name, estimator.name));
     compare(checks, fmt::format("shadow rays by {}", estimator.name), by_path_tracer(scene, settings, rays), reference,
             scene.grey);
@@ -174,13 +183,11 @@ std::vector<Check> combinations(const Effort& effort) {
   std::vector<Check> checks;
   for (const StrategyInfo& strategy : distance_strategies()) {
     if (!strategy.heterogeneous) continue;
-    base.distance = careful_settings(strategy.name);
-    base.distance.extinction_floor = 1.0f;
+    base.distance = flights_by(strategy);
     const uint64_t rays = effort.count(10'000, 80'000) * (strategy.bounded_weight ? 1 : 4);
     for (const EstimatorInfo& estimator : transmittance_estimators()) {
       RenderSettings settings = base;
-      settings.transmittance.estimator = estimator.name;
-      settings.transmittance.step = settings.distance.step;
+      settings.transmittance = shadow_rays_by(estimator);
       const std::string name = fmt::format("paths by {}, shadow rays by {}", strategy.name, estimator.name);
       settings.seed = effort.seed_of("combinations " + name);
       compare(checks, name, by_path_tracer(scene, settings, rays), reference, scene.grey);

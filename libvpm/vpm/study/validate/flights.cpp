@@ -55,15 +55,20 @@ Law flight_law(const Medium& medium) {
   return law;
 }
 
+float number_of(const DistanceSettings& settings, std::string_view name) {
+  return vpm::number_of(strategy_info(settings.strategy).parameters, settings.parameters, name);
+}
+
 /// The density integral along the test's ray up to `t` (m), by the midpoint rule in the steps that `ray-march-adaptive`
 /// takes in the bricks on its way: for stating its bias.
 double adaptively_marched_integral(const Medium& medium, double t, const DistanceSettings& settings) {
   const Ray ray = test_ray();
-  const double longest = double{settings.step} * double{medium.voxel_size()};
+  const double longest = double{number_of(settings, "step")} * double{medium.voxel_size()};
+  const double optical_step = number_of(settings, "optical_step");
   double sum = 0.0;
   medium.visit_majorants(ray, test_stretch(), [&](const DensityStretch& brick) {
     const double length = brick.t1 - brick.t0, extinction = double{max_channel(medium.sigma_t)} * double{brick.max};
-    const double wanted = std::min(std::max(settings.optical_step / extinction, longest / 16.0), longest);
+    const double wanted = std::min(std::max(optical_step / extinction, longest / 16.0), longest);
     const int steps = brick.min == brick.max ? 1 : static_cast<int>(std::ceil(length / wanted));
     for (int i = 0; i < steps; ++i) {
       const double from = brick.t0 + length * i / steps;
@@ -83,7 +88,7 @@ std::vector<double> marched_bias(const Medium& medium, const Law& law, const Dis
     marched.integrals[i] =
         settings.strategy == "ray-march-adaptive"
             ? adaptively_marched_integral(medium, law.ends[i], settings)
-            : marched_integral(medium, law.ends[i], double{settings.step} * double{medium.voxel_size()});
+            : marched_integral(medium, law.ends[i], double{number_of(settings, "step")} * double{medium.voxel_size()});
   std::vector<double> bias;
   for (size_t cell = 0; cell <= kCells; ++cell)
     bias.push_back(std::fabs(marched.probability(sigma_t, cell) - law.probability(sigma_t, cell)));
@@ -108,14 +113,14 @@ std::vector<Moments> fly(const Medium& medium, const DistanceStrategy& strategy,
 /// Along the ramp the middle of a step of any length is exact: there a march is tested as it is used by default, and
 /// elsewhere in short steps. What needs no majorants that bound is tested under those of a quarter of the density.
 DistanceSettings tested_settings(const std::string& field, const StrategyInfo& info, const Effort& effort) {
-  DistanceSettings settings{.strategy = std::string(info.name), .majorant = info.positive ? 1.0f : 0.25f};
-  if (field == "ramp grid") return settings;
-  const float step = effort.full ? 0.02f : 0.1f;              // voxels of most fields
-  settings.step = field == "fine grid" ? 4.0f * step : step;  // as many metres
-  if (info.name != "ray-march-adaptive") return settings;
-  settings.step *= 5.0f;
-  settings.optical_step = 0.2f * step;  // in the densest voxels about as long as the others' steps
-  return settings;
+  Parameters numbers{{"majorant", info.positive ? 1.0f : 0.25f}};
+  if (field != "ramp grid") {
+    const float step = effort.full ? 0.02f : 0.1f;                // voxels of most fields
+    numbers["step"] = field == "fine grid" ? 4.0f * step : step;  // as many metres
+    if (info.name == "ray-march-adaptive") numbers["step"] *= 5.0f;
+    numbers["optical_step"] = 0.2f * step;  // in the densest voxels about as long as the others' steps
+  }
+  return {std::string(info.name), among(info.parameters, numbers)};
 }
 
 void check_flights(std::vector<Check>& checks, const TestField& field, const Rgb& sigma_t, const StrategyInfo& info,
@@ -143,7 +148,7 @@ void check_flights(std::vector<Check>& checks, const TestField& field, const Rgb
     if (marches)
       checks.back().note +=
           fmt::format("; steps of up to {} voxels, bias up to {:.1g} in a cell of about {:.1g} allowed for",
-                      settings.step, *std::max_element(bias.begin(), bias.end()), probabilities[0]);
+                      number_of(settings, "step"), *std::max_element(bias.begin(), bias.end()), probabilities[0]);
   }
 }
 
@@ -175,7 +180,7 @@ std::vector<Check> check_majorants_that_cut(const Effort& effort) {
       const auto cut =
           make_grid(checker->frame(), [&](int x, int y, int z) { return std::min((x + y + z) & 1 ? 1.5 : 0.3, most); });
       const Law law = flight_law(make_medium(cut, sigma_t));
-      const auto strategy = make_distance_strategy({.strategy = "progressive-null", .majorant = 0.25f}, {.pass = pass});
+      const auto strategy = make_distance_strategy({"progressive-null", {{"majorant", 0.25f}}}, {.pass = pass});
       const std::string name = fmt::format("checker grid, pass {}{}", pass, is_grey(sigma_t) ? "" : ", colour");
       const auto cells = fly(make_medium(checker, sigma_t), *strategy, is_grey(sigma_t) ? Rgb(1.0f) : kPower, law,
                              effort.count(40'000, 800'000), effort.seed_of(name + ", cut"));

@@ -41,7 +41,7 @@ std::vector<Check> march_bias(const Effort& effort) {
   std::vector<double> biases, errors, steps;
   for (const double parts : {2.0, 4.0, 8.0}) {
     const double step = length / parts;
-    const auto marched = make_distance_strategy({.strategy = "ray-march", .step = static_cast<float>(step)});
+    const auto marched = make_distance_strategy({"ray-march", {{"step", static_cast<float>(step)}}});
     const uint64_t seed = effort.seed_of(fmt::format("march bias {}", parts));
     // Both flights have the same random numbers, so that the march passes wherever the exact flight does: the bias is
     // the probability that it passes alone.

@@ -105,8 +105,8 @@ Check check_estimates(const std::string& name, const Moments& samples, std::opti
 /// Means of the transmittance: the exact one, and where the estimator is biased the mean that it must have then.
 std::vector<Check> estimates_by(const EstimatorInfo& info, float comb, const Effort& effort) {
   const Ray ray = test_ray();
-  const auto estimator =
-      make_transmittance_estimator({.estimator = std::string(info.name), .step = kStep, .samples = comb});
+  const auto estimator = make_transmittance_estimator(
+      {std::string(info.name), among(info.parameters, {{"step", kStep}, {"samples", comb}})});
   std::vector<Check> checks;
   for (const Subject& subject : subjects()) {
     const Medium& medium = subject.medium;

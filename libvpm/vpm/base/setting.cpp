@@ -1,14 +1,12 @@
-// Values and texts of settings, by their declarations.
-#include "vpm/job/setting.h"
+// Values and texts of settings.
+#include "vpm/base/setting.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "vpm/base/overloads.h"
-#include "vpm/job/declare.h"
 
 namespace vpm {
 namespace {
@@ -32,7 +30,7 @@ std::optional<SettingValue> value_in(const Setting& setting, const std::string& 
   if (std::holds_alternative<Words>(setting.domain) || std::holds_alternative<WordSet>(setting.domain)) return text;
   if (std::holds_alternative<Integers>(setting.domain)) return number_in<uint64_t>(text);
   if (std::holds_alternative<Numbers>(setting.domain))
-    return std::holds_alternative<float>(setting.member.get({})) ? number_in<float>(text) : number_in<double>(text);
+    return std::holds_alternative<float>(setting.usual) ? number_in<float>(text) : number_in<double>(text);
   if (text == "true" || text == "false") return text == "true";
   return std::nullopt;
 }
@@ -51,22 +49,6 @@ std::vector<std::string> words_in(const std::string& value) {
 
 std::string text_of(const SettingValue& value) {
   return std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
-}
-
-std::span<const Setting> all_settings() {
-  static const std::vector<Setting> all = [] {
-    std::vector<Setting> joined;
-    for (auto declare : {pass_settings, flight_settings, gather_settings, combined_settings})
-      for (Setting& setting : declare()) joined.push_back(std::move(setting));
-    return joined;
-  }();
-  return all;
-}
-
-const Setting* find_setting(std::string_view key, const RenderSettings& settings) {
-  for (const Setting& setting : all_settings())
-    if (setting.key == key && setting.needed(settings)) return &setting;
-  return nullptr;
 }
 
 std::string outside_of(const Domain& domain, const SettingValue& value) {
@@ -103,31 +85,6 @@ std::string outside_of(const Domain& domain, const SettingValue& value) {
 std::optional<SettingValue> parse(const Setting& setting, const std::string& text) {
   std::optional<SettingValue> value = value_in(setting, text);
   return value && outside_of(setting.domain, *value).empty() ? value : std::nullopt;
-}
-
-std::vector<Field> estimate_fields(const RenderSettings& settings) {
-  std::vector<Field> fields;
-  for (const Setting& setting : all_settings())
-    if (!setting.of_passes && setting.stands_for.empty() && setting.needed(settings))
-      fields.push_back({setting.key, setting.member.get(settings)});
-  return fields;
-}
-
-std::string settings_line(const RenderSettings& settings) {
-  std::string line;
-  for (const Field& field : estimate_fields(settings))
-    line += fmt::format("{}{}={}", line.empty() ? "" : " ", field.key, text_of(field.value));
-  return line;
-}
-
-std::optional<std::string> field_of(std::string_view line, std::string_view key) {
-  while (!line.empty()) {
-    const std::string_view word = line.substr(0, line.find(' '));
-    line.remove_prefix(std::min(word.size() + 1, line.size()));
-    if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
-      return std::string(word.substr(key.size() + 1));
-  }
-  return std::nullopt;
 }
 
 }  // namespace vpm

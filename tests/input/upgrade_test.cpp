@@ -1,0 +1,173 @@
+// Files with the keys of older versions: rewritten, they say the same, and comments stay where they were.
+#include "vpm/input/upgrade.h"
+
+#include <gtest/gtest.h>
+
+#include "input/scene_text.h"
+#include "vpm/base/error.h"
+#include "vpm/input/old_keys.h"
+#include "vpm/job/describe.h"
+
+namespace vpm {
+namespace {
+
+std::string upgraded(const std::string& text) { return upgrade("old.toml", text).text; }
+
+TEST(Upgrade, MovesKeysToTheirTablesWithTheirComments) {
+  EXPECT_EQ(upgraded(R"(# A scene.
+[camera]
+position = [0, 0, 3]
+
+# How.
+[render]
+passes = 4  # few
+# Which.
+integrator = "photon"  # not paths
+
+# Photons.
+[photons]
+# So many.
+emitted = 1000  # a pass
+
+# Media.
+[volume]
+direct = "shadow-rays"  # crisp
+gather = "beam"
+radius = 0.1
+
+[[lights]]
+type = "point"
+# The end.
+)"),
+            R"(# A scene.
+[camera]
+position = [0, 0, 3]
+
+# How.
+[render]
+passes = 4  # few
+
+[integrator]
+# Which.
+type = "photon-map"  # not paths
+
+# Photons.
+[integrator.photons]
+# So many.
+emitted = 1000  # a pass
+
+[integrator.volume]
+type = "beam"
+radius = 0.1
+
+# Media.
+[integrator.single_scattering]
+type = "shadow-rays"  # crisp
+
+[[lights]]
+type = "point"
+# The end.
+)");
+}
+
+TEST(Upgrade, LeavesOtherFilesAsTheyAre) {
+  for (const std::string text : {"", "# nothing\n", "[render]\npasses = 3\n\n# end", "[integrator]\ntype = 'path'\n",
+                                 "[[shapes]]\nname = \"[volume]\"\n"})
+    EXPECT_EQ(upgraded(text), text);
+}
+
+TEST(Upgrade, TakesAMethodApart) {
+  EXPECT_EQ(
+      upgraded("[surface]\nmethod = 'final-gather'\ngather_rays = 4\n"),
+      "[integrator.direct]\ntype = \"shadow-rays\"\n\n[integrator.indirect]\ntype = \"final-gather\"\nrays = 4\n");
+  EXPECT_EQ(upgraded("[surface]\nmethod = \"visualise\"\n"),
+            "[integrator.direct]\ntype = \"photons\"\n\n[integrator.indirect]\ntype = \"photons\"\n");
+}
+
+TEST(Upgrade, SaysWhatComponentsDoNotHave) {
+  const Upgraded paths = upgrade("old.toml",
+                                 "[render]\nintegrator = 'path'\n[photons]\nemitted = 5\n[distance]\nstep = 2\n"
+                                 "strategy = 'ray-march'\n");
+  EXPECT_EQ(paths.text,
+            "[render]\n\n[integrator]\ntype = 'path'\n\n[integrator.distance]\nstep = 2\ntype = 'ray-march'\n");
+  EXPECT_EQ(paths.notes,
+            std::vector<std::string>{
+                "integrator.photons.emitted is left out: the components that the file names do not have it"});
+  const Upgraded planes = upgrade("old.toml",
+                                  "[render]\nintegrator = 'combined'\n[photons]\nplanes = 5\n"
+                                  "[combined]\ntechniques = ['connections', 'planes']\n");
+  EXPECT_TRUE(planes.notes.empty());
+  EXPECT_NE(planes.text.find("[integrator]\ntype = 'combined'\nplanes = 5\n"), std::string::npos) << planes.text;
+}
+
+TEST(Upgrade, ReadsValuesOfSeveralLines) {
+  EXPECT_EQ(upgraded("[combined]\ntechniques = [\n  'connections',  # lines\n  'light-tracing',\n]\n[render]\n"
+                     "integrator = 'combined'\n"),
+            "[integrator]\ntechniques = [\n  'connections',  # lines\n  'light-tracing',\n]\ntype = "
+            "'combined'\n\n[render]\n");
+}
+
+TEST(Upgrade, RewritesExperimentsWhereTheyAre) {
+  EXPECT_EQ(upgraded(R"(title = "x"
+[set]
+photons.emitted = 20_000  # few
+film.width = 8
+[reference]
+set = { render.integrator = "photon", volume.radius = 1 }
+[product]
+volume.gather = ["beam", "radius"]
+[[methods]]
+name = "m"
+[methods.set]
+surface.method = "final-gather"
+)"),
+            R"(title = "x"
+[set]
+integrator.photons.emitted = 20_000  # few
+film.width = 8
+[reference]
+set = { integrator.type = "photon-map", integrator.volume.radius = 1 }
+[product]
+integrator.volume.type = ["beam", "radius"]
+[[methods]]
+name = "m"
+[methods.set]
+integrator.direct.type = "shadow-rays"
+integrator.indirect.type = "final-gather"
+)");
+}
+
+TEST(Upgrade, RefusesWhatItCannotRewrite) {
+  EXPECT_THROW(upgraded("[volume\n"), InputError);
+  EXPECT_THROW(upgraded("[volume]\nnonsense = 1\n"), InputError);
+  EXPECT_THROW(upgraded("[[methods]]\nname = 'a'\n[methods.set.volume]\nradius = 1\n"), InputError);
+}
+
+/// Every key of today is one that a scene can say, or two.
+TEST(Upgrade, KnowsKeysOfToday) {
+  const std::vector<SettingOfSome> all = every_setting();
+  for (const OldKey& old : old_keys()) {
+    if (old.old_key == "surface.method") continue;
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const SettingOfSome& each) {
+      return each.setting.key == old.key;
+    })) << old.key;
+  }
+}
+
+TEST(Upgrade, IsReadAsTheOldFileWas) {
+  const RenderSettings s =
+      load_with(
+          upgraded("[media.fog]\ntype = 'homogeneous'\nsigma_s = 1\nsigma_a = 0\n[volume]\ngather = 'photon-planes'\n"
+                   "beams = 'long'\nplanes = 'alone'\nradius = 0.2\n[photons]\nplanes = 7\nflights = 9\n"
+                   "[transmittance]\nestimator = 'ratio'\n"))
+          .settings;
+  EXPECT_EQ(s.volume.mode, GatherMode::photon_planes);
+  EXPECT_EQ(s.beam_length, BeamLength::long_beams);
+  EXPECT_EQ(s.plane_use, PlaneUse::alone);
+  EXPECT_EQ(s.planes, 7u);
+  EXPECT_EQ(s.flights, 9u);
+  EXPECT_EQ(s.transmittance.estimator, "ratio");
+}
+
+}  // namespace
+}  // namespace vpm
