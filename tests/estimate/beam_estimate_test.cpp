@@ -51,7 +51,7 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
     const std::vector<Photon> all = photons(layout, 5000);
     for (const KernelInfo& kernel : kKernels)
       for (const float radius : {0.02f, 0.11f, 3.0f}) {
-        const GatherSettings settings{.mode = GatherMode::beam, .radius = radius, .kernel = kernel.kind};
+        const GatherSettings settings{.radius = radius, .kernel = kernel.kind};
         const BeamMap map = beam_map(all, settings, 1000);
         SCOPED_TRACE(testing::Message() << "layout " << static_cast<int>(layout) << ", " << kernel.name << ", "
                                         << radius << " m");
@@ -80,7 +80,7 @@ TEST(BeamEstimate, EqualsItsBruteForceTwin) {
 // Each photon within its own radius, by the map's own words of where photons and what radii are.
 TEST(BeamEstimate, EqualsTheSumOverPhotonsWithRadiiOfTheirOwn) {
   for (const Layout layout : kLayouts) {
-    const GatherSettings settings{.mode = GatherMode::beam, .radius = 0.2f, .beam_count = 40};
+    const GatherSettings settings{.radius = 0.2f, .beam_count = 40};
     const BeamMap map = beam_map(photons(layout, 5000), settings, 1);
     float least = kInfinity, most = 0.0f;
     for (uint64_t i = 0; i < 50; ++i) {
@@ -139,7 +139,7 @@ TEST(BeamEstimate, IsTheSameOnAnyNumberOfThreads) {
   const std::vector<Photon> all = photons(Layout::clustered, 200'000);
   const auto sums = [&](int threads) {
     set_threads(threads);
-    const BeamMap map = beam_map(all, {.mode = GatherMode::beam, .radius = 0.05f}, 1);
+    const BeamMap map = beam_map(all, {.radius = 0.05f}, 1);
     std::vector<Rgb> result;
     for (uint64_t i = 0; i < 50; ++i) {
       GatherCounters counters;

@@ -40,7 +40,7 @@ MarchedMean marched_light(const Scene& scene, const PhotonBeamSettings& settings
 
 PhotonBeamSettings settings_of(KernelKind kernel) {
   PhotonBeamSettings settings;
-  settings.maps.gather = {.mode = GatherMode::beams_points, .radius = kDiscRadius, .kernel = kernel};
+  settings.maps.gather = {.radius = kDiscRadius, .kernel = kernel};
   return settings;
 }
 

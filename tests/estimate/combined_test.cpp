@@ -161,7 +161,7 @@ TEST(Combined, StatisticsTellRadiiAndThinPlaces) {
   Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f), 0.9f), PointLight{Vec3(0.5f, 1.5f, 0.5f), Rgb(9.0f)});
   scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {6, 6});
   const auto below = [&](float floor) {
-    settings.density_floor = floor;
+    settings.volume.density_floor = floor;
     return render_combined_pass(scene, settings, 0).statistics.ledger.floored;
   };
   EXPECT_EQ(below(0.0f), 0u);

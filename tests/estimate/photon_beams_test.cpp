@@ -30,7 +30,7 @@ struct Crossed {
 
   Rgb light_of(const std::vector<PhotonBeam>& beams, KernelKind kernel = KernelKind::epanechnikov,
                const std::vector<Photon>& collisions = {}) {
-    const AskedGather gather{.mode = GatherMode::photon_beams, .radius = kBeamRadius, .kernel = kernel};
+    const AskedGather gather{.radius = kBeamRadius, .kernel = kernel};
     VolumeMapSettings maps;
     maps.gather = gather;
     maps.form = form;

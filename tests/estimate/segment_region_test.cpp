@@ -11,7 +11,7 @@ namespace vpm {
 namespace {
 
 constexpr float kRadius = 0.3f;  // m, of kernels
-const GatherSettings kDiscs{.mode = GatherMode::beam, .radius = kRadius, .boundary = BoundaryRule::ends};
+const GatherSettings kDiscs{.radius = kRadius, .boundary = BoundaryRule::ends};
 
 /// A body of a medium that hardly absorbs, in a vacuum.
 template <class Body>

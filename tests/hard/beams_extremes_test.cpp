@@ -9,7 +9,7 @@
 namespace vpm {
 namespace {
 
-constexpr GatherMode kOfBeams[] = {GatherMode::photon_beams, GatherMode::beams_points};
+constexpr std::string_view kOfBeams[] = {"photon-beams", "beams-points"};
 
 /// Student's test of the mean over passes. It says something: the standard error is at most a tenth of the exact value.
 void expect_radiance(const Moments& found, double exact, Worst& worst, const std::string& what) {
@@ -26,12 +26,12 @@ double exact_radiance(const BeamAirlight& a) {
 TEST(BeamsExtremes, TheNarrowestPeakIsSeenExactly) {
   // From ahead the eye looks into the peak, 0.01 rad beside its middle: 1e5 times as bright as from behind.
   Worst worst("relative error of photon beams, g = +-0.999");
-  for (const GatherMode mode : kOfBeams)
+  for (const std::string_view type : kOfBeams)
     for (const double g : {0.999, -0.999})
       for (const double sine : {0.01, 0.1, 1.0}) {
         const double cosine = -std::copysign(std::sqrt(1.0 - sine * sine), g), half = 0.5 / sine;
         const BeamAirlight seen{0.2 / half, 1.0, g, 0.5, cosine, 2.0 + half, 2.0 + half};
-        const PhotonRays by{.mode = mode, .radius = 0.2, .photons = 200, .passes = 20, .seed = 1};
+        const PhotonRays by{.type = type, .radius = 0.2, .photons = 200, .passes = 20, .seed = 1};
         expect_radiance(estimate_beam_airlight_by_photons(seen, by).unbiased, exact_radiance(seen), worst,
                         "g " + std::to_string(g) + ", sine " + std::to_string(sine));
       }
@@ -62,7 +62,7 @@ TEST(BeamsExtremes, BeamsAlongTheRayAreFiniteAndNothingIsDropped) {
     scene.geometry.commit();
     finish(scene);
     RenderSettings settings = settings_of(20'000, 1e-4f);
-    settings.volume.mode = GatherMode::photon_beams;
+    settings.volume.choose("photon-beams");
     settings.volume.kernel = kernel.kind;
     EXPECT_NE(mean_of(clean_image(scene, settings)), 0.0) << kernel.name;
   }
@@ -74,8 +74,8 @@ TEST(BeamsExtremes, LightExactlyAlongTheRayIsFound) {
   Worst worst("relative error of photon beams exactly along the ray");
   const BeamAirlight along{1.0, 1.0, 0.0, 0.1, 1.0, 1.0, 1.0};
   const double exact = 1.0 / (8.0 * kPiD);  // the integral of exp(-2 t) / (4 pi)
-  for (const GatherMode mode : kOfBeams) {
-    const PhotonRays by{.mode = mode, .radius = 0.04, .photons = 2'000, .passes = 20, .seed = 3};
+  for (const std::string_view type : kOfBeams) {
+    const PhotonRays by{.type = type, .radius = 0.04, .photons = 2'000, .passes = 20, .seed = 3};
     expect_radiance(estimate_beam_airlight_by_photons(along, by).unbiased, exact, worst, "along the ray");
   }
 }
@@ -97,13 +97,13 @@ TEST(BeamsExtremes, SlabsFromNextToNothingToOpaqueAreSeenExactly) {
   // In the thin slab, one photon in 10000 collides, but all of them fly. In the thick one, flights are a ten thousandth
   // of the radius long.
   Worst worst("relative error of photon beams, tau 1e-4 to 1e4");
-  for (const GatherMode mode : kOfBeams)
+  for (const std::string_view type : kOfBeams)
     for (const double tau : {1e-4, 1.0, 1e4}) {
       const exact::SlabSolution exact =
           exact::solve_slab({tau < 1e3 ? tau : HUGE_VAL, 0.5, {1.0}, {}}, {{}, {0.6}, {}});
       const bool opaque = tau > 1e3;
-      if (opaque && mode == GatherMode::beams_points) continue;  // steps of half a flight: 10 minutes
-      const PhotonRays by{.mode = mode,
+      if (opaque && type == "beams-points") continue;  // steps of half a flight: 10 minutes
+      const PhotonRays by{.type = type,
                           .radius = opaque ? 1.0 : 0.2,
                           .photons = opaque ? 8'000u : 1'000u,
                           .passes = opaque ? 100 : 20,

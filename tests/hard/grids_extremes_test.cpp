@@ -39,7 +39,7 @@ TEST(GridsExtremes, AnEmptyGridIsVacuum) {
       scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {4, 4});
       RenderSettings settings = settings_of(1000, 0.1f);
       settings.volume_direct = direct;
-      settings.volume_form = form;
+      settings.volume.form = form;
       for (const Rgb& pixel : clean_image(scene, settings).pixels) EXPECT_EQ(pixel, Rgb(1.0f));
     }
 }
@@ -179,11 +179,11 @@ TEST(GridsExtremes, DensitiesAtTheEndsOfFloatGiveTheSamePicture) {
   Worst worst("relative error of the picture in denormal densities");
   for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon})
     for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays})
-      for (const GatherMode gather : {GatherMode::radius, GatherMode::nearest}) {
+      for (const char* gather : {"radius", "nearest"}) {
         RenderSettings settings = settings_of(4000, 0.125f);
-        settings.volume_form = form;
+        settings.volume.form = form;
         settings.volume_direct = direct;
-        settings.volume.mode = gather;
+        settings.volume.choose(gather);
         const Image benign = clean_image(smoke_of(1.0f), settings);
         EXPECT_GT(mean_of(benign), 1e-3);
         // 7.9e-31 and 1.3e30; powers of two, so that every bit is the same.

@@ -151,7 +151,7 @@ TEST(MapsExtremes, AnEndlessThinMediumIsSeenInAPicturesTime) {
         scene.geometry.commit();
         finish(scene);
         RenderSettings settings = settings_of(photons, 0.02f);
-        settings.volume_form = form;
+        settings.volume.form = form;
         const Image image = clean_image(scene, settings);
         EXPECT_NEAR(image.at(4, 4).r, std::exp(-5.0 * sigma), 1e-4);
       }

@@ -68,11 +68,11 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.distance.parameters, (Parameters{{"step", 0.5f}, {"optical_step", 0.02f}}));
   EXPECT_EQ(s.transmittance.estimator, "unbiased-ray-march");
   EXPECT_EQ(s.transmittance.parameters, (Parameters{{"samples", 2.5f}}));
-  EXPECT_EQ(s.volume.mode, GatherMode::nearest);
+  EXPECT_EQ(s.volume.type(), "nearest");
   EXPECT_EQ(s.volume.radius.metres(), 0.1f);
   EXPECT_EQ(s.volume.count, 40u);
   EXPECT_EQ(s.volume.kernel, KernelKind::biweight);
-  EXPECT_EQ(s.volume_form, VolumeForm::density_at_photon);
+  EXPECT_EQ(s.volume.form, VolumeForm::density_at_photon);
   EXPECT_EQ(s.volume_direct, DirectLight::shadow_rays);
   EXPECT_EQ(s.surface.mode, GatherMode::nearest);
   EXPECT_EQ(s.surface.radius.metres(), 0.3f);

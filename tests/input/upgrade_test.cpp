@@ -161,11 +161,11 @@ TEST(Upgrade, IsReadAsTheOldFileWas) {
                    "beams = 'long'\nplanes = 'alone'\nradius = 0.2\n[photons]\nplanes = 7\nflights = 9\n"
                    "[transmittance]\nestimator = 'ratio'\n"))
           .settings;
-  EXPECT_EQ(s.volume.mode, GatherMode::photon_planes);
-  EXPECT_EQ(s.beam_length, BeamLength::long_beams);
-  EXPECT_EQ(s.plane_use, PlaneUse::alone);
-  EXPECT_EQ(s.planes, 7u);
-  EXPECT_EQ(s.flights, 9u);
+  EXPECT_EQ(s.volume.type(), "photon-planes");
+  EXPECT_EQ(s.volume.length, BeamLength::long_beams);
+  EXPECT_EQ(s.volume.share, PlaneUse::alone);
+  EXPECT_EQ(s.volume.planes, 7u);
+  EXPECT_EQ(s.volume.flights, 9u);
   EXPECT_EQ(s.transmittance.estimator, "ratio");
 }
 

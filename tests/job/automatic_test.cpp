@@ -168,7 +168,7 @@ TEST(Automatic, DefaultRadiiAreTheSameWhateverTimeIsAskedFor) {
 TEST(Automatic, TheRadiusOfBeamsHoldsTheFlightsThatItPromises) {
   const Scene scene = lit_evenly(0.01f);
   RenderSettings settings;
-  settings.volume.mode = GatherMode::photon_beams;
+  settings.volume.choose("photon-beams");
   settings.photons_emitted = 1'000'000;
   choose_records(scene, {{"integrator.volume.radius"}}, kInfinity, settings);
   const double share = std::pow(settings.volume.radius.metres() / 0.9, 2.0);  // of the photons
@@ -274,7 +274,7 @@ TEST(Automatic, TheFirstOfAllIsTakenWhereTheTimeAllowsNoTrial) {
   const std::vector<Choice> choices =
       choose_settings(scene, {{"integrator.type", "integrator.volume.radius"}}, {clock, 1.0}, settings).choices;
   ASSERT_EQ(choices.size(), 2u);
-  EXPECT_EQ(choices[0].value, "photon");
+  EXPECT_EQ(choices[0].value, "photon-map");
   EXPECT_EQ(choices[0].reason.substr(0, 22), "the first of all; not ") << choices[0].reason;
   EXPECT_TRUE(settings.volume.radius.is_given());
 }
@@ -282,9 +282,9 @@ TEST(Automatic, TheFirstOfAllIsTakenWhereTheTimeAllowsNoTrial) {
 /// A gather that is given stays, and so does that of a scene without media.
 TEST(Automatic, KeepsGathersThatAreGiven) {
   RenderSettings settings;
-  settings.volume.mode = GatherMode::nearest;
+  settings.volume.choose("nearest");
   choose_settings(lit_evenly(0.01f), {{"integrator.volume.radius"}}, {SimulatedClock(), kInfinity}, settings);
-  EXPECT_EQ(settings.volume.mode, GatherMode::nearest);
+  EXPECT_EQ(settings.volume.type(), "nearest");
   EXPECT_TRUE(choose_settings(lit_evenly(0.0f), {{"integrator.volume.type"}}, {SimulatedClock(), kInfinity}, settings)
                   .choices.empty());
 }
@@ -302,8 +302,8 @@ TEST(Automatic, CountsTheTracingsOfAPassInBlocks) {
   const Scene scene = cloud_over_floor(true);
   RenderSettings settings;
   settings.photons_emitted = 20'000;
-  for (const auto& [mode, tracings] : {std::pair{GatherMode::radius, 2}, {GatherMode::beam, 1}}) {
-    settings.volume.mode = mode;
+  for (const auto& [type, tracings] : {std::pair{"radius", 2}, {"beam", 1}}) {
+    settings.volume.choose(type);
     settings.photons_block = 0;
     const PassCost whole = time_pass(scene, settings);
     settings.photons_block = 5000;

@@ -58,10 +58,11 @@ TEST(Forecast, TellsARadiusThatFits) {
   const PassCost wide = time_pass(scene, settings);
   const double seconds = 0.3 * wide.seconds(20'000);
   const std::string text = radius_that_fits(scene, settings, seconds, kInfinity);
-  ASSERT_EQ(text.substr(0, 16), "integrator.volume.radius = ") << text;
-  settings.volume.radius = std::stof(text.substr(16));
+  const std::string key = "integrator.volume.radius = ";
+  ASSERT_TRUE(text.starts_with(key)) << text;
+  settings.volume.radius = std::stof(text.substr(key.size()));
   EXPECT_LT(settings.volume.radius.metres(), 1.0f);
-  settings.volume.mode = GatherMode::nearest;
+  settings.volume.choose("nearest");
   EXPECT_EQ(radius_that_fits(scene, settings, seconds, kInfinity), "");
   settings.integrator = Integrator::path;
   EXPECT_EQ(radius_that_fits(scene, settings, seconds, kInfinity), "");
@@ -87,10 +88,10 @@ TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
   settings.photons_stored = 0;
   settings.photons_emitted = 10'000'000;  // 2e7 stored, 1.3 GB; with flights, of which there are more, at least 12 GB
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
-  settings.volume.mode = GatherMode::photon_beams;
+  settings.volume.choose("photon-beams");
   EXPECT_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9), InputError);
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::light_map, 8e9));
-  settings.flights = 1000;
+  settings.volume.flights = 1000;
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
   settings.integrator = Integrator::path;
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 1e6));

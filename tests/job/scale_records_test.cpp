@@ -23,7 +23,7 @@ Scene fog_with_lamp() {
 RenderSettings settings_with(float radius) {
   RenderSettings settings;
   settings.photons_emitted = 5'000;
-  settings.volume.mode = GatherMode::beam;
+  settings.volume.choose("beam");
   settings.volume.radius = radius;
   return settings;
 }

@@ -25,7 +25,7 @@ TEST_P(TheErrorOfAPass, IsThatOfTheFilm) {
   RenderSettings settings;
   settings.integrator = GetParam();
   settings.photon_sequence = PhotonSequence::random;  // noise as one over photons is what pilots take for granted
-  settings.volume.mode = GatherMode::beam;
+  settings.volume.choose("beam");
   settings.volume.radius = 0.1f;
   settings.surface.radius = 0.2f;
   settings.photons_emitted = GetParam() == Integrator::combined ? 4'000 : 20'000;
@@ -97,7 +97,7 @@ Choice chosen_integrator(const Scene& scene, RenderSettings settings) {
       choose_settings(scene, automatic, {SimulatedClock(), kInfinity}, settings).choices;
   EXPECT_EQ(choices.at(0).key, "integrator.type");
   EXPECT_EQ(choices.at(0).value, word_of(settings.integrator));
-  for (const char* part : {"least error in a pilot", "photon ", " path "})
+  for (const char* part : {"least error in a pilot", "photon-map ", " path "})
     EXPECT_NE(choices.at(0).reason.find(part), std::string::npos) << choices.at(0).reason;
   return choices.at(0);
 }
@@ -175,7 +175,7 @@ Choice chosen_gather(const Scene& scene, RenderSettings settings) {
                                           .choices;
   EXPECT_EQ(choices.size(), 2u);
   EXPECT_EQ(choices.at(0).key, "integrator.volume.type");
-  EXPECT_EQ(choices.at(0).value, word_of(settings.volume.mode));
+  EXPECT_EQ(choices.at(0).value, settings.volume.type());
   EXPECT_EQ(choices.at(1).key, "integrator.volume.radius");
   return choices.at(0);
 }

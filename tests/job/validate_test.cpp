@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/job/bake.h"
 #include "vpm/job/render.h"
 
@@ -48,12 +49,12 @@ S& gather_finally(S& s) {
 const Contradiction kContradictions[] = {
     {"integrator.photons.emitted", [](S& s) { s.photons_emitted = 0; }},
     {"integrator.photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
-    {"integrator.photons.in_cube", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.photons_in_cube = 4; }},
-    {"integrator.photons.stored", [](S& s) { s.volume.mode = GatherMode::beams_points, s.photons_stored = 1000; }},
+    {"integrator.photons.in_cube", [](S& s) { s.volume.choose("photon-beams"), s.photons_in_cube = 4; }},
+    {"integrator.photons.stored", [](S& s) { s.volume.choose("beams-points"), s.photons_stored = 1000; }},
     {"integrator.distance.type",
-     [](S& s) { s.volume.mode = GatherMode::photon_planes, s.distance.strategy = "mean-extinction"; }},
+     [](S& s) { s.volume.choose("photon-planes"), s.distance.strategy = "mean-extinction"; }},
     {"integrator.distance.type",
-     [](S& s) { s.volume.mode = GatherMode::photon_beams, s.distance.strategy = "mean-extinction"; }},
+     [](S& s) { s.volume.choose("photon-beams"), s.distance.strategy = "mean-extinction"; }},
     {"integrator.distance.type", [](S& s) { combine(s).distance.strategy = "mean-extinction"; }},
     {"integrator.distance.type", [](S& s) { combine(s).distance.strategy = "ray-march"; }},
     {"integrator.radii", [](S& s) { combine(s).radii = RadiusSchedule::per_pixel; }},
@@ -65,11 +66,11 @@ const Contradiction kContradictions[] = {
     {"integrator.photons.stored", [](S& s) { by_blocks(s).photons_stored = 100; }},
     {"integrator.photons.stored", [](S& s) { by_blocks(s).photons_stored = 100, s.photons_emitted = 0; }},
     {"integrator.photons.in_cube", [](S& s) { by_blocks(s).photons_in_cube = 4; }},
-    {"integrator.volume.flights", [](S& s) { by_blocks(s).volume.mode = GatherMode::photon_beams, s.flights = 100; }},
-    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.mode = GatherMode::nearest; }},
-    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.mode = GatherMode::photon_planes; }},
-    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.mode = GatherMode::beams_points; }},
-    {"integrator.volume.count", [](S& s) { by_blocks(s).volume.mode = GatherMode::beam, s.volume.beam_count = 20; }},
+    {"integrator.volume.flights", [](S& s) { by_blocks(s).volume.choose("photon-beams"), s.volume.flights = 100; }},
+    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.choose("nearest"); }},
+    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.choose("photon-planes"); }},
+    {"integrator.volume.type", [](S& s) { by_blocks(s).volume.choose("beams-points"); }},
+    {"integrator.volume.count", [](S& s) { by_blocks(s).volume.choose("beam"), s.volume.beam_count = 20; }},
     {"integrator.surface.type", [](S& s) { by_blocks(s).surface.mode = GatherMode::nearest; }},
     {"integrator.caustics.type", [](S& s) { gather_finally(by_blocks(s)).caustics.mode = GatherMode::nearest; }},
     {"integrator.caustics.emitted", [](S& s) { gather_finally(by_blocks(s)).caustics_emitted = 100; }},
@@ -79,7 +80,6 @@ const Contradiction kContradictions[] = {
     {"integrator.volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
     {"integrator.surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
     {"integrator.direct.type", [](S& s) { s.surface_direct = DirectLight::equiangular; }},
-    {"integrator.surface.type", [](S& s) { s.surface.mode = GatherMode::beam; }},
     {"integrator.indirect.irradiance",
      [](S& s) {
        s.end_irradiance = EndIrradiance::precomputed, s.surface.boundary = BoundaryRule::corrected;
@@ -107,11 +107,11 @@ const Contradiction kContradictions[] = {
 
 TEST(Validate, LongBeamsNeedAnEnd) {
   RenderSettings s;
-  s.volume.mode = GatherMode::photon_beams;
-  s.beam_length = BeamLength::long_beams;
+  s.volume.choose("photon-beams");
+  s.volume.length = BeamLength::long_beams;
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "integrator.volume.length");
-  s.beam_length = BeamLength::short_beams;
+  s.volume.length = BeamLength::short_beams;
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "");
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true, .endless_flights = true}), "integrator.volume.type");
 }
@@ -138,8 +138,8 @@ TEST(Validate, LongBeamsOfCombinedTechniquesNeedAnEnd) {
 /// What the chosen components do not have is not looked at.
 TEST(Validate, LooksAtTheChosenComponentsAlone) {
   RenderSettings s;
-  s.flights = 100;
-  s.beam_length = BeamLength::long_beams;
+  s.volume.flights = 100;
+  s.volume.length = BeamLength::long_beams;
   s.direct_samples = -1;
   s.volume.count = 0;
   s.gather_rays = 0;
@@ -176,16 +176,16 @@ TEST(Validate, PlanesCastShadowRays) {
   s.surface_direct = DirectLight::photons;
   s.transmittance.estimator = "ratio";
   EXPECT_EQ(refused(s, {.scattering_media = true}), "integrator.transmittance.type");
-  s.volume.mode = GatherMode::photon_planes;
+  s.volume.choose("photon-planes");
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
 }
 
 // Where paths are traced, settings of photons may stand.
 TEST(Validate, BlocksGoWithSumsOverPhotons) {
-  for (const GatherMode mode : {GatherMode::radius, GatherMode::beam, GatherMode::photon_beams})
+  for (const char* type : {"radius", "beam", "photon-beams"})
     for (const BoundaryRule rule : {BoundaryRule::none, BoundaryRule::ends, BoundaryRule::corrected}) {
       RenderSettings s;
-      by_blocks(s).volume.mode = mode;
+      by_blocks(s).volume.choose(type);
       s.volume.boundary = rule;
       EXPECT_EQ(refused(s, kEverything), "");
     }
@@ -201,25 +201,24 @@ TEST(Validate, BlocksGoWithSumsOverPhotons) {
   EXPECT_EQ(refused(s, kEverything), "");
   s = {};
   by_blocks(s).integrator = Integrator::path;
-  s.volume.mode = GatherMode::nearest;
+  s.volume.choose("nearest");
   EXPECT_EQ(refused(s, kEverything), "");
 }
 
 // The default of volume.boundary goes with everything; and beams know all its words.
 TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
-  for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest, GatherMode::beam, GatherMode::photon_beams,
-                                GatherMode::photon_planes, GatherMode::beams_points})
+  for (const VolumeEstimatorInfo& info : volume_estimators())
     for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon})
       for (const uint32_t in_cube : {0u, 4u})
         for (const BoundaryRule rule : {BoundaryRule::none, BoundaryRule::ends, BoundaryRule::corrected}) {
           RenderSettings s;
           EXPECT_EQ(s.volume.boundary, BoundaryRule::ends);
-          s.volume.mode = mode;
+          s.volume.choose(info.name);
           s.volume.boundary = rule;
-          s.volume_form = form;
+          s.volume.form = form;
           s.photons_in_cube = in_cube;
-          const bool asks_merged =
-              in_cube > 0 && (s.volume.crosses_beams() || (rule == BoundaryRule::corrected && !s.volume.along_rays()));
+          const bool asks_merged = in_cube > 0 && ((info.flights && info.along_rays) ||
+                                                   (rule == BoundaryRule::corrected && !info.along_rays));
           if (!asks_merged) {
             EXPECT_NO_THROW(validate(s, {.scattering_media = true}));
           }
@@ -259,7 +258,7 @@ TEST(Validate, AsksTheSceneWhereThatDecides) {
 
 TEST(Validate, TakesACountWhereGathersGoByIt) {
   RenderSettings s;
-  s.volume.mode = GatherMode::beam;
+  s.volume.choose("beam");
   s.volume.beam_count = 20;
   s.surface.mode = GatherMode::nearest;
   s.surface.count = 20;

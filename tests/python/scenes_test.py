@@ -17,7 +17,7 @@ def test_a_dict_is_the_scene_that_the_same_file_is(ball_file):
 def test_numpy_values_stand_for_numbers_and_lists():
     scene = changed(film={"width": np.int32(24), "height": np.int64(16)})
     scene["media"]["fog"]["sigma_s"] = np.array([0.5, 0.6, 0.7])
-    scene["photons"]["emitted"] = np.uint16(2000)
+    scene["integrator"]["photons"]["emitted"] = np.uint16(2000)
     scene["shapes"] = tuple(scene["shapes"])
     assert vpm.Scene(scene).hash == vpm.Scene(BALL).hash
 

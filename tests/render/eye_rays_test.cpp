@@ -126,26 +126,26 @@ void expect_combined_alike(Scene& scene, const RenderSettings& settings, const V
                   [&](const Ray& ray, EyeWork& work) { return pass.radiance(ray, work); }, from, towards, go_together);
 }
 
-RenderSettings settings_of(GatherMode mode, KernelKind kernel, BoundaryRule boundary) {
+RenderSettings settings_of(std::string_view type, KernelKind kernel, BoundaryRule boundary) {
   RenderSettings settings;
   settings.photons_emitted = 2000;
-  settings.planes = 50;
-  settings.volume.mode = mode;
-  settings.volume.radius = mode == GatherMode::beam ? 0.2f : 0.1f;
+  settings.volume.planes = 50;
+  settings.volume.choose(type);
+  settings.volume.radius = type == "beam" ? 0.2f : 0.1f;
   settings.volume.kernel = kernel;
   settings.volume.boundary = boundary;
   return settings;
 }
 
-constexpr std::array kModes{GatherMode::beam, GatherMode::photon_beams, GatherMode::photon_planes};
+constexpr std::array<std::string_view, 3> kTypes{"beam", "photon-beams", "photon-planes"};
 
 TEST(EyeRays, TogetherFindWhatEachFindsAlone) {
   const Scene grey = room(fog(Rgb(0.7f), HenyeyGreenstein{0.6f}));
-  for (const GatherMode mode : kModes)
+  for (const std::string_view type : kTypes)
     for (const BoundaryRule boundary : {BoundaryRule::none, BoundaryRule::ends})
       for (const Vec3& towards : {Vec3(-2.0f, 0.3f, -2.0f), Vec3(0.7f, -0.5f, -0.7f)}) {  // the corner, the glass
-        SCOPED_TRACE(static_cast<int>(mode));
-        expect_alike(grey, settings_of(mode, KernelKind::epanechnikov, boundary), Vec3(0.2f, 0.1f, 1.7f), towards);
+        SCOPED_TRACE(type);
+        expect_alike(grey, settings_of(type, KernelKind::epanechnikov, boundary), Vec3(0.2f, 0.1f, 1.7f), towards);
       }
 }
 
@@ -153,8 +153,8 @@ TEST(EyeRays, HaveEveryKernelAndPhaseFunction) {
   for (const Phase& phase : {Phase(Isotropic{}), Phase(Rayleigh{}), Phase(HenyeyGreenstein{-0.4f})}) {
     const Scene scene = room(fog(Rgb(0.7f), phase));
     for (const KernelInfo& info : kKernels)
-      for (const GatherMode mode : {GatherMode::beam, GatherMode::photon_beams})
-        expect_alike(scene, settings_of(mode, info.kind, BoundaryRule::ends), Vec3(0.2f, 0.1f, 1.7f),
+      for (const char* type : {"beam", "photon-beams"})
+        expect_alike(scene, settings_of(type, info.kind, BoundaryRule::ends), Vec3(0.2f, 0.1f, 1.7f),
                      Vec3(-1.0f, 0.3f, -2.0f));
   }
 }
@@ -164,18 +164,18 @@ TEST(EyeRays, CrossBeamsThatFade) {
   for (const Rgb& sigma_t : {Rgb(0.7f), Rgb(1.5f, 0.7f, 0.2f)})
     for (const BeamLength length : {BeamLength::short_beams, BeamLength::long_beams}) {
       const Scene scene = room(fog(sigma_t, Isotropic{}));
-      RenderSettings settings = settings_of(GatherMode::photon_beams, KernelKind::epanechnikov, BoundaryRule::ends);
-      settings.beam_length = length;
+      RenderSettings settings = settings_of("photon-beams", KernelKind::epanechnikov, BoundaryRule::ends);
+      settings.volume.length = length;
       expect_alike(scene, settings, Vec3(0.2f, 0.1f, 1.7f), Vec3(-1.0f, 0.3f, -2.0f));
     }
 }
 
 TEST(EyeRays, MayBeInDifferentMedia) {
   const Scene scene = balls(fog(Rgb(2.0f, 1.0f, 0.2f), Isotropic{}));
-  for (const GatherMode mode : kModes)
+  for (const std::string_view type : kTypes)
     for (const Vec3& towards : {Vec3(0.0f), Vec3(-0.9f, 0.1f, 0.0f)}) {
-      SCOPED_TRACE(static_cast<int>(mode));
-      expect_alike(scene, settings_of(mode, KernelKind::epanechnikov, BoundaryRule::ends), Vec3(0.0f, 0.3f, 3.0f),
+      SCOPED_TRACE(type);
+      expect_alike(scene, settings_of(type, KernelKind::epanechnikov, BoundaryRule::ends), Vec3(0.0f, 0.3f, 3.0f),
                    towards);
     }
 }
@@ -183,7 +183,7 @@ TEST(EyeRays, MayBeInDifferentMedia) {
 // Estimators that ask for the density integrals of a segment, one after another, for each segment of a bundle.
 TEST(EyeRays, HaveDensityIntegralsOfTheirOwn) {
   const Scene scene = room(fog(Rgb(0.7f), Isotropic{}));
-  RenderSettings settings = settings_of(GatherMode::photon_planes, KernelKind::epanechnikov, BoundaryRule::ends);
+  RenderSettings settings = settings_of("photon-planes", KernelKind::epanechnikov, BoundaryRule::ends);
   settings.volume_direct = DirectLight::equiangular;
   expect_alike(scene, settings, Vec3(0.2f, 0.1f, 1.7f), Vec3(-1.0f, 0.3f, -2.0f));
 }
@@ -192,8 +192,8 @@ TEST(EyeRays, HaveDensityIntegralsOfTheirOwn) {
 // rays go one by one.
 TEST(EyeRays, MayBeginJustBeforeABorder) {
   Scene scene = boxed_medium(fog(Rgb(1.0f), Isotropic{}), ConstantEnvironment{Rgb(1.0f)});
-  for (const GatherMode mode : kModes)
-    expect_alike(scene, settings_of(mode, KernelKind::epanechnikov, BoundaryRule::ends), Vec3(0.0f, 1.01f, 0.0f),
+  for (const std::string_view type : kTypes)
+    expect_alike(scene, settings_of(type, KernelKind::epanechnikov, BoundaryRule::ends), Vec3(0.0f, 1.01f, 0.0f),
                  Vec3(0.0f, 0.8f, -0.9f), false);
 }
 

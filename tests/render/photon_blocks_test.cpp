@@ -74,16 +74,16 @@ struct Way {
 using S = RenderSettings;
 
 const Way kWays[] = {
-    {"points", [](S& s) { s.volume.mode = GatherMode::radius; }},
+    {"points", [](S& s) { s.volume.choose("radius"); }},
     {"points, a ball at a time", [](S& s) { s.volume.boundary = BoundaryRule::corrected; }},
     {"points, nothing at borders", [](S& s) { s.volume.boundary = BoundaryRule::none; }},
-    {"points, density at the photon", [](S& s) { s.volume_form = VolumeForm::density_at_photon; }},
+    {"points, density at the photon", [](S& s) { s.volume.form = VolumeForm::density_at_photon; }},
     {"points, and shadow rays of the march", [](S& s) { s.volume_direct = DirectLight::shadow_rays; }},
-    {"beside rays", [](S& s) { s.volume.mode = GatherMode::beam; }},
+    {"beside rays", [](S& s) { s.volume.choose("beam"); }},
     {"beside rays, and equiangular light",
-     [](S& s) { s.volume.mode = GatherMode::beam, s.volume_direct = DirectLight::equiangular; }},
-    {"photon beams", [](S& s) { s.volume.mode = GatherMode::photon_beams; }},
-    {"long beams", [](S& s) { s.volume.mode = GatherMode::photon_beams, s.beam_length = BeamLength::long_beams; }},
+     [](S& s) { s.volume.choose("beam"), s.volume_direct = DirectLight::equiangular; }},
+    {"photon beams", [](S& s) { s.volume.choose("photon-beams"); }},
+    {"long beams", [](S& s) { s.volume.choose("photon-beams"), s.volume.length = BeamLength::long_beams; }},
     {"surfaces by photons alone", [](S& s) { s.surface_direct = DirectLight::photons; }},
     {"surfaces, corrected at borders", [](S& s) { s.surface.boundary = BoundaryRule::corrected; }},
     {"a kernel of order 4", [](S& s) { s.surface.kernel = s.volume.kernel = KernelKind::order_4; }},
@@ -156,7 +156,7 @@ TEST(PhotonBlocks, AddUpInTheStatistics) {
   const Scene scene = fog_smoke_and_glass();
   RenderSettings settings = in_one_piece();
   settings.radii = RadiusSchedule::per_pixel;
-  settings.volume.mode = GatherMode::photon_beams;
+  settings.volume.choose("photon-beams");
   const Pass whole = render_photon_pass(scene, settings, 0);
   const Pass blocks = render_photon_pass(scene, in_blocks(settings), 0);
   const RenderStatistics &a = whole.statistics, &b = blocks.statistics;

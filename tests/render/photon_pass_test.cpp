@@ -39,11 +39,11 @@ RenderSettings settings_of(uint64_t photons, float radius) {
 /// The ways to gather photons of media within a radius: around points of a ray and beside all of it, in both forms.
 std::vector<std::pair<std::string, RenderSettings>> volume_estimates(RenderSettings settings) {
   std::vector<std::pair<std::string, RenderSettings>> all;
-  for (const GatherMode mode : {GatherMode::radius, GatherMode::beam})
+  for (const std::string type : {"radius", "beam"})
     for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
-      settings.volume.mode = mode;
-      settings.volume_form = form;
-      const std::string where = mode == GatherMode::beam ? "beside rays" : "around points";
+      settings.volume.choose(type);
+      settings.volume.form = form;
+      const std::string where = type == "beam" ? "beside rays" : "around points";
       const std::string density = form == VolumeForm::density_at_query ? "query" : "photon";
       all.emplace_back(where + ", density at the " + density, settings);
     }
@@ -151,7 +151,8 @@ TEST(PhotonPass, TellsWhichMapsDoNotShowTheirBias) {
   const Scene both = lamp_and_floor(&white, Rgb(0.5f));
   RenderSettings settings;
   for (const GatherMode mode : {GatherMode::radius, GatherMode::nearest}) {
-    settings.volume.mode = settings.surface.mode = mode;
+    settings.volume.choose(mode == GatherMode::nearest ? "nearest" : "radius");
+    settings.surface.mode = mode;
     EXPECT_TRUE(maps_of_unseen_bias(both, settings).empty());
   }
   settings.surface_indirect = IndirectLight::final_gather;
@@ -237,9 +238,9 @@ TEST(PhotonPass, BeamsHaveLessNoiseThanPhotonsInThinFog) {
   const Medium fog = make_medium(nullptr, Rgb(0.05f), 0.9f);
   const Scene scene = lamp_and_floor(&fog);
   RenderSettings settings = settings_of(5'000, 0.05f);
-  settings.volume.mode = GatherMode::beam;
+  settings.volume.choose("beam");
   const double photons = noise_of(scene, settings);
-  settings.volume.mode = GatherMode::photon_beams;
+  settings.volume.choose("photon-beams");
   const double beams = noise_of(scene, settings);
   EXPECT_GT(photons, 100.0 * beams);
 }
@@ -256,7 +257,7 @@ TEST(PhotonPass, PhotonsAreRandomWhereTheyMustBeIndependent) {
     return even.image.pixels != render_photon_pass(scene, settings, 0).image.pixels;
   };
   EXPECT_TRUE(differs([](RenderSettings&) {}));
-  EXPECT_FALSE(differs([](RenderSettings& s) { s.volume.mode = GatherMode::nearest; }));
+  EXPECT_FALSE(differs([](RenderSettings& s) { s.volume.choose("nearest"); }));
   EXPECT_FALSE(differs([](RenderSettings& s) { s.surface.mode = GatherMode::nearest; }));
   EXPECT_FALSE(differs([](RenderSettings& s) { s.caustics.mode = GatherMode::nearest; }));
   EXPECT_FALSE(differs([](RenderSettings& s) { s.guide.importons = 100; }));
@@ -273,7 +274,7 @@ TEST(PhotonPass, PointsOfASequenceHaveLessNoiseThanRandomNumbers) {
   const Scene scene = lamp_and_floor(&fog);
   RenderSettings settings = settings_of(30'000, 0.3f);
   settings.samples_per_pixel = 16;  // what lies within a pixel varies, too
-  settings.volume.mode = GatherMode::photon_beams;
+  settings.volume.choose("photon-beams");
   const double even = noise_of(scene, settings);
   settings.photon_sequence = PhotonSequence::random;
   EXPECT_GT(noise_of(scene, settings), 1.5 * even);

@@ -48,10 +48,10 @@ TEST(Plan, StoresPhotonsAlongFlightsThatAreDrawnByTheMedium) {
     EXPECT_FALSE(along_flights(fog, settings)) << info.name;
   }
   settings = {};
-  settings.volume_form = VolumeForm::density_at_photon;
+  settings.volume.form = VolumeForm::density_at_photon;
   EXPECT_FALSE(along_flights(cloud, settings));
   settings = {};
-  settings.density_floor = 0.0f;
+  settings.volume.density_floor = 0.0f;
   EXPECT_FALSE(along_flights(cloud, settings));
 }
 

@@ -9,10 +9,8 @@
 
 namespace vpm {
 
-/// Around points, by radius or by count; in media also around whole segments of rays, by radius: photons
-/// (beam_estimate.h), the beams of their flights (volume/photon_beams.h), or these and planes (volume/photon_planes.h);
-/// or beams around points (volume/beams_around_points.h).
-enum class GatherMode { radius, nearest, beam, photon_beams, photon_planes, beams_points };
+/// Which photons count: those within a radius, or the nearest few within it.
+enum class GatherMode { radius, nearest };
 
 /// What is done where a disc or a ball reaches beyond the places that photons can come to. `none`: nothing, so that
 /// estimates are too dark there and light leaks through walls. `corrected`: each disc or ball by itself, by BoundedMap.
@@ -41,27 +39,20 @@ class AskedRadius {
 template <class Radius>
 struct GatherRule {
   GatherMode mode = GatherMode::radius;
-  Radius radius{};      // of the kernel (radius, beam), or the largest allowed (nearest mode)
+  Radius radius{};      // of the kernel, or the largest allowed (nearest mode)
   uint32_t count = 50;  // nearest mode: k >= 2
   KernelKind kernel = KernelKind::epanechnikov;
   BoundaryRule boundary = BoundaryRule::none;
-  uint32_t beam_count = 0;  // beam mode; > 0: each photon has its own radius, that of a ball which holds about so
+  uint32_t beam_count = 0;  // around rays; > 0: each photon has its own radius, that of a ball which holds about so
                             // many photons, between a hundredth of `radius` and `radius`; 0: all have `radius`
 
-  /// Is the light of a whole segment of a ray gathered at once?
-  bool along_rays() const { return mode == GatherMode::beam || crosses_beams(); }
-  /// Are rays crossed with flights, beside which collisions are gathered?
-  bool crosses_beams() const { return mode == GatherMode::photon_beams || mode == GatherMode::photon_planes; }
-  /// Are flights gathered?
-  bool gathers_flights() const { return crosses_beams() || mode == GatherMode::beams_points; }
   /// Does a count of photons decide the radius of a gather, so that `radius` is only the largest allowed?
-  bool goes_by_count() const { return mode == GatherMode::nearest || (mode == GatherMode::beam && beam_count > 0); }
+  bool goes_by_count() const { return mode == GatherMode::nearest || beam_count > 0; }
   /// Is each ball in a medium corrected by itself, and not the segment of the ray as a whole? With radii that go by
   /// count a missing photon makes the next ball larger, so that balls beyond a border cannot make up for those before
   /// it. Discs around a ray are never corrected one by one.
   bool corrects_each_ball() const {
-    return mode == GatherMode::nearest ? boundary != BoundaryRule::none
-                                       : mode == GatherMode::radius && boundary == BoundaryRule::corrected;
+    return mode == GatherMode::nearest ? boundary != BoundaryRule::none : boundary == BoundaryRule::corrected;
   }
 };
 /// As a render asks for it: the radius is that of the first pass.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "vpm/estimate/photon_map.h"
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/render/combined_pass.h"
 #include "vpm/render/plan.h"
@@ -51,7 +52,8 @@ RenderSettings as_maps(const RenderSettings& settings) {
   RenderSettings maps = settings;
   if (settings.integrator != Integrator::combined) return maps;
   maps.integrator = Integrator::photon;
-  maps.volume.mode = maps.surface.mode = GatherMode::radius;
+  maps.volume.choose("radius");
+  maps.surface.mode = GatherMode::radius;
   return maps;
 }
 
@@ -117,11 +119,11 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
       (crosses_flights(settings) ? choose_count_of_flights : choose_count_of_points)(kPassesShare * seconds, cost_of);
   settings.photons_emitted = chosen.count;
   std::string reason = chosen.reason;
-  if (settings.volume.mode == GatherMode::photon_planes && settings.integrator == Integrator::photon)
+  if (settings.volume.info().planes && settings.integrator == Integrator::photon)
     reason += fmt::format(
         "; with {} planes ('planes' of [integrator.volume]), each of which costs a shadow ray where it is "
         "crossed",
-        settings.planes);
+        settings.volume.planes);
   return {"integrator.photons.emitted", fmt::format("{}", chosen.count), reason};
 }
 
@@ -143,7 +145,7 @@ bool crosses_flights(const RenderSettings& settings) {
   const TechniqueSet& techniques = settings.combined.techniques;
   return settings.integrator == Integrator::combined
              ? techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams)
-             : settings.volume.gathers_flights();
+             : settings.volume.info().flights;
 }
 
 std::optional<MapDensities> densities_for_records(const Scene& scene, const AutomaticSettings& automatic,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "vpm/estimate/photon_map.h"
+#include "vpm/estimate/volume/estimators.h"
 
 namespace vpm {
 namespace {
@@ -29,9 +30,7 @@ const EyeCosts& costs_of(const RenderSettings& settings) {
     const bool beams = techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams);
     return beams ? kCombinedWithBeams : kCombinedPoints;
   }
-  const GatherMode mode = settings.volume.mode;
-  const bool at_points = mode == GatherMode::radius || mode == GatherMode::nearest || mode == GatherMode::beams_points;
-  return at_points ? kMapsAtPoints : kMapsAlongRays;
+  return settings.volume.info().along_rays ? kMapsAlongRays : kMapsAtPoints;
 }
 
 /// What one of many nearest photons on a surface takes that are summed by whole nodes, ns.

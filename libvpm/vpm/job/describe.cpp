@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/job/words.h"
 
 namespace vpm {
@@ -76,27 +77,14 @@ void describe_photons(S& s, Description& d) {
 
 constexpr const char* kRadius = "of the first pass, or the largest where gathers go by `count`";
 constexpr const char* kRadiusOfMerges = "of merges, in the first pass";
-constexpr const char* kKernel =
-    "how photons weigh less farther away; `\"order-4\"` has a negative rim, a bias of the fourth power of the radius, "
-    "and more noise, see below";
-// Kernels, 1 over the cube of the radius, must be floats; and coordinates are at most 1e9 m.
-constexpr Range kRadii{1e-10, 1e9, false, false};
-constexpr SettingTraits kRadiusTraits{
-    .unit = "m", .usual_text = "goes by where photons lie, see above", .automatic = true, .usually_chosen = true};
-
-/// What every gather has.
-void describe_radius(const Members<G>& of, const char* meaning) {
-  of.add("radius", &G::radius, Numbers{kRadii}, meaning, kRadiusTraits);
-}
-void describe_kernel(const Members<G>& of) { of.add("kernel", &G::kernel, kKernel); }
 
 void describe_gather_on_surfaces(G& gather, Description& d, const std::string& table) {
   d.in(table);
   const Members<G> of(gather, d);
-  of.add("type", &G::mode, words_of<GatherMode>(2), "photons within a `\"radius\"`, or the `\"nearest\"` few");
-  describe_radius(of, kRadius);
+  of.add("type", &G::mode, "photons within a `\"radius\"`, or the `\"nearest\"` few");
+  describe_radius(gather, kRadius, d);
   if (gather.mode == GatherMode::nearest) of.add("count", &G::count, Integers{2, kMost}, "how many are nearest");
-  describe_kernel(of);
+  describe_kernel(gather, d);
 }
 
 /// The correction at borders is also that of the caustic map.
@@ -114,71 +102,6 @@ void describe_surface(S& s, Description& d) {
                      word_of(BoundaryRule::none),
                      [&s] { return SettingValue(word_of(s.surface.boundary)); },
                      set});
-}
-
-/// What flights are kept, and how long they are.
-void describe_flights(S& s, Description& d) {
-  const Members<S> of(s, d);
-  of.add("length", &S::beam_length,
-         "a beam is a photon's flight, `\"short\"`, or goes on to where the ray leaves the medium, `\"long\"`, and "
-         "counts with the transmittance: less noise in thin media; more time, most of all in grids");
-  of.add("flights", &S::flights, Integers{},
-         "at most so many flights of a pass become beams, drawn evenly from all and with the power of all; 0: all");
-}
-
-constexpr const char* kPlanes =
-    "at most so many flights of a pass become planes, likewise. Eye rays send a shadow ray for each plane that they "
-    "cross";
-
-void describe_planes(S& s, Description& d) {
-  const Members<S> of(s, d);
-  of.add("planes", &S::planes, Integers{1, kMost}, kPlanes);
-  of.add("share", &S::plane_use,
-         "light that planes can find is `\"combined\"` from them and beams; or comes from planes `\"alone\"`, without "
-         "any bias but of infinite variance, for study");
-}
-
-constexpr const char* kDensityFloor =
-    "for `density-at-query`: where a grid's density is below this fraction of its largest (or of its mean, if that is "
-    "less), photons are also stored along their flights, so that none weighs more than 1/floor: no bright specks, and "
-    "no bias. Not with strategies whose photons do not weigh 1/density. 0: at collisions alone";
-
-/// How collisions are gathered, and corrected at borders.
-void describe_collisions(S& s, Description& d) {
-  const Members<S> of(s, d);
-  of.add("form", &S::volume_form,
-         "where the scattering coefficient is taken: `\"density-at-query\"` is sharp, `\"density-at-photon\"` bounds "
-         "weights, see below");
-  Members<G>(s.volume, d, S{}.volume)
-      .add("boundary", &G::boundary,
-           "against dark rims at the borders of media: `\"ends\"` lets photons past the ends of a stretch of the eye's "
-           "ray make up for those missing before them; `\"corrected\"` corrects ball by ball, and lets no light "
-           "through thin walls, but is the same as `\"ends\"` for gathers along rays and of flights, see below");
-  const StrategyInfo* const flights = find_strategy(s.distance.strategy);
-  if (flights && flights->analog && s.volume.mode != GatherMode::beams_points)
-    of.add("density_floor", &S::density_floor, Numbers{kFraction}, kDensityFloor);
-}
-
-void describe_volume(S& s, Description& d) {
-  d.in("integrator.volume");
-  const Members<G> of(s.volume, d, S{}.volume);
-  of.add("type", &G::mode,
-         "photons within a `\"radius\"`, or the `\"nearest\"` few, or by `\"beam\"` those within the radius of a whole "
-         "stretch of the eye's ray, in one query; `\"photon-beams\"`: all flights of photons that pass it within the "
-         "radius, and the photons near it where flights run along it; `\"photon-planes\"`: these, and planes without "
-         "a radius for light that media scatter twice in turn; `\"beams-points\"`: flights within the radius of points "
-         "of a march",
-         {.automatic = true, .stays = true});
-  describe_radius(of, kRadius);
-  if (s.volume.mode == GatherMode::nearest) of.add("count", &G::count, Integers{2, kMost}, "how many are nearest");
-  if (s.volume.mode == GatherMode::beam)
-    of.add("count", &G::beam_count, Integers{0, kMost},
-           "> 0: each photon has a radius of its own, of a ball of about so many photons, from a hundredth of `radius` "
-           "to `radius`");
-  describe_kernel(of);
-  describe_collisions(s, d);
-  if (s.volume.gathers_flights()) describe_flights(s, d);
-  if (s.volume.mode == GatherMode::photon_planes) describe_planes(s, d);
 }
 
 void describe_single_scattering(S& s, Description& d) {
@@ -234,7 +157,8 @@ void describe_photon_map(S& s, Description& d) {
   // Photons are many and fly far: what a flight costs is most of their time, and null collisions cost less of it than
   // cells. Of paths and techniques combined most of the time is elsewhere (papers/distance-sampling.md).
   describe(s.distance, strategies_that(&StrategyInfo::positive), "delta-local", d.in("integrator.distance"));
-  describe_volume(s, d);
+  const StrategyInfo* const flights = find_strategy(s.distance.strategy);
+  describe(s.volume, flights && flights->analog, d.in("integrator.volume"));
   describe_single_scattering(s, d);
   describe_surface(s, d);
   describe_light_on_surfaces(s, d);
@@ -269,7 +193,7 @@ void describe_combined(S& s, Description& d) {
   const Members<S> own(s, d);
   own.add("radii", &S::radii, words_of<RadiusSchedule>(2), "how the radii of merges go on after the first pass");
   if (s.combined.techniques.has(Technique::planes))
-    own.add("planes", &S::planes, Integers{1, kMost},
+    of.add("planes", &CombinedSettings::planes, Integers{1, kMost},
             "about so many flights of a pass become planes, drawn by chance. Eye rays send a shadow ray for each plane "
             "that they cross");
   d.in("integrator.photons");
@@ -277,13 +201,12 @@ void describe_combined(S& s, Description& d) {
   own.add("sequence", &S::photon_sequence, "what they are drawn from, as for photon maps");
   describe(s.distance, strategies_of_known_density(), "regular", d.in("integrator.distance"));
   d.in("integrator.volume");
-  const Members<G> volume(s.volume, d, S{}.volume), surface(s.surface, d);
-  describe_radius(volume, kRadiusOfMerges);
-  describe_kernel(volume);
-  own.add("density_floor", &S::density_floor, Numbers{kFraction}, kDensityFloor);
+  describe_radius(s.volume, kRadiusOfMerges, d);
+  describe_kernel(s.volume, d);
+  describe_density_floor(s.volume, d);
   d.in("integrator.surface");
-  describe_radius(surface, kRadiusOfMerges);
-  describe_kernel(surface);
+  describe_radius(s.surface, kRadiusOfMerges, d);
+  describe_kernel(s.surface, d);
 }
 
 }  // namespace

@@ -132,13 +132,21 @@ std::string conditions(const Found& found) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
+/// Is every component one that the integrator can have?
+bool has_words_of_its_own(RenderSettings settings) {
+  const std::vector<Setting> all = describe(settings);
+  return std::all_of(all.begin(), all.end(), [](const Setting& setting) {
+    return !std::holds_alternative<Words>(setting.domain) || outside_of(setting.domain, setting.get()).empty();
+  });
+}
+
 /// The integrators that have it, under what else was chosen.
 std::vector<std::string> integrators_of(const Found& found) {
   std::vector<std::string> integrators;
   for (const Integrator integrator : {Integrator::photon, Integrator::path, Integrator::combined}) {
     RenderSettings chosen = found.chosen;
     chosen.integrator = integrator;
-    if (has(chosen, found.setting)) integrators.push_back(word_of(integrator));
+    if (has(chosen, found.setting) && has_words_of_its_own(chosen)) integrators.push_back(word_of(integrator));
   }
   return integrators.size() < 3 ? integrators : std::vector<std::string>();
 }

@@ -11,6 +11,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/estimate/photon_map.h"
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/job/choice_rules.h"
 #include "vpm/job/eye_blocks.h"
 #include "vpm/job/pilot.h"
@@ -33,8 +34,8 @@ struct Room {
 };
 Room room_of(const PassCost& cost, const RenderSettings& settings, double photons) {
   const double stored = cost.stored(photons), flights = photons * cost.flights_per_photon;
-  const double recorders = settings.volume.mode == GatherMode::photon_planes ? 2.0 : 1.0;
-  const double kept = settings.flights > 0 ? std::min(flights, static_cast<double>(settings.flights)) : flights;
+  const double recorders = settings.volume.info().planes ? 2.0 : 1.0;
+  const double kept = settings.volume.flights > 0 ? std::min(flights, static_cast<double>(settings.volume.flights)) : flights;
   return {kMapBytes * stored + recorders * kFlightBytes * flights + kBeamBytes * kept,
           std::max(stored, kPiecesOfBeam * kept)};
 }
@@ -160,7 +161,7 @@ double bytes_of_maps(const Scene& scene, const RenderSettings& settings, PassOf 
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory) {
   if (settings.integrator == Integrator::path) return;
   if (settings.integrator == Integrator::combined) return check_memory_of_sub_paths(scene, settings, memory);
-  const double each = settings.volume.gathers_flights() ? kFlightBytes + kBeamBytes : kMapBytes;
+  const double each = settings.volume.info().flights ? kFlightBytes + kBeamBytes : kMapBytes;
   const RenderSettings held = at_a_time(settings);
   const auto asked = static_cast<double>(std::max({held.photons_emitted, held.photons_stored, held.caustics_emitted}));
   if (asked * each <= kMapBytes * static_cast<double>(kSafePhotons)) return;

@@ -6,18 +6,23 @@
 
 #include <algorithm>
 
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/job/lost_light.h"
 #include "vpm/render/plan.h"
 
 namespace vpm {
 namespace {
 
+bool planes_alone(const RenderSettings& settings) {
+  return settings.volume.info().planes && settings.volume.share == PlaneUse::alone;
+}
+
 /// Of maps without photons that the picture is made of. Where rays find the light that comes straight from lights,
 /// there may be no other.
 void warn_of_empty_maps(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& s,
                         std::vector<std::string>& warnings) {
   const bool gathers = settings.surface_indirect == IndirectLight::final_gather;
-  const bool flights = settings.volume.gathers_flights() && settings.plane_use == PlaneUse::combined;
+  const bool flights = settings.volume.info().flights && !planes_alone(settings);
   if (shown.media && settings.volume_direct == DirectLight::photons && (flights ? s.flights : s.volume_photons) == 0)
     warnings.emplace_back(flights ? "there are no photon beams: no photon flew through a medium"
                                   : "the volume photon map is empty: no photon scattered in a medium");
@@ -69,7 +74,7 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
     warn_of_empty_maps(shown, settings, s, warnings);
     warn_of_unfound_photons(s, warnings);
     warn_of_short_counts(s.eye, warnings);
-    if (shown.media && settings.plane_use == PlaneUse::alone)
+    if (shown.media && planes_alone(settings))
       warnings.emplace_back("photon planes alone have infinite variance: the error may be larger than is stated");
   }
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");

@@ -8,6 +8,7 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/path/follow.h"
 #include "vpm/path/walk.h"
 #include "vpm/photon/nearest_map.h"
@@ -241,7 +242,7 @@ Ledger flights_of(const Scene& scene, const RenderSettings& settings) {
   trace.stored = settings.photons_stored;
   trace.max_events = settings.max_events;
   const bool maps_density =
-      settings.integrator == Integrator::photon && settings.volume_form == VolumeForm::density_at_query;
+      settings.integrator == Integrator::photon && settings.volume.form == VolumeForm::density_at_query;
   const auto strategy = make_distance_strategy(settings.distance, {.density = maps_density});
   Progress silent("photons", 0, false);
   return trace_photons(scene, *strategy, trace, {&collisions}, silent);
@@ -292,7 +293,7 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings, u
   RenderSettings pilot = pilot_settings(settings, photons);
   pilot.caustics_emitted = std::min(pilot.caustics_emitted, pilot.photons_emitted);
   // Collisions end the tracing where they are many; flights do not.
-  if (pilot.volume.mode == GatherMode::beams_points) pilot.volume.mode = GatherMode::photon_beams;
+  if (!pilot.volume.info().collisions) pilot.volume.choose("photon-beams");
   const PilotPass pass = trace(scene, pilot);
   const std::unique_ptr<DistanceStrategy> strategy = make_distance_strategy(settings.distance);
   Probes probes;

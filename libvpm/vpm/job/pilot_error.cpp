@@ -52,8 +52,9 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   small.settings.photons_stored = 0;
   small.settings.caustics_emitted = part(static_cast<double>(settings.caustics_emitted));
   small.settings.guide.importons = part(static_cast<double>(settings.guide.importons));
-  small.settings.flights = part(static_cast<double>(settings.flights));
-  small.settings.planes = part(static_cast<double>(settings.planes));
+  small.settings.volume.flights = part(static_cast<double>(settings.volume.flights));
+  small.settings.volume.planes = part(static_cast<double>(settings.volume.planes));
+  small.settings.combined.planes = part(static_cast<double>(settings.combined.planes));
   return small;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/render/photon_blocks.h"
 
 namespace vpm {
@@ -58,7 +59,8 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
     return {line(true, "path tracing", distances + transmittance, ""),
             line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
   if (settings.integrator == Integrator::combined) return stages_of_combined(settings, distances, channels);
-  const bool beams = settings.volume.gathers_flights();
+  const VolumeEstimatorInfo& volume = settings.volume.info();
+  const bool beams = volume.flights;
   const bool photons = media || surfaces,
              gathers = surfaces && settings.surface_indirect == IndirectLight::final_gather;
   const auto corrected = [](const AskedGather& gather) { return gather.boundary == BoundaryRule::corrected; };
@@ -67,24 +69,24 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   return {line(photons, "photon tracing", distances + by_blocks, "nothing stores photons"),
           line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                photons ? "photons go where power does" : "nothing stores photons"),
-          line(media && settings.volume.mode != GatherMode::beams_points, "volume photon map",
+          line(media && volume.collisions, "volume photon map",
                beams                          ? ", gathered beside rays that flights run along"
-               : settings.volume.along_rays() ? ", gathered all along rays"
+               : volume.along_rays ? ", gathered all along rays"
                                               : "",
                media ? "flights are gathered, not collisions" : no_medium),
           line(media && beams, "photon beams",
-               std::string(settings.volume.along_rays() ? "" : ", around points of rays") +
-                   (settings.beam_length == BeamLength::long_beams ? ", to where media end" : "") +
-                   (settings.flights > 0 ? fmt::format(", at most {} in a pass", settings.flights) : ""),
+               std::string(volume.along_rays ? "" : ", around points of rays") +
+                   (settings.volume.length == BeamLength::long_beams ? ", to where media end" : "") +
+                   (settings.volume.flights > 0 ? fmt::format(", at most {} in a pass", settings.volume.flights) : ""),
                media ? "collisions are gathered, not flights" : no_medium),
-          line(media && settings.volume.mode == GatherMode::photon_planes, "photon planes",
-               fmt::format(", at most {} in a pass", settings.planes),
+          line(media && volume.planes, "photon planes",
+               fmt::format(", at most {} in a pass", settings.volume.planes),
                media ? "light comes from collisions or beams" : no_medium),
           line(surfaces, "surface photon map", "", "no rough surface"),
           line(surfaces && settings.radii == RadiusSchedule::per_pixel, "radii of pixels' own", ", on surfaces",
                surfaces ? "radii do not depend on what pixels find" : "no rough surface"),
           line(media && settings.volume.boundary != BoundaryRule::none, "corrections at borders of media",
-               settings.volume.corrects_each_ball() ? ", ball by ball" : ", along segments of eye rays",
+               !volume.along_rays && !beams && settings.volume.corrects_each_ball() ? ", ball by ball" : ", along segments of eye rays",
                media ? "what lies outside of media is summed over, too" : no_medium),
           line(surfaces && corrected(settings.surface), "corrections at edges of surfaces", "",
                surfaces ? "whole discs are summed over" : "no rough surface"),

@@ -30,7 +30,7 @@ constexpr const char* kSeeIntegrator = "with integrator.type, see there";
 
 // What may be tried: of equals the first is chosen.
 constexpr std::array kIntegratorsToTry{Integrator::photon, Integrator::combined, Integrator::path};
-constexpr std::array kGathersToTry{GatherMode::beam, GatherMode::photon_beams};
+constexpr std::array<std::string_view, 2> kGathersToTry{"beam", "photon-beams"};
 
 /// Are photons in media to be gathered in a way that is chosen?
 bool gathers_in_media(const Scene& scene, const AutomaticSettings& automatic, RenderSettings settings) {
@@ -56,10 +56,10 @@ std::vector<Trial> trials_of_maps(const Scene& scene, const AutomaticSettings& a
       photons.settings.volume.boundary == BoundaryRule::corrected)
     return {photons};
   std::vector<Trial> trials;
-  for (const GatherMode mode : kGathersToTry) {
+  for (const std::string_view type : kGathersToTry) {
     trials.push_back(photons);
-    trials.back().settings.volume.mode = mode;
-    trials.back().name = automatic.has(kIntegratorKey) ? photons.name + " by " + word_of(mode) : word_of(mode);
+    trials.back().settings.volume.choose(type);
+    trials.back().name = automatic.has(kIntegratorKey) ? fmt::format("{} by {}", photons.name, type) : std::string(type);
   }
   return trials;
 }
@@ -266,7 +266,7 @@ std::vector<Choice> choices_of(const Scene& scene, const AutomaticSettings& auto
   if (settings.integrator == Integrator::photon && gathers_in_media(scene, automatic, settings)) {
     const bool ball_by_ball = settings.volume.boundary == BoundaryRule::corrected;
     const std::string why = ball_by_ball ? "only balls are corrected one by one, as 'boundary' asks for" : reason;
-    choices.push_back({std::string(kGatherKey), word_of(settings.volume.mode), choices.empty() ? why : kSeeIntegrator});
+    choices.push_back({std::string(kGatherKey), settings.volume.type(), choices.empty() ? why : kSeeIntegrator});
   }
   RenderSettings chosen = settings;
   if (settings.integrator == Integrator::combined && chooses_techniques(automatic))

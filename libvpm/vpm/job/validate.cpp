@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/job/describe.h"
 #include "vpm/job/words.h"
 #include "vpm/render/plan.h"
@@ -55,16 +56,16 @@ void check_blocks(const RenderSettings& s) {
             blocks + "the number of photons of a pass is that of 'emitted'", "write 'emitted' instead" + or_all);
   refuse_if(s.photons_in_cube > 0, "integrator.photons.in_cube",
             blocks + "photons of different blocks cannot be merged", "leave out 'in_cube'" + or_all);
-  refuse_if(s.volume.gathers_flights() && s.flights > 0, "integrator.volume.flights",
+  refuse_if(s.volume.info().flights && s.volume.flights > 0, "integrator.volume.flights",
             blocks + "flights cannot be drawn from those of all blocks", "leave out 'flights'" + or_all);
   const std::string radii = blocks + "no radius can go by a count of photons of all blocks";
   refuse_if(s.volume.goes_by_count(),
-            s.volume.mode == GatherMode::beam ? "integrator.volume.count" : "integrator.volume.type", radii,
+            s.volume.beam_count > 0 ? "integrator.volume.count" : "integrator.volume.type", radii,
             "gather photons within a radius" + or_all);
   refuse_if(s.surface.goes_by_count(), "integrator.surface.type", radii, "write \"radius\"" + or_all);
-  refuse_if(s.volume.mode == GatherMode::photon_planes, "integrator.volume.type",
+  refuse_if(s.volume.info().planes, "integrator.volume.type",
             blocks + "planes cannot be drawn from the flights of all blocks", "write \"photon-beams\"" + or_all);
-  refuse_if(s.volume.mode == GatherMode::beams_points, "integrator.volume.type",
+  refuse_if(!s.volume.info().collisions, "integrator.volume.type",
             blocks + "eye rays do not know where the beams of all blocks lie, among which they would march",
             "write \"photon-beams\"" + or_all);
   if (s.surface_indirect != IndirectLight::final_gather) return;
@@ -90,19 +91,20 @@ void check_transmittance(const RenderSettings& s, const SceneFacts& facts) {
 }
 
 void check_flights(const RenderSettings& s, const SceneFacts& facts) {
-  if (!s.volume.gathers_flights()) return;
-  refuse_if(s.photons_in_cube > 0 && s.volume.crosses_beams(), "integrator.photons.in_cube",
+  const VolumeEstimatorInfo& volume = s.volume.info();
+  if (!volume.flights) return;
+  refuse_if(s.photons_in_cube > 0 && volume.along_rays, "integrator.photons.in_cube",
             "where beams cross rays, the collisions near these weigh by their own directions, and must not be merged",
             "write 0, or another 'type' in [integrator.volume]");
-  refuse_if(s.photons_stored > 0 && s.volume.mode == GatherMode::beams_points, "integrator.photons.stored",
+  refuse_if(s.photons_stored > 0 && !volume.collisions, "integrator.photons.stored",
             "flights do not count towards the photons stored, and in media nothing else is: 'type' of "
             "[integrator.volume] is \"" +
-                word_of(s.volume.mode) + "\"",
+                s.volume.type() + "\"",
             "write 'emitted' instead, or another 'type' in [integrator.volume]");
   refuse_if(facts.endless_flights, "integrator.volume.type",
             "flights have no end in a channel that the medium of the world does not attenuate",
             "write \"beam\", or put the scene into a box of the medium");
-  refuse_if(s.beam_length == BeamLength::long_beams && facts.endless, "integrator.volume.length",
+  refuse_if(s.volume.length == BeamLength::long_beams && facts.endless, "integrator.volume.length",
             "the medium of the world has no end, and long beams would have none",
             "write \"short\", or put the scene into a box of the medium");
   refuse_if(!strategy_info(s.distance.strategy).analog, "integrator.distance.type",
@@ -112,7 +114,7 @@ void check_flights(const RenderSettings& s, const SceneFacts& facts) {
 }
 
 void check_borders(const RenderSettings& s) {
-  const bool in_media = s.volume.boundary == BoundaryRule::corrected && !s.volume.along_rays();
+  const bool in_media = s.volume.boundary == BoundaryRule::corrected && !s.volume.info().along_rays;
   const bool on_surfaces = s.surface.boundary == BoundaryRule::corrected;
   refuse_if((in_media || on_surfaces) && s.photons_in_cube > 0,
             in_media ? "integrator.volume.boundary" : "integrator.surface.boundary",

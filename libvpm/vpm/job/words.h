@@ -1,7 +1,7 @@
 // The words of the enumerations that settings hold.
 #pragma once
 
-#include "vpm/base/setting.h"
+#include "vpm/estimate/words.h"
 #include "vpm/render/settings.h"
 
 namespace vpm {
@@ -21,35 +21,6 @@ struct WordsOf<PhotonSequence> {
 template <>
 struct WordsOf<RadiusSchedule> {
   static constexpr std::array<std::string_view, 3> words{"constant", "per-pass", "per-pixel"};
-};
-template <>
-struct WordsOf<GatherMode> {
-  static constexpr std::array<std::string_view, 6> words{"radius",       "nearest",       "beam",
-                                                         "photon-beams", "photon-planes", "beams-points"};
-};
-template <>
-struct WordsOf<BeamLength> {
-  static constexpr std::array<std::string_view, 2> words{"short", "long"};
-};
-template <>
-struct WordsOf<PlaneUse> {
-  static constexpr std::array<std::string_view, 2> words{"combined", "alone"};
-};
-template <>
-struct WordsOf<KernelKind> {
-  static constexpr auto words = [] {
-    std::array<std::string_view, kKernels.size()> names;
-    for (size_t i = 0; i < names.size(); ++i) names[i] = kKernels[i].name;
-    return names;
-  }();
-};
-template <>
-struct WordsOf<BoundaryRule> {
-  static constexpr std::array<std::string_view, 3> words{"none", "corrected", "ends"};
-};
-template <>
-struct WordsOf<VolumeForm> {
-  static constexpr std::array<std::string_view, 2> words{"density-at-query", "density-at-photon"};
 };
 template <>
 struct WordsOf<DirectLight> {

@@ -27,6 +27,7 @@ MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings,
   const PassOfMaps of{pass, settings.radii != RadiusSchedule::constant, 0};
   AskedGather volume = settings.volume, surface = settings.surface;
   volume.mode = surface.mode = GatherMode::radius;
+  volume.beam_count = 0;
   const float first = first_radius_of_merges(volume, scene);
   const auto radius = [&](int dimension) { return gather_in_pass(volume, first, dimension, of).radius; };
   return {surface.kernel,          volume.kernel, gather_in_pass(surface, first_radius(surface, scene), 2, of).radius,
@@ -56,7 +57,7 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
   const double beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
   if (techniques.has(Technique::short_beams)) counts.short_beams = beams;
   if (techniques.has(Technique::long_beams)) counts.long_beams = beams;
-  counts.density_floor = settings.density_floor;
+  counts.density_floor = settings.volume.density_floor;
   counts.heuristic = settings.combined.heuristic;
   counts.deep = counts.heuristic != Heuristic::correlation_aware || !merges_where_the_eye_looks(scene, techniques);
   counts.each_light = !counts.deep && scene.lights.size() <= kFewLights;
@@ -108,7 +109,7 @@ void count_by_few(const LightTracing& tracing, const RenderSettings& settings, i
   };
   const auto all = static_cast<double>(paths);
   if (counts.light) counts.connections = part(kConnections, few.vertices.size());
-  if (planes) counts.plane_share = part(static_cast<double>(settings.planes) / all, few.planes.size());
+  if (planes) counts.plane_share = part(static_cast<double>(settings.combined.planes) / all, few.planes.size());
   counts.planes = all * counts.plane_share;
 }
 
@@ -186,7 +187,7 @@ RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most) {
   RenderSettings few = settings;
   few.photons_emitted = std::min(most, settings.photons_emitted);
   const double share = static_cast<double>(few.photons_emitted) / static_cast<double>(settings.photons_emitted);
-  few.planes = std::max<uint64_t>(1, static_cast<uint64_t>(share * static_cast<double>(settings.planes)));
+  few.combined.planes = std::max<uint64_t>(1, static_cast<uint64_t>(share * static_cast<double>(settings.combined.planes)));
   return few;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "vpm/base/clock.h"
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/photon/photon_table.h"
 #include "vpm/photon/trace.h"
 #include "vpm/render/eye_path.h"
@@ -102,7 +103,8 @@ void prepare_pass(const Scene& scene, const RenderSettings& settings, const Esti
 }
 
 int tracings_of_pass(const Scene& scene, const RenderSettings& settings) {
-  const bool marches = settings.volume.mode == GatherMode::radius && scattering_of(scene).media;
+  const VolumeEstimatorInfo& volume = settings.volume.info();
+  const bool marches = !volume.along_rays && !volume.flights && scattering_of(scene).media;
   return marches && block_count(settings) > 1 ? 2 : 1;
 }
 

@@ -7,10 +7,7 @@
 #include "vpm/estimate/surface/final_gather.h"
 #include "vpm/estimate/surface/pixel_radii.h"
 #include "vpm/estimate/surface/surface_map.h"
-#include "vpm/estimate/volume/beam_radiance.h"
-#include "vpm/estimate/volume/beams_around_points.h"
-#include "vpm/estimate/volume/photon_planes.h"
-#include "vpm/estimate/volume/points_along_ray.h"
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/estimate/volume/single_scattering.h"
 #include "vpm/render/combined_pass.h"
 
@@ -40,24 +37,16 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
   const bool by_rays = settings.volume_direct != DirectLight::photons;
   // Photons that fly by another law than the medium's transmittance do not weigh 1/density where it is thin.
   const bool analog = strategy_info(settings.distance.strategy).analog;
-  const VolumeMapSettings map{settings.volume, settings.volume_form, analog ? settings.density_floor : 0.0f, !by_rays,
-                              pass};
-  std::vector<std::unique_ptr<VolumeEstimator>> estimators;
-  std::vector<std::unique_ptr<MarchedSource>> marched;
-  const PhotonBeamSettings beams{map, settings.flights, settings.seed, settings.beam_length == BeamLength::long_beams};
-  if (settings.volume.mode == GatherMode::photon_planes)
-    estimators.push_back(std::make_unique<PhotonPlanes>(
-        scene, transmittance, PhotonPlaneSettings{beams, settings.planes, settings.plane_use == PlaneUse::alone}));
-  else if (settings.volume.mode == GatherMode::photon_beams)
-    estimators.push_back(std::make_unique<PhotonBeams>(scene, beams));
-  else if (settings.volume.mode == GatherMode::beams_points)
-    estimators.push_back(std::make_unique<BeamsAroundPoints>(scene, beams, settings.max_optical_step));
-  else if (settings.volume.mode == GatherMode::beam)
-    estimators.push_back(std::make_unique<BeamRadiance>(scene, map));
-  else if (settings.volume_form == VolumeForm::density_at_photon)
-    estimators.push_back(std::make_unique<PointsAtPhoton>(scene, map));
-  else
-    marched.push_back(std::make_unique<PointsAtQuery>(scene, map));
+  const VolumeSettings& volume = settings.volume;
+  VolumeEstimators made;
+  volume.info().make({.scene = scene,
+                      .settings = volume,
+                      .maps = {volume, volume.form, analog ? volume.density_floor : 0.0f, !by_rays, pass},
+                      .transmittance = transmittance,
+                      .max_optical_step = settings.max_optical_step,
+                      .seed = settings.seed},
+                     made);
+  auto& [estimators, marched] = made;
   if (settings.volume_direct == DirectLight::equiangular)
     estimators.push_back(std::make_unique<SingleEquiangular>(scene, transmittance, settings.direct_samples));
   if (settings.volume_direct == DirectLight::shadow_rays)
@@ -65,7 +54,7 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
   if (!marched.empty())
     estimators.push_back(std::make_unique<MarchedLight>(std::move(marched), settings.max_optical_step));
   check_apart(estimators);
-  return estimators;
+  return std::move(estimators);
 }
 
 std::unique_ptr<SurfaceEstimator> surface_estimator(const Scene& scene, const RenderSettings& settings,
@@ -151,7 +140,7 @@ void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators
 bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings) {
   return settings.integrator != Integrator::photon ||
          (scattering.media &&
-          (settings.volume_direct != DirectLight::photons || settings.volume.mode == GatherMode::photon_planes)) ||
+          (settings.volume_direct != DirectLight::photons || settings.volume.info().planes)) ||
          (scattering.surfaces && settings.surface_direct != DirectLight::photons);
 }
 

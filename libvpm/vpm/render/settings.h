@@ -7,6 +7,7 @@
 
 #include "vpm/estimate/combined/technique.h"
 #include "vpm/estimate/gather.h"
+#include "vpm/estimate/volume/volume_settings.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/photon_settings.h"
@@ -37,12 +38,6 @@ enum class GatherBy { material, photons };
 /// ends, or one computed beforehand at a cache point nearby.
 enum class EndIrradiance { estimate, precomputed };
 
-/// Where photon beams end: where the photon collides; or where its ray leaves the medium.
-enum class BeamLength { short_beams, long_beams };
-
-/// What photon planes find of the light that they can find: their share of it, beside photon beams, or all.
-enum class PlaneUse { combined, alone };
-
 /// What estimates radiance: photon maps, the unbiased reference path tracer, or all techniques combined.
 enum class Integrator { photon, path, combined };
 
@@ -50,7 +45,8 @@ enum class Integrator { photon, path, combined };
 struct CombinedSettings {
   TechniqueSet techniques;
   Heuristic heuristic = Heuristic::correlation_aware;
-  bool layers = false;  // is it kept what each technique finds?
+  bool layers = false;     // is it kept what each technique finds?
+  uint64_t planes = 1000;  // about so many photon planes in a pass, >= 1
 };
 
 /// When a render ends: once `passes` are done; or, where `seconds` or `error` are asked for, once the first of these
@@ -79,8 +75,6 @@ struct RenderSettings {
   PhotonSequence photon_sequence = PhotonSequence::sobol;  // where nothing asks for random ones, see trace_pass()
   uint32_t photons_in_cube = 0;  // > 0: the most photons that travel into one octant of directions, in a cube
                                  // whose edges are half a radius long, see control_density()
-  uint64_t flights = 0;          // > 0: the most photon beams of a pass, see thin()
-  uint64_t planes = 1000;        // the most photon planes of a pass, likewise, >= 1
   int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
   GuideSettings guide;  // of photons, by importance
@@ -90,18 +84,13 @@ struct RenderSettings {
   DistanceSettings distance;            // how photons fly
   TransmittanceSettings transmittance;  // towards lights
 
-  AskedGather volume{.boundary = BoundaryRule::ends};  // volumetric radiance estimate
+  VolumeSettings volume;  // volumetric radiance estimate
   AskedGather surface;                                 // surface radiance estimate
   AskedGather caustics;                                // estimate from the caustic map, under final gathering
   uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
                                   // what the other photons bring
   RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode
-  VolumeForm volume_form = VolumeForm::density_at_query;
-  float density_floor = 0.1f;  // density at the query: where it is less, photons are also stored along flights, which
-                               // bounds their weights, see CollisionRecorder; in [0, 1]; 0: at collisions alone
   DirectLight volume_direct = DirectLight::photons;  // single scattering
-  BeamLength beam_length = BeamLength::short_beams;
-  PlaneUse plane_use = PlaneUse::combined;
   int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
   DirectLight surface_direct = DirectLight::shadow_rays;
   int surface_direct_samples = 1;  // of these, for each light that has an area or a solid angle, >= 1

@@ -1,4 +1,5 @@
 // Photons near rays, and the transmittance from their projections onto the ray to the eye.
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/estimate/volume/beam_radiance.h"
 
 #include "vpm/estimate/volume/bundle_lanes.h"
@@ -117,5 +118,25 @@ KernelEstimate BeamRadiance::along(const EyeSegment& segment, EyeWork& work) con
   if (!segment.medium()) return {};
   return photons_beside(segment, maps_[segment.number], maps_.settings().form, nullptr, work);
 }
+
+namespace {
+
+void describe_own_radii(VolumeSettings& settings, Description& description) {
+  Members<AskedGather>(settings, description)
+      .add("count", &AskedGather::beam_count, Integers{0, 1'000'000},
+           "> 0: each photon has a radius of its own, of a ball of about so many photons, from a hundredth of `radius` "
+           "to `radius`");
+}
+
+}  // namespace
+
+extern const VolumeEstimatorInfo kBeamRadiance{
+    .name = "beam",
+    .summary = "those within the radius of a whole stretch of the eye's ray, in one query",
+    .along_rays = true,
+    .describe = describe_own_radii,
+    .make = [](const VolumePlan& plan, VolumeEstimators& made) {
+      made.whole.push_back(std::make_unique<BeamRadiance>(plan.scene, along_rays(plan.maps)));
+    }};
 
 }  // namespace vpm

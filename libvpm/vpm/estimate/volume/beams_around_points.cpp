@@ -1,4 +1,5 @@
 // L = integral over t of the sum over beams of Phi W(s) sigma_s p T K(distance from the beam) [Jarosz2011].
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/estimate/volume/beams_around_points.h"
 
 #include <algorithm>
@@ -115,5 +116,16 @@ KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const Sight& sight, Eye
   count(counters.visited, map.beams.visit_near(point, visit));
   return normed(light, kernel_norm_2d(map.settings.kernel, radius));
 }
+
+extern const VolumeEstimatorInfo kBeamsAroundPoints{
+    .name = "beams-points",
+    .summary = "flights within the radius of points of a march",
+    .collisions = false,
+    .flights = true,
+    .describe = describe_flights,
+    .make = [](const VolumePlan& plan, VolumeEstimators& made) {
+      made.whole.push_back(
+          std::make_unique<BeamsAroundPoints>(plan.scene, beams_of(plan), plan.max_optical_step));
+    }};
 
 }  // namespace vpm

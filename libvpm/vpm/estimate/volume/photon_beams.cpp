@@ -1,4 +1,5 @@
 // L = sum over beams of Phi W(s) sigma_s p T(t) K(distance) / sine of the angle [Jarosz2011].
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/estimate/volume/photon_beams.h"
 
 #include <algorithm>
@@ -180,5 +181,15 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
   const SeenAlong seen(medium.sigma_t, segment.interval, pass.integrals());
   return over_share(light, region.share(radius, seen, work.rng), counters);
 }
+
+extern const VolumeEstimatorInfo kPhotonBeams{
+    .name = "photon-beams",
+    .summary = "all flights of photons that pass it within the radius, and the photons near it where flights run along it",
+    .along_rays = true,
+    .flights = true,
+    .describe = describe_flights,
+    .make = [](const VolumePlan& plan, VolumeEstimators& made) {
+      made.whole.push_back(std::make_unique<PhotonBeams>(plan.scene, beams_of(plan)));
+    }};
 
 }  // namespace vpm

@@ -1,10 +1,12 @@
 // L = sum over planes of Phi W(s) sigma_s(x1) T(x1, x2) p sigma_s(x2) T(t) / determinant [Bitterli2017].
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/estimate/volume/photon_planes.h"
 
 #include <utility>
 #include <variant>
 
 #include "vpm/estimate/volume/pass_to_eye.h"
+#include "vpm/estimate/words.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/photon/photon_beam.h"
 
@@ -102,5 +104,33 @@ Rgb PhotonPlanes::arriving(const PlaneCrossing& crossing, const EyeSegment& segm
                        weight_along(around, flight, plane.power, crossing.along_flight, work.counters.walk);
   return collided * passed * (density * share);
 }
+
+namespace {
+
+void describe_planes(VolumeSettings& settings, Description& description) {
+  describe_flights(settings, description);
+  const Members<VolumeSettings> of(settings, description);
+  of.add("planes", &VolumeSettings::planes, Integers{1, 1'000'000},
+         "at most so many flights of a pass become planes, likewise. Eye rays send a shadow ray for each plane that they "
+         "cross");
+  of.add("share", &VolumeSettings::share,
+         "light that planes can find is `\"combined\"` from them and beams; or comes from planes `\"alone\"`, without "
+         "any bias but of infinite variance, for study");
+}
+
+}  // namespace
+
+extern const VolumeEstimatorInfo kPhotonPlanes{
+    .name = "photon-planes",
+    .summary = "these, and planes without a radius for light that media scatter twice in turn",
+    .along_rays = true,
+    .flights = true,
+    .planes = true,
+    .describe = describe_planes,
+    .make = [](const VolumePlan& plan, VolumeEstimators& made) {
+      made.whole.push_back(std::make_unique<PhotonPlanes>(
+          plan.scene, plan.transmittance,
+          PhotonPlaneSettings{beams_of(plan), plan.settings.planes, plan.settings.share == PlaneUse::alone}));
+    }};
 
 }  // namespace vpm

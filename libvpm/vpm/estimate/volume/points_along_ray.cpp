@@ -1,4 +1,5 @@
 // Sums over photons around points of the ray's own medium, and even steps among photons.
+#include "vpm/estimate/volume/estimators.h"
 #include "vpm/estimate/volume/points_along_ray.h"
 #include "vpm/estimate/volume/points_of_segment.h"
 #include "vpm/photon/stored_power.h"
@@ -48,5 +49,30 @@ KernelEstimate PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) c
   const Rgb factor = segment.throughput * source_factor(*segment.medium());
   return points.over_share(factor * points.march_evenly(work), work);
 }
+
+namespace {
+
+void describe_count(VolumeSettings& settings, Description& description) {
+  Members<AskedGather>(settings, description)
+      .add("count", &AskedGather::count, Integers{2, 1'000'000}, "how many are nearest");
+}
+
+void make_points(const VolumePlan& plan, VolumeEstimators& made) {
+  if (plan.maps.form == VolumeForm::density_at_photon)
+    made.whole.push_back(std::make_unique<PointsAtPhoton>(plan.scene, plan.maps));
+  else
+    made.marched.push_back(std::make_unique<PointsAtQuery>(plan.scene, plan.maps));
+}
+
+}  // namespace
+
+extern const VolumeEstimatorInfo kPointsInRadius{
+    .name = "radius", .summary = "photons within the radius of points of a march", .make = make_points};
+
+extern const VolumeEstimatorInfo kNearestPoints{.name = "nearest",
+                                                .summary = "the nearest few photons to these points",
+                                                .mode = GatherMode::nearest,
+                                                .describe = describe_count,
+                                                .make = make_points};
 
 }  // namespace vpm

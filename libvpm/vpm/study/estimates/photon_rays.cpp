@@ -16,7 +16,7 @@ std::vector<double> look_at_pass(const Scene& scene, const PhotonRays& by, int p
   settings.photons_emitted = by.photons;
   settings.max_events = by.max_events;
   settings.radii = RadiusSchedule::constant;
-  settings.volume.mode = by.mode;
+  settings.volume.choose(by.type);
   settings.volume.radius = static_cast<float>(radius);
   const Estimators estimators = plan_estimators(scene, settings, pass);
   RenderStatistics statistics;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "vpm/base/statistics.h"
@@ -12,16 +13,15 @@ namespace vpm {
 
 /// Ways to look at photons along rays, with the names that checks have for them.
 struct NamedGather {
-  GatherMode mode;
+  std::string_view type;
   const char* name;
 };
-inline constexpr NamedGather kAlongRays[] = {{GatherMode::beam, "photons around rays"},
-                                             {GatherMode::photon_beams, "photon beams"},
-                                             {GatherMode::beams_points, "beams around points"}};
+inline constexpr NamedGather kAlongRays[] = {
+    {"beam", "photons around rays"}, {"photon-beams", "photon beams"}, {"beams-points", "beams around points"}};
 
 /// How photons are gathered, and how many of them there are.
 struct PhotonRays {
-  GatherMode mode = GatherMode::photon_beams;
+  std::string_view type = "photon-beams";
   double radius = 0.1;        // m
   uint64_t photons = 10'000;  // of a pass
   int max_events = 100'000;   // of one photon

@@ -117,7 +117,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   for (auto& [name, settings] :
        gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces, effort.count(0, 1) > 0)) {
     const bool long_beams =
-        settings.beam_length == BeamLength::long_beams || settings.combined.techniques.has(Technique::long_beams);
+        settings.volume.length == BeamLength::long_beams || settings.combined.techniques.has(Technique::long_beams);
     if (long_beams && scene.world_medium != kVacuum) continue;  // they have no end
     settings.seed = effort.seed_of(subject.name + name);
     const int passes = static_cast<int>(effort.count(20, 64));
@@ -201,13 +201,13 @@ std::vector<Check> combinations(const Effort& effort) {
     }
     if (!strategy.analog) continue;
     RenderSettings beams = base;
-    beams.volume.mode = GatherMode::photon_beams;
+    beams.volume.choose("photon-beams");
     RenderSettings around_points = beams;
-    around_points.volume.mode = GatherMode::beams_points;
+    around_points.volume.choose("beams-points");
     RenderSettings planes = beams;
-    planes.volume.mode = GatherMode::photon_planes;
-    planes.beam_length = BeamLength::long_beams;
-    planes.planes = 200;
+    planes.volume.choose("photon-planes");
+    planes.volume.length = BeamLength::long_beams;
+    planes.volume.planes = 200;
     for (auto& [what, settings] :
          NamedSettings{{"beams", beams}, {"beams around points", around_points}, {"planes and long beams", planes}}) {
       const std::string name = fmt::format("photon {} by {}", what, strategy.name);
@@ -228,7 +228,7 @@ std::vector<Check> combine_in_chromatic_cloud(const Effort& effort) {
   NamedSettings sets;
   append_combined(sets, base, true, false, true);
   sets.emplace_back("photon beams alone", base);  // what they have left of their powers is looked up ray by ray
-  sets.back().second.volume.mode = GatherMode::photon_beams;
+  sets.back().second.volume.choose("photon-beams");
   std::vector<Check> checks;
   for (auto& [name, settings] : sets) {
     settings.seed = effort.seed_of("chromatic cloud, " + name);

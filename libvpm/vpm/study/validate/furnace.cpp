@@ -104,8 +104,8 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, std::strin
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   ListSettings few;
   few.emitted = 100;
-  few.volume_form = form;
-  few.density_floor = strategy_info(strategy_name).bounded_weight ? 0.3f : 0.0f;
+  few.volume.form = form;
+  few.volume.density_floor = strategy_info(strategy_name).bounded_weight ? 0.3f : 0.0f;
   const auto samples =
       sample_moments(2, effort.count(2'400, 30'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
         ListSettings settings = few;
@@ -200,7 +200,7 @@ std::vector<Check> check_sheet(const Effort& effort) {
 }
 
 /// The picture of a white medium in the box of the fields, gathered from a large radius up to where it ends.
-std::vector<Check> check_picture(const std::string& name, Scene scene, const AskedGather& gather, double bound,
+std::vector<Check> check_picture(const std::string& name, Scene scene, const VolumeSettings& gather, double bound,
                                  const Effort& effort, uint64_t passes = 24) {
   scene.camera = make_camera(field_point({20, 17, 25}), field_point(Vec3d(0.0)), Vec3(0, 1, 0), 14.0f, {8, 8});
   RenderSettings settings;
@@ -240,13 +240,13 @@ Medium box_of_voxels() {
 std::vector<Check> check_borders(const Effort& effort) {
   struct NamedSpread {
     const char* name;
-    GatherMode mode;
+    std::string_view type;
     uint64_t passes = 24;
   };
-  const NamedSpread spreads[] = {{"balls", GatherMode::radius},
-                                 {"discs", GatherMode::beam},
-                                 {"photon beams", GatherMode::photon_beams},
-                                 {"photon beams around points", GatherMode::beams_points, 96}};
+  const NamedSpread spreads[] = {{"balls", "radius"},
+                                 {"discs", "beam"},
+                                 {"photon beams", "photon-beams"},
+                                 {"photon beams around points", "beams-points", 96}};
   const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
   const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
   std::vector<Check> checks =
@@ -255,30 +255,31 @@ std::vector<Check> check_borders(const Effort& effort) {
   append(checks,
          check_border_of_medium(lit_box("near a corner of a box", white), field_point({6.4, 6.2, -6.5}), effort));
   append(checks, check_sheet(effort));
-  const AskedGather each_ball{.radius = 0.6f, .boundary = BoundaryRule::corrected};
+  const VolumeSettings each_ball("radius", {.radius = 0.6f, .boundary = BoundaryRule::corrected});
   const auto box_of = [](const Medium& medium) { return lit_box("", medium).scene; };
   append(checks, check_picture("picture of a box", box_of(white), each_ball, 0.005, effort));
-  append(checks, check_picture("picture of a ball of voxels", box_of(ball_of_voxels()),
-                               {.radius = 0.4f, .boundary = BoundaryRule::corrected}, 0.01, effort));
-  for (const auto& [name, mode, passes] : spreads)
-    append(checks,
-           check_picture(fmt::format("picture of a box, {} past ends of segments", name), box_of(white),
-                         {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort, passes));
+  append(checks,
+         check_picture("picture of a ball of voxels", box_of(ball_of_voxels()),
+                       VolumeSettings("radius", {.radius = 0.4f, .boundary = BoundaryRule::corrected}), 0.01, effort));
+  for (const auto& [name, type, passes] : spreads)
+    append(checks, check_picture(fmt::format("picture of a box, {} past ends of segments", name), box_of(white),
+                                 VolumeSettings(type, {.radius = 0.6f, .boundary = BoundaryRule::ends}), 0.005, effort,
+                                 passes));
   append(checks,
          check_picture("picture of balls in a box, discs past ends of segments", box_around_balls(white),
-                       {.mode = GatherMode::beam, .radius = 0.4f, .boundary = BoundaryRule::ends}, 0.005, effort, 100));
+                       VolumeSettings("beam", {.radius = 0.4f, .boundary = BoundaryRule::ends}), 0.005, effort, 100));
   append(checks,
          check_picture("picture of a ball of voxels, discs", box_of(ball_of_voxels()),
-                       {.mode = GatherMode::beam, .radius = 0.4f, .boundary = BoundaryRule::corrected}, 0.01, effort));
+                       VolumeSettings("beam", {.radius = 0.4f, .boundary = BoundaryRule::corrected}), 0.01, effort));
   append(checks,
          check_picture("picture of a ball of voxels, nearest photons", box_of(ball_of_voxels()),
-                       {.mode = GatherMode::nearest, .radius = 0.6f, .count = 100, .boundary = BoundaryRule::ends},
-                       0.01, effort));
+                       VolumeSettings("nearest", {.radius = 0.6f, .count = 100, .boundary = BoundaryRule::ends}), 0.01,
+                       effort));
   const Medium voxels = box_of_voxels();
-  for (const auto& [name, mode, passes] : spreads)
-    append(checks,
-           check_picture(fmt::format("picture of a box of voxels, {} past ends of segments", name), box_of(voxels),
-                         {.mode = mode, .radius = 0.6f, .boundary = BoundaryRule::ends}, 0.005, effort, passes));
+  for (const auto& [name, type, passes] : spreads)
+    append(checks, check_picture(fmt::format("picture of a box of voxels, {} past ends of segments", name),
+                                 box_of(voxels), VolumeSettings(type, {.radius = 0.6f, .boundary = BoundaryRule::ends}),
+                                 0.005, effort, passes));
   return checks;
 }
 

@@ -13,23 +13,23 @@ namespace {
 /// and alone find all that is scattered twice.
 void append_flights(NamedSettings& all, const RenderSettings& base) {
   RenderSettings beams = base;
-  beams.volume.mode = GatherMode::photon_beams;
-  beams.flights = base.photons_emitted / 2;
+  beams.volume.choose("photon-beams");
+  beams.volume.flights = base.photons_emitted / 2;
   all.emplace_back("photon beams of some flights", beams);
-  beams.flights = 0;
-  beams.beam_length = BeamLength::long_beams;
+  beams.volume.flights = 0;
+  beams.volume.length = BeamLength::long_beams;
   all.emplace_back("long photon beams", beams);
-  beams.volume.mode = GatherMode::beams_points;
+  beams.volume.choose("beams-points");
   all.emplace_back("long photon beams around points", beams);
   RenderSettings planes = base;
-  planes.volume.mode = GatherMode::photon_planes;
+  planes.volume.choose("photon-planes");
   planes.photons_emitted = base.photons_emitted / 4;  // few, so that many of their flights become planes
-  planes.planes = 1000;
+  planes.volume.planes = 1000;
   all.emplace_back("photon planes and beams", planes);
-  planes.beam_length = BeamLength::long_beams;
+  planes.volume.length = BeamLength::long_beams;
   all.emplace_back("photon planes and long beams", planes);
-  planes.beam_length = BeamLength::short_beams;
-  planes.plane_use = PlaneUse::alone;
+  planes.volume.length = BeamLength::short_beams;
+  planes.volume.share = PlaneUse::alone;
   planes.volume_direct = DirectLight::equiangular;
   all.emplace_back("photon planes alone, single scattering equiangular", planes);
 }
@@ -43,7 +43,7 @@ NamedSettings forms(const RenderSettings& base, bool media) {
       if (!media && form == VolumeForm::density_at_photon) continue;
       RenderSettings settings = base;
       settings.volume_direct = settings.surface_direct = direct;
-      settings.volume_form = form;
+      settings.volume.form = form;
       const char* name = !media                                 ? "surface map"
                          : form == VolumeForm::density_at_query ? "density at the query"
                                                                 : "density at the photon";
@@ -108,22 +108,22 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces, 
       all.emplace_back(name + ", equiangular in media", settings);
     }
   RenderSettings nearest = base;
-  for (AskedGather* gather : {&nearest.volume, &nearest.surface}) {
-    gather->mode = GatherMode::nearest;
-    gather->count = 200'000;  // more than lie within the radius, so that this is what bounds the search
-  }
+  nearest.volume.choose("nearest");
+  nearest.surface.mode = GatherMode::nearest;
+  // More than lie within the radius, so that this is what bounds the search.
+  nearest.volume.count = nearest.surface.count = 200'000;
   all.emplace_back("k nearest within the radius", nearest);
   if (media) {
-    for (const auto& [found, mode, form] :
-         {std::tuple("photons around rays", GatherMode::beam, VolumeForm::density_at_query),
-          {"photons around rays", GatherMode::beam, VolumeForm::density_at_photon},
-          {"photon beams", GatherMode::photon_beams, VolumeForm::density_at_query},
-          {"photon beams", GatherMode::photon_beams, VolumeForm::density_at_photon},
-          {"photon beams around points", GatherMode::beams_points, VolumeForm::density_at_query},
-          {"photon beams around points", GatherMode::beams_points, VolumeForm::density_at_photon}}) {
+    for (const auto& [found, type, form] :
+         {std::tuple("photons around rays", "beam", VolumeForm::density_at_query),
+          {"photons around rays", "beam", VolumeForm::density_at_photon},
+          {"photon beams", "photon-beams", VolumeForm::density_at_query},
+          {"photon beams", "photon-beams", VolumeForm::density_at_photon},
+          {"photon beams around points", "beams-points", VolumeForm::density_at_query},
+          {"photon beams around points", "beams-points", VolumeForm::density_at_photon}}) {
       RenderSettings beams = base;
-      beams.volume.mode = mode;
-      beams.volume_form = form;
+      beams.volume.choose(type);
+      beams.volume.form = form;
       const std::string name =
           fmt::format("{}, density at the {}", found, form == VolumeForm::density_at_query ? "query" : "photon");
       all.emplace_back(name, beams);
@@ -134,7 +134,7 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces, 
     }
     append_flights(all, base);
     RenderSettings own_radii = base;
-    own_radii.volume.mode = GatherMode::beam;
+    own_radii.volume.choose("beam");
     own_radii.volume.beam_count = 30;
     all.emplace_back("photons around rays, with radii of their own", own_radii);
   }

@@ -39,13 +39,13 @@ std::vector<Check> check_radii(const Effort& effort) {
     check("volume radius", found.last_volume_radius, settings.volume.radius.metres(), 3.0);
     check("surface radius", found.last_surface_radius, settings.surface.radius.metres(), 2.0);
     RenderSettings beams = settings;
-    beams.volume.mode = GatherMode::beam;
+    beams.volume.choose("beam");
     check("radius around rays", render_photon_pass(scene, beams, pass).statistics.last_volume_radius,
           settings.volume.radius.metres(), 2.0);
-    beams.volume.mode = GatherMode::photon_beams;
+    beams.volume.choose("photon-beams");
     check("radius of photon beams", render_photon_pass(scene, beams, pass).statistics.last_volume_radius,
           settings.volume.radius.metres(), 1.0);
-    beams.volume.mode = GatherMode::beams_points;
+    beams.volume.choose("beams-points");
     check("radius of beams around points", render_photon_pass(scene, beams, pass).statistics.last_volume_radius,
           settings.volume.radius.metres(), 2.0);
   }

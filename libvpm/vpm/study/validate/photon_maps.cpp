@@ -96,7 +96,7 @@ const Rgb kAttenuation(0.2f, 1.0f, 3.0f);  // 1/m
 /// Radiance along a ray through the middle of the cube, by isotropic scattering of albedo 1, attenuated by
 /// kAttenuation; discs of half a metre, or of the balls of about so many photons.
 Rgb estimate_around_ray(KernelKind kernel, uint32_t count, Rng& rng) {
-  const GatherSettings settings{.mode = GatherMode::beam, .radius = 0.5f, .kernel = kernel, .beam_count = count};
+  const GatherSettings settings{.radius = 0.5f, .kernel = kernel, .beam_count = count};
   const BeamMap map{settings, SegmentMap(even_photons(kPhotonsAroundRays, false, rng), {settings.radius, count},
                                          1.0f / kPhotonsAroundRays)};
   const Ray ray{Vec3(0.1f, -0.05f, 1.0f), Vec3(0.0f, 0.0f, -1.0f)};

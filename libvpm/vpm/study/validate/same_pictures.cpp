@@ -103,7 +103,7 @@ std::vector<Check> check_pictures(const Effort& effort) {
   photons.volume.radius = photons.surface.radius = 0.4f;
   photons.surface_direct = DirectLight::photons;
   RenderSettings at_photons = photons;
-  at_photons.volume_form = VolumeForm::density_at_photon;
+  at_photons.volume.form = VolumeForm::density_at_photon;
   RenderSettings shadow_rays = photons;
   shadow_rays.volume_direct = shadow_rays.surface_direct = DirectLight::shadow_rays;
   shadow_rays.samples_per_pixel = 4;

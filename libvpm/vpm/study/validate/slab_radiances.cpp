@@ -56,7 +56,7 @@ void check_radiance_by_photons(std::vector<Check>& checks, const RadianceProblem
       exact::solve_slab({p.tau, p.albedo, exact::henyey_greenstein_moments(p.g), {}}, {{}, {0.5, 0.8}, {0.5, 1.0}});
   const SlabSights found =
       estimate_slab_radiance_by_photons(homogeneous_slab(p.tau, p.albedo, p.g, Incidence::collimated), exits, ranges,
-                                        {.mode = by.mode,
+                                        {.type = by.type,
                                          .radius = 0.4,
                                          .photons = 5'000,
                                          .passes = static_cast<int>(effort.count(60, 600)),
@@ -128,13 +128,13 @@ double exact_radiance() {
   return -kAlbedo / (4.0 * kPiD) * std::expm1(-optical) / (1.0 + kCosine);
 }
 
-Check check_slab(const std::string& name, bool voxels, GatherMode mode, const Effort& effort) {
+Check check_slab(const std::string& name, bool voxels, std::string_view type, const Effort& effort) {
   const Scene scene = slab(voxels);
   RenderSettings settings;
   settings.seed = effort.seed_of(name);
   settings.photons_emitted = 40'000;
   settings.radii = RadiusSchedule::constant;
-  settings.volume.mode = mode;
+  settings.volume.choose(type);
   settings.volume.radius = 0.4f;
   Moments means;
   for (int pass = 0; pass < static_cast<int>(effort.count(24, 400)); ++pass)
@@ -144,13 +144,13 @@ Check check_slab(const std::string& name, bool voxels, GatherMode mode, const Ef
 }
 
 std::vector<Check> check_slabs(const Effort& effort) {
-  return {check_slab("balls", false, GatherMode::radius, effort),
-          check_slab("discs", false, GatherMode::beam, effort),
-          check_slab("voxels, discs", true, GatherMode::beam, effort),
-          check_slab("photon beams", false, GatherMode::photon_beams, effort),
-          check_slab("voxels, photon beams", true, GatherMode::photon_beams, effort),
-          check_slab("photon beams around points", false, GatherMode::beams_points, effort),
-          check_slab("voxels, photon beams around points", true, GatherMode::beams_points, effort)};
+  return {check_slab("balls", false, "radius", effort),
+          check_slab("discs", false, "beam", effort),
+          check_slab("voxels, discs", true, "beam", effort),
+          check_slab("photon beams", false, "photon-beams", effort),
+          check_slab("voxels, photon beams", true, "photon-beams", effort),
+          check_slab("photon beams around points", false, "beams-points", effort),
+          check_slab("voxels, photon beams around points", true, "beams-points", effort)};
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ std::vector<Check> spheres(const Effort& effort) {
 template <class Estimate>
 void check_airlight_by_photons(std::vector<Check>& checks, const std::string& name, double exact, double radius,
                                const Effort& effort, const Estimate& estimate) {
-  for (const auto& [mode, by] : kAlongRays) {
+  for (const auto& [type, by] : kAlongRays) {
     const std::string title = fmt::format("{}: radiance by {}", name, by);
     const RadianceByPhotons found = estimate({.mode = mode,
                                               .radius = radius,
