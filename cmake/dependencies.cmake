@@ -12,7 +12,7 @@ if(POLICY CMP0167)
 endif()
 find_package(Boost 1.74 REQUIRED)  # only headers, those of Boost.Math
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)  # only its headers
-find_package(tomlplusplus CONFIG REQUIRED)  # only its headers: input/toml_reader.cpp says why
+find_package(tomlplusplus CONFIG REQUIRED)  # only its headers: input/toml/toml_reader.cpp says why
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()
 endif()

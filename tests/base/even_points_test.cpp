@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "support/statistics.h"
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 
 namespace vpm {
 namespace {

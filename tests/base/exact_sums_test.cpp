@@ -1,5 +1,5 @@
 // Exact sums: integers where terms are integers, nothing lost where terms cancel, the same bits in any order.
-#include "vpm/base/exact_sums.h"
+#include "vpm/base/statistics/exact_sums.h"
 
 #include <gtest/gtest.h>
 

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "support/aligned_bytes.h"
-#include "vpm/base/huge_pages.h"
-#include "vpm/base/packed_tables.h"
-#include "vpm/base/shared_memory.h"
+#include "vpm/base/memory/huge_pages.h"
+#include "vpm/base/memory/packed_tables.h"
+#include "vpm/base/memory/shared_memory.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // Ranges of numbers: which belong to them, in either precision, and how they are told.
-#include "vpm/base/range.h"
+#include "vpm/base/settings/range.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Sums, moments and tails against known values (tails: 40 digits of mpmath); ends of tails, and their inverses.
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "vpm/base/line_fit.h"
 #include "vpm/base/rng.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/line_fit.h"
+#include "vpm/base/statistics/tails.h"
 
 namespace vpm {
 namespace {

@@ -2,7 +2,7 @@
 #include "vpm/base/warp.h"
 
 #include "support/properties.h"
-#include "vpm/medium/density_grid.h"
+#include "vpm/medium/grid/density_grid.h"
 
 namespace vpm {
 namespace {

@@ -6,8 +6,8 @@
 #include "support/photons.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
-#include "vpm/medium/density_integrals_along.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/density_integrals_along.h"
+#include "vpm/medium/grid/make_grid.h"
 
 namespace vpm {
 namespace {

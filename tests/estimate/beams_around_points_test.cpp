@@ -1,5 +1,5 @@
 // Photon beams around points of a march: one beam by hand.
-#include "vpm/estimate/volume/beams_around_points.h"
+#include "vpm/integrators/photon_map/volume/beams_around_points.h"
 
 #include <gtest/gtest.h>
 

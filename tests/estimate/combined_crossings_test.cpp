@@ -4,7 +4,7 @@
 
 #include "support/grids.h"
 #include "support/scenes.h"
-#include "vpm/estimate/combined/combined.h"
+#include "vpm/integrators/combined/combined.h"
 
 namespace vpm {
 namespace {

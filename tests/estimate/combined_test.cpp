@@ -1,7 +1,7 @@
 // The combined estimator: its maps, and that its pictures depend on no threads.
-#include "vpm/estimate/combined/combined.h"
-#include "vpm/estimate/combined/merge_shares.h"
-#include "vpm/estimate/combined/merging_rays.h"
+#include "vpm/integrators/combined/combined.h"
+#include "vpm/integrators/combined/merge_shares.h"
+#include "vpm/integrators/combined/merging_rays.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/warp.h"
 #include "vpm/image/metrics.h"
-#include "vpm/render/combined_pass.h"
+#include "vpm/integrators/combined/combined_pass.h"
 
 namespace vpm {
 namespace {

@@ -1,9 +1,9 @@
 // The loops that gathers spend their time in, one instance of each, with all that they call: tools/check_lanes looks at
 // their instructions.
 #include "vpm/base/below.h"
-#include "vpm/estimate/combined/merge_light.h"
-#include "vpm/estimate/combined/merge_photons.h"
-#include "vpm/estimate/volume/bundle_lanes.h"
+#include "vpm/integrators/combined/merge_light.h"
+#include "vpm/integrators/combined/merge_photons.h"
+#include "vpm/integrators/photon_map/volume/bundle_lanes.h"
 
 namespace vpm {
 extern "C" {

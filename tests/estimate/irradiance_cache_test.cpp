@@ -4,8 +4,8 @@
 #include "support/photons.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/estimate/surface/irradiance_cache.h"
 #include "vpm/estimate/surface_estimate.h"
+#include "vpm/integrators/photon_map/surface/irradiance_cache.h"
 #include "vpm/photon/records.h"
 #include "vpm/scene/build.h"
 

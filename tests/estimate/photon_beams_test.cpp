@@ -1,5 +1,5 @@
 // Photon beams met by a ray: one beam by hand, many in the mean.
-#include "vpm/estimate/volume/photon_beams.h"
+#include "vpm/integrators/photon_map/volume/photon_beams.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Photon planes met by a ray: one plane by hand, alone and beside beams; what stands in its way; and beams beside it.
-#include "vpm/estimate/volume/photon_planes.h"
+#include "vpm/integrators/photon_map/volume/photon_planes.h"
 
 #include <gtest/gtest.h>
 

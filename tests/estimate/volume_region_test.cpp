@@ -8,7 +8,7 @@
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
 #include "vpm/estimate/volume_estimate.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/scene/build.h"
 
 namespace vpm {

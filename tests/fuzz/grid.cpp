@@ -1,5 +1,5 @@
 // Any bytes as a .vdb file: what it holds, then each of its grids as a density.
-#include "vpm/input/grid_file.h"
+#include "vpm/input/grid/grid_file.h"
 
 #include "fuzz/scratch.h"
 

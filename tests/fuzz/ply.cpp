@@ -1,6 +1,6 @@
 // Any bytes as a .ply file.
 #include "fuzz/scratch.h"
-#include "vpm/input/mesh_file.h"
+#include "vpm/input/mesh/mesh_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const vpm::ScratchFolder folder;

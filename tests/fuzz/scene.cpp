@@ -6,7 +6,7 @@
 
 #include "fuzz/scratch.h"
 #include "vpm/image/exr.h"
-#include "vpm/input/grid_writer.h"
+#include "vpm/input/grid/grid_writer.h"
 
 namespace vpm {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "hard/hard_scenes.h"
 #include "vpm/base/error.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/base/warp.h"
 
 namespace vpm {

@@ -5,10 +5,10 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/photon/records.h"
-#include "vpm/render/path_tracer.h"
-#include "vpm/render/photon_pass.h"
 
 namespace vpm {
 

@@ -1,10 +1,10 @@
 // Media from nothing to opaque, from black to white, from forward to backward: against closed forms.
 #include "hard/hard_scenes.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/base/warp.h"
-#include "vpm/estimate/volume/march.h"
+#include "vpm/estimate/march.h"
+#include "vpm/integrators/path/path_tracer.h"
 #include "vpm/medium/transmittance/estimator.h"
-#include "vpm/render/path_tracer.h"
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/exact/slab.h"
 

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "hard/hard_scenes.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 
 namespace vpm {
 namespace {

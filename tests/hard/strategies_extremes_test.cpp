@@ -3,7 +3,7 @@
 
 #include "hard/hard_scenes.h"
 #include "vpm/base/fnv.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/study/careful_settings.h"
 

@@ -8,7 +8,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/rng.h"
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 
 namespace vpm {
 namespace {

@@ -6,8 +6,8 @@
 #include "input/expectations.h"
 #include "input/scene_text.h"
 #include "vpm/base/rng.h"
-#include "vpm/input/grid_writer.h"
-#include "vpm/input/mesh_writer.h"
+#include "vpm/input/grid/grid_writer.h"
+#include "vpm/input/mesh/mesh_writer.h"
 
 namespace vpm {
 namespace {

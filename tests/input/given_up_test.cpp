@@ -9,9 +9,9 @@
 #include "support/test_file.h"
 #include "vpm/base/cancel.h"
 #include "vpm/base/fnv.h"
-#include "vpm/input/mesh_file.h"
-#include "vpm/input/mesh_writer.h"
-#include "vpm/input/vdb_cursor.h"
+#include "vpm/input/grid/vdb_cursor.h"
+#include "vpm/input/mesh/mesh_file.h"
+#include "vpm/input/mesh/mesh_writer.h"
 #include "vpm/surface/procedural_mesh.h"
 
 namespace vpm {

@@ -8,7 +8,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/rng.h"
-#include "vpm/input/grid_file.h"
+#include "vpm/input/grid/grid_file.h"
 
 namespace vpm {
 

@@ -1,5 +1,5 @@
 // Grids from .vdb files: what they become, what is refused. OpenVDB writes the files; its samplers are the truth.
-#include "vpm/input/grid_file.h"
+#include "vpm/input/grid/grid_file.h"
 
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>

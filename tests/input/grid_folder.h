@@ -6,8 +6,8 @@
 #include <string>
 
 #include "vpm/base/rng.h"
-#include "vpm/input/grid_file.h"
-#include "vpm/input/vdb_grid.h"
+#include "vpm/input/grid/grid_file.h"
+#include "vpm/input/grid/vdb_grid.h"
 
 namespace vpm {
 

@@ -1,5 +1,5 @@
 // Procedural fields in .vdb files: the values that were asked for, where they belong.
-#include "vpm/input/grid_writer.h"
+#include "vpm/input/grid/grid_writer.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>
@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "vpm/base/error.h"
-#include "vpm/input/grid_file.h"
-#include "vpm/medium/procedural.h"
+#include "vpm/input/grid/grid_file.h"
+#include "vpm/medium/grid/procedural.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // Meshes: what PLY and OBJ files say, in every encoding, and a clear refusal of every damaged one.
-#include "vpm/input/mesh_file.h"
+#include "vpm/input/mesh/mesh_file.h"
 
 #include <gtest/gtest.h>
 

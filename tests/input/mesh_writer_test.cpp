@@ -1,5 +1,5 @@
 // Meshes that are written: the reader gives back the same bits.
-#include "vpm/input/mesh_writer.h"
+#include "vpm/input/mesh/mesh_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "input/expectations.h"
 #include "support/test_file.h"
-#include "vpm/input/mesh_file.h"
+#include "vpm/input/mesh/mesh_file.h"
 #include "vpm/surface/mesh.h"
 #include "vpm/surface/procedural_mesh.h"
 

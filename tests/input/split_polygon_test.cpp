@@ -1,5 +1,5 @@
 // Polygons as triangles: those of each kind cover what the polygon does, and nothing else.
-#include "vpm/input/split_polygon.h"
+#include "vpm/input/mesh/split_polygon.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Files with the keys of older versions: rewritten, they say the same, and comments stay where they were.
-#include "vpm/input/upgrade.h"
+#include "vpm/input/toml/upgrade.h"
 
 #include <gtest/gtest.h>
 
 #include "input/scene_text.h"
 #include "vpm/base/error.h"
-#include "vpm/input/old_keys.h"
-#include "vpm/job/describe.h"
+#include "vpm/input/toml/old_keys.h"
+#include "vpm/integrators/describe.h"
 
 namespace vpm {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "vpm/base/error.h"
-#include "vpm/job/automatic.h"
-#include "vpm/job/choice_rules.h"
-#include "vpm/job/eye_blocks.h"
-#include "vpm/job/pilot.h"
-#include "vpm/job/pilot_error.h"
+#include "vpm/tune/automatic.h"
+#include "vpm/tune/choice_rules.h"
+#include "vpm/tune/eye_blocks.h"
+#include "vpm/tune/pilot.h"
+#include "vpm/tune/pilot_error.h"
 
 namespace vpm {
 namespace {

@@ -1,6 +1,6 @@
 // Settings that a render chooses: the pilot is a pure function where no time tells, and changes nothing that is given.
-#include "vpm/job/automatic.h"
-#include "vpm/job/choose_records.h"
+#include "vpm/tune/automatic.h"
+#include "vpm/tune/choose_records.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -12,14 +12,14 @@
 #include "vpm/base/counters.h"
 #include "vpm/base/parallel.h"
 #include "vpm/estimate/photon_map.h"
-#include "vpm/job/choice_rules.h"
-#include "vpm/job/counted_cost.h"
-#include "vpm/job/describe.h"
-#include "vpm/job/pass_time.h"
-#include "vpm/job/pilot.h"
-#include "vpm/job/render.h"
+#include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/describe.h"
 #include "vpm/job/render_job.h"
-#include "vpm/render/combined_pass.h"
+#include "vpm/render/pass_time.h"
+#include "vpm/render/render.h"
+#include "vpm/tune/choice_rules.h"
+#include "vpm/tune/counted_cost.h"
+#include "vpm/tune/pilot.h"
 
 namespace vpm {
 namespace {

@@ -1,14 +1,14 @@
 // What is said before a first pass: that it takes longer than the time asked for, and that its photons do not fit.
-#include "vpm/job/forecast.h"
+#include "vpm/tune/forecast.h"
 
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
 #include "support/simulated_clock.h"
 #include "vpm/base/error.h"
-#include "vpm/job/render.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/job/render_job.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {

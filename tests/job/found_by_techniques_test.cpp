@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "vpm/render/technique_layers.h"
+#include "vpm/integrators/combined/technique_layers.h"
 
 namespace vpm {
 namespace {

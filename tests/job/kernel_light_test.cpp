@@ -1,16 +1,16 @@
 // Light that techniques combined find by kernels alone: as much as is missing without them.
-#include "vpm/job/kernel_light.h"
+#include "vpm/tune/kernel_light.h"
 
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
 #include "support/simulated_clock.h"
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 #include "vpm/image/metrics.h"
-#include "vpm/job/lost_light.h"
-#include "vpm/job/render.h"
+#include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/job/render_job.h"
-#include "vpm/render/combined_pass.h"
+#include "vpm/render/render.h"
+#include "vpm/tune/lost_light.h"
 
 namespace vpm {
 namespace {

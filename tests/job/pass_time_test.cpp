@@ -1,6 +1,6 @@
 // A render that is asked for a time, on a clock on which passes take what a test says: which passes it makes, when it
 // ends, and what it says where not one fits.
-#include "vpm/job/pass_time.h"
+#include "vpm/render/pass_time.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Jobs made in code, and the loop over passes: when it ends, and what it leaves.
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 #include "vpm/base/cancel.h"
 #include "vpm/base/progress.h"
 #include "vpm/image/exr.h"
+#include "vpm/integrators/validate.h"
 #include "vpm/job/identity.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/render_job.h"
 #include "vpm/job/report.h"
-#include "vpm/job/validate.h"
 #include "vpm/surface/procedural_mesh.h"
 
 namespace vpm {

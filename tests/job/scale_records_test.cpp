@@ -1,5 +1,5 @@
 // Radii and numbers of photons that a pilot changes.
-#include "vpm/job/scale_records.h"
+#include "vpm/tune/scale_records.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "support/scenes.h"
-#include "vpm/job/choice_rules.h"
-#include "vpm/job/pass_cost.h"
+#include "vpm/tune/choice_rules.h"
+#include "vpm/tune/pass_cost.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // The descriptions of settings: each reaches the member it names and no other, and its values survive being written.
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

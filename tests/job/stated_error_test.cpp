@@ -1,5 +1,5 @@
 // What a render states of its error, against the truth: of films whose truth is known.
-#include "vpm/job/stated_error.h"
+#include "vpm/render/stated_error.h"
 
 #include <gtest/gtest.h>
 

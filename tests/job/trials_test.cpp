@@ -1,16 +1,16 @@
 // Ways to render that a pilot tries: what it tells of each, and which it chooses.
-#include "vpm/job/trials.h"
-#include "vpm/job/words.h"
+#include "vpm/tune/trials.h"
+#include "vpm/integrators/words.h"
 
 #include <gtest/gtest.h>
 
 #include "job/pilot_scenes.h"
 #include "support/simulated_clock.h"
-#include "vpm/job/automatic.h"
-#include "vpm/job/describe.h"
-#include "vpm/job/pilot_error.h"
-#include "vpm/job/rays_of_pass.h"
-#include "vpm/job/render.h"
+#include "vpm/integrators/describe.h"
+#include "vpm/render/render.h"
+#include "vpm/tune/automatic.h"
+#include "vpm/tune/pilot_error.h"
+#include "vpm/tune/rays_of_pass.h"
 
 namespace vpm {
 namespace {

@@ -1,13 +1,13 @@
 // Settings that contradict themselves or the scene are refused from code, too, by the key that is wrong.
-#include "vpm/job/validate.h"
+#include "vpm/integrators/validate.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "vpm/estimate/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimators.h"
 #include "vpm/job/bake.h"
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {

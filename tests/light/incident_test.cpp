@@ -3,7 +3,7 @@
 
 #include "light/lights.h"
 #include "support/statistics.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/surface/mesh.h"
 
 namespace vpm {

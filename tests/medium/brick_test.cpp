@@ -7,9 +7,9 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/medium/brick_blocks.h"
-#include "vpm/medium/brick_boxes.h"
-#include "vpm/medium/density_grid.h"
+#include "vpm/medium/grid/brick_blocks.h"
+#include "vpm/medium/grid/brick_boxes.h"
+#include "vpm/medium/grid/density_grid.h"
 
 namespace vpm {
 namespace {

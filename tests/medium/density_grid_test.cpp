@@ -1,5 +1,5 @@
 // Density grids: look-ups against the definition, walks against look-ups, exact density integrals against quadrature.
-#include "vpm/medium/density_grid.h"
+#include "vpm/medium/grid/density_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "support/grids.h"
 #include "support/statistics.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/medium/distance/strategy.h"
 
 namespace vpm {

@@ -3,7 +3,7 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/medium/density_grid.h"
+#include "vpm/medium/grid/density_grid.h"
 
 namespace vpm {
 namespace {

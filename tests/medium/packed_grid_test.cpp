@@ -8,8 +8,8 @@
 #include "support/grids.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/medium/density_grid.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/density_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 
 namespace vpm {
 namespace {

@@ -1,6 +1,6 @@
 // The procedural fields: within their bounds, empty at the faces of their box, the same on every machine; noise against
 // its own definition.
-#include "vpm/medium/procedural.h"
+#include "vpm/medium/grid/procedural.h"
 
 #include <gtest/gtest.h>
 #include <cstring>

@@ -5,8 +5,8 @@
 
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/base/tails.h"
-#include "vpm/render/path_tracer.h"
+#include "vpm/base/statistics/tails.h"
+#include "vpm/integrators/path/path_tracer.h"
 
 namespace vpm {
 namespace {

@@ -1,7 +1,7 @@
 // Phase functions of any anisotropy: normalised, reciprocal, and the same by cosine and by directions.
 #include "support/properties.h"
 #include "vpm/base/warp.h"
-#include "vpm/phase/phase.h"
+#include "vpm/medium/phase/phase.h"
 
 namespace vpm {
 namespace {

@@ -1,6 +1,6 @@
 // Lists shared by cells: each cell has its own where there are enough, cells near each other never share one, and
 // photons of planes and of balls are spread over all of them.
-#include "vpm/photon/radius_map.h"
+#include "vpm/photon/map/radius_map.h"
 
 #include <set>
 

@@ -1,13 +1,13 @@
 // Directions on a grid: what tracks tell of them, draws against their densities, and scattering by them, one event at a
 // time.
-#include "vpm/photon/guided_scatter.h"
+#include "vpm/photon/guide/guided_scatter.h"
 
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/warp.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 
 namespace vpm {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "support/photons.h"
 #include "vpm/base/parallel.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/photon/caustics.h"
 #include "vpm/photon/records.h"
 #include "vpm/scene/build.h"

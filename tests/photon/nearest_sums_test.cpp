@@ -1,6 +1,6 @@
 // Sums over many nearest photons by whole nodes against their brute-force twins: which photons they take, what these
 // add up to, and that nothing but the photons and the query decides about the bits of the result.
-#include "vpm/photon/nearest_sums.h"
+#include "vpm/photon/map/nearest_sums.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What queries find, unpacked side by side, against one photon after the other.
-#include "vpm/photon/photon_batch.h"
+#include "vpm/photon/map/photon_batch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Crossings of beams and rays against their brute-force twin.
-#include "vpm/photon/photon_beam_map.h"
+#include "vpm/photon/map/photon_beam_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Importance on a grid: lengths of tracks, where it rises, and what importons make of a room. The learned density of
 // emission: that it is one, that it finds what scores, and that weights undo it.
-#include "vpm/photon/photon_guide.h"
+#include "vpm/photon/guide/photon_guide.h"
 
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/medium/make_grid.h"
-#include "vpm/photon/emission_guide.h"
+#include "vpm/medium/grid/make_grid.h"
+#include "vpm/photon/guide/emission_guide.h"
 
 namespace vpm {
 namespace {

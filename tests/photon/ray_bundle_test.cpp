@@ -1,5 +1,5 @@
 // What lies near rays of a bundle is found for the bundle, by brute force.
-#include "vpm/photon/ray_bundle.h"
+#include "vpm/photon/map/ray_bundle.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/photon/photon_beam_map.h"
-#include "vpm/photon/segment_map.h"
+#include "vpm/photon/map/photon_beam_map.h"
+#include "vpm/photon/map/segment_map.h"
 
 namespace vpm {
 namespace {

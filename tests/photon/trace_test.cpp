@@ -10,7 +10,7 @@
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/photon/stored_power.h"
 #include "vpm/study/sample_moments.h"
 

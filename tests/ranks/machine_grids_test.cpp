@@ -14,7 +14,7 @@
 
 #include "ranks/ranks_in_memory.h"
 #include "vpm/base/error.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 
 namespace vpm {
 namespace {

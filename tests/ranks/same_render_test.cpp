@@ -6,7 +6,7 @@
 #include "input/expectations.h"
 #include "ranks/ranks_in_memory.h"
 #include "vpm/base/rng.h"
-#include "vpm/job/named_fields.h"
+#include "vpm/render/named_fields.h"
 
 namespace vpm {
 namespace {

@@ -11,10 +11,10 @@
 #include "ranks/ranks_in_memory.h"
 #include "vpm/base/cancel.h"
 #include "vpm/base/rng.h"
-#include "vpm/job/named_fields.h"
+#include "vpm/integrators/validate.h"
 #include "vpm/job/pieces.h"
-#include "vpm/job/validate.h"
 #include "vpm/ranks/messages.h"
+#include "vpm/render/named_fields.h"
 
 namespace vpm {
 namespace {

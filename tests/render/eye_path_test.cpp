@@ -1,12 +1,12 @@
 // Eye paths at smooth glass, both of whose sides they follow. What weak sides count on average is checked by `vpm
 // validate`.
-#include "vpm/render/eye_path.h"
+#include "vpm/integrators/photon_map/eye_path.h"
 
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
 #include "vpm/base/warp.h"
-#include "vpm/surface/fresnel.h"
+#include "vpm/surface/material/fresnel.h"
 
 namespace vpm {
 namespace {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
-#include "vpm/render/combined_pass.h"
-#include "vpm/render/eye_path.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/photon_map/eye_path.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 
 namespace vpm {
 namespace {

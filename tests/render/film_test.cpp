@@ -1,5 +1,5 @@
 // What the film makes of its passes.
-#include "vpm/render/film.h"
+#include "vpm/film/film.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 #include "vpm/image/metrics.h"
 
 namespace vpm {

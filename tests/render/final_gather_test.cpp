@@ -6,9 +6,9 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
 #include "vpm/image/metrics.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/photon/records.h"
-#include "vpm/render/path_tracer.h"
-#include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
 
 namespace vpm {

@@ -4,10 +4,10 @@
 #include "support/photons.h"
 #include "support/statistics.h"
 #include "vpm/base/warp.h"
-#include "vpm/estimate/surface/gather_guide.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/integrators/photon_map/surface/gather_guide.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/photon/records.h"
-#include "vpm/render/photon_pass.h"
 #include "vpm/scene/build.h"
 
 namespace vpm {

@@ -1,5 +1,5 @@
 // Light maps: closed forms of irradiance, which texel is where, and what cannot be laid out.
-#include "vpm/render/light_map.h"
+#include "vpm/integrators/photon_map/surface/light_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The eye's march: exact where it must be, unbiased everywhere, whatever the steps.
-#include "vpm/estimate/volume/march.h"
+#include "vpm/estimate/march.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The path tracer against closed forms. What it says of whole scenes is compared with the photon maps by `vpm
 // validate`.
-#include "vpm/render/path_tracer.h"
+#include "vpm/integrators/path/path_tracer.h"
 
 #include <gtest/gtest.h>
 

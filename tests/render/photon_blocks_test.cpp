@@ -1,5 +1,5 @@
 // A pass by blocks of photons makes the picture of the pass in one piece.
-#include "vpm/render/photon_blocks.h"
+#include "vpm/integrators/photon_map/photon_blocks.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 
 #include "support/scenes.h"
 #include "vpm/base/parallel.h"
-#include "vpm/job/validate.h"
-#include "vpm/render/light_map.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/integrators/photon_map/surface/light_map.h"
+#include "vpm/integrators/validate.h"
 
 namespace vpm {
 namespace {

@@ -1,16 +1,16 @@
 // The whole path from lights to pixels: identities that need no reference, and ways to the same picture that must
 // agree.
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/radius_schedule.h"
-#include "vpm/render/film.h"
-#include "vpm/render/path_tracer.h"
+#include "vpm/film/film.h"
+#include "vpm/integrators/path/path_tracer.h"
 
 namespace vpm {
 namespace {

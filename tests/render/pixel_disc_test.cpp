@@ -1,6 +1,6 @@
 // Radii of pixels' own against the textbook of stochastic progressive photon mapping: its three numbers a pixel, R, N
 // and the flux tau, kept by the rules as they are printed [Hachisuka2009].
-#include "vpm/render/pixel_disc.h"
+#include "vpm/film/pixel_disc.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
 #include "vpm/estimate/surface_estimate.h"
-#include "vpm/job/render.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // The plan of estimators: light that two of them find is refused, and photons are stored along flights where they may.
-#include "vpm/render/plan.h"
+#include "vpm/integrators/photon_map/plan.h"
 
 #include <gtest/gtest.h>
 

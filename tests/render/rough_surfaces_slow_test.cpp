@@ -3,8 +3,8 @@
 
 #include "support/scenes.h"
 #include "vpm/base/progress.h"
-#include "vpm/render/path_tracer.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 
 namespace vpm {
 namespace {

@@ -1,6 +1,6 @@
 // Single scattering at drawn distances: densities that are what they are said to be, exact radiance, and the march's
 // answer for every light, in fog and in grids.
-#include "vpm/estimate/volume/single_scattering.h"
+#include "vpm/integrators/photon_map/volume/single_scattering.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "light/lights.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "vpm/render/eye_path.h"
+#include "vpm/integrators/photon_map/eye_path.h"
 #include "vpm/study/exact/airlight.h"
 #include "vpm/study/sample_moments.h"
 

@@ -1,14 +1,14 @@
 // Layers of what the camera sees, from samples to films to pictures.
-#include "vpm/render/view_layers.h"
+#include "vpm/film/view_layers.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "support/scenes.h"
-#include "vpm/render/combined_pass.h"
-#include "vpm/render/path_tracer.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 
 namespace vpm {
 namespace {

@@ -1,12 +1,12 @@
 // What rays from the camera see, against closed forms.
-#include "vpm/render/view_layers.h"
+#include "vpm/film/view_layers.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "support/scenes.h"
-#include "vpm/surface/fresnel.h"
+#include "vpm/surface/material/fresnel.h"
 
 namespace vpm {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "vpm/base/rng.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 
 namespace vpm {
 namespace {

@@ -1,5 +1,5 @@
 // The statistics under the ladder: p-values, verdicts on families of checks, seeds.
-#include "vpm/study/validate/check.h"
+#include "vpm/study/check.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "support/statistics.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/ladder.h"
 

@@ -8,9 +8,9 @@
 
 #include "support/statistics.h"
 #include "vpm/base/error.h"
-#include "vpm/base/tails.h"
-#include "vpm/medium/make_grid.h"
-#include "vpm/render/path_tracer.h"
+#include "vpm/base/statistics/tails.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 

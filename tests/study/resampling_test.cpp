@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/statistics.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/study/compare/resampling.h"
 
 namespace vpm {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "vpm/base/packed_tables.h"
+#include "vpm/base/memory/packed_tables.h"
 
 namespace vpm {
 

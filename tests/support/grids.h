@@ -3,7 +3,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 
 namespace vpm {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "vpm/base/rng.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/base/vec.h"
-#include "vpm/study/validate/check.h"
+#include "vpm/study/check.h"
 
 namespace vpm {
 

@@ -1,12 +1,12 @@
 // Materials: directions, weights, Fresnel's equations.
-#include "vpm/surface/material.h"
+#include "vpm/surface/material/material.h"
 
 #include <gtest/gtest.h>
 
 #include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/surface/fresnel.h"
+#include "vpm/surface/material/fresnel.h"
 
 namespace vpm {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/study/validate/lobes.h"
-#include "vpm/surface/facet_loss.h"
-#include "vpm/surface/fresnel.h"
-#include "vpm/surface/metals.h"
-#include "vpm/surface/microfacet.h"
+#include "vpm/study/validate/scenes/lobes.h"
+#include "vpm/surface/material/facet_loss.h"
+#include "vpm/surface/material/fresnel.h"
+#include "vpm/surface/material/metals.h"
+#include "vpm/surface/material/microfacet.h"
 
 namespace vpm {
 namespace {

@@ -6,7 +6,7 @@
 #include "support/statistics.h"
 #include "vpm/base/error.h"
 #include "vpm/base/rng.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/base/warp.h"
 #include "vpm/surface/mesh.h"
 

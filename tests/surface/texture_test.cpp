@@ -1,5 +1,5 @@
 // Texture look-ups: which texel stands where, what lies between, and the mean.
-#include "vpm/surface/texture.h"
+#include "vpm/surface/material/texture.h"
 
 #include <gtest/gtest.h>
 

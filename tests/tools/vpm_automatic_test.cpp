@@ -6,7 +6,7 @@
 
 #include "tools/plume.h"
 #include "vpm/image/exr.h"
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
 
 namespace vpm {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "support/statistics.h"
 #include "tools/vpm_binary.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/image/exr.h"
 #include "vpm/input/scene_file.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 
 namespace vpm {
 namespace {

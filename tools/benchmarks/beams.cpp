@@ -10,7 +10,7 @@
 #include "benchmarks/bench.h"
 #include "benchmarks/room.h"
 #include "vpm/base/clock.h"
-#include "vpm/photon/ray_lanes.h"
+#include "vpm/photon/map/ray_lanes.h"
 
 namespace vpm::bench {
 namespace {

@@ -2,8 +2,8 @@
 #include "benchmarks/cloud.h"
 
 #include "vpm/base/warp.h"
-#include "vpm/medium/make_grid.h"
-#include "vpm/medium/procedural.h"
+#include "vpm/medium/grid/make_grid.h"
+#include "vpm/medium/grid/procedural.h"
 
 namespace vpm::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include "vpm/base/exp_negative.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
-#include "vpm/phase/phase.h"
+#include "vpm/medium/phase/phase.h"
 #include "vpm/photon/kernel.h"
 
 namespace vpm::bench {

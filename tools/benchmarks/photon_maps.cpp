@@ -8,8 +8,8 @@
 #include "benchmarks/room.h"
 #include "vpm/base/parallel.h"
 #include "vpm/estimate/surface_estimate.h"
-#include "vpm/photon/nearest_map.h"
-#include "vpm/photon/radius_map.h"
+#include "vpm/photon/map/nearest_map.h"
+#include "vpm/photon/map/radius_map.h"
 #include "vpm/photon/records.h"
 
 namespace vpm::bench {

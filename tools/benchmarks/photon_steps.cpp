@@ -3,7 +3,7 @@
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
 #include "vpm/light/light.h"
-#include "vpm/surface/material.h"
+#include "vpm/surface/material/material.h"
 
 namespace vpm::bench {
 namespace {

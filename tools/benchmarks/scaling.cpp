@@ -5,8 +5,8 @@
 #include "benchmarks/cloud.h"
 #include "benchmarks/photons.h"
 #include "vpm/base/parallel.h"
-#include "vpm/photon/nearest_map.h"
-#include "vpm/photon/radius_map.h"
+#include "vpm/photon/map/nearest_map.h"
+#include "vpm/photon/map/radius_map.h"
 #include "vpm/photon/records.h"
 
 namespace vpm::bench {

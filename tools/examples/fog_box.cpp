@@ -3,8 +3,8 @@
 
 #include "vpm/base/error.h"
 #include "vpm/job/picture.h"
-#include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
+#include "vpm/render/render.h"
 
 namespace {
 

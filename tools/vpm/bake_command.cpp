@@ -11,11 +11,11 @@
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/input/source.h"
+#include "vpm/integrators/validate.h"
 #include "vpm/job/bake.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/report.h"
-#include "vpm/job/validate.h"
 
 namespace vpm::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vpm/study/validate/check.h"
+#include "vpm/study/check.h"
 
 namespace vpm::tools {
 

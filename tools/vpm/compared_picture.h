@@ -9,7 +9,7 @@
 #include "json.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
 
 namespace vpm::tools {
 

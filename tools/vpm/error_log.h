@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 #include "vpm/study/compare/errors.h"
 
 namespace vpm::tools {

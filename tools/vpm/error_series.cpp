@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "compared_picture.h"
 #include "vpm/base/error.h"
-#include "vpm/base/line_fit.h"
+#include "vpm/base/statistics/line_fit.h"
 #include "vpm/image/metrics.h"
 
 namespace vpm::tools {

@@ -6,14 +6,14 @@
 #include "commands.h"
 #include "vpm/base/error.h"
 #include "vpm/estimate/photon_map.h"
-#include "vpm/input/grid_file.h"
+#include "vpm/input/grid/grid_file.h"
 #include "vpm/input/scene_file.h"
-#include "vpm/job/forecast.h"
-#include "vpm/job/lost_light.h"
-#include "vpm/job/render.h"
+#include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/photon_map/plan.h"
 #include "vpm/job/stage_lines.h"
-#include "vpm/render/combined_pass.h"
-#include "vpm/render/plan.h"
+#include "vpm/render/render.h"
+#include "vpm/tune/forecast.h"
+#include "vpm/tune/lost_light.h"
 
 namespace vpm::tools {
 namespace {

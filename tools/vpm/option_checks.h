@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "vpm/render/pass.h"
+#include "vpm/film/pass.h"
 
 namespace vpm::tools {
 

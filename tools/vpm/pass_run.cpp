@@ -9,9 +9,9 @@
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
+#include "vpm/film/view_layers.h"
 #include "vpm/image/png.h"
 #include "vpm/job/checkpoint.h"
-#include "vpm/render/view_layers.h"
 
 namespace vpm::tools {
 namespace fs = std::filesystem;

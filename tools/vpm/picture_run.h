@@ -10,10 +10,10 @@
 #include "commands.h"
 #include "pass_run.h"
 #include "vpm/base/file_lock.h"
-#include "vpm/input/grid_file.h"
-#include "vpm/job/render.h"
+#include "vpm/input/grid/grid_file.h"
 #include "vpm/job/render_job.h"
 #include "vpm/ranks/ranks.h"
+#include "vpm/render/render.h"
 
 namespace vpm::tools {
 

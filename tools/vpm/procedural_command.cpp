@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "vpm/input/grid_writer.h"
-#include "vpm/input/mesh_writer.h"
-#include "vpm/medium/procedural.h"
+#include "vpm/input/grid/grid_writer.h"
+#include "vpm/input/mesh/mesh_writer.h"
+#include "vpm/medium/grid/procedural.h"
 #include "vpm/surface/procedural_mesh.h"
 
 namespace vpm::tools {

@@ -9,7 +9,7 @@
 #include "commands.h"
 #include "tev_display.h"
 #include "vpm/base/clock.h"
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 
 namespace vpm::tools {
 

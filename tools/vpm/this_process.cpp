@@ -8,7 +8,7 @@
 
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 
 namespace vpm::tools {
 namespace {

@@ -5,9 +5,9 @@
 #include "commands.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
-#include "vpm/input/old_keys.h"
 #include "vpm/input/source.h"
-#include "vpm/input/upgrade.h"
+#include "vpm/input/toml/old_keys.h"
+#include "vpm/input/toml/upgrade.h"
 
 namespace vpm::tools {
 namespace {

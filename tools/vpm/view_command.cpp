@@ -14,8 +14,8 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
-#include "vpm/job/render.h"
 #include "vpm/ranks/alone.h"
+#include "vpm/render/render.h"
 
 namespace vpm::tools {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "vpm/base/exp_negative.h"
 #include "vpm/estimate/volume_estimate.h"
-#include "vpm/photon/segment_map.h"
+#include "vpm/photon/map/segment_map.h"
 
 namespace vpm {
 

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "vpm/base/rng.h"
+#include "vpm/estimate/march.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/estimate/statistics.h"
-#include "vpm/estimate/volume/march.h"
-#include "vpm/medium/density_integrals_along.h"
+#include "vpm/medium/grid/density_integrals_along.h"
 #include "vpm/path/walk.h"
-#include "vpm/photon/photon_beam_map.h"
+#include "vpm/photon/map/photon_beam_map.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {

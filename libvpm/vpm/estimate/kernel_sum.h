@@ -13,7 +13,7 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/estimate/photon_map.h"
-#include "vpm/photon/nearest_sums.h"
+#include "vpm/photon/map/nearest_sums.h"
 
 namespace vpm {
 

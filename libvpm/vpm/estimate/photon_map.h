@@ -6,8 +6,8 @@
 
 #include "vpm/estimate/gather.h"
 #include "vpm/estimate/statistics.h"
-#include "vpm/photon/nearest_map.h"
-#include "vpm/photon/radius_map.h"
+#include "vpm/photon/map/nearest_map.h"
+#include "vpm/photon/map/radius_map.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {

@@ -10,7 +10,7 @@
 #include "vpm/estimate/eye_segment.h"
 #include "vpm/estimate/gather.h"
 #include "vpm/photon/kernel.h"
-#include "vpm/photon/segment_map.h"
+#include "vpm/photon/map/segment_map.h"
 
 namespace vpm {
 

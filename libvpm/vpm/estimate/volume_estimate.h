@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vpm/estimate/kernel_sum.h"
-#include "vpm/phase/phase.h"
+#include "vpm/medium/phase/phase.h"
 
 namespace vpm {
 

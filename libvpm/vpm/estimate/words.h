@@ -1,9 +1,9 @@
 // The words of the enumerations that gathers hold.
 #pragma once
 
-#include "vpm/base/setting.h"
+#include "vpm/base/settings/setting.h"
 #include "vpm/estimate/gather.h"
-#include "vpm/estimate/volume/volume_settings.h"
+#include "vpm/integrators/photon_map/volume/volume_settings.h"
 
 namespace vpm {
 

@@ -10,7 +10,7 @@
 
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 
 namespace vpm {
 namespace {

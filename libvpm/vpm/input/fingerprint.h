@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "vpm/input/toml_node.h"
-#include "vpm/job/choice.h"
+#include "vpm/input/node.h"
+#include "vpm/tune/choice.h"
 
 namespace vpm {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "vpm/input/grid_values.h"
+#include "vpm/input/grid/grid_values.h"
 #include "vpm/surface/geometry.h"
 
 namespace vpm {

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "vpm/input/sections.h"
-#include "vpm/surface/fresnel.h"
-#include "vpm/surface/metals.h"
+#include "vpm/surface/material/fresnel.h"
+#include "vpm/surface/material/metals.h"
 
 namespace vpm {
 namespace {

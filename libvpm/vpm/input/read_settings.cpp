@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "vpm/input/old_keys.h"
 #include "vpm/input/sections.h"
-#include "vpm/job/describe.h"
-#include "vpm/job/words.h"
+#include "vpm/input/toml/old_keys.h"
+#include "vpm/integrators/describe.h"
+#include "vpm/integrators/words.h"
 
 namespace vpm {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "vpm/base/error.h"
-#include "vpm/input/mesh_file.h"
+#include "vpm/input/mesh/mesh_file.h"
 #include "vpm/input/sections.h"
 
 namespace vpm {

@@ -9,8 +9,8 @@
 #include "vpm/image/exr.h"
 #include "vpm/input/given_parts.h"
 #include "vpm/input/table_reader.h"
+#include "vpm/integrators/validate.h"
 #include "vpm/job/render_job.h"
-#include "vpm/job/validate.h"
 #include "vpm/scene/parts.h"
 
 namespace vpm {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "vpm/base/setting.h"
+#include "vpm/base/settings/setting.h"
 
 namespace vpm {
 namespace {

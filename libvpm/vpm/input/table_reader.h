@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "vpm/base/range.h"
-#include "vpm/base/setting.h"
+#include "vpm/base/settings/range.h"
+#include "vpm/base/settings/setting.h"
 #include "vpm/base/vec.h"
-#include "vpm/input/toml_node.h"
+#include "vpm/input/node.h"
 
 namespace vpm {
 

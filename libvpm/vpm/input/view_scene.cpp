@@ -11,7 +11,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/letters.h"
-#include "vpm/medium/density_grid_walk.h"
+#include "vpm/medium/grid/density_grid_walk.h"
 
 namespace vpm {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vpm/input/grid_file.h"
+#include "vpm/input/grid/grid_file.h"
 
 namespace vpm {
 

@@ -1,8 +1,8 @@
 // The passes of a light map, in the loop of every render.
 #include "vpm/job/bake.h"
 
-#include "vpm/job/validate.h"
-#include "vpm/render/photon_blocks.h"
+#include "vpm/integrators/photon_map/photon_blocks.h"
+#include "vpm/integrators/validate.h"
 
 namespace vpm {
 

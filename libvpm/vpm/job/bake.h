@@ -1,9 +1,9 @@
 // Light maps baked in many passes.
 #pragma once
 
-#include "vpm/base/channel_moments.h"
-#include "vpm/job/render.h"
-#include "vpm/render/light_map.h"
+#include "vpm/base/statistics/channel_moments.h"
+#include "vpm/integrators/photon_map/surface/light_map.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

@@ -11,9 +11,9 @@
 #include "vpm/base/error.h"
 #include "vpm/base/fnv.h"
 #include "vpm/base/lines.h"
-#include "vpm/job/counted_fields.h"
-#include "vpm/render/plan.h"
-#include "vpm/render/view_layers.h"
+#include "vpm/film/view_layers.h"
+#include "vpm/integrators/photon_map/plan.h"
+#include "vpm/render/counted_fields.h"
 
 namespace vpm {
 

@@ -8,7 +8,7 @@
 
 #include "vpm/job/identity.h"
 #include "vpm/job/origin.h"
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

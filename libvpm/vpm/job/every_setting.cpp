@@ -6,8 +6,8 @@
 #include <deque>
 
 #include "vpm/base/overloads.h"
-#include "vpm/job/describe.h"
-#include "vpm/job/words.h"
+#include "vpm/integrators/describe.h"
+#include "vpm/integrators/words.h"
 
 namespace vpm {
 namespace {

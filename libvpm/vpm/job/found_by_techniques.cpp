@@ -2,7 +2,7 @@
 #include "vpm/job/found_by_techniques.h"
 
 #include "vpm/image/metrics.h"
-#include "vpm/render/technique_layers.h"
+#include "vpm/integrators/combined/technique_layers.h"
 
 namespace vpm {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/image/image.h"
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

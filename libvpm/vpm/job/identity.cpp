@@ -10,7 +10,7 @@
 
 #include "vpm/base/lines.h"
 #include "vpm/base/version.h"
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
 
 namespace vpm {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "vpm/estimate/volume/estimators.h"
-#include "vpm/job/lost_light.h"
-#include "vpm/render/plan.h"
+#include "vpm/integrators/photon_map/plan.h"
+#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/tune/lost_light.h"
 
 namespace vpm {
 namespace {

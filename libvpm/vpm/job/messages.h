@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "vpm/base/version.h"
+#include "vpm/film/view_layers.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/statistics_of.h"
-#include "vpm/job/describe.h"
-#include "vpm/render/technique_layers.h"
-#include "vpm/render/view_layers.h"
+#include "vpm/integrators/combined/technique_layers.h"
+#include "vpm/integrators/describe.h"
 
 namespace vpm {
 namespace {

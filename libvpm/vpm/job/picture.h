@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "vpm/job/render.h"
+#include "vpm/film/view_layer.h"
+#include "vpm/integrators/photon_map/surface/uv_layout.h"
 #include "vpm/job/render_job.h"
-#include "vpm/render/uv_layout.h"
-#include "vpm/render/view_layer.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

@@ -2,7 +2,7 @@
 // them.
 #pragma once
 
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

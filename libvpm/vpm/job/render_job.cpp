@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "vpm/base/error.h"
-#include "vpm/job/automatic.h"
-#include "vpm/job/choose_records.h"
-#include "vpm/job/describe.h"
-#include "vpm/job/forecast.h"
-#include "vpm/job/pass_time.h"
-#include "vpm/job/pilot.h"
-#include "vpm/job/render.h"
-#include "vpm/job/validate.h"
+#include "vpm/integrators/describe.h"
+#include "vpm/integrators/validate.h"
+#include "vpm/render/pass_time.h"
+#include "vpm/render/render.h"
+#include "vpm/tune/automatic.h"
+#include "vpm/tune/choose_records.h"
+#include "vpm/tune/forecast.h"
+#include "vpm/tune/pilot.h"
 
 namespace vpm {
 namespace {

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "vpm/base/clock.h"
-#include "vpm/job/choice.h"
-#include "vpm/job/kernel_light.h"
-#include "vpm/render/settings.h"
+#include "vpm/integrators/settings.h"
 #include "vpm/scene/assemble.h"
+#include "vpm/tune/choice.h"
+#include "vpm/tune/kernel_light.h"
 
 namespace vpm {
 

@@ -9,13 +9,13 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
 #include "vpm/estimate/photon_map.h"
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
+#include "vpm/integrators/photon_map/photon_blocks.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/integrators/photon_map/plan.h"
 #include "vpm/job/found_by_techniques.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/stage_lines.h"
-#include "vpm/render/photon_blocks.h"
-#include "vpm/render/photon_pass.h"
-#include "vpm/render/plan.h"
 
 namespace vpm {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "vpm/job/bake.h"
-#include "vpm/job/render.h"
 #include "vpm/job/render_job.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
 
 namespace vpm {
 

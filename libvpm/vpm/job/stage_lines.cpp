@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "vpm/estimate/volume/estimators.h"
-#include "vpm/render/photon_blocks.h"
+#include "vpm/integrators/photon_map/photon_blocks.h"
+#include "vpm/integrators/photon_map/volume/estimators.h"
 
 namespace vpm {
 namespace {
@@ -70,23 +70,23 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
           line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                photons ? "photons go where power does" : "nothing stores photons"),
           line(media && volume.collisions, "volume photon map",
-               beams                          ? ", gathered beside rays that flights run along"
+               beams               ? ", gathered beside rays that flights run along"
                : volume.along_rays ? ", gathered all along rays"
-                                              : "",
+                                   : "",
                media ? "flights are gathered, not collisions" : no_medium),
           line(media && beams, "photon beams",
                std::string(volume.along_rays ? "" : ", around points of rays") +
                    (settings.volume.length == BeamLength::long_beams ? ", to where media end" : "") +
                    (settings.volume.flights > 0 ? fmt::format(", at most {} in a pass", settings.volume.flights) : ""),
                media ? "collisions are gathered, not flights" : no_medium),
-          line(media && volume.planes, "photon planes",
-               fmt::format(", at most {} in a pass", settings.volume.planes),
+          line(media && volume.planes, "photon planes", fmt::format(", at most {} in a pass", settings.volume.planes),
                media ? "light comes from collisions or beams" : no_medium),
           line(surfaces, "surface photon map", "", "no rough surface"),
           line(surfaces && settings.radii == RadiusSchedule::per_pixel, "radii of pixels' own", ", on surfaces",
                surfaces ? "radii do not depend on what pixels find" : "no rough surface"),
           line(media && settings.volume.boundary != BoundaryRule::none, "corrections at borders of media",
-               !volume.along_rays && !beams && settings.volume.corrects_each_ball() ? ", ball by ball" : ", along segments of eye rays",
+               !volume.along_rays && !beams && settings.volume.corrects_each_ball() ? ", ball by ball"
+                                                                                    : ", along segments of eye rays",
                media ? "what lies outside of media is summed over, too" : no_medium),
           line(surfaces && corrected(settings.surface), "corrections at edges of surfaces", "",
                surfaces ? "whole discs are summed over" : "no rough surface"),

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vpm/render/plan.h"
+#include "vpm/integrators/photon_map/plan.h"
 
 namespace vpm {
 

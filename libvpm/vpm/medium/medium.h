@@ -8,8 +8,8 @@
 #include <string>
 
 #include "vpm/base/vec.h"
-#include "vpm/medium/density_grid.h"
-#include "vpm/phase/phase.h"
+#include "vpm/medium/grid/density_grid.h"
+#include "vpm/medium/phase/phase.h"
 
 namespace vpm {
 

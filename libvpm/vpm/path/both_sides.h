@@ -6,7 +6,7 @@
 
 #include "vpm/base/rng.h"
 #include "vpm/surface/geometry.h"
-#include "vpm/surface/material.h"
+#include "vpm/surface/material/material.h"
 
 namespace vpm {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 #include "vpm/path/walk.h"
 
 namespace vpm {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "vpm/photon/guide/photon_guide.h"
 #include "vpm/photon/photon.h"
-#include "vpm/photon/photon_guide.h"
 
 namespace vpm {
 

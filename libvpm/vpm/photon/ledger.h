@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "vpm/base/channel_moments.h"
+#include "vpm/base/statistics/channel_moments.h"
 #include "vpm/base/vec.h"
 #include "vpm/path/walk.h"
 

@@ -9,7 +9,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/path/path_weight.h"
 #include "vpm/photon/emission.h"
-#include "vpm/photon/guided_scatter.h"
+#include "vpm/photon/guide/guided_scatter.h"
 
 namespace vpm {
 namespace {

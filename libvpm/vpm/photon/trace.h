@@ -5,8 +5,8 @@
 
 #include "vpm/base/progress.h"
 #include "vpm/medium/distance/strategy.h"
+#include "vpm/photon/guide/photon_guide.h"
 #include "vpm/photon/ledger.h"
-#include "vpm/photon/photon_guide.h"
 #include "vpm/photon/photon_numbers.h"
 #include "vpm/photon/recorder.h"
 #include "vpm/scene/scene.h"

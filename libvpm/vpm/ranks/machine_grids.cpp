@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "vpm/base/error.h"
-#include "vpm/base/packed_tables.h"
-#include "vpm/base/shared_memory.h"
+#include "vpm/base/memory/packed_tables.h"
+#include "vpm/base/memory/shared_memory.h"
 #include "vpm/base/version.h"
 
 namespace vpm {

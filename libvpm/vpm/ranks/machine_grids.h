@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "vpm/medium/density_grid.h"
+#include "vpm/medium/grid/density_grid.h"
 #include "vpm/ranks/ranks.h"
 #include "vpm/scene/scene.h"
 

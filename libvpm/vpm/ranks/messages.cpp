@@ -11,7 +11,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/job/checkpoint.h"
-#include "vpm/job/counted_fields.h"
+#include "vpm/render/counted_fields.h"
 
 namespace vpm {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "vpm/film/pass.h"
 #include "vpm/job/identity.h"
-#include "vpm/job/render.h"
 #include "vpm/ranks/ranks.h"
-#include "vpm/render/pass.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 
-#include "vpm/render/pass.h"
+#include "vpm/film/pass.h"
 
 namespace vpm {
 

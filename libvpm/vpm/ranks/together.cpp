@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "vpm/base/cancel.h"
-#include "vpm/job/validate.h"
+#include "vpm/integrators/validate.h"
 #include "vpm/ranks/messages.h"
 #include "vpm/ranks/pass_pool.h"
 

@@ -6,8 +6,8 @@
 // nothing. What grows with the number of ranks is what rank 0 receives and sums, see papers/performance.md.
 #pragma once
 
-#include "vpm/job/render.h"
 #include "vpm/ranks/ranks.h"
+#include "vpm/render/render.h"
 
 namespace vpm {
 

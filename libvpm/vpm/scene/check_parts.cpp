@@ -8,7 +8,7 @@
 #include "vpm/light/light.h"
 #include "vpm/light/of_surface.h"
 #include "vpm/medium/medium.h"
-#include "vpm/surface/material.h"
+#include "vpm/surface/material/material.h"
 
 namespace vpm {
 namespace {

@@ -9,10 +9,10 @@
 #include "vpm/light/light.h"
 #include "vpm/medium/medium.h"
 #include "vpm/scene/camera.h"
-#include "vpm/surface/facet_loss.h"
 #include "vpm/surface/geometry.h"
-#include "vpm/surface/material.h"
-#include "vpm/surface/texture.h"
+#include "vpm/surface/material/facet_loss.h"
+#include "vpm/surface/material/material.h"
+#include "vpm/surface/material/texture.h"
 
 namespace vpm {
 

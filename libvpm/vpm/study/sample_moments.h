@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vpm/base/rng.h"
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 
 namespace vpm {
 

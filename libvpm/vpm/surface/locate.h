@@ -2,7 +2,7 @@
 // which differ from processor to processor: what becomes of a ray must not depend on them.
 #pragma once
 
-#include "vpm/base/huge_pages.h"
+#include "vpm/base/memory/huge_pages.h"
 #include "vpm/surface/geometry.h"
 
 namespace vpm {

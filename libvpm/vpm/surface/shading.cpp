@@ -1,7 +1,7 @@
 // The two normals of a hit: which directions pass, and what weighs flux.
 #include "vpm/surface/shading.h"
 
-#include "vpm/surface/kinds.h"
+#include "vpm/surface/material/kinds.h"
 
 namespace vpm {
 

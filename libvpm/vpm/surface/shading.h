@@ -9,7 +9,7 @@
 #pragma once
 
 #include "vpm/surface/geometry.h"
-#include "vpm/surface/material.h"
+#include "vpm/surface/material/material.h"
 
 namespace vpm {
 

@@ -12,7 +12,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/version.h"
-#include "vpm/job/render.h"
+#include "vpm/render/render.h"
 
 namespace vpm::python {
 

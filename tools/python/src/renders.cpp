@@ -15,10 +15,10 @@
 #include "vpm/image/png.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
-#include "vpm/job/render.h"
 #include "vpm/job/report.h"
 #include "vpm/ranks/messages.h"
 #include "vpm/ranks/together.h"
+#include "vpm/render/render.h"
 
 namespace vpm::python {
 namespace {

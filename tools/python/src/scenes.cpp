@@ -9,8 +9,8 @@
 
 #include "bindings.h"
 #include "scene_job.h"
-#include "vpm/input/grid_writer.h"
-#include "vpm/input/mesh_writer.h"
+#include "vpm/input/grid/grid_writer.h"
+#include "vpm/input/mesh/mesh_writer.h"
 #include "vpm/input/scene_file.h"
 
 namespace vpm::python {

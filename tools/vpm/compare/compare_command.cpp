@@ -20,11 +20,11 @@
 #include "vpm/base/version.h"
 #include "vpm/image/metrics.h"
 #include "vpm/input/source.h"
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
 #include "vpm/medium/distance/strategy.h"
+#include "vpm/study/check.h"
 #include "vpm/study/compare/exact_picture.h"
 #include "vpm/study/compare/experiment.h"
-#include "vpm/study/validate/check.h"
 
 namespace vpm::tools {
 namespace {

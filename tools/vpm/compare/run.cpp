@@ -9,9 +9,9 @@
 #include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/vec.h"
-#include "vpm/job/automatic.h"
-#include "vpm/job/describe.h"
-#include "vpm/job/render.h"
+#include "vpm/integrators/describe.h"
+#include "vpm/render/render.h"
+#include "vpm/tune/automatic.h"
 
 namespace vpm::tools {
 namespace {

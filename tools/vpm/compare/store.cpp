@@ -14,7 +14,7 @@
 #include "vpm/base/fnv.h"
 #include "vpm/base/version.h"
 #include "vpm/image/exr.h"
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
 
 namespace vpm::tools {
 namespace {

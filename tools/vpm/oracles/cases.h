@@ -10,7 +10,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/vec.h"
-#include "vpm/study/validate/check.h"
+#include "vpm/study/check.h"
 #include "vpm/study/validate/ladder.h"
 
 namespace vpm::tools {

@@ -6,7 +6,7 @@
 
 #include "oracles/cases.h"
 #include "vpm/base/error.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/estimates/flights.h"

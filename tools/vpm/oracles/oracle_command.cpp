@@ -10,7 +10,7 @@
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/tails.h"
 #include "vpm/base/version.h"
 
 namespace vpm::tools {

@@ -11,9 +11,9 @@
 
 #include "page/embedded.h"
 #include "vpm/base/error.h"
-#include "vpm/estimate/combined/technique.h"
 #include "vpm/image/image.h"
-#include "vpm/job/describe.h"
+#include "vpm/integrators/combined/technique.h"
+#include "vpm/integrators/describe.h"
 #include "vpm/job/settings_table.h"
 
 namespace vpm::tools {

@@ -9,7 +9,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/version.h"
-#include "vpm/job/describe.h"
+#include "vpm/integrators/describe.h"
 
 namespace vpm::tools {
 namespace {

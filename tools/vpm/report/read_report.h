@@ -5,7 +5,7 @@
 
 #include "json.h"
 #include "vpm/image/exr.h"
-#include "vpm/render/settings.h"
+#include "vpm/integrators/settings.h"
 
 namespace vpm::tools {
 

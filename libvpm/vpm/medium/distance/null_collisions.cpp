@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "vpm/medium/majorant_of_lookups.h"
+#include "vpm/medium/grid/majorant_of_lookups.h"
 
 namespace vpm {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "vpm/base/setting.h"
+#include "vpm/base/settings/setting.h"
 
 namespace vpm {
 

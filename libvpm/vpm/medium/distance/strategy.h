@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "vpm/base/parameter.h"
-#include "vpm/base/range.h"
 #include "vpm/base/rng.h"
+#include "vpm/base/settings/parameter.h"
+#include "vpm/base/settings/range.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/medium.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "vpm/base/setting.h"
+#include "vpm/base/settings/setting.h"
 
 namespace vpm {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "vpm/base/parameter.h"
 #include "vpm/base/rng.h"
+#include "vpm/base/settings/parameter.h"
 #include "vpm/base/vec.h"
 #include "vpm/medium/medium.h"
 

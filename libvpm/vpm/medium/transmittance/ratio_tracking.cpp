@@ -4,7 +4,7 @@
 #include "vpm/base/counters.h"
 #include "vpm/base/rng.h"
 #include "vpm/base/vec.h"
-#include "vpm/medium/majorant_of_lookups.h"
+#include "vpm/medium/grid/majorant_of_lookups.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/medium/transmittance/marched_integrals.h"
 

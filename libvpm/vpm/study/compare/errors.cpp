@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 #include "vpm/image/metrics.h"
 #include "vpm/study/compare/resampling.h"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "vpm/base/line_fit.h"
-#include "vpm/base/statistics.h"
-#include "vpm/base/tails.h"
+#include "vpm/base/statistics/line_fit.h"
+#include "vpm/base/statistics/moments.h"
+#include "vpm/base/statistics/tails.h"
 
 namespace vpm {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "vpm/base/warp.h"
-#include "vpm/estimate/volume/single_scattering.h"
+#include "vpm/integrators/photon_map/eye_path.h"
+#include "vpm/integrators/photon_map/volume/single_scattering.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/render/eye_path.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 

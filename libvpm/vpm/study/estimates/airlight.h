@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "vpm/base/statistics.h"
-#include "vpm/render/settings.h"
+#include "vpm/base/statistics/moments.h"
+#include "vpm/integrators/settings.h"
 #include "vpm/study/estimates/photon_rays.h"
 
 namespace vpm {

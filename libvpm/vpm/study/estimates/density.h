@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 #include "vpm/photon/kernel.h"
 
 namespace vpm {

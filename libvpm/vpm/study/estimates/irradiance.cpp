@@ -6,10 +6,10 @@
 
 #include "vpm/base/warp.h"
 #include "vpm/estimate/surface_estimate.h"
+#include "vpm/integrators/path/path_tracer.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/path/follow.h"
 #include "vpm/photon/records.h"
-#include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 #include "vpm/light/light.h"
 
 namespace vpm {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "vpm/base/error.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 
 namespace vpm {
 namespace {

@@ -2,8 +2,8 @@
 #include "vpm/study/estimates/photon_rays.h"
 
 #include "vpm/base/parallel.h"
-#include "vpm/render/eye_path.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/photon_map/eye_path.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 
 namespace vpm {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "vpm/base/statistics.h"
-#include "vpm/render/settings.h"
+#include "vpm/base/statistics/moments.h"
+#include "vpm/integrators/settings.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 
 namespace vpm {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "vpm/base/statistics.h"
+#include "vpm/base/statistics/moments.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/scene/scene.h"
 #include "vpm/study/estimates/layers.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "vpm/base/warp.h"
+#include "vpm/integrators/path/path_tracer.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/render/path_tracer.h"
 #include "vpm/study/sample_moments.h"
 
 namespace vpm {

@@ -2,8 +2,8 @@
 #include "vpm/study/estimates/sphere.h"
 
 #include "vpm/base/warp.h"
+#include "vpm/integrators/path/path_tracer.h"
 #include "vpm/path/follow.h"
-#include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 

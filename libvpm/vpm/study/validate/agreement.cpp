@@ -8,16 +8,16 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/image/metrics.h"
-#include "vpm/render/combined_pass.h"
-#include "vpm/render/path_tracer.h"
-#include "vpm/render/photon_pass.h"
-#include "vpm/render/plan.h"
+#include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/integrators/photon_map/plan.h"
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/gatherings.h"
 #include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/ladder.h"
-#include "vpm/study/validate/small_scenes.h"
+#include "vpm/study/validate/scenes/gatherings.h"
+#include "vpm/study/validate/scenes/small_scenes.h"
 
 namespace vpm {
 namespace {

@@ -10,9 +10,9 @@
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/estimates/irradiance.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/fields.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/small_pass.h"
+#include "vpm/study/validate/scenes/fields.h"
+#include "vpm/study/validate/scenes/small_pass.h"
 
 namespace vpm {
 

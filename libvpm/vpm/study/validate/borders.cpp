@@ -14,7 +14,7 @@
 #include "vpm/estimate/surface_region.h"
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/estimate/volume_region.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"

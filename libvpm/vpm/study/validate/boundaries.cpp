@@ -1,13 +1,13 @@
 // Paths across boundaries: both sides of smooth glass, and the medium that a path is in.
-#include "vpm/medium/make_grid.h"
-#include "vpm/render/combined_pass.h"
-#include "vpm/render/eye_path.h"
-#include "vpm/render/path_tracer.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/integrators/photon_map/eye_path.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/surface/fresnel.h"
+#include "vpm/surface/material/fresnel.h"
 
 namespace vpm {
 

@@ -6,15 +6,15 @@
 // alone.
 #include <fmt/format.h>
 
-#include "vpm/base/line_fit.h"
 #include "vpm/base/parallel.h"
+#include "vpm/base/statistics/line_fit.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/estimate/volume_estimate.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/film/film.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/photon/records.h"
-#include "vpm/render/film.h"
-#include "vpm/render/path_tracer.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/validate/groups.h"
 

@@ -5,10 +5,10 @@
 #include "vpm/path/follow.h"
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/directions.h"
-#include "vpm/study/validate/fields.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/lit_body.h"
+#include "vpm/study/validate/scenes/directions.h"
+#include "vpm/study/validate/scenes/fields.h"
+#include "vpm/study/validate/scenes/lit_body.h"
 
 namespace vpm {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "vpm/medium/distance/strategy.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/fields.h"
 #include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/scenes/fields.h"
 
 namespace vpm {
 

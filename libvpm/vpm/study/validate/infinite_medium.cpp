@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <array>
 
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/path/follow.h"
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/sample_moments.h"

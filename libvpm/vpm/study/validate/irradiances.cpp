@@ -5,9 +5,9 @@
 
 #include "vpm/light/light.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/directions.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/lights.h"
+#include "vpm/study/validate/scenes/directions.h"
+#include "vpm/study/validate/scenes/lights.h"
 
 namespace vpm {
 

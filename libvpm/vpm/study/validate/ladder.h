@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vpm/study/validate/check.h"
+#include "vpm/study/check.h"
 
 namespace vpm {
 

@@ -1,11 +1,11 @@
 // Level 3: the light map of a floor, in every way that light reaches it, against paths from the points of the floor.
 #include "vpm/base/parallel.h"
 #include "vpm/base/warp.h"
-#include "vpm/render/light_map.h"
-#include "vpm/render/path_tracer.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/integrators/photon_map/surface/light_map.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/small_scenes.h"
+#include "vpm/study/validate/scenes/small_scenes.h"
 
 namespace vpm {
 namespace {

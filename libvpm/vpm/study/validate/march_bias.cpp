@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "vpm/medium/distance/strategy.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"
 

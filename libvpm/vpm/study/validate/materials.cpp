@@ -7,10 +7,10 @@
 
 #include "vpm/base/warp.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/directions.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/lobes.h"
-#include "vpm/surface/facet_loss.h"
+#include "vpm/study/validate/scenes/directions.h"
+#include "vpm/study/validate/scenes/lobes.h"
+#include "vpm/surface/material/facet_loss.h"
 
 namespace vpm {
 

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/path/walk.h"
-#include "vpm/photon/guided_scatter.h"
+#include "vpm/photon/guide/guided_scatter.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/directions.h"
 #include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/scenes/directions.h"
 
 namespace vpm {
 namespace {

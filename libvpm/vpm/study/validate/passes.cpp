@@ -5,10 +5,10 @@
 
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
-#include "vpm/job/render.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/render/render.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/small_scenes.h"
+#include "vpm/study/validate/scenes/small_scenes.h"
 
 namespace vpm {
 

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
-#include "vpm/phase/phase.h"
+#include "vpm/medium/phase/phase.h"
 #include "vpm/scene/camera.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/directions.h"
 #include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/scenes/directions.h"
 
 namespace vpm {
 namespace {

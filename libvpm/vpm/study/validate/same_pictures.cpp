@@ -3,13 +3,13 @@
 // and by those among all; by irradiance where gathering rays end, whose picture is known, and by that computed
 // beforehand.
 #include "vpm/base/parallel.h"
-#include "vpm/medium/make_grid.h"
-#include "vpm/render/path_tracer.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/path/path_tracer.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/estimates/irradiance.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/small_scenes.h"
+#include "vpm/study/validate/scenes/small_scenes.h"
 
 namespace vpm {
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "vpm/image/metrics.h"
-#include "vpm/medium/make_grid.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/estimates/slab_radiance.h"
 #include "vpm/study/exact/slab.h"

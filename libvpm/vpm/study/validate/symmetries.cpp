@@ -5,12 +5,12 @@
 
 #include "vpm/estimate/volume_estimate.h"
 #include "vpm/image/metrics.h"
-#include "vpm/medium/make_grid.h"
-#include "vpm/render/photon_pass.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/small_pass.h"
+#include "vpm/study/validate/scenes/small_pass.h"
 
 namespace vpm {
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "vpm/base/parallel.h"
-#include "vpm/estimate/combined/merge_shares.h"
+#include "vpm/integrators/combined/merge_shares.h"
 #include "vpm/scene/camera.h"
 #include "vpm/study/validate/groups.h"
-#include "vpm/study/validate/lights.h"
-#include "vpm/study/validate/whole_path.h"
+#include "vpm/study/validate/scenes/lights.h"
+#include "vpm/study/validate/scenes/whole_path.h"
 
 namespace vpm {
 namespace {

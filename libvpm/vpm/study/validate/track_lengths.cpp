@@ -10,14 +10,14 @@
 #include <array>
 
 #include "vpm/medium/distance/mixture.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/photon/photon_beam.h"
 #include "vpm/photon/trace.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/careful_settings.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/fields.h"
 #include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/scenes/fields.h"
 
 namespace vpm {
 namespace {

@@ -4,12 +4,12 @@
 #include <complex>
 #include <optional>
 
-#include "vpm/estimate/volume/march.h"
-#include "vpm/medium/make_grid.h"
+#include "vpm/estimate/march.h"
+#include "vpm/medium/grid/make_grid.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/study/sample_moments.h"
-#include "vpm/study/validate/fields.h"
 #include "vpm/study/validate/groups.h"
+#include "vpm/study/validate/scenes/fields.h"
 
 namespace vpm {
 

@@ -1,0 +1,182 @@
+// Eye sub-paths run into lights, sample them, and are connected to vertices of light sub-paths; and these are connected
+// to the camera.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "vpm/base/counters.h"
+#include "vpm/integrators/combined/eye_sub_path.h"
+#include "vpm/integrators/combined/light_sub_paths.h"
+#include "vpm/path/direct_light.h"
+
+namespace vpm {
+
+void EyeSubPath::see_environment(const Rgb& passed) {
+  const Vec3 direction = at_.state.ray.direction;
+  for (size_t i = 0; i < c_.scene.lights.size(); ++i) {
+    const Rgb seen = environment_radiance(c_.scene.lights[i], direction);
+    if (!is_black(seen)) run_into(static_cast<int>(i), {passed, 1.0}, at_.from.point, Vec3(0.0f), seen);
+  }
+}
+
+void EyeSubPath::see_emitter(const PathVertex& vertex, const Leg& leg) {
+  const int light = c_.scene.shapes[vertex.hit.shape].light;
+  if (light < 0) return;
+  const Rgb emitted = surface_radiance(c_.scene.lights[light], vertex.hit.normal, vertex.travel);
+  if (!is_black(emitted)) run_into(light, leg, vertex.hit.position, vertex.hit.normal, emitted);
+}
+
+void EyeSubPath::run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted) {
+  if (c_.counts.alone.sought) return;
+  const Rgb seen = at_.state.throughput * emitted;
+  if (at_.only_specular) return add(Technique::connections, seen, 1.0);  // no other technique can find it
+  if (!c_.counts.light) return;
+  const Light& light = c_.scene.lights[number];
+  const EmissionDensity emission = emission_density(light, c_.scene.bounds, normal, -at_.state.ray.direction);
+  const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
+                                            {point, -at_.state.ray.direction}, normal);
+  const Junction at_light{
+      .kind = is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, .normal = normal, .light = true};
+  const SubPathSums at_eye = arrive(c_.counts, start, leg, at_.from.from, at_.from.point);
+  const SubPathSums further = arrive(c_.counts, at_.from, leg, at_light, point);
+  add(Technique::connections, seen, shares_of_connection(c_.counts, start, at_eye, at_.from, further).run_into);
+}
+
+void EyeSubPath::sample_light(const Arrival& at) {
+  if (!c_.counts.light) return;
+  const PathVertex& vertex = at.vertex;
+  if (!vertex.on_surface) return sample_light(at, {vertex.point, vertex.medium});
+  sample_light(at, near_side(vertex.hit, vertex.travel, vertex.medium));
+  if (scatters_through(vertex.material)) sample_light(at, far_side(c_.scene, vertex.hit, vertex.travel, vertex.medium));
+}
+
+void EyeSubPath::sample_light(const Arrival& at, const Receiver& side) {
+  if (!c_.counts.each_light) {
+    const PickedLight picked = pick_light(c_.scene, work_.rng.uniform_double());
+    return sample_light(at, side, picked.number, 1.0f / picked.probability);
+  }
+  for (size_t i = 0; i < c_.scene.lights.size(); ++i)
+    if (c_.scene.light_probability[i] > 0.0) sample_light(at, side, static_cast<int>(i), 1.0f);
+}
+
+void EyeSubPath::sample_light(const Arrival& at, const Receiver& side, int number, float weight) {
+  const Light& light = c_.scene.lights[number];
+  count(work_.counters.shadow_rays);
+  const std::optional<Incident> incident = sample_towards(light, side.point, work_.rng);
+  if (!incident || (at.vertex.on_surface && glm::dot(side.normal, incident->direction) <= 0.0f)) return;
+  const Scattered scattered = scattered_into(c_.scene, at.vertex, incident->direction, SubPath::eye);
+  if (is_black(scattered.value)) return;
+  const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
+  const Rgb passed = visibility(rays, {side.point, incident->direction}, incident->distance, number, side.medium);
+  if (is_black(passed)) return;
+  const Vec3 point = is_infinite(light) ? side.point : side.point + incident->distance * incident->direction;
+  const EmissionDensity emission = emission_density(light, c_.scene.bounds, incident->normal, -incident->direction);
+  const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
+                                            {point, -incident->direction}, incident->normal);
+  const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
+  const Departure eye = depart_into(at, {incident->direction, scattered.forward, scattered.reverse});
+  const Junction at_light{.kind = start.from.kind, .normal = incident->normal, .light = true};
+  const SubPathSums at_eye = arrive(c_.counts, start, leg, at.junction, at.vertex.point);
+  const SubPathSums further = arrive(c_.counts, eye, leg, at_light, point);
+  const Rgb found = at_.state.throughput * scattered.value * incident->irradiance * passed * weight;
+  add(Technique::connections, found, shares_of_connection(c_.counts, start, at_eye, eye, further).connected);
+}
+
+void EyeSubPath::connect(const Arrival& at) {
+  const std::vector<LightVertex>& all = c_.light.vertices();
+  if (c_.counts.connections == 0.0 || all.empty()) return;
+  const double of_path = static_cast<double>(all.size()) / static_cast<double>(c_.light.connectable_paths());
+  const double number = c_.counts.connections * of_path;
+  const auto whole = static_cast<size_t>(number + work_.rng.uniform_double());
+  for (size_t i = 0; i < whole; ++i) {
+    const auto pick = static_cast<size_t>(work_.rng.uniform_double() * static_cast<double>(all.size()));
+    connect_to(at, all[pick]);
+  }
+}
+
+void EyeSubPath::connect_to(const Arrival& at, const LightVertex& light) {
+  const Vec3d offset = Vec3d(light.at.vertex.point) - Vec3d(at.vertex.point);
+  const double distance = glm::length(offset);
+  if (!(distance > 0.0)) return;
+  const Vec3 direction(offset / distance);
+  const Scattered here = scattered_into(c_.scene, at.vertex, direction, SubPath::eye);
+  if (is_black(here.value)) return;
+  const Scattered there = scattered_into(c_.scene, light.at.vertex, -direction, SubPath::light);
+  if (is_black(there.value)) return;
+  count(work_.counters.shadow_rays);
+  const Leaving from = leave(c_.scene, at.vertex, direction), to = leave(c_.scene, light.at.vertex, -direction);
+  const Vec3 way = to.origin - from.origin;
+  const float length = glm::length(way);
+  const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
+  const int shape = light.at.vertex.on_surface ? static_cast<int>(light.at.vertex.hit.shape) : -1;
+  const Rgb passed = visibility_of_place(rays, {from.origin, way / length}, length, from.medium, shape);
+  if (is_black(passed)) return;
+  const Leg leg{passed, distance};
+  const Departure eye = depart_into(at, {direction, here.forward, here.reverse});
+  const Departure departure =
+      depart(c_.counts, light.at, {-direction, there.forward, there.reverse}, SubPath::light, false);
+  const SubPathSums at_eye = arrive(c_.counts, departure, leg, at.junction, at.vertex.point);
+  const SubPathSums at_light = arrive(c_.counts, eye, leg, light.at.junction, light.at.vertex.point);
+  const Rgb found = at_.state.throughput * here.value * there.value * light.power * passed *
+                    static_cast<float>(leg.per_square() / c_.counts.connections);
+  add(Technique::connections, found, shares_of_connection(c_.counts, departure, at_eye, eye, at_light).connected);
+}
+
+namespace {
+
+bool is_on_film(const Camera& camera, const Vec2& film) {
+  const float r = camera.filter.radius;
+  const auto w = static_cast<float>(camera.width), h = static_cast<float>(camera.height);
+  return film.x > 0.5f - r && film.y > 0.5f - r && film.x < w - 0.5f + r && film.y < h - 0.5f + r;
+}
+
+/// Calls visit(number, filter_value()) for the pixels whose filters reach a place of the film.
+template <class Visit>
+void for_each_pixel(const Camera& camera, const Vec2& film, Visit&& visit) {
+  const float r = camera.filter.radius;
+  const auto first = [&](float at) { return std::max(0, static_cast<int>(std::ceil(at - 0.5f - r))); };
+  const auto last = [&](float at, int size) {
+    return std::min(size - 1, static_cast<int>(std::ceil(at - 0.5f + r)) - 1);
+  };
+  for (int y = first(film.y); y <= last(film.y, camera.height); ++y)
+    for (int x = first(film.x); x <= last(film.x, camera.width); ++x)
+      visit(static_cast<uint32_t>(y * camera.width + x),
+            filter_value(camera.filter, film - Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)));
+}
+
+}  // namespace
+
+void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng& rng, LightSubPaths& paths) {
+  if (at.vertex.on_surface && at.sums.straight) return;
+  const Scene& scene = tracing.scene;
+  const Camera& camera = scene.camera;
+  const Vec3 offset = camera.position - at.vertex.point;
+  const float distance = glm::length(offset);
+  const Vec3 direction = offset / distance;
+  const std::optional<Vec2> film = camera.film_of(-direction);
+  if (!film || !is_on_film(camera, *film)) return;
+  const Scattered scattered = scattered_into(scene, at.vertex, direction, SubPath::light);
+  if (is_black(scattered.value)) return;
+  const Leaving leaving = leave(scene, at.vertex, direction);
+  const ShadowRays rays{scene, tracing.transmittance, rng, paths.ledger.walk};
+  const float length = glm::distance(camera.position, leaving.origin);
+  const Rgb passed = visibility_of_place(rays, {leaving.origin, direction}, length, leaving.medium);
+  if (is_black(passed)) return;
+  const Leg leg{passed, distance};
+  const Departure departure =
+      depart(tracing.counts, at, {direction, scattered.forward, scattered.reverse}, SubPath::light, true);
+  const SubPathSums at_camera = arrive(tracing.counts, departure, leg, {}, camera.position);
+  const double film_density = camera.film_per_angle(-direction);
+  const Rgb irradiance = power * scattered.value * passed * static_cast<float>(leg.per_square());
+  for_each_pixel(camera, *film, [&](uint32_t pixel, double filter) {
+    const double density = filter * film_density;
+    const Splat splat{pixel, irradiance * static_cast<float>(density),
+                      static_cast<float>(share_of_splat(tracing.counts, at_camera, density))};
+    if (is_finite(splat.radiance * splat.share))
+      paths.splats.push_back(splat);
+    else
+      ++paths.ledger.non_finite;
+  });
+}
+
+}  // namespace vpm

@@ -1,0 +1,129 @@
+// One sub-path from the eye, event by event. What it meets of those from the lights has a file for each technique.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "vpm/estimate/kernel_sum.h"
+#include "vpm/integrators/combined/combined.h"
+#include "vpm/path/both_sides.h"
+#include "vpm/path/direct_light.h"
+#include "vpm/path/stretches.h"
+
+namespace vpm {
+
+class EyeSubPath {
+ public:
+  /// `parts` may be null. What photons and beams bring to the camera's ray in homogeneous media before anything turns
+  /// it is left out: its segments are added to `left_out`, with `number`; unless that is null.
+  EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
+             std::vector<RaySegment>* left_out = nullptr, size_t number = 0);
+
+  KernelEstimate follow();
+
+ private:
+  /// A sub-path as it leaves the camera or a vertex.
+  struct Branch {
+    PathState state;
+    Departure from;
+    bool only_specular = true;  // are there no other vertices yet?
+    float part = 1.0f;          // of the camera's ray, where glass has sent the rest to other branches
+    float asks = 1.0f;          // the weight of what techniques find but for lamps that are run into, see asks_with()
+    int events = 0;             // so far
+  };
+
+  /// The visitor of a ray on its way to the surface that ends it: merges along it.
+  struct Along {
+    EyeSubPath& path;
+    Ray ray;
+    MediumId medium;
+    Rgb passed{1.0f};  // from the last vertex to the start of the stretch
+    bool through_scattering = false;
+
+    bool pass(const Stretch& stretch);
+    /// The transmittance from the last vertex to a place on the ray, m.
+    Rgb to(double t) const;
+  };
+
+  void follow_branch();
+  /// The density with which the pixel draws the direction, 1/sr.
+  double density_of(const Ray& ray) const;
+
+  /// Takes a ray that comes from the camera to the surface that ends it, attenuated, as if it could not collide; and
+  /// from where it does collide a branch of its own. So no chance decides whether the surface is seen.
+  std::optional<Arrival> pass_through();
+  /// Follows a branch from where the ray collides, if it does, to its end.
+  void branch_off();
+  /// Flies to the next vertex, and sees the lights that the flight runs into.
+  std::optional<Arrival> fly();
+  /// Flies to the next event; `passed` becomes the transmittance up to it.
+  Event fly_to_event(Rgb& passed);
+  /// Makes the event a vertex.
+  Arrival arrive_at(const Event& event, const Rgb& passed);
+  /// Finds light at a vertex. Returns whether the sub-path goes on from there.
+  bool visit(const Arrival& at);
+  /// Draws how the sub-path goes on; at smooth glass that only specular vertices have led to, to both sides.
+  bool go_on(const Arrival& at);
+  /// Goes on to the weaker side of glass and leaves the stronger one for later.
+  void follow_both_sides(const Arrival& at, const BothSides& sides);
+  Branch side(const Arrival& at, const Scatter& scatter, float fraction) const;
+  /// Would light tracing find what comes straight to the camera along the ray, if only the rest is sought?
+  bool left_to_light_tracing() const { return c_.counts.alone.traces_light && at_.from.camera; }
+  /// The throughput of what techniques find along the ray.
+  Rgb asked() const { return at_.state.throughput * at_.asks; }
+
+  // connections.cpp
+  void see_environment(const Rgb& passed);
+  void see_emitter(const PathVertex& vertex, const Leg& leg);
+  /// Adds the light that the sub-path has run into, at a point with that normal.
+  void run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted);
+  /// Samples a light, or each; on surfaces that light passes, for either side.
+  void sample_light(const Arrival& at);
+  /// Seen from a place just off a surface: rays that are aimed from there meet what they are aimed at.
+  void sample_light(const Arrival& at, const Receiver& side);
+  /// The light of that number, whose samples have the weight.
+  void sample_light(const Arrival& at, const Receiver& side, int number, float weight);
+  /// Connects the vertex to some vertices of light sub-paths, drawn from all.
+  void connect(const Arrival& at);
+  void connect_to(const Arrival& at, const LightVertex& light);
+
+  // A file for each
+  void merge_surface(const Arrival& at);
+  /// On a surface that reflects diffusely, seen from that side of it.
+  void merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& reflectance);
+  void merge_points_3d(const Arrival& at);
+  void merge_along_ray(const Along& along, const Interval& interval);
+  void merge_planes(const Along& along, const Interval& interval);
+  void merge_plane(const Along& along, const PlaneCrossing& crossing);
+  /// The collision on a plane's flight that the crossing tells, and the power that it scatters, W/m; none where there
+  /// is nothing to collide with.
+  std::optional<Arrival> turn_of_plane(const PlaneCrossing& crossing, Rgb& scattered);
+
+  /// Adds what a technique finds, of which it has a share.
+  void add(Technique technique, const KernelEstimate& found, double share);
+  void add_merged(Technique technique, const Rgb& found, const KernelPair<float>& kernel, double share);
+  Departure depart_into(const Arrival& at, const Onward& onward) const {
+    return depart(c_.counts, at, onward, SubPath::eye, at_.only_specular);
+  }
+
+  const CombinedContext& c_;
+  EyeWork& work_;
+  TechniqueParts* parts_;
+  std::vector<RaySegment>* left_out_;
+  size_t number_;
+  Branch at_;
+  std::array<Branch, kMostWaiting> branches_;  // the first `waiting_`
+  size_t waiting_ = 0;                         // of branches
+  KernelEstimate radiance_;
+};
+
+/// A normalised kernel and its correction, of a squared distance, m^2.
+template <int Dimension>
+auto kernel_of(KernelKind kind, float radius) {
+  const float norm = kernel_norm<Dimension>(kind, radius), inverse = 1.0f / (radius * radius);
+  return [kind, norm, inverse](float distance2) {
+    return with_kernel<Dimension>(kind, [&](auto profile) { return profile(distance2 * inverse); }) * norm;
+  };
+}
+
+}  // namespace vpm

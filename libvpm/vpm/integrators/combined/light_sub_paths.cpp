@@ -1,0 +1,267 @@
+// One light sub-path after another, event by event.
+#include "vpm/integrators/combined/light_sub_paths.h"
+
+#include <optional>
+
+#include "vpm/base/counters.h"
+#include "vpm/path/direct_light.h"
+#include "vpm/path/stretches.h"
+#include "vpm/photon/recorder.h"
+#include "vpm/photon/thin_places.h"
+#include "vpm/surface/shading.h"
+
+namespace vpm {
+namespace {
+
+class LightSubPath {
+ public:
+  LightSubPath(const LightTracing& tracing, uint64_t number, LightSubPaths& paths, std::vector<Track>& tracks, Rng& rng)
+      : c_(tracing),
+        connectable_(tracing.counts.connections > 0.0 && number < tracing.connectable),
+        out_(paths),
+        tracks_(tracks),
+        rng_(rng) {}
+
+  void trace() {
+    if (connectable_) ++out_.connectable;
+    emit();
+    follow();
+    out_.ledger.imbalance.add(balance_);
+  }
+
+ private:
+  void follow() {
+    for (int events = 0; events < c_.max_events; ++events) {
+      if (c_.counts.long_beams > 0.0 && is_sought()) keep_long_beams();
+      const std::optional<Arrival> at = fly();
+      if (!at || !go_on(*at)) return;
+    }
+    ++out_.ledger.cut_count;
+    lose(state_.throughput, out_.ledger.cut);
+  }
+
+  /// Is what the flight brings to be kept?
+  bool is_sought() const {
+    const KernelsAlone& alone = c_.counts.alone;
+    return !alone.sought || (unhittable_ && from_smooth_ && !(alone.connects_deep && connected_));
+  }
+
+  /// Enters where power has gone, W.
+  void lose(const Rgb& power, Rgbd& where) {
+    where += Rgbd(power);
+    balance_ += Rgbd(power);
+  }
+
+  void emit() {
+    const PickedLight picked = pick_light(c_.scene, rng_.uniform_double());
+    const Light& light = c_.scene.lights[picked.number];
+    const Emission emission = vpm::emit(light, c_.scene.bounds, rng_);
+    state_ = {emission.ray, medium_of_ray(c_.scene, c_.scene.light_medium[picked.number], emission.ray),
+              emission.power / picked.probability};
+    unhittable_ = !can_be_hit(light);
+    const EmissionDensity density = emission_density(light, c_.scene.bounds, emission.normal, emission.ray.direction);
+    from_ = depart_from_light(c_.counts, light, picked.probability, density, emission.ray, emission.normal);
+    ++out_.ledger.emitted_count;
+    out_.ledger.emitted += Rgbd(state_.throughput);
+    balance_ -= Rgbd(state_.throughput);
+  }
+
+  /// Flies to the next vertex.
+  std::optional<Arrival> fly() {
+    tracks_.clear();
+    const Event event = next_event(c_.scene, c_.strategy, state_, rng_, out_.ledger.walk, kInfinity, &tracks_);
+    Rgb passed(1.0f);
+    for (const Track& track : tracks_) {
+      const Medium& medium = c_.scene.media[track.medium];
+      if (is_sought()) {
+        if (medium.scatters() && track.length > 0.0f) keep(track, medium, passed);
+        keep_thin_photons(track, medium, passed);
+      }
+      passed *= transmittance(medium, integral_along(medium, track, out_.ledger.walk));
+    }
+    if (!is_finite(state_.throughput)) {
+      ++out_.ledger.non_finite;
+      return std::nullopt;
+    }
+    if (event.kind == EventKind::escape) lose(state_.throughput, out_.ledger.escaped);
+    if (event.kind != EventKind::collision && event.kind != EventKind::surface) return std::nullopt;
+    ++(event.kind == EventKind::collision ? out_.ledger.collisions : out_.ledger.surface_hits);
+    Arrival at;
+    at.vertex = vertex_at(c_.scene, event, state_);
+    at.leg = leg_to(from_, at.vertex.point, passed);
+    at.junction = junction_of(c_.counts, c_.scene, at.vertex);
+    at.sums = arrive(c_.counts, from_, at.leg, at.junction, at.vertex.point);
+    return at;
+  }
+
+  /// Keeps a part of a flight as a short beam and, as chance decides, as a plane.
+  void keep(const Track& track, const Medium& medium, const Rgb& before) {
+    const auto& [origin, direction] = track.ray;
+    if (c_.counts.short_beams > 0.0) {
+      out_.short_beams.beams[track.medium].push_back({origin, track.length, direction, track.throughput});
+      out_.short_beams.flights[track.medium].push_back(flight_terms(c_.counts, from_, before, origin));
+    }
+    if (c_.counts.plane_share == 0.0 || rng_.uniform_double() >= c_.counts.plane_share) return;
+    const Vec3 scattered = phase_sample(medium.phase, direction, rng_.uniform2());
+    const Rgb power = track.throughput / static_cast<float>(c_.counts.plane_share);
+    out_.planes.push_back({origin, track.length, direction, scattered, power, track.medium});
+    out_.plane_starts.push_back({from_, before});
+  }
+
+  /// The visitor of a flight's ray on its way to the surface that ends it: keeps long beams.
+  struct Beyond {
+    LightSubPath& path;
+    Ray ray;
+    MediumId medium;
+    Rgb passed{1.0f};
+
+    bool pass(const Stretch& stretch) {
+      if (medium == kVacuum) return true;
+      const Medium& around = path.c_.scene.media[medium];
+      if (around.scatters() && stretch.length > 0.0f) {
+        LightFlights& kept = path.out_.long_beams;
+        kept.beams[medium].push_back({ray.origin, stretch.length, ray.direction, path.state_.throughput * passed});
+        kept.flights[medium].push_back(flight_terms(path.c_.counts, path.from_, passed, ray.origin));
+      }
+      const DensityIntegral integral = density_integral(around, ray, {0.0f, stretch.length});
+      count(path.out_.ledger.walk.lookups, integral.lookups);
+      passed *= transmittance(around, integral.value);
+      return !is_black(passed);
+    }
+  };
+  void keep_long_beams() {
+    Beyond beyond{*this, state_.ray, state_.medium};
+    each_stretch(c_.scene, beyond.ray, beyond.medium, kInfinity, out_.ledger.walk, beyond);
+  }
+
+  void keep_thin_photons(const Track& track, const Medium& medium, const Rgb& before) {
+    if (!merges_points()) return;
+    const ThinParts thin{c_.counts.density_floor, true};
+    visit_thin_places(medium, track, thin, rng_, [&](double t) {
+      const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, static_cast<float>(t)});
+      count(out_.ledger.walk.lookups, integral.lookups);
+      count(out_.ledger.floored);
+      const Vec3 point = track.ray.at(static_cast<float>(t));
+      keep_photon(track.medium, point, leg_to(from_, point, before * transmittance(medium, integral.value)),
+                  power_along(medium, track, integral.value, thin));
+    });
+  }
+
+  void keep_on_surface(const Arrival& at) {
+    if (c_.counts.surfaces == 0.0 || at.sums.straight) return;
+    const Vec3& point = at.vertex.point;
+    const BehindMerge behind = behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, true).surface);
+    out_.on_surfaces.push_back({point, {point, at.vertex.travel, state_.throughput, behind}});
+  }
+
+  void keep_collided(const Arrival& at) {
+    if (!merges_points()) return;
+    const Medium& medium = c_.scene.media[at.vertex.medium];
+    const float density = relative_density(medium, at.vertex.density);
+    const float floor = medium.grid ? floor_in(medium, c_.counts.density_floor) : 0.0f;
+    if (density < floor) count(out_.ledger.floored);
+    keep_photon(at.vertex.medium, at.vertex.point, at.leg,
+                stored_power(state_.throughput, VolumeForm::density_at_query, density, floor));
+  }
+
+  bool merges_points() const { return c_.counts.points_2d > 0.0 || c_.counts.merges_points_3d(true); }
+
+  /// Of a power as stored_power() says.
+  void keep_photon(MediumId medium, const Vec3& point, const Leg& leg, const Rgb& power) {
+    const Junction even{Junction::Kind::medium, Vec3(0.0f), c_.scene.media[medium].sigma_t};
+    const SubPathSums sums = arrive(c_.counts, from_, leg, even, point);
+    out_.photons[medium].push_back(
+        {point, {from_.direction, power, sums.turn, over_colliding(even.sigma_t, leg), behind_merge(c_.counts, sums)}});
+  }
+
+  /// Keeps the vertex, and draws how the sub-path goes on.
+  bool go_on(const Arrival& at) {
+    const PathVertex& vertex = at.vertex;
+    if (!vertex.specular && (vertex.on_surface || c_.scene.media[vertex.medium].scatters())) {
+      if (connectable_) out_.vertices.push_back({at, state_.throughput});
+      if (is_sought()) vertex.on_surface ? keep_on_surface(at) : keep_collided(at);
+      if (c_.counts.splats > 0.0) splat(c_, at, state_.throughput, rng_, out_);
+    }
+    connected_ |= !vertex.specular && !from_smooth_;
+    from_smooth_ = vertex.specular;
+    const Rgb before = state_.throughput;
+    Rgbd& absorbed = vertex.on_surface ? out_.ledger.absorbed_on_surfaces : out_.ledger.absorbed_in_media;
+    const bool goes_on = scatter(at);
+    lose(goes_on ? before - state_.throughput : before, absorbed);
+    return goes_on;
+  }
+
+  /// Draws the direction in which the sub-path goes on. False if it is absorbed.
+  bool scatter(const Arrival& at) {
+    const PathVertex& vertex = at.vertex;
+    Onward onward;
+    if (!vertex.on_surface) {
+      const Medium& medium = c_.scene.media[vertex.medium];
+      if (!scatter_in_medium(medium, state_, rng_)) return false;
+      onward.forward = onward.reverse = phase_density(medium, vertex.travel, state_.ray.direction);
+    } else {
+      Scatter scatter;
+      if (!scatter_at_surface(c_.scene, vertex.hit, state_, rng_, scatter)) return false;
+      state_.throughput *= scatter.flux_scale;
+      onward.reverse = scatter.radiance_scale;
+      if (!vertex.specular) {
+        onward.forward = scatter.pdf;
+        onward.reverse = scatter_value(vertex.material, vertex.hit, -state_.ray.direction, -vertex.travel).pdf;
+      }
+    }
+    onward.direction = state_.ray.direction;
+    from_ = depart(c_.counts, at, onward, SubPath::light, false);
+    return true;
+  }
+
+  const LightTracing& c_;
+  bool connectable_;
+  LightSubPaths& out_;
+  std::vector<Track>& tracks_;
+  Rng& rng_;
+  PathState state_;
+  Departure from_;
+  Rgbd balance_{0.0};  // gone minus emitted, W
+  // For KernelsAlone:
+  bool unhittable_ = false;   // can no ray run into the light?
+  bool from_smooth_ = false;  // does the flight come from a mirror or glass?
+  bool connected_ = false;    // could two vertices behind it be connected, or the light be sampled?
+};
+
+}  // namespace
+
+void LightSubPaths::take_over(std::span<LightSubPaths> parts) {
+  const auto join = [&](auto&& list) {
+    size_t size = 0;
+    for (LightSubPaths& part : parts) size += list(part).size();
+    list(*this).reserve(size);
+    for (LightSubPaths& part : parts) join_lists(list(*this), list(part));
+  };
+  join([](LightSubPaths & of) -> auto& { return of.vertices; });
+  join([](LightSubPaths & of) -> auto& { return of.on_surfaces; });
+  join([](LightSubPaths & of) -> auto& { return of.planes; });
+  join([](LightSubPaths & of) -> auto& { return of.plane_starts; });
+  join([](LightSubPaths & of) -> auto& { return of.splats; });
+  for (size_t m = 0; m < photons.size(); ++m) {
+    join([m](LightSubPaths & of) -> auto& { return of.photons[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.short_beams.beams[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.short_beams.flights[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.long_beams.beams[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.long_beams.flights[m]; });
+  }
+  for (const LightSubPaths& part : parts) {
+    connectable += part.connectable;
+    ledger.merge(part.ledger);
+  }
+}
+
+void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths) {
+  std::vector<Track> tracks;
+  PhotonNumbers::Lead lead;
+  for (uint64_t i = begin; i < end; ++i) {
+    Rng rng = tracing.numbers.of(i, lead);
+    LightSubPath(tracing, i, paths, tracks, rng).trace();
+  }
+}
+
+}  // namespace vpm

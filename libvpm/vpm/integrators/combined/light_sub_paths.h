@@ -1,0 +1,78 @@
+// The sub-paths from the lights of one pass: their vertices and flights, with the sums that weigh techniques.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "vpm/integrators/combined/flight_terms.h"
+#include "vpm/integrators/combined/merge_photons.h"
+#include "vpm/medium/distance/strategy.h"
+#include "vpm/medium/transmittance/estimator.h"
+#include "vpm/photon/ledger.h"
+#include "vpm/photon/photon_beam.h"
+#include "vpm/photon/photon_numbers.h"
+#include "vpm/photon/photon_plane.h"
+
+namespace vpm {
+
+/// A vertex of a light sub-path that is not specular, to be connected to.
+struct LightVertex {
+  Arrival at;
+  Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
+};
+
+/// How a flight began of which a part, through one medium, is kept as a plane.
+struct FlightStart {
+  Departure from;
+  Rgb before{1.0f};  // the transmittance of the flight up to the part
+};
+
+/// Parts of flights, by medium.
+struct LightFlights {
+  std::vector<std::vector<PhotonBeam>> beams;
+  std::vector<std::vector<FlightTerms>> flights;
+
+  explicit LightFlights(size_t media) : beams(media), flights(media) {}
+};
+
+/// What a light sub-path brings to a pixel by light tracing.
+struct Splat {
+  uint32_t pixel = 0;  // numbered row by row
+  Rgb radiance{0.0f};  // W/(m^2 sr), for each light sub-path, were light tracing the only technique
+  float share = 1.0f;  // that light tracing has in it
+};
+
+struct LightSubPaths {
+  std::vector<LightVertex> vertices;                             // of the sub-paths that may be connected to
+  uint64_t connectable = 0;                                      // how many these are
+  std::vector<PlacedRecord<SurfacePhoton>> on_surfaces;          // but those straight from lights that are sampled
+  std::vector<std::vector<PlacedRecord<MediumPhoton>>> photons;  // by medium
+  LightFlights short_beams, long_beams;
+  std::vector<PhotonPlane> planes;
+  std::vector<FlightStart> plane_starts;
+  std::vector<Splat> splats;
+  Ledger ledger;  // emitted, counts of events, look-ups
+
+  explicit LightSubPaths(size_t media = 0) : photons(media), short_beams(media), long_beams(media) {}
+  /// Takes over what parts have, one after another.
+  void take_over(std::span<LightSubPaths> parts);
+};
+
+/// What tracing needs.
+struct LightTracing {
+  const Scene& scene;
+  const DistanceStrategy& strategy;
+  const TransmittanceEstimator& transmittance;  // exact
+  const TechniqueCounts& counts;
+  const PhotonNumbers& numbers;
+  int max_events = 100'000;             // of one sub-path
+  uint64_t connectable = ~uint64_t{0};  // the first so many sub-paths may be connected to
+};
+
+/// Light tracing: connects a vertex, with the power that arrives there, W, to the camera.
+void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng& rng, LightSubPaths& paths);
+
+/// Traces the light sub-paths of these numbers one after another. Sub-path i depends on `numbers` and i alone.
+void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths);
+
+}  // namespace vpm

@@ -1,0 +1,234 @@
+// The weights of the techniques that find one path, from sums that sub-paths carry.
+//
+// Number the vertices of a path from the light, x_0, to the eye, x_k. Let f_i be the density with which a sub-path from
+// the light continues to x_i, r_i that with which one from the eye continues to x_i from x_{i+1}: per area on surfaces,
+// per volume in media. Connecting x_i to x_{i+1} finds the path with the density
+//   C_i = c_i f_0 ... f_i r_{i+1} ... r_k,
+// where c_i is how many such connections are made for each light sub-path: C_{-1} is the eye sub-path that runs into
+// the light, C_0 the light that is sampled, C_{k-1} the connection to the camera. Merging at x_i finds it with
+//   M_i = N m_i f_0 ... f_i r_i ... r_k
+// for N light sub-paths and a kernel of the size m_i, with a factor for each sub-path that need not end there. Where
+// x_i is the first vertex from the eye that is not specular, m_i holds all kernels, and planes, elsewhere only the
+// kernels of surfaces and of points in balls. Light that comes straight from a light onto a surface is neither merged
+// there nor brought to the camera from there, where lights are sampled: samples of lights have less noise than
+// densities say.
+//
+// A sub-path from the light carries S_i, the sum of all C_j, j < i, and M_j, j <= i, over C_i / c_i. From vertex to
+// vertex,
+//   S_i = r_i ((c_{i-1} + S_{i-1}) / f_i + N m_i),
+// and in the same way from the eye. Of S_{i-1}, at x_i only its last factor r_{i-1} is not known, and of that only the
+// density of the direction, which depends on where the path goes on to: this is why SubPathSums has its members. Planes
+// at x_i depend on three directions, the light's last two flights and the eye's: SubPathSums::turn holds two of them.
+// With the power heuristic all terms are squared. See [Georgiev2012] for connections and merges on surfaces, and
+// [Krivanek2014] for all merges in media, where media are homogeneous. In grids no factor changes, as the transmittance
+// of each leg is known exactly.
+#pragma once
+
+#include <algorithm>
+
+#include "vpm/integrators/combined/path_vertex.h"
+#include "vpm/integrators/combined/technique.h"
+#include "vpm/light/emission_density.h"
+
+namespace vpm {
+
+/// Of a pass that looks for the light alone which no technique without a kernel finds: that of lights which no ray
+/// hits, behind mirrors or glass from wherever a sub-path could be connected.
+struct KernelsAlone {
+  bool sought = false;  // where connections are used, which find all that planes could: their flights meet in a medium
+  // What is done in the other passes:
+  bool connects_deep = false;  // TechniqueCounts::deep
+  bool traces_light = false;   // are light sub-paths connected to the camera?
+};
+
+/// What each technique is worth in one pass: how many samples it takes for each light sub-path.
+struct TechniqueCounts {
+  double connections = 0.0;  // of a vertex of a light sub-path, for each vertex of an eye sub-path; 0: none
+  bool light = false;        // are lights sampled, and run into?
+  bool run_into = false;     // can some of them be?
+  bool each_light = false;   // is each of them sampled at a vertex, or one that is drawn from all?
+  double splats = 0.0;       // light sub-paths for each eye sub-path of a pixel; 0: no light tracing
+  // The light sub-paths times the sizes of kernels, 1 over the integrals of their squares; 0: not merged.
+  double surfaces = 0.0;                       // m^2
+  double points_3d = 0.0;                      // m^3
+  double points_2d = 0.0;                      // m^2
+  double short_beams = 0.0, long_beams = 0.0;  // m
+  double planes = 0.0;                         // of all light sub-paths, for each flight of one: they have no kernel
+  double plane_share = 0.0;                    // of flights, the part that becomes planes
+  // Do sub-paths from the eye meet others beyond their first vertex that is not specular? If not, they go on from there
+  // only to see what lights they run into, and places that chance leads them to are not merged: beyond that vertex, and
+  // where a ray from the camera collides, if merges along the whole ray are made.
+  bool deep = true;
+  float density_floor = 0.0f;  // where a grid is thinner photons are also stored along flights, see ThinParts
+  Heuristic heuristic = Heuristic::balance;
+  KernelsAlone alone;
+
+  /// Are these merges made at a vertex from the eye, which is the first that is not specular, or not?
+  bool merges_surfaces(bool first) const { return surfaces > 0.0 && (first || deep); }
+  bool merges_points_3d(bool first) const { return points_3d > 0.0 && (deep || (first && !merges_along_rays())); }
+  /// Do merges along rays find all light that those where sub-paths collide find? Planes do not.
+  bool merges_along_rays() const { return points_2d > 0.0 || short_beams > 0.0 || long_beams > 0.0; }
+
+  /// A density, or a number, as the heuristic weighs it.
+  double weigh(double x) const { return heuristic == Heuristic::power ? x * x : x; }
+};
+
+/// A part of a path between two vertices.
+struct Leg {
+  Rgb transmittance{1.0f};
+  double distance = 0.0;  // m; 1 where light is parallel, as it does not spread
+
+  double mean() const { return mean_channel(transmittance); }
+  double per_square() const { return 1.0 / (distance * distance); }
+};
+
+/// A place of a path as densities see it.
+struct Junction {
+  enum class Kind { surface, medium, free };  // free: a specular vertex, a point, or infinity
+  Kind kind = Kind::free;
+  Vec3 normal{0.0f};   // of a surface, unit
+  Rgb sigma_t{0.0f};   // in a medium, at the place, 1/m
+  bool light = false;  // is the light there that a path begins at?
+  double kept = 1.0;   // in a medium: how many photons are stored there for merges, for each that collides
+};
+Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex);
+/// Of a place of that density in a medium.
+Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float density);
+
+/// The density of coming to a place along `direction` through a leg, over that of the direction: 1/m^2 on surfaces,
+/// 1/m^3 in media. The mean over channels stands for the mixture that distances are drawn from.
+double arrival(const Junction& at, const Vec3& direction, const Leg& leg);
+
+/// The sums that a sub-path carries at its last vertex.
+struct SubPathSums {
+  double density = 1.0;   // of the vertex: f_i, or r_i
+  double adjacent = 0.0;  // how many connections there are between the vertex and the one before
+  double further = 0.0;   // the sum over all techniques behind that, over the density of the direction back
+  bool straight = false;  // does the light come straight from a light that is sampled?
+  bool seen = false;      // does the camera see the vertex, without mirrors or glass in between?
+  // Where the vertex before is in a medium, for planes that turn there. Of a sub-path from the light: the cross product
+  // of its last two directions, times OverColliding::passing of the former leg, m. From the eye, and if the vertex
+  // before is the first that is not specular: the same product, times all that `further` lacks but for the light's
+  // flight.
+  Vec3d turn{0.0};
+};
+
+/// A sub-path at a vertex that it has come to.
+struct Arrival {
+  PathVertex vertex;
+  Junction junction;
+  Leg leg;  // that led there
+  SubPathSums sums;
+};
+
+/// How a sub-path goes on from a vertex, with the densities of the direction and of the way back: at a specular vertex,
+/// 1 and the factor of refraction.
+struct Onward {
+  Vec3 direction{0.0f};                 // unit
+  double forward = 1.0, reverse = 1.0;  // 1/sr
+};
+
+/// How the directions of two legs that meet in a medium lie to each other.
+struct Angles {
+  double sine = 0.0;         // of the angle between them
+  double determinant = 0.0;  // of the light's last two, the former as in SubPathSums::turn, and the eye's, m
+};
+/// Of directions of travel (unit), where the light's sub-path has that SubPathSums::turn.
+Angles angles_between(const Vec3& light, const Vec3d& turn, const Vec3& eye);
+
+/// A sub-path as it leaves a vertex, or its start.
+struct Departure {
+  Junction from;
+  Vec3 point{0.0f};              // m
+  Vec3 direction{0.0f};          // unit
+  double forward = 1.0;          // the density of the direction, 1/sr; 1 at a specular vertex
+  double behind = 0.0;           // the sum over techniques behind the vertex
+  double unless_straight = 0.0;  // of merges at the vertex and of light tracing from there, if it is on a surface
+  double adjacent = 0.0;         // how many connections are made over the leg to come
+  const Light* light = nullptr;  // that this is the start on: connections over the leg sample it
+  double place = 1.0;            // the density of emission there, EmissionDensity::place, over the number of samples of
+                                 // the light for each start on it
+  bool parallel = false;         // does light not spread from here?
+  bool camera = false;           // is this the start at the camera?
+  // Of merges at a vertex in a medium, of which the leg to come is one of the two:
+  bool merges = false;
+  bool first = false;  // is the vertex the first from the eye that is not specular?
+  SubPath way = SubPath::light;
+  Vec3 travel{0.0f};    // along the other leg, unit
+  Leg arrived;          // the other leg
+  Angles angles;        // of a sub-path from the eye, the sine alone
+  double planes = 0.0;  // of a sub-path from the eye: what planes add to `behind`, but for the light's flight
+};
+
+/// A start on a light that is chosen with the probability `chosen`, at a point with that normal.
+Departure depart_from_light(const TechniqueCounts& counts, const Light& light, double chosen,
+                            const EmissionDensity& emission, const Ray& ray, const Vec3& normal);
+/// A start at the camera, whose directions have the density `forward`, 1/sr.
+Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, double forward);
+/// Goes on from a vertex. `first` says whether it is, from the eye, the first vertex that is not specular.
+Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward& onward, SubPath way, bool first);
+
+/// The leg from a departure to a point, m.
+Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance);
+
+/// The sums at the next vertex, or at any point on the way that a merge takes for one.
+SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
+                   const Vec3& point);
+
+/// The densities of merges at one place, as the heuristic weighs them, over the densities of its two sub-paths.
+struct MergeTerms {
+  double surface = 0.0, points_3d = 0.0, points_2d = 0.0, short_beams = 0.0, long_beams = 0.0, planes = 0.0;
+
+  double sum() const { return surface + points_3d + points_2d + short_beams + long_beams + planes; }
+};
+/// How far a leg takes photons for each that collides at its end, m.
+struct OverColliding {
+  double passing = 0.0;  // those that come so far: short beams pass where their photons need not collide
+  double sent = 0.0;     // those that would come so far if nothing stood on the way, as long beams do
+
+  /// The same where the density of the leg's end is `factor` times as large.
+  OverColliding over(double factor) const { return {passing / factor, sent / factor}; }
+};
+OverColliding over_colliding(const Rgb& sigma_t, const Leg& leg);
+/// In a medium, between a leg from the light, of which over_colliding() is given, and one from the eye; `first` as in
+/// depart().
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, const OverColliding& from_light,
+                            const Leg& from_eye, const Angles& angles, bool first);
+MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
+
+/// The sums of a sub-path from the eye where it meets light that arrives along `travel` (unit) through a leg of that
+/// OverColliding::passing: with the planes that turn there.
+SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Vec3& travel, double passing);
+
+/// What the techniques behind a vertex that merges add to the sum of all densities there.
+struct BehindMerge {
+  double adjacent = 0.0, further = 0.0;
+
+  /// The same where the density of the vertex is `factor` times as large, as the heuristic weighs it.
+  BehindMerge over(double factor) const { return {adjacent / factor, further / factor}; }
+
+  /// `back` is the density with which the other sub-path goes on along this one, 1/sr, as the heuristic weighs it.
+  double sum(double back) const { return adjacent + back * further; }
+};
+BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums);
+/// A density over another one, as a float has room for it: beside so much no share is left, to the last digit.
+inline float finite_density(double density) { return static_cast<float>(std::min(density, 1e30)); }
+
+/// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
+/// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the
+/// other one. The eye's sums are those with_turn(), where they differ.
+inline double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const BehindMerge& light,
+                           double back_to_light, const BehindMerge& eye, double back_to_eye) {
+  return merges.sum() + light.sum(counts.weigh(back_to_light)) + eye.sum(counts.weigh(back_to_eye));
+}
+/// The shares of techniques that join two departures towards each other.
+struct ConnectionShares {
+  double connected = 0.0;  // of the connection itself; of the light that is sampled
+  double run_into = 0.0;   // of the eye's sub-path that runs into the light, where the light's is its start
+};
+ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Departure& light, const SubPathSums& at_eye,
+                                      const Departure& eye, const SubPathSums& at_light);
+/// The share of light tracing in what the light's sub-path, departing for the camera, brings there.
+double share_of_splat(const TechniqueCounts& counts, const SubPathSums& at_camera, double camera_density);
+
+}  // namespace vpm

@@ -1,0 +1,59 @@
+// Scattering at vertices.
+#include "vpm/integrators/combined/path_vertex.h"
+
+#include "vpm/base/counters.h"
+#include "vpm/surface/shading.h"
+
+namespace vpm {
+
+PathVertex vertex_at(const Scene& scene, const Event& event, const PathState& at) {
+  PathVertex vertex;
+  vertex.point = at.ray.origin;
+  vertex.travel = at.ray.direction;
+  vertex.medium = at.medium;
+  vertex.on_surface = event.kind == EventKind::surface;
+  if (!vertex.on_surface) {
+    vertex.density = event.density;
+    return vertex;
+  }
+  vertex.hit = event.hit;
+  vertex.material = material_at(scene, event.hit);
+  vertex.specular = !is_rough(vertex.material);
+  return vertex;
+}
+
+Scattered scattered_into(const Scene& scene, const PathVertex& vertex, const Vec3& direction, SubPath sub_path) {
+  if (!vertex.on_surface) {
+    const Medium& medium = scene.media[vertex.medium];
+    const double phase = phase_density(medium, vertex.travel, direction);
+    return {medium.albedo() * static_cast<float>(phase), phase, phase};
+  }
+  const ScatterValue there = scatter_value(vertex.material, vertex.hit, vertex.travel, direction);
+  if (is_black(there.value)) return {};
+  const ScatterValue back = scatter_value(vertex.material, vertex.hit, -direction, -vertex.travel);
+  const float scale = sub_path == SubPath::eye ? there.radiance_scale
+                                               : shading_irradiance_scale(vertex.hit, vertex.travel) /
+                                                     shading_irradiance_scale(vertex.hit, direction);
+  return {there.value * scale, there.pdf, back.pdf};
+}
+
+float phase_density(const Medium& medium, const Vec3& before, const Vec3& after) {
+  return std::visit([&](const auto& phase) { return phase.value(before, after); }, medium.phase);
+}
+
+double integral_along(const Medium& medium, const Track& track, WalkCounters& counters) {
+  if (track.integral != kNotKnown) return track.integral;
+  const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
+  count(counters.lookups, integral.lookups);
+  return integral.value;
+}
+
+Leaving leave(const Scene& scene, const PathVertex& vertex, const Vec3& direction) {
+  if (!vertex.on_surface) return {vertex.point, vertex.medium};
+  const bool goes_on = glm::dot(vertex.hit.normal, direction) * glm::dot(vertex.hit.normal, vertex.travel) > 0.0f;
+  const Shape& shape = scene.shapes[vertex.hit.shape];
+  const MediumId medium = goes_on ? medium_beyond(shape, vertex.hit.normal, direction, vertex.medium) : vertex.medium;
+  return {leave_surface(vertex.hit, direction), medium};
+}
+
+}  // namespace vpm

@@ -1,0 +1,36 @@
+// Merges along rays from the camera: with photons beside them, and with flights that cross them.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "vpm/integrators/combined/combined.h"
+
+namespace vpm {
+
+/// What a technique finds along a segment, W/(m^2 sr): with its shares, and without.
+struct Merged {
+  KernelEstimate light;
+  Rgb unweighted{0.0f};
+};
+
+/// The techniques that merge whole rays, but for planes.
+inline constexpr std::array kRayTechniques{Technique::points_2d, Technique::short_beams, Technique::long_beams};
+
+/// One of these. The scratch of `work` has the density integrals along the segment, unless the medium is homogeneous.
+Merged merge_along(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work);
+
+/// The same for up to kEyeRays segments of rays from one point that lie side by side, in one homogeneous medium. What
+/// each finds is put into `merged` at its place.
+void merge_along(const CombinedContext& context, Technique technique, const Vec3& apex,
+                 std::span<const RaySegment> bundle, EyeWork& work, std::span<Merged> merged);
+
+// By technique
+Merged merge_points(const CombinedContext& context, const RaySegment& segment, EyeWork& work);
+void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
+                  std::span<Merged> merged);
+Merged merge_beams(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work);
+void merge_beams(const CombinedContext& context, Technique technique, const Vec3& apex,
+                 std::span<const RaySegment> bundle, EyeWork& work, std::span<Merged> merged);
+
+}  // namespace vpm

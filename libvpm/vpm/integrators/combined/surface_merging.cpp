@@ -1,0 +1,72 @@
+// Photons on surfaces around where an eye sub-path meets these.
+#include <cmath>
+
+#include "vpm/base/counters.h"
+#include "vpm/estimate/surface_estimate.h"
+#include "vpm/integrators/combined/eye_sub_path.h"
+#include "vpm/integrators/combined/merge_photons.h"
+#include "vpm/integrators/combined/merging_rays.h"
+
+namespace vpm {
+
+void EyeSubPath::merge_surface(const Arrival& at) {
+  const VertexMap<SurfacePhotonLeaf>& map = c_.light.on_surfaces();
+  if (!c_.counts.merges_surfaces(at_.only_specular) || map.size() == 0) return;
+  count(work_.counters.surface_queries);
+  count(work_.counters.gather.searches);
+  const PathVertex& vertex = at.vertex;
+  const Vec3 side = glm::dot(vertex.hit.normal, vertex.travel) < 0.0f ? vertex.hit.normal : -vertex.hit.normal;
+  if (const Rgb* diffuse = diffuse_reflectance(vertex.material); diffuse && single_normal(vertex.hit))
+    return merge_diffuse(at, side, *diffuse);
+  const float radius = c_.kernels.surface;
+  const auto kernel = kernel_of<2>(c_.kernels.surface_kernel, radius);
+  const Arrives arrives{side, kFlatness * radius, scatters_through(vertex.material)};
+  const BehindMerge eye =
+      behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, at_.only_specular).surface);
+  const Rgb each = at_.state.throughput / static_cast<float>(c_.light_paths);
+  const auto merge = [&](const SurfacePhoton& photon, float distance2) {
+    const bool faces = arrives.from_both_sides || glm::dot(photon.travel, side) < 0.0f;
+    if (!faces || !arrives.near_plane(photon.point - vertex.point)) return;
+    const Scattered scattered = scattered_into(c_.scene, vertex, -photon.travel, SubPath::eye);
+    const float cosine = std::abs(glm::dot(vertex.hit.normal, photon.travel));
+    if (is_black(scattered.value) || cosine == 0.0f) return;
+    const double all =
+        1.0 + photon.behind.sum(c_.counts.weigh(scattered.forward)) + eye.sum(c_.counts.weigh(scattered.reverse));
+    add_merged(Technique::surface_merging, each * scattered.value * photon.power / cosine, kernel(distance2),
+               1.0 / all);
+  };
+  count(work_.counters.gather.visited, map.visit_near(vertex.point, radius, merge));
+}
+
+void EyeSubPath::merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& reflectance) {
+  constexpr float kPerPi = 1.0f / kPi;
+  const PathVertex& vertex = at.vertex;
+  const float radius = c_.kernels.surface, to_eye = -glm::dot(side, vertex.travel) * kPerPi;
+  const Arrives arrives{side, kFlatness * radius};
+  const BehindMerge behind =
+      behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, at_.only_specular).surface);
+  const float others = finite_density(1.0 + behind.sum(c_.counts.weigh(to_eye)));
+  const bool squares = c_.counts.heuristic == Heuristic::power;
+  MergedTotals totals;
+  const auto merge = [&](auto profile) {
+    return c_.light.on_surfaces().visit_leaves_near(vertex.point, [&](const SurfacePhotonLeaf& leaf) {
+      const AroundPlace near = around(leaf, vertex.point, arrives, radius);
+      if (!any(near.arrived)) return;
+      count(work_.counters.gather.used, lanes_in(near.arrived));
+      const Floats to_light = max(near.cosine, 0.0f) * kPerPi;
+      const Floats back = squares ? to_light * to_light : to_light;
+      const Floats share = 1.0f / (others + lanes_of(leaf.adjacent) + back * lanes_of(leaf.further));
+      FloatsRgb power{lanes_of(leaf.power_r), lanes_of(leaf.power_g), lanes_of(leaf.power_b)};
+      for (Floats& channel : power) channel = select(near.arrived, channel, 0.0f);
+      totals.next().add(power, share, near.q, profile);
+    });
+  };
+  count(work_.counters.gather.visited, with_kernel<2>(c_.kernels.surface_kernel, merge));
+  const Rgb each = at_.state.throughput * reflectance *
+                   (kPerPi * kernel_norm<2>(c_.kernels.surface_kernel, radius) / static_cast<float>(c_.light_paths));
+  const Merged merged = totals.of_all().times(each);
+  radiance_ += merged.light;
+  if (parts_) parts_->add_both(Technique::surface_merging, merged.light.value, merged.unweighted);
+}
+
+}  // namespace vpm

@@ -1,0 +1,36 @@
+// What each technique of the combined estimator finds, as pictures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vpm/image/image.h"
+#include "vpm/integrators/combined/combined.h"
+#include "vpm/integrators/settings.h"
+
+namespace vpm {
+
+/// The names of the layers that passes under these settings have: "combined.NAME.weighted", whose sum over techniques
+/// is the picture, and "combined.NAME.unweighted", for each technique. None where they are not asked for.
+std::vector<std::string> layer_names(const RenderSettings& settings);
+
+/// Where a technique's layers stand among them.
+constexpr size_t weighted_layer(Technique technique) { return 2 * static_cast<size_t>(technique); }
+constexpr size_t unweighted_layer(Technique technique) { return weighted_layer(technique) + 1; }
+
+/// The sums of TechniqueParts of one pass, pixel by pixel. Different pixels may be added to at the same time.
+class TechniqueLayers {
+ public:
+  TechniqueLayers(int width, int height);
+
+  /// Adds one of so many samples.
+  void add(size_t pixel, const TechniqueParts& parts, double samples);
+  /// In the order of layer_names(), W/(m^2 sr).
+  std::vector<Image> images() const;
+
+ private:
+  int width_, height_;
+  std::vector<Rgbd> sums_;  // of a pixel's layers side by side
+};
+
+}  // namespace vpm

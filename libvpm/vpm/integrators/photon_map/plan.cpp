@@ -1,0 +1,159 @@
+// Settings become estimators.
+#include "vpm/integrators/photon_map/plan.h"
+
+#include <cassert>
+#include <stdexcept>
+
+#include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/photon_map/surface/final_gather.h"
+#include "vpm/integrators/photon_map/surface/pixel_radii.h"
+#include "vpm/integrators/photon_map/surface/surface_map.h"
+#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/single_scattering.h"
+
+namespace vpm {
+namespace {
+
+using SharedTransmittance = std::shared_ptr<const TransmittanceEstimator>;
+
+PassOfMaps pass_of_maps(const RenderSettings& settings, int pass) {
+  return {.number = pass,
+          .shrinks = settings.radii != RadiusSchedule::constant,
+          .photons_in_cube = settings.photons_in_cube};
+}
+
+/// The radii of the pixels' discs in a pass, m.
+std::vector<float> radii_of_pixels(const Scene& scene, const RenderSettings& settings, const PixelDiscs& discs) {
+  const float first = first_radius(settings.surface, scene);
+  std::vector<float> radii(static_cast<size_t>(scene.camera.width) * static_cast<size_t>(scene.camera.height), first);
+  assert(discs.empty() || discs.size() == radii.size());
+  for (size_t i = 0; i < discs.size(); ++i) radii[i] = disc_radius(discs[i], first);
+  return radii;
+}
+
+std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& scene, const RenderSettings& settings,
+                                                                const PassOfMaps& pass,
+                                                                const SharedTransmittance& transmittance) {
+  const bool by_rays = settings.volume_direct != DirectLight::photons;
+  // Photons that fly by another law than the medium's transmittance do not weigh 1/density where it is thin.
+  const bool analog = strategy_info(settings.distance.strategy).analog;
+  const VolumeSettings& volume = settings.volume;
+  VolumeEstimators made;
+  volume.info().make({.scene = scene,
+                      .settings = volume,
+                      .maps = {volume, volume.form, analog ? volume.density_floor : 0.0f, !by_rays, pass},
+                      .transmittance = transmittance,
+                      .max_optical_step = settings.max_optical_step,
+                      .seed = settings.seed},
+                     made);
+  auto& [estimators, marched] = made;
+  if (settings.volume_direct == DirectLight::equiangular)
+    estimators.push_back(std::make_unique<SingleEquiangular>(scene, transmittance, settings.direct_samples));
+  if (settings.volume_direct == DirectLight::shadow_rays)
+    marched.push_back(std::make_unique<SingleMarched>(scene, transmittance));
+  if (!marched.empty())
+    estimators.push_back(std::make_unique<MarchedLight>(std::move(marched), settings.max_optical_step));
+  check_apart(estimators);
+  return std::move(estimators);
+}
+
+std::unique_ptr<SurfaceEstimator> surface_estimator(const Scene& scene, const RenderSettings& settings,
+                                                    const PassOfMaps& pass, const PixelDiscs& discs,
+                                                    const SharedTransmittance& transmittance) {
+  const SurfaceMapSettings map{settings.surface, pass};
+  std::optional<SurfaceShadowRays> direct;
+  assert(settings.surface_direct != DirectLight::equiangular);
+  if (settings.surface_direct == DirectLight::shadow_rays)
+    direct.emplace(scene, transmittance, settings.surface_direct_samples);
+  if (settings.surface_indirect == IndirectLight::final_gather) {
+    const FinalGatherSettings gather{map,
+                                     {settings.caustics, map.pass},
+                                     settings.caustics_emitted,
+                                     settings.gather_rays,
+                                     settings.gather_by == GatherBy::photons,
+                                     settings.end_irradiance == EndIrradiance::precomputed,
+                                     settings.max_events};
+    return std::make_unique<FinalGather>(scene, gather, std::move(direct));
+  }
+  if (settings.radii == RadiusSchedule::per_pixel)
+    return std::make_unique<PixelRadii>(scene, map, radii_of_pixels(scene, settings, discs), std::move(direct));
+  if (direct) return std::make_unique<Progressive>(scene, map, std::move(*direct));
+  return std::make_unique<Visualise>(scene, map);
+}
+
+}  // namespace
+
+std::vector<Estimator*> Estimators::all() const {
+  std::vector<Estimator*> list;
+  for (const auto& estimator : volume) list.push_back(estimator.get());
+  if (surface) list.push_back(surface.get());
+  return list;
+}
+
+std::vector<MapInfo> Estimators::maps() const {
+  std::vector<MapInfo> list;
+  for (const Estimator* estimator : all())
+    for (const MapInfo& map : estimator->maps()) list.push_back(map);
+  return list;
+}
+
+Recorders Estimators::recorders() const {
+  Recorders list;
+  for (Estimator* estimator : all())
+    for (PhotonRecorder* recorder : estimator->recorders()) list.push_back(recorder);
+  return list;
+}
+
+Scattering scattering_of(const Scene& scene) {
+  Scattering scattering;
+  for (const Medium& medium : scene.media) scattering.media |= medium.scatters();
+  for (const Shape& shape : scene.shapes) scattering.surfaces |= is_rough(scene.materials[shape.material]);
+  return scattering;
+}
+
+Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs,
+                           const MediaBounds* around) {
+  if (settings.integrator != Integrator::photon) return {};
+  const auto [media, surfaces] = scattering_of(scene);
+  const SharedTransmittance transmittance = make_transmittance_estimator(settings.transmittance);
+  PassOfMaps maps = pass_of_maps(settings, pass);
+  maps.around = around;
+  Estimators estimators;
+  if (media) estimators.volume = volume_estimators(scene, settings, maps, transmittance);
+  if (surfaces) estimators.surface = surface_estimator(scene, settings, maps, discs, transmittance);
+  return estimators;
+}
+
+Estimators plan_surface_estimators(const Scene& scene, const RenderSettings& settings, int pass) {
+  Estimators estimators = plan_estimators(scene, settings, pass);
+  estimators.volume.clear();
+  return estimators;
+}
+
+void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators) {
+  for (size_t i = 0; i < estimators.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (estimators[i]->finds().overlaps(estimators[j]->finds()))
+        throw std::logic_error("two estimators of media are planned that find the same light");
+}
+
+bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings) {
+  return settings.integrator != Integrator::photon ||
+         (scattering.media && (settings.volume_direct != DirectLight::photons || settings.volume.info().planes)) ||
+         (scattering.surfaces && settings.surface_direct != DirectLight::photons);
+}
+
+bool gathers(const Scene& scene, const RenderSettings& settings) {
+  if (settings.integrator == Integrator::combined) return merges(settings.combined.techniques);
+  return !plan_estimators(scene, settings, 0).maps().empty();
+}
+
+std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings) {
+  const Estimators planned = plan_estimators(scene, settings, 0);
+  std::vector<std::string> sections;
+  for (const MapInfo& map : planned.maps())
+    if (!map.shows_bias) sections.emplace_back(map.section);
+  return sections;
+}
+
+}  // namespace vpm

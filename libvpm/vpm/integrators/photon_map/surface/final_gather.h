@@ -1,0 +1,69 @@
+// Final gathering: the light that a non-specular surface sends towards the eye, as the sum of direct light, the light
+// of a caustic map, and the rest, which rays gather.
+//
+// The light that a non-specular surface scattered last is left to rays over the hemisphere [Jensen2001, ch. 9]. Each
+// ray ends at the next non-specular surface, with the light that all photons there tell of. The eye then sees the blur
+// of the map averaged over many places. Light that mirrors, glass and media led to the surface is too sharp for few
+// rays; it comes from the caustic map.
+//
+// Where a ray is shorter than the radius that the map has at its end, the blur would show as bright or dark edges. The
+// path then goes on as a path tracer's does, with direct light and the caustic map at each non-specular surface, until
+// a ray is long enough, Russian roulette ends the path, or its events are used up. Taking the map at the end of the
+// second short ray instead is no cheaper, since large radii hold many photons, and it is darker. Seen in a cube of 2 m
+// of reflectance 0.5, in whose corners the map is dark, it is too dark by 0.5 %, against 0.4 % here, at a radius of 0.1
+// m; by 6.8 %, against 6.4 %, at 1 m; and by 22 %, against nothing, at 10 m.
+#pragma once
+
+#include <optional>
+
+#include "vpm/integrators/photon_map/surface/gather_guide.h"
+#include "vpm/integrators/photon_map/surface/irradiance_cache.h"
+#include "vpm/integrators/photon_map/surface/surface_map.h"
+#include "vpm/integrators/photon_map/surface/surface_shadow_rays.h"
+#include "vpm/path/walk.h"
+
+namespace vpm {
+
+struct FinalGatherSettings {
+  SurfaceMapSettings ends;        // of the map that rays end in
+  SurfaceMapSettings caustics;    // of the caustic map
+  uint64_t caustics_emitted = 0;  // photons that are aimed at mirrors and glass, for that map; 0: it takes what the
+                                  // other photons bring
+  int rays = 8;                   // at each point of a surface that the eye sees, >= 1
+  bool guided = false;            // are up to half of them drawn to where photons came from?
+  bool precomputed = false;       // do they take the irradiance of cache points?
+  int max_events = 100'000;       // of one ray and the path that follows it; paths that are cut are counted
+};
+
+class FinalGather final : public SurfaceEstimator {
+ public:
+  /// Without `direct`, the caustic map also holds the light that comes straight from lights.
+  FinalGather(const Scene& scene, const FinalGatherSettings& settings, std::optional<SurfaceShadowRays> direct);
+
+  std::vector<MapInfo> maps() const override;
+  Recorders recorders() override;
+  void trace_more(const TracedPass& pass, RenderStatistics& statistics) override;
+  void build(uint64_t emitted, RenderStatistics& statistics) override;
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override;
+
+ private:
+  KernelEstimate not_gathered(const SurfaceView& view, EyeWork& work) const;
+  KernelEstimate gathered(const SurfaceView& view, EyeWork& work) const;
+  GatherGuide make_guide(const SurfaceView& view, EyeWork& work) const;
+  KernelEstimate met_along(PathState path, EyeWork& work) const;
+  KernelEstimate at_end(const SurfaceView& view, EyeWork& work) const;
+  bool is_too_short(float length, const SurfaceView& view, EyeWork& work) const;
+
+  const Scene& scene_;
+  FinalGatherSettings settings_;
+  std::optional<SurfaceShadowRays> direct_;
+  SurfaceMap ends_;
+  HitRecorder caustic_photons_;
+  std::optional<HitRecorder> guiding_photons_;  // that non-specular surfaces scattered last
+  std::optional<CachePointRecorder> cache_points_;
+  PhotonMap caustics_;
+  PhotonMap guiding_;           // by count
+  IrradianceCache irradiance_;  // of the map that rays end in
+};
+
+}  // namespace vpm

@@ -1,0 +1,32 @@
+// Estimates the light of surfaces from their photon map. Each pixel has a radius of its own, which shrinks as the pixel
+// finds photons [Hachisuka2009].
+#pragma once
+
+#include <optional>
+
+#include "vpm/integrators/photon_map/surface/surface_map.h"
+#include "vpm/integrators/photon_map/surface/surface_shadow_rays.h"
+
+namespace vpm {
+
+class PixelRadii final : public SurfaceEstimator {
+ public:
+  /// `radii` are those of the pixels in this pass, m. The map is gathered by radius, without correction at borders.
+  /// Without `direct`, it also holds the light that comes straight from lights.
+  PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, std::vector<float> radii,
+             std::optional<SurfaceShadowRays> direct);
+
+  std::vector<MapInfo> maps() const override { return {map_.info()}; }
+  Recorders recorders() override { return {map_.recorder()}; }
+  void build(uint64_t emitted, RenderStatistics& statistics) override;
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override;
+  std::vector<uint64_t> take_found() override { return std::move(found_); }
+
+ private:
+  std::vector<float> radii_;
+  std::optional<SurfaceShadowRays> direct_;
+  SurfaceMap map_;
+  mutable std::vector<uint64_t> found_;  // by pixel, each written by the one thread that renders that pixel
+};
+
+}  // namespace vpm

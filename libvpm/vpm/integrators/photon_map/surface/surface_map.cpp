@@ -1,0 +1,46 @@
+// Building the surface map, and gathering from it.
+#include "vpm/integrators/photon_map/surface/surface_map.h"
+
+#include <algorithm>
+
+#include "vpm/base/counters.h"
+#include "vpm/estimate/surface_region.h"
+
+namespace vpm {
+
+template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const PhotonMap&);
+template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const CountedMap&);
+template KernelEstimate surface_irradiance(const Vec3&, const Vec3&, const BoundedMap<SurfaceRegion>&);
+template KernelEstimate shaded_irradiance(const Hit&, const Vec3&, const CountedMap&);
+template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&, const PhotonMap&);
+template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&, const CountedMap&);
+template KernelEstimate scattered_radiance(const Material&, const Hit&, const Vec3&, const BoundedMap<SurfaceRegion>&);
+
+KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work) {
+  count(work.counters.surface_queries);
+  if (map.settings.boundary == BoundaryRule::none)
+    return scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map, work.gather()});
+  const SurfaceRegion region(scene, view.hit, -view.travel, map.settings);
+  return scattered_radiance(view.material, view.hit, -view.travel, BoundedMap{map, region, work.gather()});
+}
+
+namespace {
+
+/// Are there surfaces for which the powers of photons alone count? The bodies of lamps, which are black, are none.
+bool has_diffuse(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& material) { return is_diffuse(material) && is_rough(material); });
+}
+
+}  // namespace
+
+void SurfaceMap::build(RenderStatistics& statistics) {
+  statistics.surface_photons = hits_.photons.size();
+  const GatherSettings gather =
+      gather_in_pass(settings_.gather, first_radius(settings_.gather, scene_), 2, settings_.pass);
+  map_ = make_map(hits_.photons, gather, hits_.emitted_count, settings_.pass, statistics);
+  if (has_diffuse(scene_)) statistics.photon_map_bytes += map_.prepare_sums_by_nodes();
+  statistics.last_surface_radius = map_.settings.radius;
+}
+
+}  // namespace vpm

@@ -1,0 +1,76 @@
+// The photon map of surfaces, as estimators gather from it, and the two estimators that need little more.
+#pragma once
+
+#include "vpm/estimate/photon_map.h"
+#include "vpm/integrators/photon_map/estimator.h"
+#include "vpm/integrators/photon_map/surface/surface_shadow_rays.h"
+#include "vpm/photon/records.h"
+
+namespace vpm {
+
+/// The settings of estimators that gather photons of surfaces.
+struct SurfaceMapSettings {
+  AskedGather gather;
+  PassOfMaps pass;
+};
+
+/// The surface radiance estimate [Jarosz2008, eq. 7.5, corrected] at a hit, gathered as the settings of the map say,
+/// with or without the correction at borders.
+KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work);
+
+/// Records, sorts and gathers the photons on non-specular surfaces.
+class SurfaceMap {
+ public:
+  /// A map of the photons that the filter takes.
+  SurfaceMap(const Scene& scene, const SurfaceMapSettings& settings, PhotonFilter filter,
+             HitUse use = HitUse::surface_map)
+      : scene_(scene), settings_(settings), hits_(scene, filter, use) {}
+
+  /// The map whose settings are in the table [integrator.surface] of the scene file.
+  MapInfo info() const { return {"surface", 2, true, nullptr, &hits_.photons, hits_.emitted_count}; }
+  PhotonRecorder* recorder() { return &hits_; }
+  void build(RenderStatistics& statistics);
+  KernelEstimate gather(const SurfaceView& view, EyeWork& work) const { return gather_from(map_, scene_, view, work); }
+  const PhotonMap& map() const { return map_; }
+
+ private:
+  const Scene& scene_;
+  SurfaceMapSettings settings_;
+  HitRecorder hits_;
+  PhotonMap map_;
+};
+
+/// All light of surfaces from their photon map, seen straight: what the map holds is what is seen.
+class Visualise final : public SurfaceEstimator {
+ public:
+  Visualise(const Scene& scene, const SurfaceMapSettings& settings) : map_(scene, settings, any_photon) {}
+
+  std::vector<MapInfo> maps() const override { return {map_.info()}; }
+  Recorders recorders() override { return {map_.recorder()}; }
+  void build(uint64_t, RenderStatistics& statistics) override { map_.build(statistics); }
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override { return map_.gather(view, work); }
+
+ private:
+  SurfaceMap map_;
+};
+
+/// Direct light of surfaces by shadow rays, all other from their photon map, whose radius shrinks from pass to pass.
+class Progressive final : public SurfaceEstimator {
+ public:
+  Progressive(const Scene& scene, const SurfaceMapSettings& settings, SurfaceShadowRays direct)
+      : map_(scene, settings, indirect_photon), direct_(std::move(direct)) {}
+
+  std::vector<MapInfo> maps() const override { return {map_.info()}; }
+  Recorders recorders() override { return {map_.recorder()}; }
+  void build(uint64_t, RenderStatistics& statistics) override { map_.build(statistics); }
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override {
+    const Rgb direct = direct_.sent(view, work);
+    return map_.gather(view, work) + direct;
+  }
+
+ private:
+  SurfaceMap map_;
+  SurfaceShadowRays direct_;
+};
+
+}  // namespace vpm

@@ -1,0 +1,64 @@
+// The estimators of the light of media: what each is, which settings it has, and how it is made for a pass. Each file
+// of this folder has some, and estimators.cpp the list.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "vpm/base/settings/setting.h"
+#include "vpm/integrators/photon_map/volume/beam_maps.h"
+#include "vpm/integrators/photon_map/volume/marched.h"
+#include "vpm/integrators/photon_map/volume/volume_maps.h"
+#include "vpm/integrators/photon_map/volume/volume_settings.h"
+#include "vpm/medium/transmittance/estimator.h"
+
+namespace vpm {
+
+/// What estimators of a pass are made of.
+struct VolumePlan {
+  const Scene& scene;
+  const VolumeSettings& settings;
+  VolumeMapSettings maps;  // of that pass
+  std::shared_ptr<const TransmittanceEstimator> transmittance;
+  float max_optical_step;  // of a march
+  uint64_t seed;
+};
+
+/// Estimators, and sources that are asked at points of a march.
+struct VolumeEstimators {
+  std::vector<std::unique_ptr<VolumeEstimator>> whole;
+  std::vector<std::unique_ptr<MarchedSource>> marched;
+};
+
+struct VolumeEstimatorInfo {
+  std::string_view name;
+  std::string_view summary;              // Markdown
+  GatherMode mode = GatherMode::radius;  // of its maps of photons
+  bool along_rays = false;               // gathers along whole stretches of rays, not around points of a march
+  bool collisions = true;                // has a map of these
+  bool flights = false;                  // has a map of these
+  bool planes = false;                   // makes planes of some, which cost shadow rays
+  void (*describe)(VolumeSettings&, Description&) = nullptr;  // what it has besides radius, kernel, form, boundary
+  void (*make)(const VolumePlan&, VolumeEstimators&) = nullptr;
+};
+
+std::span<const VolumeEstimatorInfo> volume_estimators();
+
+/// Describes `type` and the settings of the estimator that it names. `photons_weigh`: do photons weigh 1/density, so
+/// that a floor of densities bounds that?
+void describe(VolumeSettings& settings, bool photons_weigh, Description& description);
+/// Some of these, as others have them, too.
+void describe_radius(AskedGather& gather, const char* meaning, Description& description);
+void describe_kernel(AskedGather& gather, Description& description);
+void describe_density_floor(VolumeSettings& settings, Description& description);
+/// Which flights are kept as beams, and how long they are.
+void describe_flights(VolumeSettings& settings, Description& description);
+
+/// Settings of maps for gathers along rays, for which "corrected" at borders is the same as "ends".
+VolumeMapSettings along_rays(VolumeMapSettings maps);
+/// Settings of the beams of a plan.
+PhotonBeamSettings beams_of(const VolumePlan& plan);
+
+}  // namespace vpm

@@ -1,0 +1,104 @@
+// Everything a render can be told besides the scene. Plain values; the defaults here are those of scene files, but for
+// that of the distance strategy of photon maps (integrators/describe.cpp).
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "vpm/estimate/gather.h"
+#include "vpm/film/view_layer.h"
+#include "vpm/integrators/combined/technique.h"
+#include "vpm/integrators/photon_map/volume/volume_settings.h"
+#include "vpm/medium/distance/strategy.h"
+#include "vpm/medium/transmittance/estimator.h"
+#include "vpm/photon/photon_settings.h"
+
+namespace vpm {
+
+/// What estimates light that has not scattered yet: the photon map, or rays towards the lights. In media, these rays
+/// start at every step of the march along the eye ray. `equiangular` is for media alone: rays start at a few distances
+/// that are drawn for this purpose.
+enum class DirectLight { photons, shadow_rays, equiangular };
+
+/// What estimates light that surfaces have scattered before: the photon map itself, or final gathering, rays over the
+/// hemisphere that end in the map. Under final gathering, light that only mirrors, glass and media have led to a
+/// surface has a map of its own, the caustic map.
+enum class IndirectLight { photons, final_gather };
+
+/// How gather radii change from pass to pass. They must shrink for the mean of passes to converge to the truth.
+/// `per_pass`: those of all maps shrink with the pass number [Knaus2011]. `per_pixel`: each pixel has a radius of its
+/// own for the surface map, which shrinks with the photons that it has found [Hachisuka2009]; the radii of other maps
+/// shrink with the pass number.
+enum class RadiusSchedule { constant, per_pass, per_pixel };
+
+/// How final gathering draws its rays: as the material scatters, or up to half of them to where photons came from.
+enum class GatherBy { material, photons };
+
+/// The irradiance that rays of final gathering take at diffuse surfaces: an estimate from all photons around their
+/// ends, or one computed beforehand at a cache point nearby.
+enum class EndIrradiance { estimate, precomputed };
+
+/// What estimates radiance: photon maps, the unbiased reference path tracer, or all techniques combined.
+enum class Integrator { photon, path, combined };
+
+/// The combined estimator: which techniques it uses, and how these share the paths that several of them find.
+struct CombinedSettings {
+  TechniqueSet techniques;
+  Heuristic heuristic = Heuristic::correlation_aware;
+  bool layers = false;     // is it kept what each technique finds?
+  uint64_t planes = 1000;  // about so many photon planes in a pass, >= 1
+};
+
+/// When a render ends: once `passes` are done; or, where `seconds` or `error` are asked for, once the first of these
+/// two is reached.
+struct StopRule {
+  int passes = 16;       // >= 1; ignored where seconds or error > 0
+  int first = 0;         // >= 0; the number of the first pass: those before it are of other pieces of the render
+  double seconds = 0.0;  // > 0: wall clock; no pass goes on that would end much later
+  double error = 0.0;    // > 0: passes start until the estimated relative MSE is no more than that
+
+  bool counts_passes() const { return seconds == 0.0 && error == 0.0; }
+};
+
+struct RenderSettings {
+  Integrator integrator = Integrator::photon;
+  uint64_t seed = 1;
+  StopRule until;             // when the render ends
+  int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
+  ViewLayerSet layers;        // what pictures tell besides the light
+
+  uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
+  uint64_t photons_stored =
+      0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
+  uint64_t photons_block = 0;  // > 0: the most photons of a pass that are traced and gathered at a time, see
+                               // mean_of_blocks(); 0: all
+  PhotonSequence photon_sequence = PhotonSequence::sobol;  // where nothing asks for random ones, see trace_pass()
+  uint32_t photons_in_cube = 0;  // > 0: the most photons that travel into one octant of directions, in a cube
+                                 // whose edges are half a radius long, see control_density()
+  int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
+
+  GuideSettings guide;  // of photons, by importance
+
+  CombinedSettings combined;
+
+  DistanceSettings distance;            // how photons fly
+  TransmittanceSettings transmittance;  // towards lights
+
+  VolumeSettings volume;          // volumetric radiance estimate
+  AskedGather surface;            // surface radiance estimate
+  AskedGather caustics;           // estimate from the caustic map, under final gathering
+  uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
+                                  // what the other photons bring
+  RadiusSchedule radii = RadiusSchedule::per_pass;   // of maps in radius mode
+  DirectLight volume_direct = DirectLight::photons;  // single scattering
+  int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
+  DirectLight surface_direct = DirectLight::shadow_rays;
+  int surface_direct_samples = 1;  // of these, for each light that has an area or a solid angle, >= 1
+  IndirectLight surface_indirect = IndirectLight::photons;
+  int gather_rays = 8;  // of final gathering, at each point of a surface that the eye sees, >= 1
+  GatherBy gather_by = GatherBy::material;
+  EndIrradiance end_irradiance = EndIrradiance::estimate;
+  float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0
+};
+
+}  // namespace vpm

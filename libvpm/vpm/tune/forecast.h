@@ -1,0 +1,37 @@
+// What a pass will take of time and of memory, told before the first.
+#pragma once
+
+#include <string>
+
+#include "vpm/integrators/settings.h"
+#include "vpm/scene/scene.h"
+#include "vpm/tune/pass_cost.h"
+
+namespace vpm {
+
+/// "about 210000 integrator.photons.emitted": with which a pass of that cost takes so many seconds, > 0; "" where its
+/// rays alone take longer.
+std::string photons_that_fit(const PassCost& cost, const RenderSettings& settings, double seconds);
+/// "integrator.volume.radius = 0.12": the first half, quarter, ... of the radius with which a pass takes less; "" where
+/// there is none, or no radius decides what is gathered. Passes are timed for `looking` s in all, or a little longer.
+std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking);
+
+/// "a ray from the eye gathers about 430000 photons, ...": where it gathers more than 100,000 within the radii of
+/// the first pass; else "". A few photons and rays tell.
+std::string wide_gather_text(const Scene& scene, const RenderSettings& settings);
+
+/// About how many bytes the photons or light sub-paths that a pass, or a block of it, stores take while maps are made;
+/// 0 where there are none. A few are traced to tell.
+double bytes_of_maps(const Scene& scene, const RenderSettings& settings, PassOf of);
+/// Throws InputError where the photons that a pass, or a block of it, stores take more than `memory` bytes. Only where
+/// they may be many does it trace some.
+void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory);
+
+// Bytes while maps are made: of a stored photon (62 in scenes/street_lamp.toml); of a flight, while it is recorded; and
+// of one that is kept, while it becomes a beam (both in scenes/fog_room.toml, with a radius of 1 cm).
+inline constexpr double kMapBytes = 64.0, kFlightBytes = 100.0, kBeamBytes = 450.0;
+
+/// Bytes of the machine.
+double physical_memory();
+
+}  // namespace vpm

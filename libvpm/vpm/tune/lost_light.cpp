@@ -1,0 +1,48 @@
+// Lost light is told by what there is: nothing is traced.
+#include "vpm/tune/lost_light.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "vpm/integrators/photon_map/plan.h"
+#include "vpm/light/emission_density.h"
+
+namespace vpm {
+
+std::vector<size_t> unhittable_lights(const Scene& scene) {
+  std::vector<size_t> numbers;
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    if (!can_be_hit(scene.lights[i])) numbers.push_back(i);
+  return numbers;
+}
+
+bool has_specular_surfaces(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+    return !is_rough(material) && !is_boundary(material) && !is_diffuse(material);
+  });
+}
+
+std::string text_of_lights(const std::vector<size_t>& lights, const std::vector<std::string>& names) {
+  std::vector<std::string> texts;
+  for (const size_t i : lights)
+    texts.push_back(i < names.size() && !names[i].empty() ? "'" + names[i] + "'" : fmt::format("number {}", i));
+  return fmt::format("light{} {}", lights.size() > 1 ? "s" : "", fmt::join(texts, ", "));
+}
+
+std::string text_of_lost_light(const Scene& scene, const RenderSettings& settings,
+                               const std::vector<std::string>& names) {
+  const std::vector<size_t> lights = unhittable_lights(scene);
+  const Scattering scattering = scattering_of(scene);
+  if (settings.integrator != Integrator::path || lights.empty() || !has_specular_surfaces(scene) ||
+      !(scattering.media || scattering.surfaces))
+    return "";
+  return fmt::format(
+      "paths do not find what {} may send by way of mirrors or glass, as no ray hits what has no extent: where there "
+      "is "
+      "such light, the picture lacks it; another integrator finds it, and paths do once the light has an extent",
+      text_of_lights(lights, names));
+}
+
+}  // namespace vpm
