@@ -12,6 +12,7 @@
 #include "vpm/base/warp.h"
 #include "vpm/image/metrics.h"
 #include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/render_scene.h"
 
 namespace vpm {
 namespace {

@@ -178,7 +178,7 @@ TEST(MediaExtremes, AnAlbedoOfOneLosesNothingAndOfZeroSendsNothingOn) {
     EXPECT_EQ(white.absorbed_in_media, Rgbd(0.0));
     EXPECT_NEAR(white.escaped.r / white.emitted.r, 1.0, 1e-6);
     const Scene black = boxed_medium(make_medium(nullptr, Rgb(sigma), 0.0f), light);
-    EXPECT_FALSE(scattering_of(black).media);
+    EXPECT_FALSE(facts_of(black).scattering_media);
     const Ledger gone = clean_ledger(black, "regular", 3000);
     EXPECT_NEAR((gone.absorbed_in_media.r + gone.escaped.r) / gone.emitted.r, 1.0, 1e-6);
     EXPECT_EQ(trace_with(black, "regular", {{.emitted = 100}}).volume[0].size(), 0u);

@@ -1,6 +1,7 @@
 // Scene files: ranges, the camera, the film and how to render; defaults.
 #include "vpm/input/scene_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "input/scene_text.h"

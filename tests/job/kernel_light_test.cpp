@@ -8,6 +8,7 @@
 #include "vpm/base/statistics/moments.h"
 #include "vpm/image/metrics.h"
 #include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/render_job.h"
 #include "vpm/render/render.h"
 #include "vpm/tune/lost_light.h"

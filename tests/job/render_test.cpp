@@ -9,7 +9,7 @@
 #include "vpm/base/cancel.h"
 #include "vpm/base/progress.h"
 #include "vpm/image/exr.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/identity.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"

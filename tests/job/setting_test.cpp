@@ -124,8 +124,9 @@ TEST(Setting, ReachesItsMemberAndNoOther) {
         for (const auto& [key, before] : values(usual)) {
           const auto same =
               std::find_if(after.begin(), after.end(), [&](const auto& each) { return each.first == key; });
-          if (key != setting.key && same != after.end())
+          if (key != setting.key && same != after.end()) {
             EXPECT_EQ(same->second, before) << setting.key << " changes " << key;
+          }
         }
       }
   }

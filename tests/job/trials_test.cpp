@@ -7,10 +7,10 @@
 #include "job/pilot_scenes.h"
 #include "support/simulated_clock.h"
 #include "vpm/integrators/describe.h"
+#include "vpm/integrators/integrator.h"
 #include "vpm/render/render.h"
 #include "vpm/tune/automatic.h"
 #include "vpm/tune/pilot_error.h"
-#include "vpm/tune/rays_of_pass.h"
 
 namespace vpm {
 namespace {

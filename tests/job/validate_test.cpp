@@ -1,5 +1,5 @@
 // Settings that contradict themselves or the scene are refused from code, too, by the key that is wrong.
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ const Contradiction kContradictions[] = {
     {"integrator.photons.emitted", [](S& s) { combine(s).photons_emitted = 0; }},
     {"integrator.max_optical_step", [](S& s) { s.max_optical_step = 0.0f; }},
     {"integrator.volume.radius", [](S& s) { s.volume.radius = -1.0f; }},
-    {"integrator.volume.density_floor", [](S& s) { s.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
+    {"integrator.volume.density_floor", [](S& s) { s.volume.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
 };
 
 TEST(Validate, LongBeamsNeedAnEnd) {

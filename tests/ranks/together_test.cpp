@@ -11,7 +11,7 @@
 #include "ranks/ranks_in_memory.h"
 #include "vpm/base/cancel.h"
 #include "vpm/base/rng.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/pieces.h"
 #include "vpm/ranks/messages.h"
 #include "vpm/render/named_fields.h"

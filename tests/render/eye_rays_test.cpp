@@ -207,7 +207,7 @@ TEST(EyeRays, TechniquesCombinedFindTogetherWhatTheyFindAlone) {
       scene.lights.push_back(SphereLight{Vec3(-1.0f, -1.0f, -1.0f), 0.2f, Rgb(30.0f)});
       scene.lights.push_back(BeamLight{Vec3(1.5f, 1.0f, -1.0f), Vec3(-1.0f, 0.0f, 0.0f), 0.3f, Rgb(20.0f)});
       finish_again(scene);
-      RenderSettings settings = settings_of(GatherMode::radius, KernelKind::epanechnikov, BoundaryRule::none);
+      RenderSettings settings = settings_of("radius", KernelKind::epanechnikov, BoundaryRule::none);
       settings.integrator = Integrator::combined;
       settings.volume.radius = 0.3f;
       settings.combined.heuristic = heuristic;
@@ -219,7 +219,7 @@ TEST(EyeRays, TechniquesCombinedFindTogetherWhatTheyFindAlone) {
 
 /// Rays through several media, of which one is a grid.
 TEST(EyeRays, TechniquesCombinedGoThroughSeveralMedia) {
-  RenderSettings settings = settings_of(GatherMode::radius, KernelKind::biweight, BoundaryRule::none);
+  RenderSettings settings = settings_of("radius", KernelKind::biweight, BoundaryRule::none);
   settings.integrator = Integrator::combined;
   settings.volume.radius = 0.3f;
   Scene two_balls = balls(fog(Rgb(0.7f), Isotropic{}));

@@ -9,7 +9,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/integrators/photon_map/surface/light_map.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 
 namespace vpm {
 namespace {

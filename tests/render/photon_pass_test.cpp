@@ -213,7 +213,7 @@ TEST(PhotonPass, RunsOnlyWhatTheSceneNeeds) {
   const Scene no_surface = furnace(nullptr, 1.0f);
   EXPECT_EQ(plan_estimators(no_surface, {}, 0).volume.size(), 1u);
   EXPECT_FALSE(plan_estimators(no_surface, {}, 0).surface);
-  EXPECT_FALSE(casts_shadow_rays(scattering_of(no_surface), {}));
+  EXPECT_FALSE(casts_shadow_rays(facts_of(no_surface), {}));
   const auto statistics = [](const Scene& scene) {
     return render_photon_pass(scene, settings_of(100, 0.1f), 0).statistics;
   };

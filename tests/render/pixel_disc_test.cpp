@@ -12,6 +12,7 @@
 #include "vpm/base/progress.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/render/render.h"
 
 namespace vpm {

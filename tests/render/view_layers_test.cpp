@@ -9,6 +9,7 @@
 #include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/integrators/path/path_tracer.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/integrators/render_scene.h"
 
 namespace vpm {
 namespace {

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "vpm/base/error.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/render_job.h"
 #include "vpm/render/render.h"

@@ -11,7 +11,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/input/source.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/bake.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"

@@ -10,7 +10,7 @@
 #include "vpm/input/scene_file.h"
 #include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/integrators/photon_map/plan.h"
-#include "vpm/job/stage_lines.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/render/render.h"
 #include "vpm/tune/forecast.h"
 #include "vpm/tune/lost_light.h"
@@ -84,12 +84,12 @@ std::string photons_text(const RenderSettings& settings) {
 std::string radii_text(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> radii;
   const bool combined = settings.integrator == Integrator::combined;
-  if (combined && scattering_of(scene).media)
+  if (combined && facts_of(scene).scattering_media)
     radii.push_back(fmt::format("{:.6g} m in media", first_radius_of_merges(settings.volume, scene)));
   for (const Medium& m : scene.media)
     if (m.scatters() && !combined)
       radii.push_back(fmt::format("{:.6g} m in {}", first_radius(settings.volume, scene, m), m.name));
-  if (scattering_of(scene).surfaces)
+  if (facts_of(scene).rough_surfaces)
     radii.push_back(fmt::format("{:.6g} m on surfaces", first_radius(settings.surface, scene)));
   return radii.empty() ? "none: nothing stores photons" : fmt::format("{}", fmt::join(radii, ", "));
 }
@@ -129,7 +129,7 @@ std::string crop_text(const Camera& camera) {
 /// What a render would run; what it would skip, and why, where that is asked for.
 void print_stages(const RenderJob& job, bool all) {
   size_t skipped = 0;
-  for (const std::string& line : stage_lines(job.scene, job.settings, scattering_of(job.scene))) {
+  for (const std::string& line : stage_lines(job.scene, job.settings, facts_of(job.scene))) {
     const bool skips = line.starts_with("skips ");
     skipped += skips;
     if (all || !skips) fmt::print("{}\n", line);

@@ -11,6 +11,7 @@
 #include "vpm/base/error.h"
 #include "vpm/film/view_layers.h"
 #include "vpm/image/png.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/checkpoint.h"
 
 namespace vpm::tools {

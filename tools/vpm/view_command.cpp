@@ -14,6 +14,7 @@
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/ranks/alone.h"
 #include "vpm/render/render.h"
 

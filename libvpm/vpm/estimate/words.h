@@ -3,7 +3,6 @@
 
 #include "vpm/base/settings/setting.h"
 #include "vpm/estimate/gather.h"
-#include "vpm/integrators/photon_map/volume/volume_settings.h"
 
 namespace vpm {
 
@@ -23,17 +22,4 @@ template <>
 struct WordsOf<BoundaryRule> {
   static constexpr std::array<std::string_view, 3> words{"none", "corrected", "ends"};
 };
-template <>
-struct WordsOf<VolumeForm> {
-  static constexpr std::array<std::string_view, 2> words{"density-at-query", "density-at-photon"};
-};
-template <>
-struct WordsOf<BeamLength> {
-  static constexpr std::array<std::string_view, 2> words{"short", "long"};
-};
-template <>
-struct WordsOf<PlaneUse> {
-  static constexpr std::array<std::string_view, 2> words{"combined", "alone"};
-};
-
 }  // namespace vpm

@@ -52,7 +52,7 @@ struct TileWork {
 };
 
 /// One sample of each pixel of a block.
-void sample_block(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
+void sample_block(const Scene& scene, const PassSettings& settings, int pass, const RadianceOfRays& radiance,
                   const PixelBlock& block, int sample, TileWork& tile) {
   const Camera& camera = scene.camera;
   const int samples = settings.samples_per_pixel;
@@ -69,7 +69,7 @@ void sample_block(const Scene& scene, const RenderSettings& settings, int pass, 
   radiance(tile.rays);
 }
 
-void render_block(const Scene& scene, const RenderSettings& settings, const RadianceOfRays& radiance,
+void render_block(const Scene& scene, const PassSettings& settings, const RadianceOfRays& radiance,
                   const PixelBlock& block, TileWork& tile, int number, Pass& pass) {
   std::array<SampleMean, kEyeRays> means;
   for (int sample = 0; sample < settings.samples_per_pixel; ++sample) {
@@ -87,7 +87,7 @@ uint64_t tile_count(const Camera& camera) {
   return static_cast<uint64_t>(tiles.width()) * static_cast<uint64_t>(tiles.height());
 }
 
-Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
+Pass render_image(const Scene& scene, const PassSettings& settings, int pass, const RadianceOfRays& radiance,
                   const PassProgress& progress) {
   const Stopwatch rendering;
   const Camera& camera = scene.camera;

@@ -8,7 +8,7 @@
 #include "vpm/base/counters.h"
 #include "vpm/estimate/eye_work.h"
 #include "vpm/film/pass.h"
-#include "vpm/integrators/settings.h"
+#include "vpm/film/pass_settings.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {
@@ -60,7 +60,7 @@ KernelEstimate mean_of_samples(int samples, EyeCounters& counters, Sample&& samp
 /// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel, a SampleMean, and where the
 /// settings ask for layers, the means of what these samples' rays see. Where the camera has a crop, the pixels are
 /// those of all tiles that it meets: it has the same bits as that part of the whole.
-Pass render_image(const Scene& scene, const RenderSettings& settings, int pass, const RadianceOfRays& radiance,
+Pass render_image(const Scene& scene, const PassSettings& settings, int pass, const RadianceOfRays& radiance,
                   const PassProgress& progress = {});
 
 }  // namespace vpm

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "vpm/base/overloads.h"
-#include "vpm/integrators/combined/technique_layers.h"
 #include "vpm/path/both_sides.h"
 #include "vpm/path/stretches.h"
 #include "vpm/surface/material/fresnel.h"
@@ -182,14 +181,9 @@ size_t view_films(const ViewLayerSet& layers) {
   return films;
 }
 
-size_t layer_films(const RenderSettings& settings) {
-  return layer_names(settings).size() + view_films(settings.layers);
-}
-
-size_t layer_channels(const RenderSettings& settings) {
-  constexpr size_t kOfTechniqueLayer = 6;
-  size_t channels = kOfTechniqueLayer * layer_names(settings).size();
-  for_each_layer(settings.layers, [&](const ViewLayerInfo&, const LayerKind& kind) {
+size_t view_channels(const ViewLayerSet& layers) {
+  size_t channels = 0;
+  for_each_layer(layers, [&](const ViewLayerInfo&, const LayerKind& kind) {
     channels += kind.letters.size() * (kind.is_mean() ? 2 : 1);
   });
   return channels;
@@ -216,7 +210,7 @@ std::vector<Image> ViewSums::means(int samples) const {
   return means;
 }
 
-std::vector<NamedLayer> named_view_layers(const RenderSettings& settings, const Film& picture,
+std::vector<NamedLayer> named_view_layers(const PassSettings& settings, const Film& picture,
                                           std::span<const Film> films) {
   assert(films.size() == view_films(settings.layers));
   const auto samples = static_cast<float>(static_cast<double>(settings.samples_per_pixel) * picture.passes());

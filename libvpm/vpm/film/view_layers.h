@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "vpm/film/film.h"
+#include "vpm/film/pass_settings.h"
 #include "vpm/image/image.h"
-#include "vpm/integrators/settings.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {
@@ -42,10 +42,8 @@ inline constexpr int kMostSpecular = 16;
 
 /// How many films such layers need.
 size_t view_films(const ViewLayerSet& layers);
-/// How many films a render under these settings has besides its picture: those of layer_names(), then view_films().
-size_t layer_films(const RenderSettings& settings);
-/// How many channels all its layers fill, variances included.
-size_t layer_channels(const RenderSettings& settings);
+/// How many channels they fill, variances included.
+size_t view_channels(const ViewLayerSet& layers);
 
 /// The sums of the views of one pass, pixel by pixel. Different pixels may be added to at the same time.
 class ViewSums {
@@ -67,7 +65,7 @@ class ViewSums {
 /// layer that is a mean of samples is followed by NAME-variance: that of the mean. Depth and single-scattering albedo
 /// are ratios of such means: of distances over the share of samples that see a surface, and of what is scattered over
 /// what is lost.
-std::vector<NamedLayer> named_view_layers(const RenderSettings& settings, const Film& picture,
+std::vector<NamedLayer> named_view_layers(const PassSettings& settings, const Film& picture,
                                           std::span<const Film> films);
 /// The depth where no sample sees a surface, m: that of Blender's.
 inline constexpr float kNoDepth = 1e10f;

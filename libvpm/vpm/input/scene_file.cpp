@@ -56,7 +56,7 @@ void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan)
 SceneFacts facts_of(const ScenePlan& plan) {
   SceneFacts facts;
   for (const MediumPlan& medium : plan.media) {
-    facts.grids |= medium.grid.has_value();
+    facts.grids |= medium.grid.has_value();  // not read yet
     facts.scattering_media |= medium.part.medium.scatters();
   }
   if (plan.world_medium != kVacuum) facts.add_world(plan.media[plan.world_medium].part.medium);

@@ -9,7 +9,7 @@
 #include "vpm/image/exr.h"
 #include "vpm/input/given_parts.h"
 #include "vpm/input/table_reader.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/render_job.h"
 #include "vpm/scene/parts.h"
 

@@ -1,20 +1,17 @@
-// Which settings a render has: table by table, each component those that it uses.
+// Which settings a render has: those of [render], and those of its integrator.
 #include "vpm/integrators/describe.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/integrator.h"
 #include "vpm/integrators/words.h"
 
 namespace vpm {
 namespace {
 
 using S = RenderSettings;
-using G = AskedGather;
 
-constexpr uint64_t kMost = 1'000'000;  // of rays at one place, and the like
+constexpr uint64_t kMost = 1'000'000;  // rays of a pixel
 
 void describe_render(S& s, Description& d) {
   d.in("render");
@@ -28,185 +25,15 @@ void describe_render(S& s, Description& d) {
   until.add("error", &StopRule::error, Numbers{kNotNegative},
             "> 0: passes start until the relative MSE is below that with a confidence of about 80 %, instead",
             {.of_passes = true});
-  const Members<S> own(s, d);
-  own.add("seed", &S::seed, Integers{}, "of all random numbers", {.of_passes = true});
-  own.add("samples_per_pixel", &S::samples_per_pixel, Integers{1, kMost}, "camera rays per pixel and pass");
-  own.add("max_events", &S::max_events, Integers{1, 1'000'000'000},
-          "events of one path before it is cut; cuts are counted in the report");
-  own.add_set("layers", &S::layers, std::span<const ViewLayerInfo>(kViewLayers), &ViewLayerInfo::layer,
-              "layers of the picture that show what its pixels see, see below; `--layers` does the same", {}, "none");
-}
-
-void describe_guide(GuideSettings& guide, Description& d) {
-  d.in("integrator.importance");
-  const Members<GuideSettings> of(guide, d);
-  of.add("importons", &GuideSettings::importons, Integers{0, 1'000'000'000},
-         "> 0: photons go where they matter to the picture, as that many paths from the camera find in each pass. Pays "
-         "where the camera sees a small part of the scene");
-  if (guide.importons == 0) return;
-  of.add("aim", &GuideSettings::aim, Flags{}, "emit more where photons are worth more");
-  of.add("split", &GuideSettings::split, Flags{},
-         "follow photons by several where they are worth more, by fewer where less");
-  of.add("scatter", &GuideSettings::scatter, Flags{},
-         "scatter a tenth of the photons into directions in which they are worth more. Pays where light has to find "
-         "its way through an opening after it has scattered");
-}
-
-void describe_photons(S& s, Description& d) {
-  d.in("integrator.photons");
-  const Members<S> of(s, d);
-  of.add("stored", &S::photons_stored, Integers{}, "photons per pass and map at which tracing stops; 0: no limit");
-  S usual;
-  if (s.photons_stored > 0) usual.photons_emitted = 0;
-  Members<S>(s, d, usual)
-      .add("emitted", &S::photons_emitted, Integers{}, "photons per pass; 0: until the maps are full",
-           {.usual_text = "200000, or 0 where `stored` is above 0", .automatic = true, .stays = s.photons_stored > 0});
-  of.add("block", &S::photons_block, Integers{},
-         "> 0: the photons of a pass are traced, gathered and dropped in blocks of at most so many, so that memory "
-         "holds one block at a time; the picture is the same, and eye rays are followed again for each block, see "
-         "below; 0: all at once");
-  of.add("sequence", &S::photon_sequence,
-         "what emission, the first flights and the first scattering of photons are drawn from: points of Sobol's "
-         "sequence, scrambled anew for each pass, which lie more evenly and leave less noise in fog; or random "
-         "numbers, as always where importance guides photons, caustics aim them, the nearest are gathered, or they "
-         "find places for irradiance");
-  of.add("in_cube", &S::photons_in_cube, Integers{0, kMost},
-         "> 0: the most photons kept in a cube of half a gather radius for each octant of directions; these take over "
-         "the power of the rest");
-}
-
-constexpr const char* kRadius = "of the first pass, or the largest where gathers go by `count`";
-constexpr const char* kRadiusOfMerges = "of merges, in the first pass";
-
-void describe_gather_on_surfaces(G& gather, Description& d, const std::string& table) {
-  d.in(table);
-  const Members<G> of(gather, d);
-  of.add("type", &G::mode, "photons within a `\"radius\"`, or the `\"nearest\"` few");
-  describe_radius(gather, kRadius, d);
-  if (gather.mode == GatherMode::nearest) of.add("count", &G::count, Integers{2, kMost}, "how many are nearest");
-  describe_kernel(gather, d);
-}
-
-/// The correction at borders is also that of the caustic map.
-void describe_surface(S& s, Description& d) {
-  describe_gather_on_surfaces(s.surface, d, "integrator.surface");
-  const auto set = [&s](const SettingValue& value) {
-    set_member(s.surface.boundary, value);
-    s.caustics.boundary = s.surface.boundary;
-  };
-  d.add("boundary", {{},
-                     "",
-                     "`\"corrected\"`: no dark rims at the edges of surfaces, and no light through thin walls, see "
-                     "below; for the caustic map, too",
-                     words_of<BoundaryRule>(2),
-                     word_of(BoundaryRule::none),
-                     [&s] { return SettingValue(word_of(s.surface.boundary)); },
-                     set});
-}
-
-void describe_single_scattering(S& s, Description& d) {
-  d.in("integrator.single_scattering");
-  const Members<S> of(s, d);
-  of.add("type", &S::volume_direct,
-         "light that media scatter once: from `\"photons\"`, by `\"shadow-rays\"` from every step of the march, or "
-         "`\"equiangular\"`, by shadow rays from a few distances of each stretch of an eye ray, drawn both towards the "
-         "light and by what reaches the eye. Light that scatters more than once always comes from the photon map");
-  if (s.volume_direct == DirectLight::equiangular)
-    of.add("samples", &S::direct_samples, Integers{1, kMost}, "how many pairs of such distances");
-}
-
-void describe_light_on_surfaces(S& s, Description& d) {
-  d.in("integrator.direct");
-  const Members<S> of(s, d);
-  of.add("type", &S::surface_direct, words_of<DirectLight>(2),
-         "light on surfaces that has not scattered yet: from `\"photons\"`, or by `\"shadow-rays\"`");
-  if (s.surface_direct == DirectLight::shadow_rays)
-    of.add("samples", &S::surface_direct_samples, Integers{1, kMost},
-           "how many shadow rays to each lamp or sky, to places that lie evenly on it");
-  d.in("integrator.indirect");
-  of.add("type", &S::surface_indirect, "light that surfaces scattered: from `\"photons\"`, or by `\"final-gather\"`");
-  if (s.surface_indirect != IndirectLight::final_gather) return;
-  of.add("rays", &S::gather_rays, Integers{1, kMost}, "how many, at each point that the eye sees");
-  of.add("rays_by", &S::gather_by,
-         "how they are drawn: as the `\"material\"` scatters, or up to half of them to where the `\"photons\"` nearby "
-         "came from, by a map of their own. Pays where indirect light comes from one side, as out of the next room; "
-         "noisier where it comes evenly from everywhere");
-  of.add("irradiance", &S::end_irradiance,
-         "what they find where they end on a Lambertian surface: an `\"estimate\"` from all photons around, or one "
-         "`\"precomputed\"` at the place of a photon nearby. Quicker where rays are many more than photons, and "
-         "further off, see below");
-  describe_gather_on_surfaces(s.caustics, d, "integrator.caustics");
-  of.add("emitted", &S::caustics_emitted, Integers{},
-         "> 0: that many further photons per pass, aimed at mirrors and glass for the caustic map of final gathering");
-}
-
-constexpr const char* kRadiiMeaning =
-    "how gather radii go on after the first pass: `\"per-pass\"`, smaller from pass to pass, so that the average "
-    "converges to the truth; `\"per-pixel\"`, on surfaces each pixel's own, smaller with the photons that it finds "
-    "(stochastic progressive photon mapping), see below";
-
-void describe_photon_map(S& s, Description& d) {
-  const Members<S> of(s, d);
-  of.add("radii", &S::radii, kRadiiMeaning);
-  of.add("max_optical_step", &S::max_optical_step, Numbers{{1e-4, kNoLimit, false, true}},
-         "longest step of the eye rays' march, in optical thickness; photons of homogeneous media are summed in steps "
-         "of a radius where `boundary` is `\"ends\"`; with `\"beams-points\"` that of the densest place counts "
-         "everywhere");
-  describe_photons(s, d);
-  describe_guide(s.guide, d);
-  // Photons are many and fly far: what a flight costs is most of their time, and null collisions cost less of it than
-  // cells. Of paths and techniques combined most of the time is elsewhere (papers/distance-sampling.md).
-  describe(s.distance, strategies_that(&StrategyInfo::positive), "delta-local", d.in("integrator.distance"));
-  const StrategyInfo* const flights = find_strategy(s.distance.strategy);
-  describe(s.volume, flights && flights->analog, d.in("integrator.volume"));
-  describe_single_scattering(s, d);
-  describe_surface(s, d);
-  describe_light_on_surfaces(s, d);
-  describe(s.transmittance, d.in("integrator.transmittance"));
-}
-
-void describe_path(S& s, Description& d) {
-  describe(s.distance, names_of(distance_strategies()), "regular", d.in("integrator.distance"));
-  describe(s.transmittance, d.in("integrator.transmittance"));
-}
-
-/// Strategies whose flights have the density that the transmittance says.
-std::vector<std::string> strategies_of_known_density() {
-  std::vector<std::string> names;
-  for (const StrategyInfo& info : distance_strategies())
-    if (info.analog && info.unbiased) names.emplace_back(info.name);
-  return names;
-}
-
-void describe_combined(S& s, Description& d) {
-  Members<CombinedSettings> of(s.combined, d);
-  of.add_set("techniques", &CombinedSettings::techniques, std::span<const TechniqueInfo>(kTechniques),
-             &TechniqueInfo::technique, "which techniques find light; what none of them can find is missing",
-             {.usual_text = "all but `\"long-beams\"` and `\"planes\"`", .automatic = true});
-  of.add("heuristic", &CombinedSettings::heuristic,
-         "how techniques share a path that several find: by their densities, by the squares of these, or by densities "
-         "where eye sub-paths end at the first place that does not only mirror or refract, if merges find all light "
-         "there: merges beyond it share its noise");
-  of.add("layers", &CombinedSettings::layers, Flags{},
-         "writes what each technique finds, too: layers `combined.NAME.weighted` and `combined.NAME.unweighted` "
-         "(`--layers combined` does the same)");
-  const Members<S> own(s, d);
-  own.add("radii", &S::radii, words_of<RadiusSchedule>(2), "how the radii of merges go on after the first pass");
-  if (s.combined.techniques.has(Technique::planes))
-    of.add("planes", &CombinedSettings::planes, Integers{1, kMost},
-           "about so many flights of a pass become planes, drawn by chance. Eye rays send a shadow ray for each plane "
-           "that they cross");
-  d.in("integrator.photons");
-  own.add("emitted", &S::photons_emitted, Integers{1}, "light sub-paths per pass", {.automatic = true});
-  own.add("sequence", &S::photon_sequence, "what they are drawn from, as for photon maps");
-  describe(s.distance, strategies_of_known_density(), "regular", d.in("integrator.distance"));
-  d.in("integrator.volume");
-  describe_radius(s.volume, kRadiusOfMerges, d);
-  describe_kernel(s.volume, d);
-  describe_density_floor(s.volume, d);
-  d.in("integrator.surface");
-  describe_radius(s.surface, kRadiusOfMerges, d);
-  describe_kernel(s.surface, d);
+  const Members<PassSettings> of_passes(s, d);
+  of_passes.add("seed", &PassSettings::seed, Integers{}, "of all random numbers", {.of_passes = true});
+  of_passes.add("samples_per_pixel", &PassSettings::samples_per_pixel, Integers{1, kMost},
+                "camera rays per pixel and pass");
+  Members<S>(s, d).add("max_events", &S::max_events, Integers{1, 1'000'000'000},
+                       "events of one path before it is cut; cuts are counted in the report");
+  of_passes.add_set("layers", &PassSettings::layers, std::span<const ViewLayerInfo>(kViewLayers), &ViewLayerInfo::layer,
+                    "layers of the picture that show what its pixels see, see below; `--layers` does the same", {},
+                    "none");
 }
 
 }  // namespace
@@ -218,17 +45,7 @@ std::vector<Setting> describe(RenderSettings& settings) {
       .add("type", &S::integrator,
            "photon mapping, the unbiased reference path tracer, or all techniques `\"combined\"`, see below",
            {.automatic = true});
-  switch (settings.integrator) {
-    case Integrator::photon:
-      describe_photon_map(settings, description);
-      break;
-    case Integrator::path:
-      describe_path(settings, description);
-      break;
-    case Integrator::combined:
-      describe_combined(settings, description);
-      break;
-  }
+  info_of(settings.integrator).describe(settings, description);
   return description.take();
 }
 

@@ -6,12 +6,13 @@
 #include <string>
 
 #include "vpm/estimate/gather.h"
-#include "vpm/film/view_layer.h"
+#include "vpm/film/pass_settings.h"
 #include "vpm/integrators/combined/technique.h"
 #include "vpm/integrators/photon_map/volume/volume_settings.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 #include "vpm/photon/photon_settings.h"
+#include "vpm/render/stop_rule.h"
 
 namespace vpm {
 
@@ -49,23 +50,9 @@ struct CombinedSettings {
   uint64_t planes = 1000;  // about so many photon planes in a pass, >= 1
 };
 
-/// When a render ends: once `passes` are done; or, where `seconds` or `error` are asked for, once the first of these
-/// two is reached.
-struct StopRule {
-  int passes = 16;       // >= 1; ignored where seconds or error > 0
-  int first = 0;         // >= 0; the number of the first pass: those before it are of other pieces of the render
-  double seconds = 0.0;  // > 0: wall clock; no pass goes on that would end much later
-  double error = 0.0;    // > 0: passes start until the estimated relative MSE is no more than that
-
-  bool counts_passes() const { return seconds == 0.0 && error == 0.0; }
-};
-
-struct RenderSettings {
+struct RenderSettings : PassSettings {
   Integrator integrator = Integrator::photon;
-  uint64_t seed = 1;
-  StopRule until;             // when the render ends
-  int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
-  ViewLayerSet layers;        // what pictures tell besides the light
+  StopRule until;  // when the render ends
 
   uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
   uint64_t photons_stored =

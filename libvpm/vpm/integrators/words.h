@@ -39,4 +39,17 @@ struct WordsOf<EndIrradiance> {
   static constexpr std::array<std::string_view, 2> words{"estimate", "precomputed"};
 };
 
+template <>
+struct WordsOf<VolumeForm> {
+  static constexpr std::array<std::string_view, 2> words{"density-at-query", "density-at-photon"};
+};
+template <>
+struct WordsOf<BeamLength> {
+  static constexpr std::array<std::string_view, 2> words{"short", "long"};
+};
+template <>
+struct WordsOf<PlaneUse> {
+  static constexpr std::array<std::string_view, 2> words{"combined", "alone"};
+};
+
 }  // namespace vpm

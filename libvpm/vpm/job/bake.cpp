@@ -2,7 +2,7 @@
 #include "vpm/job/bake.h"
 
 #include "vpm/integrators/photon_map/photon_blocks.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 
 namespace vpm {
 

@@ -3,6 +3,7 @@
 
 #include "vpm/base/statistics/channel_moments.h"
 #include "vpm/integrators/photon_map/surface/light_map.h"
+
 #include "vpm/render/render.h"
 
 namespace vpm {

@@ -3,6 +3,7 @@
 
 #include "vpm/image/metrics.h"
 #include "vpm/integrators/combined/technique_layers.h"
+#include "vpm/integrators/render_scene.h"
 
 namespace vpm {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/image/image.h"
+#include "vpm/integrators/settings.h"
 #include "vpm/render/render.h"
 
 namespace vpm {

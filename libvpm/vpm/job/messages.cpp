@@ -8,6 +8,7 @@
 
 #include "vpm/integrators/photon_map/plan.h"
 #include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/tune/lost_light.h"
 
 namespace vpm {
@@ -19,14 +20,15 @@ bool planes_alone(const RenderSettings& settings) {
 
 /// Of maps without photons that the picture is made of. Where rays find the light that comes straight from lights,
 /// there may be no other.
-void warn_of_empty_maps(const Scattering& shown, const RenderSettings& settings, const RenderStatistics& s,
+void warn_of_empty_maps(const SceneFacts& shown, const RenderSettings& settings, const RenderStatistics& s,
                         std::vector<std::string>& warnings) {
   const bool gathers = settings.surface_indirect == IndirectLight::final_gather;
   const bool flights = settings.volume.info().flights && !planes_alone(settings);
-  if (shown.media && settings.volume_direct == DirectLight::photons && (flights ? s.flights : s.volume_photons) == 0)
+  if (shown.scattering_media && settings.volume_direct == DirectLight::photons &&
+      (flights ? s.flights : s.volume_photons) == 0)
     warnings.emplace_back(flights ? "there are no photon beams: no photon flew through a medium"
                                   : "the volume photon map is empty: no photon scattered in a medium");
-  if (shown.surfaces && s.surface_photons == 0 && s.eye.surface_queries > 0 &&
+  if (shown.rough_surfaces && s.surface_photons == 0 && s.eye.surface_queries > 0 &&
       (gathers || settings.surface_direct == DirectLight::photons))
     warnings.emplace_back("the surface photon map is empty: no photon to store met a diffuse or rough surface");
 }
@@ -64,7 +66,7 @@ void warn_of_short_counts(const EyeCounters& eye, std::vector<std::string>& warn
 }
 
 /// `shown`: what of the scene's scattering the picture shows.
-std::vector<std::string> warnings_about(const Scattering& shown, const RenderSettings& settings,
+std::vector<std::string> warnings_about(const SceneFacts& shown, const RenderSettings& settings,
                                         const RenderStatistics& s) {
   std::vector<std::string> warnings;
   const auto warn = [&](uint64_t count, const char* what) {
@@ -74,7 +76,7 @@ std::vector<std::string> warnings_about(const Scattering& shown, const RenderSet
     warn_of_empty_maps(shown, settings, s, warnings);
     warn_of_unfound_photons(s, warnings);
     warn_of_short_counts(s.eye, warnings);
-    if (shown.media && planes_alone(settings))
+    if (shown.scattering_media && planes_alone(settings))
       warnings.emplace_back("photon planes alone have infinite variance: the error may be larger than is stated");
   }
   warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
@@ -138,7 +140,7 @@ bool finds_no_light(const Scene& scene, const Film& film) {
 std::string lost_light_of(const RenderJob& job) { return text_of_lost_light(job.scene, job.settings, job.light_names); }
 
 /// The warnings about what is rendered, and about the picture of it.
-std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& job, const RenderResult& result) {
+std::vector<std::string> all_warnings(const SceneFacts& shown, const RenderJob& job, const RenderResult& result) {
   std::vector<std::string> warnings = warnings_about(shown, job.settings, result.statistics);
   if (const size_t negative = negative_pixels(result.film); negative > 0)
     warnings.push_back(
@@ -159,11 +161,11 @@ std::vector<std::string> all_warnings(const Scattering& shown, const RenderJob& 
 }  // namespace
 
 std::vector<std::string> warnings_of(const RenderJob& job, const RenderResult& result) {
-  return all_warnings(scattering_of(job.scene), job, result);
+  return all_warnings(facts_of(job.scene), job, result);
 }
 
 std::vector<std::string> warnings_of_light_map(const RenderJob& job, const RenderResult& result) {
-  return all_warnings({.surfaces = true}, job, result);
+  return all_warnings({.rough_surfaces = true}, job, result);
 }
 
 std::string error_text(const RenderJob& job, const RenderResult& result) {

@@ -11,6 +11,7 @@
 #include "vpm/image/statistics_of.h"
 #include "vpm/integrators/combined/technique_layers.h"
 #include "vpm/integrators/describe.h"
+#include "vpm/integrators/render_scene.h"
 
 namespace vpm {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "vpm/film/view_layer.h"
 #include "vpm/integrators/photon_map/surface/uv_layout.h"
+#include "vpm/integrators/settings.h"
 #include "vpm/job/render_job.h"
 #include "vpm/render/render.h"
 

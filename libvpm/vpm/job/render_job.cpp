@@ -7,7 +7,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/integrators/describe.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/render/pass_time.h"
 #include "vpm/render/render.h"
 #include "vpm/tune/automatic.h"

@@ -13,9 +13,9 @@
 #include "vpm/integrators/photon_map/photon_blocks.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/integrators/photon_map/plan.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/found_by_techniques.h"
 #include "vpm/job/messages.h"
-#include "vpm/job/stage_lines.h"
 
 namespace vpm {
 namespace {
@@ -219,7 +219,7 @@ Json memory(const RenderJob& job, const RenderResult& result) {
 std::string whole(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 /// What the report of a render and of a light map have in common.
-Json report_of(const RenderJob& job, const std::string& image, const std::string& quantity, const Scattering& shown,
+Json report_of(const RenderJob& job, const std::string& image, const std::string& quantity, const SceneFacts& shown,
                const RenderResult& result) {
   const RenderStatistics& s = result.statistics;
   const Json counts = counted(s);
@@ -252,7 +252,7 @@ Json report_of(const RenderJob& job, const std::string& image, const std::string
 }  // namespace
 
 std::string render_report(const RenderJob& job, const std::string& image, const RenderResult& result) {
-  Json report = report_of(job, image, "radiance, W/(m^2 sr)", scattering_of(job.scene), result);
+  Json report = report_of(job, image, "radiance, W/(m^2 sr)", facts_of(job.scene), result);
   const Camera& camera = job.scene.camera;
   report["width"] = camera.width;
   report["height"] = camera.height;
@@ -271,7 +271,7 @@ std::string render_report(const RenderJob& job, const std::string& image, const 
 std::string light_map_report(const RenderJob& job, const std::string& image, const std::string& mesh,
                              const UvLayout& layout, const LightMap& baked) {
   const RenderResult& result = baked.render;
-  Json report = report_of(job, image, "irradiance, W/m^2", {.surfaces = true}, result);
+  Json report = report_of(job, image, "irradiance, W/m^2", {.rough_surfaces = true}, result);
   report["warnings"] = warnings_of_light_map(job, result);
   report["texels"] = texels(counted(result.statistics)["eye"]);
   report["light_map"] = {{"mesh", mesh},

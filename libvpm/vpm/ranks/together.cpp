@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "vpm/base/cancel.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/ranks/messages.h"
 #include "vpm/ranks/pass_pool.h"
 
@@ -184,12 +184,11 @@ class Orders {
   std::thread listening_;  // last: it uses the rest
 };
 
-void refuse_radii_of_pixels(const RenderSettings& settings) {
-  if (settings.integrator == Integrator::photon && settings.radii == RadiusSchedule::per_pixel)
-    throw SettingError("integrator.radii",
-                       "where 'radii' of [integrator] are \"per-pixel\" they follow from all passes before, so that no "
-                       "other rank can make the next pass",
-                       "write other radii, or render in one process");
+void refuse_radii_of_pixels(const PassMaker& maker) {
+  refuse_if(maker.ordered, "integrator.radii",
+            "where 'radii' of [integrator] are \"per-pixel\" they follow from all passes before, so that no other rank "
+            "can make the next pass",
+            "write other radii, or render in one process");
 }
 
 }  // namespace
@@ -229,9 +228,10 @@ void make_passes(Ranks& ranks, const PassMaker& maker) {
 RenderResult lead_render(Ranks& ranks, const Scene& scene, const RenderSettings& settings, RenderResult result,
                          const RunControl& control) {
   if (ranks.size() == 1) return render(scene, settings, std::move(result), control);
-  refuse_radii_of_pixels(settings);
+  const PassMaker maker = pass_maker(scene, settings);
+  refuse_radii_of_pixels(maker);
   check_begun(scene, settings, result);
-  return lead_passes(ranks, settings.until, pass_maker(scene, settings), std::move(result), control);
+  return lead_passes(ranks, settings.until, maker, std::move(result), control);
 }
 
 void make_render(Ranks& ranks, const Scene& scene, const RenderSettings& settings) {

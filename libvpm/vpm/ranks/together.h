@@ -6,6 +6,7 @@
 // nothing. What grows with the number of ranks is what rank 0 receives and sums, see papers/performance.md.
 #pragma once
 
+#include "vpm/integrators/settings.h"
 #include "vpm/ranks/ranks.h"
 #include "vpm/render/render.h"
 

@@ -7,11 +7,6 @@
 
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
-#include "vpm/film/view_layers.h"
-#include "vpm/integrators/combined/combined_pass.h"
-#include "vpm/integrators/path/path_tracer.h"
-#include "vpm/integrators/photon_map/photon_pass.h"
-#include "vpm/integrators/validate.h"
 #include "vpm/render/pass_time.h"
 
 namespace vpm {
@@ -78,15 +73,6 @@ void check_begin(const Film& film, int first) {
                     begun, first));
 }
 
-/// The pictures of a pass, cut to the camera's crop.
-Pass cut(Pass pass, const Camera& camera) {
-  if (!camera.crop) return pass;
-  pass.image = cropped(pass.image, *camera.crop);
-  if (!pass.correction.pixels.empty()) pass.correction = cropped(pass.correction, *camera.crop);
-  for (Image& layer : pass.layers) layer = cropped(layer, *camera.crop);
-  return pass;
-}
-
 void add(RenderResult& result, int number, const Pass& pass) {
   result.film.add(number, pass.image, pass.correction);
   while (result.layers.size() < pass.layers.size()) result.layers.emplace_back(pass.image.width, pass.image.height);
@@ -127,34 +113,9 @@ double highest_error(const RenderResult& result) {
   return stated ? stated->highest : std::numeric_limits<double>::infinity();
 }
 
-void check_begun(const Scene& scene, const RenderSettings& settings, const RenderResult& result) {
-  validate(settings, facts_of(scene));
-  check_size(result, scene.camera, layer_films(settings));
-  check_begin(result.film, settings.until.first);
-}
-
-PassMaker pass_maker(const Scene& scene, const RenderSettings& settings) {
-  const auto whole = [&](int pass, const RenderResult& so_far, const PassProgress& shown) {
-    switch (settings.integrator) {
-      case Integrator::path:
-        return render_path_pass(scene, settings, pass, shown);
-      case Integrator::combined:
-        return render_combined_pass(scene, settings, pass, shown);
-      case Integrator::photon:
-        return render_photon_pass_after(so_far.discs, scene, settings, {pass, shown});
-    }
-    __builtin_unreachable();
-  };
-  const auto make = [&scene, whole](int pass, const RenderResult& so_far, const PassProgress& shown) {
-    return cut(whole(pass, so_far, shown), scene.camera);
-  };
-  return {make, tile_count(scene.camera), block_count(settings)};
-}
-
-RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
-                    const RunControl& control) {
-  check_begun(scene, settings, result);
-  return run_passes(settings.until, pass_maker(scene, settings), std::move(result), control);
+void check_goes_on(const RenderResult& result, const Camera& camera, size_t layers, int first) {
+  check_size(result, camera, layers);
+  check_begin(result.film, first);
 }
 
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result,

@@ -14,9 +14,9 @@
 #include "vpm/film/film.h"
 #include "vpm/film/pass.h"
 #include "vpm/film/pixel_disc.h"
-#include "vpm/integrators/settings.h"
 #include "vpm/render/stated_error.h"
-#include "vpm/scene/scene.h"
+#include "vpm/render/stop_rule.h"
+#include "vpm/scene/camera.h"
 
 namespace vpm {
 
@@ -56,33 +56,28 @@ class NoPassFits : public std::runtime_error {
   double pass_;
 };
 
-/// Renders passes until the settings' stop rule is met, or the work is given up (base/cancel.h): the pass under way is
-/// then dropped, and those finished are returned. `result` is nothing_rendered() or what an earlier run has left off
-/// with, for the same scene and settings: passes go on where it ended.
-///
-/// Where a time is asked for, it counts from the beginning of control.clock, and with that of earlier runs. No pass is
-/// begun that would end after 1.05 times it and 0.25 s if it took as long as the last one; one that is under way then
-/// is dropped. The first is finished if it is foreseen to end within twice the time.
-///
-/// Throws a SettingError where settings contradict themselves or the scene, InputError where the result is of another
-/// size than the camera's film, and NoPassFits.
-RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
-                    const RunControl& control = {});
-
 /// Pass number `number` of any kind, to be made after those in `so_far`. In its course it tells its bar of `work` units
 /// for each block of its photons.
 struct PassMaker {
   std::function<Pass(int number, const RenderResult& so_far, const PassProgress& progress)> make;
   uint64_t work = 0;
-  uint64_t blocks = 1;  // of a pass, >= 1
+  uint64_t blocks = 1;   // of a pass, >= 1
+  bool ordered = false;  // does a pass depend on `so_far`?
 };
-/// The same loop over any passes of a film.
+
+/// Adds passes to the result until the stop rule is met, or the work is given up (base/cancel.h): the pass under way is
+/// then dropped, and those finished are returned.
+///
+/// Where a time is asked for, it counts from the beginning of control.clock, and with that of earlier runs. No pass is
+/// begun that would end after 1.05 times it and 0.25 s if it took as long as the last one; one that is under way then
+/// is dropped. The first is finished if it is foreseen to end within twice the time.
+///
+/// Throws NoPassFits.
 RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderResult result, const RunControl& control);
 
-/// The passes of render(): of the scene and the settings, which must live until then.
-PassMaker pass_maker(const Scene& scene, const RenderSettings& settings);
-/// Throws what render() throws before its first pass.
-void check_begun(const Scene& scene, const RenderSettings& settings, const RenderResult& result);
+/// Throws InputError where the result cannot go on as a render of the camera's film with so many films of layers that
+/// begins with pass `first`.
+void check_goes_on(const RenderResult& result, const Camera& camera, size_t layers, int first);
 
 /// A render of the camera's film before its first pass.
 RenderResult nothing_rendered(const Camera& camera);

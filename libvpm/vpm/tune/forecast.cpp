@@ -12,13 +12,13 @@
 #include "vpm/base/parallel.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/integrator.h"
 #include "vpm/integrators/photon_map/photon_blocks.h"
 #include "vpm/integrators/photon_map/plan.h"
 #include "vpm/integrators/photon_map/volume/estimators.h"
 #include "vpm/tune/choice_rules.h"
 #include "vpm/tune/eye_blocks.h"
 #include "vpm/tune/pilot.h"
-#include "vpm/tune/rays_of_pass.h"
 
 namespace vpm {
 namespace {
@@ -117,7 +117,7 @@ std::string photons_that_fit(const PassCost& cost, const RenderSettings& setting
 
 std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking) {
   constexpr int kHalves = 6;
-  const bool media = scattering_of(scene).media;
+  const bool media = facts_of(scene).scattering_media;
   AskedGather& gather = media ? settings.volume : settings.surface;
   if (settings.integrator != Integrator::photon || gather.goes_by_count()) return "";
   float radius = media ? first_radius_of_merges(gather, scene) : first_radius(gather, scene);

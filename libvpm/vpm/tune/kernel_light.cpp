@@ -10,10 +10,10 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/statistics/moments.h"
 #include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/integrator.h"
 #include "vpm/tune/eye_blocks.h"
 #include "vpm/tune/lost_light.h"
 #include "vpm/tune/pilot.h"
-#include "vpm/tune/rays_of_pass.h"
 
 namespace vpm {
 namespace {

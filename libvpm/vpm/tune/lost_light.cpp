@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "vpm/integrators/photon_map/plan.h"
 #include "vpm/light/emission_density.h"
+#include "vpm/scene/scene_facts.h"
 
 namespace vpm {
 
@@ -34,9 +34,9 @@ std::string text_of_lights(const std::vector<size_t>& lights, const std::vector<
 std::string text_of_lost_light(const Scene& scene, const RenderSettings& settings,
                                const std::vector<std::string>& names) {
   const std::vector<size_t> lights = unhittable_lights(scene);
-  const Scattering scattering = scattering_of(scene);
+  const SceneFacts facts = facts_of(scene);
   if (settings.integrator != Integrator::path || lights.empty() || !has_specular_surfaces(scene) ||
-      !(scattering.media || scattering.surfaces))
+      !(facts.scattering_media || facts.rough_surfaces))
     return "";
   return fmt::format(
       "paths do not find what {} may send by way of mirrors or glass, as no ray hits what has no extent: where there "

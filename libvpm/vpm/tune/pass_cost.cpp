@@ -9,6 +9,7 @@
 #include "vpm/base/counters.h"
 #include "vpm/base/parallel.h"
 #include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/integrator.h"
 #include "vpm/integrators/photon_map/eye_path.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/photon/caustics.h"
@@ -16,7 +17,6 @@
 #include "vpm/tune/eye_blocks.h"
 #include "vpm/tune/forecast.h"
 #include "vpm/tune/pilot.h"
-#include "vpm/tune/rays_of_pass.h"
 
 namespace vpm {
 namespace {

@@ -13,9 +13,9 @@
 #include "vpm/base/statistics/moments.h"
 #include "vpm/estimate/radius_schedule.h"
 #include "vpm/image/metrics.h"
+#include "vpm/integrators/integrator.h"
 #include "vpm/tune/eye_blocks.h"
 #include "vpm/tune/pilot.h"
-#include "vpm/tune/rays_of_pass.h"
 
 namespace vpm {
 namespace {

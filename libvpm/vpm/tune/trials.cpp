@@ -11,7 +11,7 @@
 #include "vpm/base/error.h"
 #include "vpm/integrators/describe.h"
 #include "vpm/integrators/photon_map/plan.h"
-#include "vpm/integrators/validate.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/integrators/words.h"
 #include "vpm/render/pass_time.h"
 #include "vpm/render/render.h"
@@ -83,7 +83,7 @@ std::vector<Trial> trials_of_techniques(const Scene& scene, const AutomaticSetti
     trial.name += fmt::format(" without {}", fmt::join(names, ", "));
     return trial;
   };
-  if (!scattering_of(scene).media)
+  if (!facts_of(scene).scattering_media)
     return {without({Technique::short_beams, Technique::light_tracing}), without({Technique::short_beams})};
   return {without({Technique::short_beams, Technique::light_tracing}), without({Technique::short_beams}), all};
 }

@@ -13,6 +13,7 @@
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/image/png.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/job/messages.h"
 #include "vpm/job/picture.h"
 #include "vpm/job/report.h"

@@ -10,6 +10,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/vec.h"
 #include "vpm/integrators/describe.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/render/render.h"
 #include "vpm/tune/automatic.h"
 

@@ -7,7 +7,7 @@
 #include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
 #include "vpm/estimate/photon_map.h"
-#include "vpm/integrators/photon_map/plan.h"
+#include "vpm/scene/scene_facts.h"
 
 namespace vpm {
 namespace {
@@ -36,9 +36,9 @@ MergeKernels kernels_of_pass(const Scene& scene, const RenderSettings& settings,
 
 /// Does all light reach the first vertex from the eye that is not specular by merges?
 bool merges_where_the_eye_looks(const Scene& scene, const TechniqueSet& techniques) {
-  const Scattering scattering = scattering_of(scene);
-  return (!scattering.surfaces || techniques.has(Technique::surface_merging)) &&
-         (!scattering.media || techniques.merge_in_media());
+  const SceneFacts facts = facts_of(scene);
+  return (!facts.rough_surfaces || techniques.has(Technique::surface_merging)) &&
+         (!facts.scattering_media || techniques.merge_in_media());
 }
 
 TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& settings, const MergeKernels& kernels) {

@@ -10,8 +10,8 @@ constexpr size_t kLayers = 2 * kTechniques.size();
 
 }  // namespace
 
-std::vector<std::string> layer_names(const RenderSettings& settings) {
-  if (settings.integrator != Integrator::combined || !settings.combined.layers) return {};
+std::vector<std::string> layers_of_techniques(const RenderSettings& settings) {
+  if (!settings.combined.layers) return {};
   std::vector<std::string> names;
   for (const TechniqueInfo& info : kTechniques)
     for (const char* const part : {"weighted", "unweighted"})

@@ -10,9 +10,8 @@
 
 namespace vpm {
 
-/// The names of the layers that passes under these settings have: "combined.NAME.weighted", whose sum over techniques
-/// is the picture, and "combined.NAME.unweighted", for each technique. None where they are not asked for.
-std::vector<std::string> layer_names(const RenderSettings& settings);
+/// layer_names() of this integrator.
+std::vector<std::string> layers_of_techniques(const RenderSettings& settings);
 
 /// Where a technique's layers stand among them.
 constexpr size_t weighted_layer(Technique technique) { return 2 * static_cast<size_t>(technique); }

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "vpm/film/image_pass.h"
+#include "vpm/integrators/settings.h"
 #include "vpm/medium/distance/strategy.h"
 #include "vpm/medium/transmittance/estimator.h"
 

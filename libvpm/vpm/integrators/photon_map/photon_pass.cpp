@@ -104,7 +104,7 @@ void prepare_pass(const Scene& scene, const RenderSettings& settings, const Esti
 
 int tracings_of_pass(const Scene& scene, const RenderSettings& settings) {
   const VolumeEstimatorInfo& volume = settings.volume.info();
-  const bool marches = !volume.along_rays && !volume.flights && scattering_of(scene).media;
+  const bool marches = !volume.along_rays && !volume.flights && facts_of(scene).scattering_media;
   return marches && block_count(settings) > 1 ? 2 : 1;
 }
 

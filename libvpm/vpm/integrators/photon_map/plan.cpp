@@ -4,7 +4,6 @@
 #include <cassert>
 #include <stdexcept>
 
-#include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/integrators/photon_map/surface/final_gather.h"
 #include "vpm/integrators/photon_map/surface/pixel_radii.h"
 #include "vpm/integrators/photon_map/surface/surface_map.h"
@@ -104,23 +103,16 @@ Recorders Estimators::recorders() const {
   return list;
 }
 
-Scattering scattering_of(const Scene& scene) {
-  Scattering scattering;
-  for (const Medium& medium : scene.media) scattering.media |= medium.scatters();
-  for (const Shape& shape : scene.shapes) scattering.surfaces |= is_rough(scene.materials[shape.material]);
-  return scattering;
-}
-
 Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, int pass, const PixelDiscs& discs,
                            const MediaBounds* around) {
   if (settings.integrator != Integrator::photon) return {};
-  const auto [media, surfaces] = scattering_of(scene);
+  const SceneFacts facts = facts_of(scene);
   const SharedTransmittance transmittance = make_transmittance_estimator(settings.transmittance);
   PassOfMaps maps = pass_of_maps(settings, pass);
   maps.around = around;
   Estimators estimators;
-  if (media) estimators.volume = volume_estimators(scene, settings, maps, transmittance);
-  if (surfaces) estimators.surface = surface_estimator(scene, settings, maps, discs, transmittance);
+  if (facts.scattering_media) estimators.volume = volume_estimators(scene, settings, maps, transmittance);
+  if (facts.rough_surfaces) estimators.surface = surface_estimator(scene, settings, maps, discs, transmittance);
   return estimators;
 }
 
@@ -137,15 +129,10 @@ void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators
         throw std::logic_error("two estimators of media are planned that find the same light");
 }
 
-bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings) {
-  return settings.integrator != Integrator::photon ||
-         (scattering.media && (settings.volume_direct != DirectLight::photons || settings.volume.info().planes)) ||
-         (scattering.surfaces && settings.surface_direct != DirectLight::photons);
-}
-
-bool gathers(const Scene& scene, const RenderSettings& settings) {
-  if (settings.integrator == Integrator::combined) return merges(settings.combined.techniques);
-  return !plan_estimators(scene, settings, 0).maps().empty();
+bool casts_shadow_rays(const SceneFacts& facts, const RenderSettings& settings) {
+  return (facts.scattering_media &&
+          (settings.volume_direct != DirectLight::photons || settings.volume.info().planes)) ||
+         (facts.rough_surfaces && settings.surface_direct != DirectLight::photons);
 }
 
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings) {

@@ -9,7 +9,7 @@
 #include "vpm/film/pixel_disc.h"
 #include "vpm/integrators/photon_map/estimator.h"
 #include "vpm/integrators/settings.h"
-#include "vpm/scene/scene.h"
+#include "vpm/scene/scene_facts.h"
 
 namespace vpm {
 
@@ -26,13 +26,6 @@ struct Estimators {
   Recorders recorders() const;
 };
 
-/// What scatters in a scene, and so needs estimators.
-struct Scattering {
-  bool media = false;
-  bool surfaces = false;  // non-specular ones: mirrors and glass need no map
-};
-Scattering scattering_of(const Scene& scene);
-
 /// Plans pass number `pass` of a render of photon maps. `discs` are those that earlier passes have left: none before
 /// the first pass, and where pixels have no radii of their own. `around`, which outlives the plan: see PassOfMaps.
 /// Nothing is traced or built yet, so a plan also serves to ask what a render would do. Only a render of photon maps
@@ -45,11 +38,9 @@ Estimators plan_surface_estimators(const Scene& scene, const RenderSettings& set
 /// Throws std::logic_error where two estimators find the same light, so that it would be counted twice.
 void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators);
 
-/// Does such a render cast shadow rays? Other integrators always do.
-bool casts_shadow_rays(const Scattering& scattering, const RenderSettings& settings);
+/// Does such a render cast shadow rays?
+bool casts_shadow_rays(const SceneFacts& facts, const RenderSettings& settings);
 
-/// Does such a render gather by kernels, so that it may be biased?
-bool gathers(const Scene& scene, const RenderSettings& settings);
 /// The sections of the scene file whose maps are used, but do not tell the correction of their kernels: their bias
 /// cannot be seen.
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings);

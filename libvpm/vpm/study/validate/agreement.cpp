@@ -57,7 +57,7 @@ Measured by_photons(const Scene& scene, RenderSettings settings, BiasOrder order
   const double half = order == BiasOrder::smooth ? 4.0 / 3.0 : 2.0;  // the weight of half the radius
   settings.radii = RadiusSchedule::constant;
   RenderSettings halved = settings;
-  for (AskedGather* gather : {&halved.volume, &halved.surface, &halved.caustics})
+  for (AskedGather* gather : std::initializer_list<AskedGather*>{&halved.volume, &halved.surface, &halved.caustics})
     gather->radius = 0.5f * gather->radius.metres();
   std::vector<Rgbd> means(static_cast<size_t>(passes));
   std::vector<double> effective(means.size());
@@ -109,7 +109,7 @@ RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
 
 std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effort) {
   const Scene scene = subject.make();
-  const bool media = !scene.media.empty(), surfaces = scattering_of(scene).surfaces;
+  const bool media = !scene.media.empty(), surfaces = facts_of(scene).rough_surfaces;
   RenderSettings paths;
   paths.seed = effort.seed_of(subject.name + " by paths");
   const Measured reference = by_path_tracer(scene, paths, effort.count(40'000, 300'000));

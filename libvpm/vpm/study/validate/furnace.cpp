@@ -104,8 +104,8 @@ std::vector<Check> check_map(const LitBody& body, const Vec3& inside, std::strin
   const GatherSettings gather{GatherMode::radius, 0.6f, 0, KernelKind::epanechnikov};
   ListSettings few;
   few.emitted = 100;
-  few.volume.form = form;
-  few.volume.density_floor = strategy_info(strategy_name).bounded_weight ? 0.3f : 0.0f;
+  few.volume_form = form;
+  few.density_floor = strategy_info(strategy_name).bounded_weight ? 0.3f : 0.0f;
   const auto samples =
       sample_moments(2, effort.count(2'400, 30'000), effort.seed_of("map, " + name), [&](Rng& rng, double* out) {
         ListSettings settings = few;

@@ -6,6 +6,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
+#include "vpm/integrators/render_scene.h"
 #include "vpm/render/render.h"
 #include "vpm/study/validate/groups.h"
 #include "vpm/study/validate/scenes/small_scenes.h"

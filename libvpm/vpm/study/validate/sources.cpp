@@ -93,7 +93,7 @@ void check_airlight_by_photons(std::vector<Check>& checks, const std::string& na
                                const Effort& effort, const Estimate& estimate) {
   for (const auto& [type, by] : kAlongRays) {
     const std::string title = fmt::format("{}: radiance by {}", name, by);
-    const RadianceByPhotons found = estimate({.mode = mode,
+    const RadianceByPhotons found = estimate({.type = type,
                                               .radius = radius,
                                               .photons = 10'000,
                                               .passes = static_cast<int>(effort.count(20, 400)),

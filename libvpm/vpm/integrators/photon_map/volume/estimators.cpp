@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "vpm/estimate/words.h"
+#include "vpm/integrators/words.h"
 
 namespace vpm {
 

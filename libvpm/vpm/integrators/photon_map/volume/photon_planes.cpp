@@ -5,8 +5,8 @@
 #include <utility>
 #include <variant>
 
-#include "vpm/estimate/words.h"
 #include "vpm/integrators/photon_map/volume/pass_to_eye.h"
+#include "vpm/integrators/words.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/photon/photon_beam.h"
 

@@ -1,23 +1,14 @@
-// What runs, how, and what does not and why.
-#include "vpm/job/stage_lines.h"
-
+// Which stages of photon maps run, how, and which do not and why.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "vpm/integrators/photon_map/integrator.h"
 #include "vpm/integrators/photon_map/photon_blocks.h"
 #include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/stages.h"
 
 namespace vpm {
 namespace {
-
-/// A strategy or an estimator with what its list says of it: "regular (exact in any medium: ...)", "ray-march (biased;
-/// ...)".
-template <class Info>
-std::string described(const std::string& name, std::span<const Info> infos) {
-  for (const Info& info : infos)
-    if (info.name == name) return fmt::format("{} ({}{})", name, info.unbiased ? "" : "biased; ", info.summary);
-  return name;
-}
 
 /// What importance is for.
 std::string guided(const GuideSettings& guide) {
@@ -28,37 +19,20 @@ std::string guided(const GuideSettings& guide) {
   return ways.empty() ? "left as they are" : fmt::format("{} by importance", fmt::join(ways, ", "));
 }
 
-std::vector<std::string> stages_of_combined(const RenderSettings& settings, const std::string& distances,
-                                            const std::string& channels) {
-  std::vector<std::string> lines{"runs sub-paths from the lights and from the eye" + distances};
-  for (const TechniqueInfo& info : kTechniques)
-    lines.push_back(fmt::format("{} {}: {}", settings.combined.techniques.has(info.technique) ? "runs" : "skips",
-                                info.name, info.summary));
-  lines.push_back(channels);
-  return lines;
-}
-
 }  // namespace
 
-std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const Scattering& shown) {
-  const auto [media, surfaces] = shown;
-  const std::string no_medium = scene.media.empty()          ? "no medium"
-                                : scattering_of(scene).media ? "a light map shows no medium"
-                                                             : "no medium scatters";
+std::vector<std::string> stages_of_photon_maps(const Scene& scene, const RenderSettings& settings,
+                                               const SceneFacts& shown) {
+  const bool media = shown.scattering_media, surfaces = shown.rough_surfaces;
+  const SceneFacts facts = facts_of(scene);
+  const std::string no_medium = scene.media.empty()      ? "no medium"
+                                : facts.scattering_media ? "a light map shows no medium"
+                                                         : "no medium scatters";
   const auto line = [](bool runs, const std::string& what, const std::string& how, const std::string& why_not) {
     return runs ? "runs " + what + how : "skips " + what + ": " + why_not;
   };
-  const std::string distances = ", distances by " + described(settings.distance.strategy, distance_strategies());
-  const std::string transmittance =
-      ", transmittance by " + described(settings.transmittance.estimator, transmittance_estimators());
-  bool grids = false;
-  for (const Medium& medium : scene.media) grids |= !medium.homogeneous();
+  const std::string transmittance = transmittance_text(settings);
   const std::string no_gathering = surfaces ? "indirect light comes from the photon map" : "no rough surface";
-  const std::string channels = scene.grey ? "all coefficients are grey" : "coefficients differ between channels";
-  if (settings.integrator == Integrator::path)
-    return {line(true, "path tracing", distances + transmittance, ""),
-            line(false, "photon tracing and maps", "", "the integrator is the path tracer"), channels};
-  if (settings.integrator == Integrator::combined) return stages_of_combined(settings, distances, channels);
   const VolumeEstimatorInfo& volume = settings.volume.info();
   const bool beams = volume.flights;
   const bool photons = media || surfaces,
@@ -66,7 +40,7 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
   const auto corrected = [](const AskedGather& gather) { return gather.boundary == BoundaryRule::corrected; };
   const uint64_t blocks = block_count(settings);
   const std::string by_blocks = blocks > 1 ? fmt::format(", in {} blocks, each gathered by itself", blocks) : "";
-  return {line(photons, "photon tracing", distances + by_blocks, "nothing stores photons"),
+  return {line(photons, "photon tracing", distances_text(settings) + by_blocks, "nothing stores photons"),
           line(photons && settings.guide.importons > 0, "importons", ": photons are " + guided(settings.guide),
                photons ? "photons go where power does" : "nothing stores photons"),
           line(media && volume.collisions, "volume photon map",
@@ -102,8 +76,8 @@ std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& s
                gathers ? "materials draw them" : no_gathering),
           line(gathers && settings.end_irradiance == EndIrradiance::precomputed,
                "irradiance computed beforehand for their ends", "", gathers ? "they ask the photon map" : no_gathering),
-          line(grids, "grid look-ups", "", "all media are homogeneous"),
-          channels};
+          line(facts.grids, "grid look-ups", "", "all media are homogeneous"),
+          channels_text(scene)};
 }
 
 }  // namespace vpm

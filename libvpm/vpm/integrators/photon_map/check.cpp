@@ -1,44 +1,13 @@
-// The rules: ranges by the descriptions of settings, then what components ask of each other and of the scene.
-#include "vpm/integrators/validate.h"
-
+// What components of photon maps ask of each other and of the scene.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <vector>
-
-#include "vpm/integrators/describe.h"
+#include "vpm/base/settings/setting_error.h"
+#include "vpm/integrators/photon_map/integrator.h"
 #include "vpm/integrators/photon_map/plan.h"
 #include "vpm/integrators/photon_map/volume/estimators.h"
-#include "vpm/integrators/words.h"
 
 namespace vpm {
 namespace {
-
-void refuse_if(bool contradiction, const char* key, const std::string& wrong, const std::string& right) {
-  if (contradiction) throw SettingError(key, wrong, right);
-}
-
-/// Each setting by itself.
-void check_values(RenderSettings s) {
-  for (const Setting& setting : describe(s)) {
-    const SettingValue value = setting.get();
-    if (value == setting.usual) continue;
-    if (const std::string wrong = outside_of(setting.domain, value); !wrong.empty())
-      throw SettingError(setting.key, fmt::format("'{}' of [{}] {}", setting.name(), setting.table(), wrong), "");
-  }
-}
-
-/// "did you mean ..." would mislead here: the name exists, but belongs to something else.
-std::string listed(const char* title, const std::vector<std::string>& names) {
-  return fmt::format("{}: {}", title, fmt::join(names, ", "));
-}
-
-void check_strategy(const RenderSettings& s, const SceneFacts& facts) {
-  refuse_if(facts.grids && !strategy_info(s.distance.strategy).heterogeneous, "integrator.distance.type",
-            "the strategy '" + s.distance.strategy + "' is wrong in a grid medium, and the scene has one",
-            listed("right in grids", strategies_that(&StrategyInfo::heterogeneous)));
-}
 
 void check_photons(const RenderSettings& s) {
   refuse_if(s.photons_emitted == 0 && s.photons_stored == 0, "integrator.photons.emitted",
@@ -82,9 +51,8 @@ void check_blocks(const RenderSettings& s) {
 
 void check_transmittance(const RenderSettings& s, const SceneFacts& facts) {
   const std::string& name = s.transmittance.estimator;
-  refuse_if(name != TransmittanceSettings{}.estimator &&
-                !casts_shadow_rays({facts.scattering_media, facts.rough_surfaces}, s),
-            "integrator.transmittance.type", "nothing asks '" + name + "': shadow rays do, and none are cast",
+  refuse_if(name != TransmittanceSettings{}.estimator && !casts_shadow_rays(facts, s), "integrator.transmittance.type",
+            "nothing asks '" + name + "': shadow rays do, and none are cast",
             "write type = \"shadow-rays\" in [integrator.single_scattering] or [integrator.direct] of what scatters, "
             "or leave out [integrator.transmittance]");
 }
@@ -151,7 +119,9 @@ void check_radii_of_pixels(const RenderSettings& s) {
             "write \"none\", or other radii");
 }
 
-void check_photon_map(const RenderSettings& s, const SceneFacts& facts) {
+}  // namespace
+
+void check_photon_maps(const RenderSettings& s, const SceneFacts& facts) {
   check_photons(s);
   check_blocks(s);
   check_flights(s, facts);
@@ -159,62 +129,6 @@ void check_photon_map(const RenderSettings& s, const SceneFacts& facts) {
   check_final_gathering(s);
   check_radii_of_pixels(s);
   check_transmittance(s, facts);
-}
-
-void check_combined(const RenderSettings& s, const SceneFacts& facts) {
-  const TechniqueSet& techniques = s.combined.techniques;
-  refuse_if(facts.endless && techniques.has(Technique::long_beams), "integrator.techniques",
-            "the medium of the world has no end, and long beams would have none",
-            "leave out \"long-beams\", or put the scene into a box of the medium");
-  refuse_if(facts.endless_flights && techniques.has(Technique::short_beams), "integrator.techniques",
-            "flights have no end in a channel that the medium of the world does not attenuate",
-            "leave out \"short-beams\", or put the scene into a box of the medium");
-}
-
-}  // namespace
-
-SettingError::SettingError(std::string key, std::string wrong, std::string right)
-    : InputError(fmt::format("{}: {}{}{}", key, wrong, right.empty() ? "" : "\n  ", right)),
-      key_(std::move(key)),
-      wrong_(std::move(wrong)),
-      right_(std::move(right)) {}
-
-void SceneFacts::add_world(const Medium& medium) {
-  endless = medium.scatters();
-  endless_flights = endless && std::min({medium.sigma_t.r, medium.sigma_t.g, medium.sigma_t.b}) == 0.0f;
-}
-
-SceneFacts facts_of(const Scene& scene) {
-  SceneFacts facts;
-  for (const Medium& medium : scene.media) {
-    facts.grids |= !medium.homogeneous();
-    facts.scattering_media |= medium.scatters();
-  }
-  if (scene.world_medium != kVacuum) facts.add_world(scene.media[scene.world_medium]);
-  for (const Shape& shape : scene.shapes) facts.rough_surfaces |= is_rough(scene.materials[shape.material]);
-  return facts;
-}
-
-void validate(const RenderSettings& settings, const SceneFacts& facts) {
-  check_values(settings);
-  check_strategy(settings, facts);
-  if (settings.integrator == Integrator::photon) check_photon_map(settings, facts);
-  if (settings.integrator == Integrator::combined) check_combined(settings, facts);
-}
-
-void validate_light_map(const RenderSettings& settings, const SceneFacts& facts) {
-  validate(settings, facts);
-  refuse_if(
-      settings.integrator != Integrator::photon, "integrator.type",
-      "light maps are made of photon maps, but 'type' of [integrator] is \"" + word_of(settings.integrator) + "\"",
-      "write \"photon-map\", or add --set integrator.type=photon-map");
-  refuse_if(settings.radii == RadiusSchedule::per_pixel, "integrator.radii",
-            "texels of a light map have no radii of their own, but 'radii' of [integrator] are \"per-pixel\"",
-            "write \"per-pass\", or add --set integrator.radii=per-pass");
-  refuse_if(!settings.layers.empty(), "render.layers", "a light map has no layers of what a camera sees",
-            "leave out 'layers'");
-  refuse_if(settings.until.error > 0.0, "render.error", "a light map is not baked until an error is reached",
-            "write 'passes' instead, or add --passes N");
 }
 
 }  // namespace vpm

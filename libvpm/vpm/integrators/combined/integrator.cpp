@@ -1,0 +1,108 @@
+// All techniques combined as an integrator.
+#include "vpm/integrators/integrator.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "vpm/base/settings/setting_error.h"
+#include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/combined/technique_layers.h"
+#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/stages.h"
+#include "vpm/integrators/words.h"
+
+namespace vpm {
+namespace {
+
+constexpr uint64_t kMost = 1'000'000;  // planes of a pass
+constexpr const char* kRadius = "of merges, in the first pass";
+
+/// Strategies whose flights have the density that the transmittance says.
+std::vector<std::string> strategies_of_known_density() {
+  std::vector<std::string> names;
+  for (const StrategyInfo& info : distance_strategies())
+    if (info.analog && info.unbiased) names.emplace_back(info.name);
+  return names;
+}
+
+void describe_combined(RenderSettings& s, Description& d) {
+  Members<CombinedSettings> of(s.combined, d);
+  of.add_set("techniques", &CombinedSettings::techniques, std::span<const TechniqueInfo>(kTechniques),
+             &TechniqueInfo::technique, "which techniques find light; what none of them can find is missing",
+             {.usual_text = "all but `\"long-beams\"` and `\"planes\"`", .automatic = true});
+  of.add("heuristic", &CombinedSettings::heuristic,
+         "how techniques share a path that several find: by their densities, by the squares of these, or by densities "
+         "where eye sub-paths end at the first place that does not only mirror or refract, if merges find all light "
+         "there: merges beyond it share its noise");
+  of.add("layers", &CombinedSettings::layers, Flags{},
+         "writes what each technique finds, too: layers `combined.NAME.weighted` and `combined.NAME.unweighted` "
+         "(`--layers combined` does the same)");
+  const Members<RenderSettings> own(s, d);
+  own.add("radii", &RenderSettings::radii, words_of<RadiusSchedule>(2),
+          "how the radii of merges go on after the first pass");
+  if (s.combined.techniques.has(Technique::planes))
+    of.add("planes", &CombinedSettings::planes, Integers{1, kMost},
+           "about so many flights of a pass become planes, drawn by chance. Eye rays send a shadow ray for each plane "
+           "that they cross");
+  d.in("integrator.photons");
+  own.add("emitted", &RenderSettings::photons_emitted, Integers{1}, "light sub-paths per pass", {.automatic = true});
+  own.add("sequence", &RenderSettings::photon_sequence, "what they are drawn from, as for photon maps");
+  describe(s.distance, strategies_of_known_density(), "regular", d.in("integrator.distance"));
+  d.in("integrator.volume");
+  describe_radius(s.volume, kRadius, d);
+  describe_kernel(s.volume, d);
+  describe_density_floor(s.volume, d);
+  d.in("integrator.surface");
+  describe_radius(s.surface, kRadius, d);
+  describe_kernel(s.surface, d);
+}
+
+void check_combined(const RenderSettings& s, const SceneFacts& facts) {
+  const TechniqueSet& techniques = s.combined.techniques;
+  refuse_if(facts.endless && techniques.has(Technique::long_beams), "integrator.techniques",
+            "the medium of the world has no end, and long beams would have none",
+            "leave out \"long-beams\", or put the scene into a box of the medium");
+  refuse_if(facts.endless_flights && techniques.has(Technique::short_beams), "integrator.techniques",
+            "flights have no end in a channel that the medium of the world does not attenuate",
+            "leave out \"short-beams\", or put the scene into a box of the medium");
+}
+
+PassMaker passes_of_combined(const Scene& scene, const RenderSettings& settings) {
+  const auto make = [&scene, &settings](int pass, const RenderResult&, const PassProgress& progress) {
+    return render_combined_pass(scene, settings, pass, progress);
+  };
+  return {make, tile_count(scene.camera)};
+}
+
+RaysOfPass rays_of_combined(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares) {
+  const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, SoughtLight::all, paths_of_shares);
+  RaysOfPass rays{[ready](std::span<EyeRay> of) { ready->radiance(of); },
+                  Image(scene.camera.width, scene.camera.height), ready->statistics()};
+  ready->add_light_tracing(rays.light_tracing);
+  return rays;
+}
+
+std::vector<std::string> stages_of_combined(const Scene& scene, const RenderSettings& settings, const SceneFacts&) {
+  std::vector<std::string> lines{"runs sub-paths from the lights and from the eye" + distances_text(settings)};
+  for (const TechniqueInfo& info : kTechniques)
+    lines.push_back(fmt::format("{} {}: {}", settings.combined.techniques.has(info.technique) ? "runs" : "skips",
+                                info.name, info.summary));
+  lines.push_back(channels_text(scene));
+  return lines;
+}
+
+}  // namespace
+
+extern const IntegratorInfo kCombined;
+const IntegratorInfo kCombined{
+    .describe = describe_combined,
+    .check = check_combined,
+    .passes = passes_of_combined,
+    .rays = rays_of_combined,
+    .gathers = [](const Scene&, const RenderSettings& settings) { return merges(settings.combined.techniques); },
+    .stages = stages_of_combined,
+    .layers = layers_of_techniques,
+};
+
+}  // namespace vpm

@@ -1,0 +1,44 @@
+// The integrators: what estimates the radiance along the camera's rays. One list, of which scenes name one.
+//
+// An integrator describes its settings, says what a scene must have for them, and makes passes. The film and the loop
+// over passes know none.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vpm/film/image_pass.h"
+#include "vpm/image/image.h"
+#include "vpm/integrators/render_scene.h"
+
+namespace vpm {
+
+class Description;
+
+/// A pass with its photons or light sub-paths ready, of which a pilot follows only some rays.
+struct RaysOfPass {
+  RadianceOfRays radiance;  // keeps what it reads
+  Image light_tracing;      // what light sub-paths add to each pixel; empty where the integrator has none
+  RenderStatistics statistics{};
+};
+
+struct IntegratorInfo {
+  /// Its settings, but for `type` of [integrator].
+  void (*describe)(RenderSettings&, Description&);
+  /// Throws a SettingError where settings contradict each other or the scene.
+  void (*check)(const RenderSettings&, const SceneFacts&);
+  /// Passes of the whole film, without the camera's crop.
+  PassMaker (*passes)(const Scene&, const RenderSettings&);
+  RaysOfPass (*rays)(const Scene&, const RenderSettings&, int pass, uint64_t paths_of_shares);
+  /// See gathers(), stage_lines(), layer_names().
+  bool (*gathers)(const Scene&, const RenderSettings&);
+  std::vector<std::string> (*stages)(const Scene&, const RenderSettings&, const SceneFacts& shown);
+  std::vector<std::string> (*layers)(const RenderSettings&);
+};
+const IntegratorInfo& info_of(Integrator integrator);
+
+/// Makes pass number `pass` ready, which the scene must outlive; of combined techniques with the shares of so many
+/// light sub-paths, see CombinedPass.
+RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares = 0);
+
+}  // namespace vpm

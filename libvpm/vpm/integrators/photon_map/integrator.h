@@ -1,0 +1,19 @@
+// Photon maps as an integrator.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vpm/integrators/settings.h"
+#include "vpm/scene/scene_facts.h"
+
+namespace vpm {
+
+class Description;
+
+void describe_photon_maps(RenderSettings& settings, Description& description);
+void check_photon_maps(const RenderSettings& settings, const SceneFacts& facts);
+std::vector<std::string> stages_of_photon_maps(const Scene& scene, const RenderSettings& settings,
+                                               const SceneFacts& shown);
+
+}  // namespace vpm
