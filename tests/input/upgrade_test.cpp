@@ -137,6 +137,57 @@ integrator.indirect.type = "final-gather"
 )");
 }
 
+TEST(Upgrade, KeepsLineEndsAndByteOrderMarks) {
+  EXPECT_EQ(upgraded("[volume]\r\nradius = 1\r\n[film]\r\nwidth = 8\r\n"),
+            "[integrator.volume]\r\nradius = 1\r\n\r\n[film]\r\nwidth = 8\r\n");
+  EXPECT_EQ(upgraded("\xef\xbb\xbf[volume]\nradius = 1\n"), "\xef\xbb\xbf[integrator.volume]\nradius = 1\n");
+}
+
+TEST(Upgrade, ReadsNoCommentsAsValues) {
+  EXPECT_EQ(upgraded("[surface]\nmethod = 'progressive'  # or 'final-gather', 'visualise'\n"),
+            "[integrator.direct]\n# or 'final-gather', 'visualise'\ntype = \"shadow-rays\"\n\n"
+            "[integrator.indirect]\ntype = \"photons\"\n");
+  EXPECT_EQ(upgraded("[render]\nintegrator = 'path'  # or 'photon'\n[distance]\nstrategy = 'delta'\n"),
+            "[render]\n\n[integrator]\ntype = 'path'  # or 'photon'\n\n[integrator.distance]\ntype = 'delta'\n");
+  EXPECT_NE(upgraded("[render]\nintegrator = 'photon'  # or 'combined'\n[photons]\nplanes = 5\n"
+                     "[volume]\ngather = 'photon-planes'\n")
+                .find("[integrator.volume]\nplanes = 5\n"),
+            std::string::npos);
+}
+
+TEST(Upgrade, KeepsCommentsOfHeaders) {
+  EXPECT_EQ(upgraded("# A\n[photons]  # many\nflights = 3\n# B\n[volume]\ngather = 'photon-beams'\n# C\n[caustics]\n"),
+            "# C\n\n# A\n# many\n# B\n[integrator.volume]\nflights = 3\ntype = 'photon-beams'\n");
+}
+
+TEST(Upgrade, FindsKeysHoweverTheyAreWritten) {
+  EXPECT_EQ(upgraded("[\"volume\"]\n\"radius\" = 1\n"), "[integrator.volume]\nradius = 1\n");
+  EXPECT_EQ(upgraded("volume . radius = 1\n"), "[integrator.volume]\nradius = 1\n");
+}
+
+TEST(Upgrade, RewritesSettingsOfExperimentsInAnyForm) {
+  const std::string methods = "[[methods]]\nname = 'm'\n";
+  EXPECT_EQ(upgraded(methods + "set.volume.gather = 'beam'\n"), methods + "set.integrator.volume.type = 'beam'\n");
+  EXPECT_EQ(upgraded(methods + "set = { surface.method = \"final-gather\", film.width = 4 }\n"),
+            methods +
+                "set = { integrator.direct.type = \"shadow-rays\", integrator.indirect.type = \"final-gather\", "
+                "film.width = 4 }\n");
+  EXPECT_EQ(upgraded("title = \"how volume.radius = 1 acts\"\n" + methods + "set.volume.radius = 2\n"),
+            "title = \"how volume.radius = 1 acts\"\n" + methods + "set.integrator.volume.radius = 2\n");
+  EXPECT_EQ(upgraded(methods + "[methods.set]\nrender.integrator = 'combined'\nphotons.planes = 4\n"),
+            methods + "[methods.set]\nintegrator.type = 'combined'\nintegrator.planes = 4\n");
+}
+
+/// Nothing comes out that is not TOML, or that still has old keys.
+TEST(Upgrade, RefusesWhatStandsWhereItCannotBeRewritten) {
+  const std::string methods = "[[methods]]\nname = 'm'\n";
+  for (const std::string& text : {std::string("volume = { gather = 'beam' }\n"),
+                                  std::string("[integrator]\ntype = 'path'\n[render]\nintegrator = 'path'\n"),
+                                  "[product]\nsurface.method = ['progressive', 'final-gather']\n" + methods,
+                                  "[set]\nvolume = { gather = 'beam' }\n" + methods})
+    EXPECT_THROW(upgraded(text), InputError) << text;
+}
+
 TEST(Upgrade, RefusesWhatItCannotRewrite) {
   EXPECT_THROW(upgraded("[volume\n"), InputError);
   EXPECT_THROW(upgraded("[volume]\nnonsense = 1\n"), InputError);

@@ -318,7 +318,7 @@ TEST(RenderJob, EndsWhereTheTimeDoesNotAllowADefaultRadius) {
 }
 
 TEST(RenderJob, OfScenesMadeInCodeRadiiAreChosenThatNobodyGives) {
-  const AutomaticSettings::Keys others{"integrator.volume.radius"};
+  const AutomaticSettings::Keys others{"integrator.caustics.radius", "integrator.volume.radius"};
   EXPECT_EQ(lit_floor().automatic.left_out, others);
   RenderJob job = make_job({lit_floor().scene, {}, {}});
   EXPECT_TRUE(job.automatic.left_out.contains("integrator.surface.radius"));

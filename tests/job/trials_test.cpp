@@ -160,9 +160,9 @@ TEST(Automatic, WhatDoesNotFitIntoTheTimeIsNotChosen) {
 }
 
 TEST(Automatic, IntegratorsThatTheSettingsRefuseAreNotTried) {
-  RenderSettings guided;
-  guided.guide.importons = 1000;
-  const Choice choice = chosen_integrator(cloud_over_floor(true), guided);
+  RenderSettings of_pixels;
+  of_pixels.radii = RadiusSchedule::per_pixel;  // of photon maps alone
+  const Choice choice = chosen_integrator(cloud_over_floor(true), of_pixels);
   EXPECT_NE(choice.reason.find("not combined: "), std::string::npos) << choice.reason;
 }
 

@@ -158,7 +158,7 @@ TEST_F(VpmReport, TellsSettingsWithDefaultsAndReasons) {
   std::map<std::string, json> rows;
   for (const json& row : data.at("settings")) rows[row.at("key")] = row;
   EXPECT_EQ(rows.at("integrator.type").at("value"), "combined");
-  EXPECT_EQ(rows.at("integrator.type").at("usual"), "`\"photon\"`");
+  EXPECT_EQ(rows.at("integrator.type").at("usual"), "`\"photon-map\"`");
   EXPECT_EQ(rows.at("integrator.type").at("is_usual"), false);
   EXPECT_TRUE(rows.at("integrator.type").at("reason").is_null());
   EXPECT_EQ(rows.at("integrator.surface.kernel").at("is_usual"), true);

@@ -27,10 +27,15 @@ def flat(table, path):
             yield f"{path}.{key}", f"{text}"
 
 
+def whole_path(folder, name):
+    """The whole path of a file that a scene names; any other text as it is."""
+    return (folder / name).resolve() if (folder / name).is_file() else name
+
+
 def old_scene(file, folder):
     """A scene without the tables of its integrator, in a folder: where its files are is written out."""
-    text = re.sub(r"(?ms)^\[integrator[^\n]*\]\n.*?(?=^\[|\Z)", "", file.read_text())
-    text = re.sub(r'(?m)^path = "([^"]*)"', lambda match: f'path = "{(file.parent / match[1]).resolve()}"', text)
+    text = re.sub(r"(?ms)^\[integrator[^\n]*\n.*?(?=^\[|\Z)", "", file.read_text())
+    text = re.sub(r'"([^"\n]+)"', lambda match: f'"{whole_path(file.parent, match[1])}"', text)
     written = pathlib.Path(folder, file.name)
     written.write_text(text)
     return written

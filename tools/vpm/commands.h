@@ -34,7 +34,7 @@ struct RenderOptions : PassOptions {
   std::optional<double> seconds;
   std::optional<double> error;      // relative MSE to stop at
   std::string reference;            // .exr: the truth, against which errors are logged; empty: none
-  bool automatic = false;           // choose settings that the scene leaves out
+  bool automatic = false;           // choose settings: see Automatic of job/choice.h
   std::vector<std::string> layers;  // of known_layers(); of what the camera sees, these are in the scene's place
   bool checkpoint = false;          // keep one next to the image after each pass
   bool overwrite = false;           // begin anew where there is one

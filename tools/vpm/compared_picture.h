@@ -30,10 +30,7 @@ struct PictureOrigin {
   std::string scene, settings, seed;  // vpm.sceneHash, vpm.settings, vpm.seed
   std::optional<uint64_t> passes;     // vpm.passes
 
-  /// With which integrator it was rendered: pictures of older versions say so first.
-  std::string integrator() const {
-    return field_of(settings, "integrator.type").value_or(settings.substr(0, settings.find(' ')));
-  }
+  std::optional<std::string> integrator() const { return integrator_of(settings); }
 };
 
 /// A picture of a file, with what the file tells of its noise.

@@ -39,10 +39,14 @@ const Entry* find_entry(const Node::Table& table, const std::string& key);
 /// "an integer", "a table", ...: for messages.
 std::string kind_of(const Node& node);
 
-/// An option that names another component than what was said before it.
+/// The value of a node that is no table, as an option writes it; a list's joined by "+".
+std::string text_of(const Node& node);
+
+/// An option that gives a setting of the integrator another value.
 struct Replacement {
-  std::string table;          // "integrator.volume"
-  std::string before, after;  // the components
+  std::string key;            // "integrator.volume.type"
+  std::string before, after;  // text_of() the values
+  bool said;                  // was `before` said, or is it the default?
   const Source* option;
 };
 
@@ -68,9 +72,7 @@ std::unique_ptr<Node> parse_toml_value(const std::string& text, const Source* so
 
 /// Applies `key.path=value`: the value is read as a TOML value, or taken as a string where it is none. An element of an
 /// array of tables is addressed by its number (from 0) or its name. Only the last key and sections of the file (the
-/// path's first key, and all of the integrator) may be new. One that names another component,
-/// "integrator.volume.type=beam", drops what the file says of the one before, and notes it. Errors start with "--set
-/// key.path=value:".
+/// path's first key, and all of the integrator) may be new. Errors start with "--set key.path=value:".
 void apply_override(Document& document, const std::string& option);
 
 }  // namespace vpm

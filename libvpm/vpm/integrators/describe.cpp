@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "vpm/integrators/integrator.h"
 #include "vpm/integrators/words.h"
 
@@ -11,7 +13,7 @@ namespace {
 
 using S = RenderSettings;
 
-constexpr uint64_t kMost = 1'000'000;  // rays of a pixel
+constexpr uint64_t kMostSamples = 1'000'000;  // rays of a pixel
 
 void describe_render(S& s, Description& d) {
   d.in("render");
@@ -27,7 +29,7 @@ void describe_render(S& s, Description& d) {
             {.of_passes = true});
   const Members<PassSettings> of_passes(s, d);
   of_passes.add("seed", &PassSettings::seed, Integers{}, "of all random numbers", {.of_passes = true});
-  of_passes.add("samples_per_pixel", &PassSettings::samples_per_pixel, Integers{1, kMost},
+  of_passes.add("samples_per_pixel", &PassSettings::samples_per_pixel, Integers{1, kMostSamples},
                 "camera rays per pixel and pass");
   Members<S>(s, d).add("max_events", &S::max_events, Integers{1, 1'000'000'000},
                        "events of one path before it is cut; cuts are counted in the report");
@@ -55,6 +57,25 @@ std::optional<Setting> find_setting(RenderSettings& settings, std::string_view k
   return std::nullopt;
 }
 
+RenderSettings settings_with(const std::map<std::string, std::string>& values) {
+  RenderSettings settings;
+  std::set<std::string> done;
+  // Each value may change which settings follow it.
+  const auto set_next = [&] {
+    for (const Setting& setting : describe(settings)) {
+      if (!done.insert(setting.key).second) continue;
+      const auto given = values.find(setting.key);
+      const std::optional<SettingValue> value = given == values.end() ? std::nullopt : parse(setting, given->second);
+      setting.set(value.value_or(setting.usual));
+      if (value) return true;
+    }
+    return false;
+  };
+  while (set_next()) {
+  }
+  return settings;
+}
+
 std::vector<Field> estimate_fields(RenderSettings settings) {
   std::vector<Field> fields;
   for (const Setting& setting : describe(settings))
@@ -67,6 +88,12 @@ std::string settings_line(const RenderSettings& settings) {
   for (const Field& field : estimate_fields(settings))
     line += fmt::format("{}{}={}", line.empty() ? "" : " ", field.key, text_of(field.value));
   return line;
+}
+
+std::optional<std::string> integrator_of(std::string_view line) {
+  if (std::optional<std::string> named = field_of(line, "integrator.type")) return named;
+  const std::optional<std::string> old = field_of(line, "render.integrator");  // up to 2026-11
+  return old == "photon" ? "photon-map" : old;
 }
 
 std::optional<std::string> field_of(std::string_view line, std::string_view key) {

@@ -1,6 +1,7 @@
 // The settings of a render, as its components describe them.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,9 @@ std::vector<Setting> describe(RenderSettings& settings);
 /// The setting of that key; nothing where these components have none.
 std::optional<Setting> find_setting(RenderSettings& settings, std::string_view key);
 
+/// Settings of these values by key, as options write them. What is no value of a setting is passed over.
+RenderSettings settings_with(const std::map<std::string, std::string>& values);
+
 /// A setting and its value.
 struct Field {
   std::string key;
@@ -33,6 +37,9 @@ std::string settings_line(const RenderSettings& settings);
 /// The value of a key in words "key=value"; nothing where it is missing.
 std::optional<std::string> field_of(std::string_view line, std::string_view key);
 
+/// The integrator that such a line names, as it is called today; nothing where it names none.
+std::optional<std::string> integrator_of(std::string_view line);
+
 /// A setting that some components have, and what must be chosen for it.
 struct SettingOfSome {
   Setting setting;
@@ -40,6 +47,6 @@ struct SettingOfSome {
   std::string with;                      // the other choices: "`type` = `"nearest"`", or ""
 };
 /// Every setting that there is, table by table. Several have one key where components mean different things by it.
-std::vector<SettingOfSome> every_setting();
+const std::vector<SettingOfSome>& every_setting();
 
 }  // namespace vpm

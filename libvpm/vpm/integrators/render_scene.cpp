@@ -28,6 +28,10 @@ void check_strategy(const RenderSettings& s, const SceneFacts& facts) {
   refuse_if(facts.grids && !strategy_info(s.distance.strategy).heterogeneous, "integrator.distance.type",
             "the strategy '" + s.distance.strategy + "' is wrong in a grid medium, and the scene has one",
             listed("right in grids", strategies_that(&StrategyInfo::heterogeneous)));
+  for (const auto& [name, number] : s.distance.parameters)
+    refuse_if(among(strategy_info(s.distance.strategy).parameters, {{name, number}}).empty(),
+              ("integrator.distance." + name).c_str(), "the strategy '" + s.distance.strategy + "' has no such number",
+              "leave it out, or name another strategy");
 }
 
 /// The pictures of a pass, cut to the camera's crop.

@@ -86,6 +86,10 @@ struct RenderSettings : PassSettings {
   GatherBy gather_by = GatherBy::material;
   EndIrradiance end_irradiance = EndIrradiance::estimate;
   float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0
+
+  bool gathers_finally() const { return surface_indirect == IndirectLight::final_gather; }
+  /// Photons of a pass that are aimed at mirrors and glass.
+  uint64_t aimed_photons() const { return gathers_finally() ? caustics_emitted : 0; }
 };
 
 }  // namespace vpm

@@ -153,9 +153,13 @@ std::vector<std::string> integrators_of(const Found& found) {
 
 }  // namespace
 
-std::vector<SettingOfSome> every_setting() {
-  std::vector<SettingOfSome> all;
-  for (const Found& found : find_all()) all.push_back({found.setting, integrators_of(found), conditions(found)});
+const std::vector<SettingOfSome>& every_setting() {
+  static const std::vector<SettingOfSome> all = [] {
+    std::vector<SettingOfSome> found_all;
+    for (const Found& found : find_all())
+      found_all.push_back({found.setting, integrators_of(found), conditions(found)});
+    return found_all;
+  }();
   return all;
 }
 

@@ -85,7 +85,8 @@ void choose_automatic(RenderJob& job, const Clock& clock) {
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
   return {.scene = std::move(assembled.scene),
           .settings = settings,
-          .automatic = {.left_out = radii_left_out(settings)},
+          .automatic = {.left_out = {"integrator.caustics.radius", "integrator.surface.radius",
+                                     "integrator.volume.radius"}},
           .light_names = std::move(assembled.light_names),
           .notes = std::move(assembled.notes),
           .kernel_light = {}};

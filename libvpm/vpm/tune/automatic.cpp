@@ -27,27 +27,14 @@ Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
     reason = "of exact strategies the cheapest in a pilot, in look-ups for a photon:";
     for (const StrategyCost& each : costs) reason += fmt::format(" {} {:.3g}", each.name, each.cost);
   }
-  settings.distance.strategy = strategy;
+  settings.distance = {strategy};
   return {"integrator.distance.type", strategy, reason};
-}
-
-InputError not_chosen(const std::string& key) {
-  return InputError(fmt::format("{} is no setting that a render chooses", key));
-}
-
-/// What other integrators have may be left to choose together with the integrator.
-void check_keys(const AutomaticSettings& automatic, RenderSettings settings) {
-  if (automatic.has("integrator.type")) return;
-  for (const std::string& key : automatic.keys)
-    if (const std::optional<Setting> setting = find_setting(settings, key); !setting || !setting->automatic)
-      throw not_chosen(key);
 }
 
 }  // namespace
 
 Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
                        RenderSettings& settings) {
-  check_keys(automatic, settings);
   constexpr size_t kParts = 5;  // of the time, one for the strategy
   Chosen chosen;
   const auto strategy = [&] { chosen.choices.push_back(choose_strategy(scene, settings)); };
@@ -70,7 +57,7 @@ Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, c
 
 void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value) {
   const std::optional<Setting> setting = find_setting(settings, key);
-  if (!setting || !setting->automatic) throw not_chosen(key);
+  if (!setting || !setting->automatic) throw InputError(fmt::format("{} is no setting that a render chooses", key));
   const std::optional<SettingValue> chosen = parse(*setting, value);
   if (!chosen || chosen == SettingValue(uint64_t{0}))
     throw InputError(fmt::format("'{}' is no value of {} that a render chooses", value, key));

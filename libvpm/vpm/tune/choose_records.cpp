@@ -34,7 +34,7 @@ std::vector<OpenRadius> open_radii(const Scene& scene, const AutomaticSettings& 
     return false;
   };
   const double emitted = photons_of_pass(s, densities.stored_per_photon);
-  const double aimed = s.caustics_emitted > 0 ? static_cast<double>(s.caustics_emitted) : emitted;
+  const double aimed = s.aimed_photons() > 0 ? static_cast<double>(s.aimed_photons()) : emitted;
   std::vector<OpenRadius> open;
   const auto add = [&](const char* section, const char* key, AskedGather& gather,
                        const std::optional<MapDensity>& density, double photons) {

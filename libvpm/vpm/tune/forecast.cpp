@@ -56,9 +56,9 @@ RenderSettings at_a_time(RenderSettings settings) {
 /// "about 210000 integrator.photons.emitted": that share of the photons of a pass, and of those aimed for caustics.
 std::string fitting_text(double photons, const RenderSettings& settings, double share) {
   std::string text = fmt::format("about {} integrator.photons.emitted", photons_text(share * photons));
-  if (settings.caustics_emitted > 0)
+  if (settings.aimed_photons() > 0)
     text += fmt::format(" and {} integrator.caustics.emitted",
-                        photons_text(share * static_cast<double>(settings.caustics_emitted)));
+                        photons_text(share * static_cast<double>(settings.aimed_photons())));
   return text;
 }
 
@@ -85,7 +85,7 @@ RenderSettings few_photons(const RenderSettings& settings) {
   constexpr uint64_t kFew = 1000;
   const bool combined = settings.integrator == Integrator::combined;
   RenderSettings few = combined ? with_light_paths(settings, kFew) : pilot_settings(settings, kFew);
-  few.caustics_emitted = std::min(few.caustics_emitted, kFew);
+  few.caustics_emitted = std::min(few.aimed_photons(), kFew);
   few.guide.importons = 0;
   return few;
 }
@@ -110,7 +110,7 @@ std::string photons_that_fit(const PassCost& cost, const RenderSettings& setting
   const double photons = photons_of_pass(settings, cost.stored_per_photon), pass = cost.seconds(photons);
   const double of_rays = cost.eye - cost.gathered;  // whatever photons there are
   const double share = (seconds - of_rays) / (pass - of_rays);
-  const double most = std::max(photons, static_cast<double>(settings.caustics_emitted));
+  const double most = std::max(photons, static_cast<double>(settings.aimed_photons()));
   if (share * most >= static_cast<double>(kLeastCount)) return fitting_text(photons, settings, share);
   return "";
 }
@@ -164,7 +164,7 @@ void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of,
   if (settings.integrator == Integrator::combined) return check_memory_of_sub_paths(scene, settings, memory);
   const double each = settings.volume.info().flights ? kFlightBytes + kBeamBytes : kMapBytes;
   const RenderSettings held = at_a_time(settings);
-  const auto asked = static_cast<double>(std::max({held.photons_emitted, held.photons_stored, held.caustics_emitted}));
+  const auto asked = static_cast<double>(std::max({held.photons_emitted, held.photons_stored, held.aimed_photons()}));
   if (asked * each <= kMapBytes * static_cast<double>(kSafePhotons)) return;
   const PassCost cost = time_photons(scene, held, of, 0.1);
   const double photons = photons_of_pass(held, cost.stored_per_photon), stored = cost.stored(photons);

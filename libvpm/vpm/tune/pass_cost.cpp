@@ -133,14 +133,14 @@ ReadyPass make_ready(const Scene& scene, const RenderSettings& settings, PassOf 
 RenderSettings part_of(RenderSettings pass, double share, double photons) {
   const auto part = [&](double count) { return static_cast<uint64_t>(std::max(1.0, std::round(share * count))); };
   pass.photons_emitted = part(photons);
-  pass.caustics_emitted = std::min(pass.caustics_emitted, part(static_cast<double>(pass.caustics_emitted)));
+  pass.caustics_emitted = std::min(pass.aimed_photons(), part(static_cast<double>(pass.aimed_photons())));
   return pass;
 }
 
 /// Tracing those that are aimed for caustics.
 double caustic_seconds(const ReadyPass& ready) {
   if (goes_by_clock(ready.settings)) return ready.statistics.caustic_seconds;
-  return counted_seconds_of_caustics(caustic_paths(ready.settings.caustics_emitted));
+  return counted_seconds_of_caustics(caustic_paths(ready.settings.aimed_photons()));
 }
 
 /// Makes as large a part of a pass ready as that many seconds allow, a thousand of its photons at the least.
@@ -148,7 +148,7 @@ ReadyPass make_ready_within(const Scene& scene, const RenderSettings& settings, 
   constexpr double kFewest = 1000.0, kMost = 0x1p40;
   const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
   const auto stored = static_cast<double>(pilot.photons_stored);  // of either kind at the most
-  const auto caustics = static_cast<double>(settings.caustics_emitted);
+  const auto caustics = static_cast<double>(settings.aimed_photons());
   // Where nothing but the stored photons is limited, each is taken to be stored once: the share may end above 1.
   const double photons = photons_of_pass(settings, 1.0);
   const double limit = settings.photons_emitted > 0 ? static_cast<double>(settings.photons_emitted) : kMost;
@@ -184,8 +184,8 @@ PassCost cost_of_photons(const RenderSettings& settings, const ReadyPass& ready)
       (clock ? s.trace_seconds + sorting * (others + flights) : counted_seconds_of_photons(settings, s)) / emitted;
   cost.stored_per_photon = others / emitted;
   cost.flights_per_photon = flights / emitted;
-  if (settings.caustics_emitted == 0) return cost;
-  const uint64_t all = settings.caustics_emitted, part = ready.settings.caustics_emitted;
+  if (settings.aimed_photons() == 0) return cost;
+  const uint64_t all = settings.aimed_photons(), part = ready.settings.aimed_photons();
   cost.stored_caustics = aimed * static_cast<double>(all) / static_cast<double>(part);
   cost.caustics = caustic_seconds(ready) * caustic_paths(all) / caustic_paths(part) + sorting * cost.stored_caustics;
   return cost;

@@ -279,7 +279,7 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
   for (const StrategyInfo& info : distance_strategies()) {
     if (!info.heterogeneous || !info.unbiased || !info.bounded_weight || !info.positive) continue;
     RenderSettings tried = pilot_settings(settings, in_a_hurry(kFlights, settings));
-    tried.distance.strategy = info.name;
+    tried.distance = {std::string(info.name)};
     const Ledger ledger = flights_of(scene, tried);
     const double lookup = info.name == "regular" ? kCellCost : kLookupCost;
     const double cost =
@@ -291,7 +291,7 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
 
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings, uint64_t photons) {
   RenderSettings pilot = pilot_settings(settings, photons);
-  pilot.caustics_emitted = std::min(pilot.caustics_emitted, pilot.photons_emitted);
+  pilot.caustics_emitted = std::min(pilot.aimed_photons(), pilot.photons_emitted);
   // Collisions end the tracing where they are many; flights do not.
   if (!pilot.volume.info().collisions) pilot.volume.choose("photon-beams");
   const PilotPass pass = trace(scene, pilot);
@@ -320,7 +320,8 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings, u
 
 double photons_of_pass(const RenderSettings& settings, double stored_per_photon) {
   const auto limit = static_cast<double>(settings.photons_emitted);
-  if (settings.photons_stored == 0 || stored_per_photon == 0.0) return limit;
+  const bool fills_maps = settings.integrator == Integrator::photon && settings.photons_stored > 0;
+  if (!fills_maps || stored_per_photon == 0.0) return limit;
   const double full = static_cast<double>(settings.photons_stored) / stored_per_photon;
   return settings.photons_emitted == 0 ? full : std::min(limit, full);
 }

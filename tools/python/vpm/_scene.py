@@ -91,7 +91,7 @@ class Scene:
         current folder.
     overrides: what `--set` is told on the command line: a dict {"film.width": 64, "shapes.ball.radius": 2.0}, or a
         list of texts "key.path=value".
-    auto: choose what the scene leaves out, as `vpm render --auto` does.
+    auto: choose what is left out, and all of `[integrator]` where no override names one, as `vpm render --auto` does.
 
     Raises InputError for what is not right, with the text of the command line. Of a dict it tells the line in the text
     of a scene file that says the same; `Scene.text_of(source)` is that text.

@@ -141,6 +141,17 @@ std::vector<Contest> load_contests(const ComparisonPlan& plan) {
   return contests;
 }
 
+/// Says once what methods leave out of scenes.
+void print_left_out(const std::vector<Contest>& contests, const ComparisonPlan& plan) {
+  std::set<std::string> printed;
+  for (const Contest& contest : contests)
+    for (size_t m = 0; m < plan.methods.size(); ++m)
+      if (const std::string& left_out = contest.methods[m]->loaded.left_out; !left_out.empty())
+        if (const std::string note = fmt::format("note: method '{}': {}\n", plan.methods[m].name, left_out);
+            printed.insert(note).second)
+          fmt::print(stderr, "{}", note);
+}
+
 /// Finds the reference of a scene, or makes it.
 void make_reference(Contest& contest, const Store& store, const CompareOptions& options) {
   if (!contest.reference_entrant) return;
@@ -299,6 +310,7 @@ int compare_command(const CompareOptions& options) {
   set_threads(options.threads);
   const ComparisonPlan plan = load_comparison_plan(options.experiment, options.overrides);
   std::vector<Contest> contests = load_contests(plan);
+  print_left_out(contests, plan);
   const Store store(options.output);
   try {
     for (Contest& contest : contests) make_reference(contest, store, options);

@@ -126,7 +126,7 @@ Store::Store(fs::path folder) : folder_(std::move(folder)) {
                     folder_.string(), format, version(), kFormat));
   make_folder(folder_ / "runs");
   make_folder(folder_ / "references");
-  write_text(folder_ / "format", fmt::format("{}\n", kFormat));
+  if (!fs::exists(folder_ / "format")) write_text(folder_ / "format", fmt::format("{}\n", kFormat));
 }
 
 fs::path Store::file(const char* kind, const std::string& identity, const std::string& extension) const {
@@ -216,7 +216,7 @@ Reference read_reference(const fs::path& path) {
     reference.doubt = "the reference does not tell its own noise";
   const auto settings = file.metadata.find("vpm.settings");
   if (settings != file.metadata.end()) {
-    const std::optional<std::string> integrator = field_of(settings->second, "integrator.type");
+    const std::optional<std::string> integrator = integrator_of(settings->second);
     if (!integrator) reference.doubt = "the reference does not tell what estimated it";
     if (integrator == "photon-map") reference.doubt = kOfPhotons;
   }

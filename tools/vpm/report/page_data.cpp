@@ -1,4 +1,4 @@
-// Pictures are reduced to what a page can hold; declarations of settings beside their values; options as a shell takes
+// Pictures are reduced to what a page can hold; descriptions of settings beside their values; options as a shell takes
 // them. What else is shown is the report itself.
 #include "report/page_data.h"
 

@@ -70,16 +70,33 @@ Node& value_of(Node::Table& table, const std::string& key, const std::string& ow
   return table.back().node;
 }
 
-/// Does the path name a component of the integrator, or the integrator itself?
-bool names_component(const std::vector<std::string>& keys) {
-  return keys.size() >= 2 && keys.front() == "integrator" && keys.back() == "type";
+/// What a path leads to; null where there is nothing.
+const Node* find_node(const Node& root, const std::vector<std::string>& keys) {
+  const Node* node = &root;
+  for (const std::string& key : keys) {
+    const Entry* const entry = node->table() ? find_entry(*node->table(), key) : nullptr;
+    if (!entry) return nullptr;
+    node = &entry->node;
+  }
+  return node;
 }
 
-/// What a component is that nothing names; "" where there is none of that key by default.
-std::string usual_type(const std::string& key) {
+/// The value of a setting that nothing is said of; "" where there is none of that key by default.
+std::string usual_value(const std::string& key) {
   RenderSettings usual;
   const std::optional<Setting> setting = find_setting(usual, key);
   return setting ? text_of(setting->usual) : "";
+}
+
+/// Notes that a setting of the integrator is to have another value.
+void note_replacement(Document& document, const std::vector<std::string>& keys, const Node& value,
+                      const Source* option) {
+  if (keys.front() != "integrator" || value.table()) return;
+  const Node* const said = find_node(document.root, keys);
+  if (said && said->table()) return;
+  const std::string key = fmt::format("{}", fmt::join(keys, ".")), after = text_of(value);
+  const std::string before = said ? text_of(*said) : usual_value(key);
+  if (before != after) document.replaced.push_back({key, before, after, said != nullptr, option});
 }
 
 }  // namespace
@@ -88,6 +105,17 @@ const Entry* find_entry(const Node::Table& table, const std::string& key) {
   for (const Entry& entry : table)
     if (entry.key == key) return &entry;
   return nullptr;
+}
+
+std::string text_of(const Node& node) {
+  if (const auto* text = std::get_if<std::string>(&node.value)) return *text;
+  if (const auto* integer = std::get_if<int64_t>(&node.value)) return fmt::format("{}", *integer);
+  if (const auto* number = std::get_if<double>(&node.value)) return fmt::format("{}", *number);
+  if (const auto* flag = std::get_if<bool>(&node.value)) return *flag ? "true" : "false";
+  std::vector<std::string> words;
+  if (const Node::Array* array = node.array())
+    for (const Node& element : *array) words.push_back(text_of(element));
+  return fmt::format("{}", fmt::join(words, "+"));
 }
 
 std::string kind_of(const Node& node) {
@@ -104,9 +132,12 @@ void apply_override(Document& document, const std::string& option) {
   if (equals == std::string::npos) fail_at(place, "there is no '='", "write it like render.passes=4");
   const std::string text = option.substr(equals + 1);
 
+  const std::vector<std::string> keys = split_path(option.substr(0, equals), place);
+  const std::unique_ptr<Node> parsed = parse_toml_value(text, source);
+  const Node value = parsed ? *parsed : Node{place, text};
+  note_replacement(document, keys, value, source);
   Node* node = &document.root;
   std::string owner;
-  const std::vector<std::string> keys = split_path(option.substr(0, equals), place);
   for (size_t i = 0; i < keys.size(); ++i) {
     const bool is_last = i + 1 == keys.size(), of_list = !is_last && (is_number(keys[i + 1]) || keys[i + 1] == kNew);
     const Node made = of_list ? Node{place, Node::Array{}} : Node{place, Node::Table{}};
@@ -117,14 +148,6 @@ void apply_override(Document& document, const std::string& option) {
     else
       fail_at(place, "'" + owner + "' is " + kind_of(*node) + " and has no '" + keys[i] + "'");
     owner += (i > 0 ? "." : "") + keys[i];
-  }
-  const std::unique_ptr<Node> parsed = parse_toml_value(text, source);
-  const Node value = parsed ? *parsed : Node{place, text};
-  if (const auto* const after = std::get_if<std::string>(&value.value); after && names_component(keys)) {
-    const std::string path = fmt::format("{}", fmt::join(keys, "."));
-    const auto* const word = std::get_if<std::string>(&node->value);
-    const std::string before = word ? *word : usual_type(path);
-    if (before != *after) document.replaced.push_back({path.substr(0, path.rfind('.')), before, *after, source});
   }
   *node = value;
 }

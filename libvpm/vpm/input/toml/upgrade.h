@@ -12,7 +12,7 @@ struct Upgraded {
 };
 
 /// Rewrites the text of a TOML file; `name` is what errors call it. A file without old keys comes back as it was.
-/// Throws InputError where it is not TOML, or has old keys in a table that cannot be rewritten line by line.
+/// Throws InputError where it is not TOML, or has old keys that cannot be rewritten line by line.
 Upgraded upgrade(const std::string& name, const std::string& text);
 
 }  // namespace vpm

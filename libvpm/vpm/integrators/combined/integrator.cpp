@@ -15,8 +15,8 @@
 namespace vpm {
 namespace {
 
-constexpr uint64_t kMost = 1'000'000;  // planes of a pass
-constexpr const char* kRadius = "of merges, in the first pass";
+constexpr uint64_t kMostPlanes = 1'000'000;  // planes of a pass
+constexpr const char* kRadiusOfMerges = "of merges, in the first pass";
 
 /// Strategies whose flights have the density that the transmittance says.
 std::vector<std::string> strategies_of_known_density() {
@@ -42,7 +42,7 @@ void describe_combined(RenderSettings& s, Description& d) {
   own.add("radii", &RenderSettings::radii, words_of<RadiusSchedule>(2),
           "how the radii of merges go on after the first pass");
   if (s.combined.techniques.has(Technique::planes))
-    of.add("planes", &CombinedSettings::planes, Integers{1, kMost},
+    of.add("planes", &CombinedSettings::planes, Integers{1, kMostPlanes},
            "about so many flights of a pass become planes, drawn by chance. Eye rays send a shadow ray for each plane "
            "that they cross");
   d.in("integrator.photons");
@@ -50,11 +50,11 @@ void describe_combined(RenderSettings& s, Description& d) {
   own.add("sequence", &RenderSettings::photon_sequence, "what they are drawn from, as for photon maps");
   describe(s.distance, strategies_of_known_density(), "regular", d.in("integrator.distance"));
   d.in("integrator.volume");
-  describe_radius(s.volume, kRadius, d);
+  describe_radius(s.volume, kRadiusOfMerges, d);
   describe_kernel(s.volume, d);
   describe_density_floor(s.volume, d);
   d.in("integrator.surface");
-  describe_radius(s.surface, kRadius, d);
+  describe_radius(s.surface, kRadiusOfMerges, d);
   describe_kernel(s.surface, d);
 }
 

@@ -11,7 +11,7 @@ namespace {
 using S = RenderSettings;
 using G = AskedGather;
 
-constexpr uint64_t kMost = 1'000'000;  // of rays at one place, and the like
+constexpr uint64_t kMostRays = 1'000'000;  // of rays at one place, and the like
 
 void describe_guide(GuideSettings& guide, Description& d) {
   d.in("integrator.importance");
@@ -46,19 +46,19 @@ void describe_photons(S& s, Description& d) {
          "sequence, scrambled anew for each pass, which lie more evenly and leave less noise in fog; or random "
          "numbers, as always where importance guides photons, caustics aim them, the nearest are gathered, or they "
          "find places for irradiance");
-  of.add("in_cube", &S::photons_in_cube, Integers{0, kMost},
+  of.add("in_cube", &S::photons_in_cube, Integers{0, kMostRays},
          "> 0: the most photons kept in a cube of half a gather radius for each octant of directions; these take over "
          "the power of the rest");
 }
 
-constexpr const char* kRadius = "of the first pass, or the largest where gathers go by `count`";
+constexpr const char* kRadiusOfMaps = "of the first pass, or the largest where gathers go by `count`";
 
 void describe_gather_on_surfaces(G& gather, Description& d, const std::string& table) {
   d.in(table);
   const Members<G> of(gather, d);
   of.add("type", &G::mode, "photons within a `\"radius\"`, or the `\"nearest\"` few");
-  describe_radius(gather, kRadius, d);
-  if (gather.mode == GatherMode::nearest) of.add("count", &G::count, Integers{2, kMost}, "how many are nearest");
+  describe_radius(gather, kRadiusOfMaps, d);
+  if (gather.mode == GatherMode::nearest) of.add("count", &G::count, Integers{2, kMostRays}, "how many are nearest");
   describe_kernel(gather, d);
 }
 
@@ -87,7 +87,7 @@ void describe_single_scattering(S& s, Description& d) {
          "`\"equiangular\"`, by shadow rays from a few distances of each stretch of an eye ray, drawn both towards the "
          "light and by what reaches the eye. Light that scatters more than once always comes from the photon map");
   if (s.volume_direct == DirectLight::equiangular)
-    of.add("samples", &S::direct_samples, Integers{1, kMost}, "how many pairs of such distances");
+    of.add("samples", &S::direct_samples, Integers{1, kMostRays}, "how many pairs of such distances");
 }
 
 void describe_light_on_surfaces(S& s, Description& d) {
@@ -96,12 +96,12 @@ void describe_light_on_surfaces(S& s, Description& d) {
   of.add("type", &S::surface_direct, words_of<DirectLight>(2),
          "light on surfaces that has not scattered yet: from `\"photons\"`, or by `\"shadow-rays\"`");
   if (s.surface_direct == DirectLight::shadow_rays)
-    of.add("samples", &S::surface_direct_samples, Integers{1, kMost},
+    of.add("samples", &S::surface_direct_samples, Integers{1, kMostRays},
            "how many shadow rays to each lamp or sky, to places that lie evenly on it");
   d.in("integrator.indirect");
   of.add("type", &S::surface_indirect, "light that surfaces scattered: from `\"photons\"`, or by `\"final-gather\"`");
   if (s.surface_indirect != IndirectLight::final_gather) return;
-  of.add("rays", &S::gather_rays, Integers{1, kMost}, "how many, at each point that the eye sees");
+  of.add("rays", &S::gather_rays, Integers{1, kMostRays}, "how many, at each point that the eye sees");
   of.add("rays_by", &S::gather_by,
          "how they are drawn: as the `\"material\"` scatters, or up to half of them to where the `\"photons\"` nearby "
          "came from, by a map of their own. Pays where indirect light comes from one side, as out of the next room; "

@@ -17,9 +17,10 @@ namespace {
 /// biased: density by how far the nearest ones are, and irradiance at places that photons found. What a guide makes of
 /// the points is not even any more.
 PhotonSequence sequence_of(const RenderSettings& settings) {
-  const bool random = settings.guide.importons > 0 || settings.volume.mode == GatherMode::nearest ||
-                      settings.surface.mode == GatherMode::nearest || settings.caustics.mode == GatherMode::nearest ||
-                      settings.end_irradiance == EndIrradiance::precomputed;
+  const bool of_ends =
+      settings.caustics.mode == GatherMode::nearest || settings.end_irradiance == EndIrradiance::precomputed;
+  const bool random = settings.guide.importons > 0 || settings.volume.info().mode == GatherMode::nearest ||
+                      settings.surface.mode == GatherMode::nearest || (settings.gathers_finally() && of_ends);
   return random ? PhotonSequence::random : settings.photon_sequence;
 }
 

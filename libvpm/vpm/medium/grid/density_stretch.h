@@ -13,8 +13,10 @@ namespace vpm {
 /// The value at `f`, each of [0, 1], between the eight values around: values[z * slice + y * row + x], x, y and z of
 /// {0, 1}. It rounds: among equal values it may leave them by some units in the last place.
 [[gnu::always_inline]] inline float trilinear(const float* values, int row, int slice, const Vec3& f) {
-  const auto along_x = [&](const float* edge) { return edge[0] + f.x * (edge[1] - edge[0]); };
-  const auto along_y = [&](const float* face) {
+  const auto along_x = [&](const float* edge) __attribute__((always_inline)) {
+    return edge[0] + f.x * (edge[1] - edge[0]);
+  };
+  const auto along_y = [&](const float* face) __attribute__((always_inline)) {
     const float a = along_x(face);
     return a + f.y * (along_x(face + row) - a);
   };

@@ -2,7 +2,7 @@
 #include "vpm/integrators/photon_map/volume/estimators.h"
 
 #include <algorithm>
-#include <cassert>
+#include <stdexcept>
 
 #include "vpm/integrators/words.h"
 
@@ -27,7 +27,7 @@ const VolumeEstimatorInfo& VolumeSettings::info() const {
   const auto all = volume_estimators();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const VolumeEstimatorInfo& info) { return info.name == type_; });
-  assert(found != all.end());
+  if (found == all.end()) throw std::invalid_argument("there is no estimator '" + type_ + "' of the light of media");
   return *found;
 }
 

@@ -22,11 +22,11 @@ enum class PlaneUse { combined, alone };
 struct VolumeSettings : AskedGather {
   /// Points within a radius.
   VolumeSettings() { boundary = BoundaryRule::ends; }
-  /// The estimator of that name, which there is.
+  /// The estimator of that name. Throws std::invalid_argument where there is none.
   explicit VolumeSettings(std::string_view type, const AskedGather& gather = VolumeSettings());
 
   const std::string& type() const { return type_; }
-  /// Chooses the estimator of that name, which there is.
+  /// Chooses the estimator of that name. Throws std::invalid_argument where there is none.
   void choose(std::string_view type);
   const VolumeEstimatorInfo& info() const;
 
