@@ -199,7 +199,7 @@ TEST(Assemble, RefusesNumbersOutOfTheirRanges) {
     p.media = {{fog("fog"), GridBoundary::automatic, {}}};
     p.media[0].medium.sigma_s = Rgb(0, 0, 1.5f);
   });
-  expect_refusal("media[0]", "its g must lie between", [](SceneParts& p) {
+  expect_refusal("media[0]", "its g must be in (-1, 1)", [](SceneParts& p) {
     p.media = {{fog("fog"), GridBoundary::automatic, {}}};
     p.media[0].medium.phase = HenyeyGreenstein{-1.0f};
   });

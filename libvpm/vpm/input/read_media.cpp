@@ -8,13 +8,14 @@ namespace {
 Phase read_phase(TableReader& medium) {
   std::optional<TableReader> table = medium.table("phase", "'phase' of " + medium.title());
   if (!table) return Isotropic{};
-  enum class Kind { isotropic, henyey_greenstein, rayleigh };
-  const Kind kind = table->choice<Kind>(
-      "type",
-      {{"isotropic", Kind::isotropic}, {"henyey-greenstein", Kind::henyey_greenstein}, {"rayleigh", Kind::rayleigh}});
-  Phase phase = Isotropic{};
-  if (kind == Kind::rayleigh) phase = Rayleigh{};
-  if (kind == Kind::henyey_greenstein) phase = HenyeyGreenstein{table->number("g", {-1.0, 1.0, true, true})};
+  std::vector<std::pair<std::string, Phase>> kinds;
+  for_each_phase([&](const auto& kind) { kinds.emplace_back(kind.kName, kind); });
+  Phase phase = table->choice<Phase>("type", kinds);
+  const auto read_numbers = [&](auto& kind) {
+    for (const auto& number : kind.numbers())
+      kind.*number.member = table->number(std::string(number.name), number.range);
+  };
+  std::visit(read_numbers, phase);
   table->finish();
   return phase;
 }

@@ -1,6 +1,5 @@
 // Density integrals along rays, and the ranges of coefficients.
 #include "vpm/medium/medium.h"
-#include "vpm/base/overloads.h"
 
 namespace vpm {
 
@@ -15,13 +14,13 @@ DensityIntegral density_integral(const Medium& medium, const Ray& ray, const Int
 
 namespace {
 
-std::string problem_of(const Phase& phase) {
-  return std::visit(Overloads{[](const Isotropic&) { return std::string(); },
-                              [](const HenyeyGreenstein& p) {
-                                return std::string(std::abs(p.g) < 1.0f ? "" : "its g must lie between -1 and 1");
-                              },
-                              [](const Rayleigh&) { return std::string(); }},
-                    phase);
+/// The first number that is out of its range.
+template <class Function>
+std::string problem_of_numbers(const Function& function) {
+  for (const auto& number : function.numbers())
+    if (!contains(number.range, function.*number.member))
+      return "its " + std::string(number.name) + " must be " + text_of(number.range);
+  return "";
 }
 
 }  // namespace
@@ -31,7 +30,7 @@ std::string problem_of(const Medium& medium) {
   for (int c = 0; c < 3; ++c)
     if (!(medium.sigma_s[c] >= 0.0f && medium.sigma_s[c] <= medium.sigma_t[c]))
       return "its scattering coefficient must be at least 0 and at most the extinction coefficient";
-  return problem_of(medium.phase);
+  return std::visit([](const auto& function) { return problem_of_numbers(function); }, medium.phase);
 }
 
 }  // namespace vpm

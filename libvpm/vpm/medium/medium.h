@@ -112,8 +112,8 @@ DensityIntegral density_integral(const Medium& medium, const Ray& ray, const Int
   return result;
 }
 
-/// The first number of a medium that is out of its range, and that range, as a clause: "its g must lie between -1 and
-/// 1"; "" where there is none. Of its grid nothing is asked.
+/// The first number of a medium that is out of its range, and that range, as a clause: "its g must be in (-1, 1)"; ""
+/// where there is none. Of its grid nothing is asked.
 std::string problem_of(const Medium& medium);
 
 }  // namespace vpm

@@ -29,7 +29,7 @@ uint64_t largest_bits(const ExactSums::Values& values) {
   return static_cast<uint64_t>(largest);
 }
 
-using Words = std::array<uint32_t, kCount>;  // one of each number
+using WordsOfSums = std::array<uint32_t, kCount>;  // one of each number
 
 constexpr double kMantissa = 0x1p52;  // added to an integer from 0 to 2^52, it leaves that as its lowest bits
 
@@ -48,7 +48,7 @@ bool cut(ExactSums::Values& rest, double weight, ExactSums::Values& multiples) {
 }
 
 /// Adds to the words of one weight other(i) each, and leaves what goes over to the next: 0 or 1.
-void add_to(uint32_t* words, const auto& other, Words& carry) {
+void add_to(uint32_t* words, const auto& other, WordsOfSums& carry) {
   for (size_t i = 0; i < kCount; ++i) {
     const uint32_t word = other(i), sum = words[i] + word, with_carry = sum + carry[i];
     carry[i] = static_cast<uint32_t>(sum < word) | static_cast<uint32_t>(with_carry < sum);
@@ -102,7 +102,7 @@ void ExactSums::add(const Values& terms) {
   }
   cover(lowest, highest + 1);
   // The two's complement of what is below 0: all bits the other way, and 1 more, which is the first carry.
-  Words negative, carry;
+  WordsOfSums negative, carry;
   for (size_t i = 0; i < kCount; ++i) {
     negative[i] = static_cast<uint32_t>(std::bit_cast<int64_t>(terms[i]) >> 63);
     carry[i] = negative[i] & 1u;
@@ -122,7 +122,7 @@ void ExactSums::add(const Values& terms) {
 void ExactSums::merge(const ExactSums& other) {
   if (other.words_.empty()) return;
   cover(other.lowest_, other.sign_word());
-  Words carry{};
+  WordsOfSums carry{};
   for (int word = other.lowest_; word <= other.sign_word(); ++word) {
     const uint32_t* others = other.plane(word);
     add_to(
@@ -138,8 +138,8 @@ ExactSums::Totals ExactSums::totals() const {
   Totals totals{};
   if (words_.empty()) return totals;
   // Of magnitudes, whose words add up without cancelling.
-  std::array<Words, kWords + 1> magnitudes;
-  Words flip;
+  std::array<WordsOfSums, kWords + 1> magnitudes;
+  WordsOfSums flip;
   std::array<uint64_t, kCount> carry;
   for (size_t i = 0; i < kCount; ++i) {
     flip[i] = sign_of(plane(sign_word())[i]);

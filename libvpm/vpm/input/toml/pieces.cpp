@@ -36,8 +36,8 @@ const Node* find_node(const Node& root, const std::string& path) {
 }
 
 /// Adds lines to a statement until it is whole.
-Piece statement_of(const std::string& name, const std::vector<std::string>& lines, size_t& i) {
-  Piece piece{.kind = Piece::Kind::statement, .text = lines[i]};
+TomlPiece statement_of(const std::string& name, const std::vector<std::string>& lines, size_t& i) {
+  TomlPiece piece{.kind = TomlPiece::Kind::statement, .text = lines[i]};
   piece.written_key = trimmed(lines[i].substr(0, lines[i].find('=')));
   piece.key = plain_key(piece.written_key);
   for (;;) try {
@@ -52,8 +52,8 @@ Piece statement_of(const std::string& name, const std::vector<std::string>& line
 }
 
 /// Its comment becomes one of those above.
-Piece header_of(const std::string& line) {
-  Piece piece{.kind = Piece::Kind::header, .text = line};
+TomlPiece header_of(const std::string& line) {
+  TomlPiece piece{.kind = TomlPiece::Kind::header, .text = line};
   const size_t begin = line.find_first_not_of("[ \t"), end = line.find(']');
   piece.table = plain_key(line.substr(begin, end - begin));
   return piece;
@@ -103,8 +103,8 @@ std::string comment_behind(const std::string& text) {
   return "";
 }
 
-std::vector<Piece> pieces_of(const std::string& name, const std::vector<std::string>& lines) {
-  std::vector<Piece> pieces;
+std::vector<TomlPiece> pieces_of(const std::string& name, const std::vector<std::string>& lines) {
+  std::vector<TomlPiece> pieces;
   std::vector<std::string> comments;
   std::string table;
   for (size_t i = 0; i < lines.size(); ++i) {
@@ -114,15 +114,15 @@ std::vector<Piece> pieces_of(const std::string& name, const std::vector<std::str
       continue;
     }
     const bool header = line.starts_with('[');
-    Piece piece = header         ? header_of(lines[i])
-                  : line.empty() ? Piece{.kind = Piece::Kind::empty, .text = lines[i]}
-                                 : statement_of(name, lines, i);
+    TomlPiece piece = header         ? header_of(lines[i])
+                      : line.empty() ? TomlPiece{.kind = TomlPiece::Kind::empty, .text = lines[i]}
+                                     : statement_of(name, lines, i);
     if (header) table = piece.table;
     piece.table = table;
     piece.comments = std::exchange(comments, {});
     pieces.push_back(std::move(piece));
   }
-  pieces.push_back({.kind = Piece::Kind::end, .comments = std::move(comments)});
+  pieces.push_back({.kind = TomlPiece::Kind::end, .comments = std::move(comments)});
   return pieces;
 }
 

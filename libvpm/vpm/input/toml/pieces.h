@@ -20,7 +20,7 @@ struct Lines {
 };
 
 /// A piece of a file: a header, a statement, an empty line or the end, with the comments above it.
-struct Piece {
+struct TomlPiece {
   enum class Kind { header, statement, empty, end } kind = Kind::empty;
   std::vector<std::string> comments{};
   std::string text{};         // all lines, without the last line feed
@@ -36,7 +36,7 @@ struct Piece {
 };
 
 /// The pieces of a file that is TOML; `name` is what errors call it.
-std::vector<Piece> pieces_of(const std::string& name, const std::vector<std::string>& lines);
+std::vector<TomlPiece> pieces_of(const std::string& name, const std::vector<std::string>& lines);
 
 /// Without blanks around it.
 std::string trimmed(const std::string& text);

@@ -110,7 +110,7 @@ struct Moved {
 
 /// New keys and texts of a statement of an old key, with the new key written as `written` makes it of the whole.
 template <class Written>
-std::vector<Moved> moved(const std::string& name, const Piece& piece, const OldKey& old, bool combines,
+std::vector<Moved> moved(const std::string& name, const TomlPiece& piece, const OldKey& old, bool combines,
                          Written&& written) {
   if (old.old_key != "surface.method") {
     const std::string key = combines && old.old_key == "photons.planes" ? "integrator.planes" : std::string(old.key);
@@ -197,8 +197,8 @@ class UpgradedScene {
  public:
   explicit UpgradedScene(const std::string& name) : name_(name) {}
 
-  void add(const Piece& piece, bool combines) {
-    const bool statement = piece.kind == Piece::Kind::statement, in_old_table = is_old_table(piece.table);
+  void add(const TomlPiece& piece, bool combines) {
+    const bool statement = piece.kind == TomlPiece::Kind::statement, in_old_table = is_old_table(piece.table);
     const OldKey* const old = statement ? find_old(join(piece.table, piece.key)) : nullptr;
     if (statement && in_old_table && !old)
       throw InputError(
@@ -206,7 +206,7 @@ class UpgradedScene {
     if (in_old_table && !place_) place_ = left_.size();
     if (old) return move(piece, *old, combines);
     if (!in_old_table) return leave(piece);
-    if (piece.kind == Piece::Kind::header) {
+    if (piece.kind == TomlPiece::Kind::header) {
       headers_.insert(headers_.end(), piece.comments.begin(), piece.comments.end());
       if (const std::string comment = comment_behind(piece.text); !comment.empty()) headers_.push_back(comment);
     } else {
@@ -237,7 +237,7 @@ class UpgradedScene {
   }
 
  private:
-  void move(const Piece& piece, const OldKey& old, bool combines) {
+  void move(const TomlPiece& piece, const OldKey& old, bool combines) {
     const auto name_alone = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
     for (Moved& each : moved(name_, piece, old, combines, name_alone)) {
       std::vector<std::string>& comments = comments_of_tables_[each.key.substr(0, each.key.rfind('.'))];
@@ -246,10 +246,10 @@ class UpgradedScene {
       statements_.push_back(std::move(each));
     }
   }
-  void leave(const Piece& piece) {
+  void leave(const TomlPiece& piece) {
     append(left_, piece.comments);
-    if (piece.kind != Piece::Kind::end) left_ += piece.text + "\n";
-    if (piece.table == "render" && piece.kind == Piece::Kind::statement) behind_render_ = left_.size();
+    if (piece.kind != TomlPiece::Kind::end) left_ += piece.text + "\n";
+    if (piece.table == "render" && piece.kind == TomlPiece::Kind::statement) behind_render_ = left_.size();
   }
 
   std::string name_;
@@ -261,23 +261,23 @@ class UpgradedScene {
 };
 
 /// Does this render combine techniques?
-bool names_combined(const Piece& piece) {
+bool names_combined(const TomlPiece& piece) {
   return piece.key.ends_with("integrator") && find_old(join(piece.table, piece.key)) && piece.says("combined");
 }
 
-std::string upgraded_experiment(const std::string& name, const std::vector<Piece>& pieces) {
+std::string upgraded_experiment(const std::string& name, const std::vector<TomlPiece>& pieces) {
   std::string text;
-  for (const Piece& piece : pieces) {
+  for (const TomlPiece& piece : pieces) {
     const std::string path = join(piece.table, piece.key);
     const size_t at = after_set(path), own = piece.table.empty() ? 0 : piece.table.size() + 1;  // where the key begins
     const OldKey* const old =
-        piece.kind == Piece::Kind::statement && at != std::string::npos ? find_old(path.substr(at)) : nullptr;
+        piece.kind == TomlPiece::Kind::statement && at != std::string::npos ? find_old(path.substr(at)) : nullptr;
     if (!old || own > at) {
       append(text, piece.comments);
-      if (piece.kind != Piece::Kind::end) text += with_inline_keys(piece.text) + "\n";
+      if (piece.kind != TomlPiece::Kind::end) text += with_inline_keys(piece.text) + "\n";
       continue;
     }
-    const bool combines = std::any_of(pieces.begin(), pieces.end(), [&](const Piece& other) {
+    const bool combines = std::any_of(pieces.begin(), pieces.end(), [&](const TomlPiece& other) {
       return other.table == piece.table && other.key.ends_with("render.integrator") && other.says("combined");
     });
     const std::string before = path.substr(own, at - own);  // "set."
@@ -289,10 +289,10 @@ std::string upgraded_experiment(const std::string& name, const std::vector<Piece
   return text;
 }
 
-Upgraded upgraded_scene(const std::string& name, const std::vector<Piece>& pieces) {
+Upgraded upgraded_scene(const std::string& name, const std::vector<TomlPiece>& pieces) {
   UpgradedScene scene(name);
   const bool combines = std::any_of(pieces.begin(), pieces.end(), names_combined);
-  for (const Piece& piece : pieces) scene.add(piece, combines);
+  for (const TomlPiece& piece : pieces) scene.add(piece, combines);
   return scene.finish();
 }
 
@@ -311,7 +311,7 @@ Upgraded upgrade(const std::string& name, const std::string& text) {
   const Document document = parse_toml(name, text);
   if (old_key_of(document).empty()) return {text};
   const Lines lines(text);
-  const std::vector<Piece> pieces = pieces_of(name, lines.lines);
+  const std::vector<TomlPiece> pieces = pieces_of(name, lines.lines);
   Upgraded upgraded =
       is_experiment(document) ? Upgraded{upgraded_experiment(name, pieces)} : upgraded_scene(name, pieces);
   std::string left;

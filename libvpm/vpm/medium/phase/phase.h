@@ -1,17 +1,31 @@
-// Phase functions: how a medium scatters. Each offers value, sample, mean cosine and mean square of the cosine; all are
-// normalised over the sphere.
+// Phase functions: how a medium scatters. Each offers value, sample, mean cosine and mean square of the cosine, and
+// says its name in scene files and its numbers; all are normalised over the sphere.
 //
 // Convention: `cosine` is the dot product of the directions of TRAVEL before and after scattering, so g > 0 is forward.
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <variant>
 
+#include "vpm/base/settings/range.h"
 #include "vpm/base/vec.h"
 
 namespace vpm {
 
+/// A number of a phase function.
+template <class Function>
+struct PhaseNumber {
+  std::string_view name;
+  float Function::*member;
+  Range range;
+};
+
 /// Scatters equally into all directions.
 struct Isotropic {
+  static constexpr std::string_view kName = "isotropic";
+  static constexpr std::array<PhaseNumber<Isotropic>, 0> numbers() { return {}; }
+
   /// Density per solid angle, 1/sr, at a cosine.
   float value(float) const { return 1.0f / (4.0f * kPi); }
   /// The same from one direction of travel to the next (unit). Either may be a Floats3: many of them side by side.
@@ -27,6 +41,11 @@ struct Isotropic {
 
 /// The one-parameter phase function of [Henyey1941]; mean cosine g in (-1, 1).
 struct HenyeyGreenstein {
+  static constexpr std::string_view kName = "henyey-greenstein";
+  static constexpr auto numbers() {
+    return std::array{PhaseNumber<HenyeyGreenstein>{"g", &HenyeyGreenstein::g, {-1.0, 1.0, true, true}}};
+  }
+
   float g = 0.0f;
 
   /// (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^1.5), 1/sr.
@@ -56,6 +75,9 @@ struct HenyeyGreenstein {
 
 /// Scattering by particles much smaller than the wavelength, unpolarised: 3 (1 + cos^2) / (16 pi).
 struct Rayleigh {
+  static constexpr std::string_view kName = "rayleigh";
+  static constexpr std::array<PhaseNumber<Rayleigh>, 0> numbers() { return {}; }
+
   template <class Real>
   Real value(const Real& cosine) const {
     return 3.0f / (16.0f * kPi) * (1.0f + cosine * cosine);
@@ -70,6 +92,11 @@ struct Rayleigh {
 };
 
 using Phase = std::variant<Isotropic, HenyeyGreenstein, Rayleigh>;
+/// Calls visit() with each of these, its numbers being their defaults.
+template <class Visit>
+void for_each_phase(Visit&& visit) {
+  [&]<class... Function>(const std::variant<Function...>*) { (visit(Function{}), ...); }(static_cast<Phase*>(nullptr));
+}
 
 /// Density per solid angle at `cosine`, 1/sr.
 inline float phase_value(const Phase& phase, float cosine) {
